@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/gpu.h"
+#include "vk/buffer.h"
+#include "vk/hazard_tracker.h"
+#include "vk/kernel.h"
+#include "vk/timer.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace zvo::vk
+{
+
+class FrameGraph;
+
+/// Numbers of workgroups along x and y that make at least groups in all, with at most max_x along x and as few too many
+/// as an even split allows.
+std::array<std::uint64_t, 2> foldGroups(std::uint64_t groups, std::uint32_t max_x);
+
+/// One pass while it is being declared. Declaring an access and getting the buffer's address are the same call, so that
+/// a kernel cannot reach a buffer that the graph does not know of. A pass ends with exactly one dispatch; the calls
+/// below throw Error{Other} when they are misused.
+class Pass
+{
+public:
+    /// The kernel reads buffer.
+    template <typename T> gpu::ConstPtr<T> read(const BufferOf<T>& buffer)
+    {
+        declare(buffer, Access::KernelRead);
+        return {buffer.address()};
+    }
+
+    /// The kernel writes buffer and reads nothing of what was in it before.
+    template <typename T> gpu::Ptr<T> write(BufferOf<T>& buffer)
+    {
+        declare(buffer, Access::KernelWrite);
+        return {buffer.address()};
+    }
+
+    /// The kernel reads and writes buffer.
+    template <typename T> gpu::Ptr<T> readWrite(BufferOf<T>& buffer)
+    {
+        declare(buffer, Access::KernelReadWrite);
+        return {buffer.address()};
+    }
+
+    /// Runs the kernel on at least threads threads (the excess of the last workgroups included; the kernel returns
+    /// early there). Folds more workgroups than the device allows along x into y: kernels number themselves with
+    /// lib/dispatch.glsl. Does nothing for 0 threads. Params must have the size of the kernel's push constants.
+    template <typename Params> void dispatch(std::uint64_t threads, const Params& params)
+    {
+        static_assert(std::is_trivially_copyable_v<Params>);
+        dispatchRaw(threads, &params, sizeof(Params));
+    }
+
+    /// Runs the kernel on args.data[index] workgroups, which an earlier pass wrote.
+    template <typename Params>
+    void dispatchIndirect(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const Params& params)
+    {
+        static_assert(std::is_trivially_copyable_v<Params>);
+        declare(args, Access::IndirectRead);
+        dispatchIndirectRaw(args, index * sizeof(gpu::DispatchArgs), &params, sizeof(Params));
+    }
+
+private:
+    friend class FrameGraph;
+    Pass(FrameGraph& graph, const Kernel& kernel) : m_graph(graph), m_kernel(kernel) {}
+
+    void declare(const Buffer& buffer, Access access);
+    void prepare(std::size_t params_bytes);
+    void bind(const void* params, std::size_t bytes);
+    void dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes);
+    void dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes);
+
+    FrameGraph& m_graph;
+    const Kernel& m_kernel;
+    std::vector<BufferAccess> m_accesses;
+    bool m_dispatched = false;
+};
+
+/// Records passes into a command buffer in the order in which they are declared, with one global memory barrier before
+/// a pass that has a hazard. Records only: it never submits and never waits. The command buffer may be a host's.
+class FrameGraph
+{
+public:
+    /// Records into commands (in the recording state, outside a render pass). With timers, every pass is timed.
+    FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers = nullptr);
+
+    /// Opens a pass. The kernel's name is the pass's debug label and timer name.
+    Pass addPass(std::string_view kernel, const Specialization& specialization = {});
+
+    /// Sets count 32-bit words from word first on to value (by default, all whole words to the end).
+    void fill(Buffer& buffer, std::uint32_t value, std::uint64_t first = 0, std::uint64_t count = UINT64_MAX);
+
+    /// Copies bytes between two buffers, or between two ranges of one buffer that do not overlap.
+    void copy(const Buffer& from, std::uint64_t from_offset, Buffer& to, std::uint64_t to_offset, std::uint64_t bytes);
+
+    /// Makes everything written so far visible to the host once the work is complete.
+    void releaseToHost();
+
+    /// Passes, their resources and the barriers between them, as text: one line each.
+    [[nodiscard]] const std::string& dump() const { return m_dump; }
+
+    [[nodiscard]] Device& device() { return m_device; }
+
+private:
+    friend class Pass;
+    void beginPass(const std::string& name, std::span<const BufferAccess> accesses, const std::string& work);
+    void endPass();
+    void recordBarrier(const Barrier& barrier);
+
+    Device& m_device;
+    VkCommandBuffer m_commands;
+    TimerPool* m_timers;
+    HazardTracker m_hazards;
+    std::string m_dump;
+};
+
+} // namespace zvo::vk

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#ifndef VK_NO_PROTOTYPES
+#define VK_NO_PROTOTYPES
+#endif
+#include <vulkan/vulkan_core.h>
+
+namespace zvo::vk
+{
+
+// clang-format off
+#define ZVO_VK_INSTANCE_FUNCTIONS(X)             \
+    X(vkCreateDevice)                            \
+    X(vkDestroyInstance)                         \
+    X(vkEnumerateDeviceExtensionProperties)      \
+    X(vkEnumeratePhysicalDevices)                \
+    X(vkGetDeviceProcAddr)                       \
+    X(vkGetPhysicalDeviceFeatures2)              \
+    X(vkGetPhysicalDeviceMemoryProperties)       \
+    X(vkGetPhysicalDeviceProperties)             \
+    X(vkGetPhysicalDeviceProperties2)            \
+    X(vkGetPhysicalDeviceQueueFamilyProperties)
+
+#define ZVO_VK_DEVICE_FUNCTIONS(X)               \
+    X(vkAllocateCommandBuffers)                  \
+    X(vkAllocateMemory)                          \
+    X(vkBeginCommandBuffer)                      \
+    X(vkBindBufferMemory)                        \
+    X(vkBindImageMemory)                         \
+    X(vkCmdBindPipeline)                         \
+    X(vkCmdCopyBuffer)                           \
+    X(vkCmdDispatch)                             \
+    X(vkCmdDispatchIndirect)                     \
+    X(vkCmdFillBuffer)                           \
+    X(vkCmdPipelineBarrier2)                     \
+    X(vkCmdPushConstants)                        \
+    X(vkCmdWriteTimestamp2)                      \
+    X(vkCreateBuffer)                            \
+    X(vkCreateCommandPool)                       \
+    X(vkCreateComputePipelines)                  \
+    X(vkCreateFence)                             \
+    X(vkCreateImage)                             \
+    X(vkCreateImageView)                         \
+    X(vkCreatePipelineCache)                     \
+    X(vkCreatePipelineLayout)                    \
+    X(vkCreateQueryPool)                         \
+    X(vkCreateShaderModule)                      \
+    X(vkDestroyBuffer)                           \
+    X(vkDestroyCommandPool)                      \
+    X(vkDestroyDevice)                           \
+    X(vkDestroyFence)                            \
+    X(vkDestroyImage)                            \
+    X(vkDestroyImageView)                        \
+    X(vkDestroyPipeline)                         \
+    X(vkDestroyPipelineCache)                    \
+    X(vkDestroyPipelineLayout)                   \
+    X(vkDestroyQueryPool)                        \
+    X(vkDestroyShaderModule)                     \
+    X(vkDeviceWaitIdle)                          \
+    X(vkEndCommandBuffer)                        \
+    X(vkFreeMemory)                              \
+    X(vkGetBufferDeviceAddress)                  \
+    X(vkGetBufferMemoryRequirements)             \
+    X(vkGetDeviceQueue)                          \
+    X(vkGetImageMemoryRequirements)              \
+    X(vkGetPipelineCacheData)                    \
+    X(vkGetQueryPoolResults)                     \
+    X(vkMapMemory)                               \
+    X(vkQueueSubmit2)                            \
+    X(vkResetCommandPool)                        \
+    X(vkResetFences)                             \
+    X(vkResetQueryPool)                          \
+    X(vkWaitForFences)
+
+// Of VK_EXT_debug_utils: null where the instance does not have it.
+#define ZVO_VK_DEBUG_FUNCTIONS(X)                \
+    X(vkCmdBeginDebugUtilsLabelEXT)              \
+    X(vkCmdEndDebugUtilsLabelEXT)                \
+    X(vkCreateDebugUtilsMessengerEXT)            \
+    X(vkDestroyDebugUtilsMessengerEXT)           \
+    X(vkSetDebugUtilsObjectNameEXT)
+// clang-format on
+
+/// The Vulkan functions of one instance and one device. Every context has its own table: nothing is global, so that two
+/// devices work in one process and calls go to the driver without the loader's trampoline.
+struct Functions
+{
+    /// The functions of an instance; what it does not have stays null, as do all device functions.
+    static Functions ofInstance(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance);
+
+    /// The functions of an instance and a device. Throws Error{Device} naming those that are missing.
+    static Functions ofDevice(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkDevice device);
+
+    PFN_vkGetInstanceProcAddr vkGetInstanceProcAddr = nullptr;
+#define ZVO_VK_MEMBER(name) PFN_##name name = nullptr;
+    ZVO_VK_INSTANCE_FUNCTIONS(ZVO_VK_MEMBER)
+    ZVO_VK_DEVICE_FUNCTIONS(ZVO_VK_MEMBER)
+    ZVO_VK_DEBUG_FUNCTIONS(ZVO_VK_MEMBER)
+#undef ZVO_VK_MEMBER
+};
+
+} // namespace zvo::vk

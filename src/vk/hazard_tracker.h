@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string_view>
+
+namespace zvo::vk
+{
+
+/// How a pass uses a buffer.
+enum class Access
+{
+    KernelRead,
+    KernelWrite,
+    KernelReadWrite,
+    IndirectRead,
+    CopyRead,
+    CopyWrite,
+    HostRead
+};
+
+/// One declared use of a buffer by a pass.
+struct BufferAccess
+{
+    std::uint64_t resource = 0; // identity of the buffer: its handle
+    Access access = Access::KernelRead;
+    std::string_view name; // for the dump
+};
+
+/// Stages and accesses of one memory barrier, as bits of VkPipelineStageFlagBits2 and VkAccessFlagBits2.
+struct Barrier
+{
+    std::uint64_t source_stages = 0;
+    std::uint64_t source_accesses = 0;
+    std::uint64_t destination_stages = 0;
+    std::uint64_t destination_accesses = 0;
+
+    [[nodiscard]] bool needed() const { return destination_stages != 0; }
+};
+
+/// Decides which barrier must stand before a pass. Knows nothing of the device: buffers are numbers here.
+///
+/// What a barrier costs is its wait, not its bits. So a barrier waits for the stages that have a hazard and no others,
+/// but it takes all writes of those stages along and opens all accesses of the stages it leads to: later passes then
+/// need fewer barriers.
+class HazardTracker
+{
+public:
+    /// The barrier that the next pass needs before it (needed() is false if none), given all its accesses. Several
+    /// accesses of one pass to one buffer count as one use.
+    Barrier next(std::span<const BufferAccess> accesses);
+
+    /// The barrier after which the host sees everything that was written so far, once the work is complete.
+    Barrier releaseToHost();
+
+private:
+    using StageMask = std::uint8_t;
+    static constexpr int kStageCount = 4;
+
+    // The uses of a buffer in one stage, and the stages that later barriers have put behind them.
+    struct Uses
+    {
+        StageMask stages = 0;
+        std::array<StageMask, kStageCount> before{}; // [stage of the use]: which stages wait for it
+    };
+
+    struct State
+    {
+        Uses writes; // the last write
+        Uses reads;  // the reads since then
+    };
+
+    static StageMask coveredByReads(const State& state, int stage);
+    Barrier record(StageMask from, StageMask to);
+
+    std::map<std::uint64_t, State> m_states;
+};
+
+} // namespace zvo::vk

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include "vk/headless.h"
+
+#include "vk/check.h"
+#include "vk/instance.h"
+#include "vk/pipeline_cache.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace zvo::vk
+{
+
+namespace
+{
+
+// Of one transfer between host and device; longer ones go in turns. Bigger gains nothing: a turn costs tens of
+// microseconds.
+constexpr std::uint64_t kStagingBytes = 16ull << 20;
+
+// A logical device with one compute queue.
+class LogicalDevice
+{
+public:
+    LogicalDevice(const Instance& instance, const DeviceReport& report, bool gpu_assisted_validation)
+    {
+        RequiredFeatures features;
+        if (gpu_assisted_validation)
+        {
+            enableForInstrumentation(features.chain(), instance, report);
+        }
+        const float priority = 1;
+        VkDeviceQueueCreateInfo queue{};
+        queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+        queue.queueFamilyIndex = report.queue_family;
+        queue.queueCount = 1;
+        queue.pQueuePriorities = &priority;
+        VkDeviceCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+        info.pNext = features.head();
+        info.queueCreateInfoCount = 1;
+        info.pQueueCreateInfos = &queue;
+        VK_CHECK(instance.fn().vkCreateDevice(report.physical_device, &info, nullptr, &m_handle));
+        m_functions = Functions::ofDevice(instance.fn().vkGetInstanceProcAddr, instance.handle(), m_handle);
+        m_functions.vkGetDeviceQueue(m_handle, report.queue_family, 0, &m_queue);
+    }
+
+    ~LogicalDevice()
+    {
+        m_functions.vkDeviceWaitIdle(m_handle);
+        m_functions.vkDestroyDevice(m_handle, nullptr);
+    }
+
+    LogicalDevice(const LogicalDevice&) = delete;
+    LogicalDevice& operator=(const LogicalDevice&) = delete;
+
+    [[nodiscard]] VkDevice handle() const { return m_handle; }
+    [[nodiscard]] VkQueue queue() const { return m_queue; }
+    [[nodiscard]] const Functions& fn() const { return m_functions; }
+
+private:
+    // What the validation layer's own code in the kernels needs.
+    static void enableForInstrumentation(FeatureChain& chain, const Instance& instance, const DeviceReport& report)
+    {
+        VkPhysicalDeviceFeatures2 present{};
+        present.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        instance.fn().vkGetPhysicalDeviceFeatures2(report.physical_device, &present);
+        chain.core.features.fragmentStoresAndAtomics = present.features.fragmentStoresAndAtomics;
+        chain.core.features.vertexPipelineStoresAndAtomics = present.features.vertexPipelineStoresAndAtomics;
+    }
+
+    VkDevice m_handle = VK_NULL_HANDLE;
+    VkQueue m_queue = VK_NULL_HANDLE;
+    Functions m_functions;
+};
+
+// One command buffer, submitted and waited for before it is recorded again.
+class CommandContext
+{
+public:
+    CommandContext(Device& device, VkQueue queue) : m_device(device), m_queue(queue)
+    {
+        try
+        {
+            create();
+        }
+        catch (...)
+        {
+            destroy();
+            throw;
+        }
+    }
+
+    ~CommandContext() { destroy(); }
+
+    CommandContext(const CommandContext&) = delete;
+    CommandContext& operator=(const CommandContext&) = delete;
+
+    VkCommandBuffer begin()
+    {
+        const Functions& fn = m_device.fn();
+        VK_CHECK(fn.vkResetCommandPool(m_device.handle(), m_pool, 0));
+        VkCommandBufferBeginInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        VK_CHECK(fn.vkBeginCommandBuffer(m_commands, &info));
+
+        // A fence says that earlier work is done, not that this work sees its writes.
+        VkMemoryBarrier2 memory{};
+        memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+        memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+        memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        memory.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+        VkDependencyInfo dependency{};
+        dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &memory;
+        fn.vkCmdPipelineBarrier2(m_commands, &dependency);
+        return m_commands;
+    }
+
+    void submitAndWait()
+    {
+        const Functions& fn = m_device.fn();
+        VK_CHECK(fn.vkEndCommandBuffer(m_commands));
+        VkCommandBufferSubmitInfo commands{};
+        commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+        commands.commandBuffer = m_commands;
+        VkSubmitInfo2 submit{};
+        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+        submit.commandBufferInfoCount = 1;
+        submit.pCommandBufferInfos = &commands;
+        VK_CHECK(fn.vkQueueSubmit2(m_queue, 1, &submit, m_fence));
+        VK_CHECK(fn.vkWaitForFences(m_device.handle(), 1, &m_fence, VK_TRUE, UINT64_MAX));
+        VK_CHECK(fn.vkResetFences(m_device.handle(), 1, &m_fence));
+    }
+
+private:
+    void create()
+    {
+        const Functions& fn = m_device.fn();
+        VkCommandPoolCreateInfo pool{};
+        pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+        pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+        pool.queueFamilyIndex = m_device.handles().queue_family;
+        VK_CHECK(fn.vkCreateCommandPool(m_device.handle(), &pool, nullptr, &m_pool));
+        VkCommandBufferAllocateInfo buffer{};
+        buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+        buffer.commandPool = m_pool;
+        buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+        buffer.commandBufferCount = 1;
+        VK_CHECK(fn.vkAllocateCommandBuffers(m_device.handle(), &buffer, &m_commands));
+        VkFenceCreateInfo fence{};
+        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+        VK_CHECK(fn.vkCreateFence(m_device.handle(), &fence, nullptr, &m_fence));
+        m_device.setName(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<std::uint64_t>(m_pool), "headless commands");
+        m_device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(m_commands),
+                         "headless commands");
+        m_device.setName(VK_OBJECT_TYPE_FENCE, reinterpret_cast<std::uint64_t>(m_fence), "headless fence");
+    }
+
+    void destroy()
+    {
+        m_device.fn().vkDestroyFence(m_device.handle(), m_fence, nullptr);
+        m_device.fn().vkDestroyCommandPool(m_device.handle(), m_pool, nullptr);
+    }
+
+    Device& m_device;
+    VkQueue m_queue;
+    VkCommandPool m_pool = VK_NULL_HANDLE;
+    VkCommandBuffer m_commands = VK_NULL_HANDLE;
+    VkFence m_fence = VK_NULL_HANDLE;
+};
+
+void checkRange(const Buffer& buffer, std::uint64_t offset, std::uint64_t bytes)
+{
+    if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)
+    {
+        throw Error(ErrorCode::Other, fmt::format("a transfer of {} bytes from byte {} on lies outside buffer {} of {} "
+                                                  "bytes",
+                                                  bytes, offset, buffer.name(), buffer.bytes()));
+    }
+}
+
+InstanceOptions instanceOptions(const HeadlessOptions& options)
+{
+    return {.validation = options.validation,
+            .gpu_assisted_validation = options.gpu_assisted_validation,
+            .extensions = {},
+            .message_counter = options.message_counter};
+}
+
+} // namespace
+
+struct HeadlessDevice::Impl
+{
+    Impl(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels)
+        : instance(instanceOptions(options)), reports(instance.queryAll()),
+          chosen(chooseDevice(reports, options.device)), logical(instance, chosen, options.gpu_assisted_validation),
+          cache(logical.fn(), chosen.physical_device, logical.handle(), options.pipeline_cache_path),
+          device(handles(options), kernels), commands(device, logical.queue()), timers(device, options.timer_capacity)
+    {
+        device.setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<std::uint64_t>(logical.queue()), "headless queue");
+    }
+
+    [[nodiscard]] DeviceHandles handles(const HeadlessOptions& options) const
+    {
+        return {.get_instance_proc_addr = instance.fn().vkGetInstanceProcAddr,
+                .instance = instance.handle(),
+                .physical_device = chosen.physical_device,
+                .device = logical.handle(),
+                .queue_family = chosen.queue_family,
+                .pipeline_cache = cache.handle(),
+                .memory_budget_bytes = options.memory_budget_bytes,
+                .debug_utils = instance.hasDebugUtils()};
+    }
+
+    void transfer(const std::function<void(FrameGraph&)>& record)
+    {
+        FrameGraph graph(device, commands.begin());
+        record(graph);
+        commands.submitAndWait();
+    }
+
+    Instance instance;
+    std::vector<DeviceReport> reports;
+    const DeviceReport& chosen;
+    LogicalDevice logical;
+    PipelineCacheFile cache;
+    Device device;
+    CommandContext commands;
+    TimerPool timers;
+};
+
+std::vector<DeviceReport> queryAllDevices()
+{
+    return Instance({}).queryAll();
+}
+
+HeadlessDevice::HeadlessDevice(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels)
+    : m_impl(std::make_unique<Impl>(options, kernels))
+{
+}
+
+HeadlessDevice::~HeadlessDevice() = default;
+
+Device& HeadlessDevice::device()
+{
+    return m_impl->device;
+}
+
+std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>& record)
+{
+    m_impl->timers.reset();
+    FrameGraph graph(m_impl->device, m_impl->commands.begin(), &m_impl->timers);
+    record(graph);
+    m_impl->commands.submitAndWait();
+    return m_impl->timers.collect();
+}
+
+std::uint32_t HeadlessDevice::validationMessageCount() const
+{
+    return m_impl->instance.validationMessageCount();
+}
+
+void HeadlessDevice::uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes)
+{
+    checkRange(buffer, offset, bytes);
+    if (bytes == 0)
+    {
+        return;
+    }
+    Buffer staging(m_impl->device, "upload staging", std::min(bytes, kStagingBytes), MemoryKind::Upload);
+    for (std::uint64_t done = 0; done < bytes;)
+    {
+        const std::uint64_t chunk = std::min(bytes - done, kStagingBytes);
+        std::memcpy(staging.mapped(), static_cast<const std::byte*>(data) + done, chunk);
+        m_impl->transfer([&](FrameGraph& graph) { graph.copy(staging, 0, buffer, offset + done, chunk); });
+        done += chunk;
+    }
+}
+
+void HeadlessDevice::downloadBytes(const Buffer& buffer, std::uint64_t offset, void* data, std::uint64_t bytes)
+{
+    checkRange(buffer, offset, bytes);
+    if (bytes == 0)
+    {
+        return;
+    }
+    Buffer staging(m_impl->device, "download staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
+    for (std::uint64_t done = 0; done < bytes;)
+    {
+        const std::uint64_t chunk = std::min(bytes - done, kStagingBytes);
+        m_impl->transfer(
+            [&](FrameGraph& graph)
+            {
+                graph.copy(buffer, offset + done, staging, 0, chunk);
+                graph.releaseToHost();
+            });
+        std::memcpy(static_cast<std::byte*>(data) + done, staging.mapped(), chunk);
+        done += chunk;
+    }
+}
+
+} // namespace zvo::vk

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vk/device.h"
+#include "vk/frame_graph.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo::vk
+{
+
+/// How a HeadlessDevice is made.
+struct HeadlessOptions
+{
+    std::string device;                   // name part, index, "cpu"; empty: the best usable one
+    bool validation = false;              // core and synchronization validation
+    bool gpu_assisted_validation = false; // instruments the kernels; implies validation
+    std::uint64_t memory_budget_bytes = UINT64_MAX;
+    std::string pipeline_cache_path;                       // empty: pipelines are not kept on disk
+    std::uint32_t timer_capacity = 4096;                   // passes of one run that are timed; 0: none
+    std::atomic<std::uint32_t>* message_counter = nullptr; // also counts validation messages, to the very end
+};
+
+/// Reports of all physical devices, usable or not, in the loader's order; the index is their number for `device`.
+std::vector<DeviceReport> queryAllDevices();
+
+/// The project's own Vulkan instance, device and queue for work without a window. It plays the host of the embedding
+/// contract: it owns what DeviceHandles names, submits and waits.
+class HeadlessDevice
+{
+public:
+    /// Throws Error{Device} when no device will do; the message lists every device with every reason.
+    HeadlessDevice(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels);
+    ~HeadlessDevice();
+    HeadlessDevice(const HeadlessDevice&) = delete;
+    HeadlessDevice& operator=(const HeadlessDevice&) = delete;
+
+    [[nodiscard]] Device& device();
+
+    /// Records with record, submits and waits. Returns the GPU time of each pass. Throws Error{Other} on a lost device.
+    std::vector<PassTime> run(const std::function<void(FrameGraph&)>& record);
+
+    /// Copies values to buffer from element first on (through a staging buffer) and waits. Throws Error{Other} when
+    /// they do not fit.
+    template <typename T> void upload(BufferOf<T>& buffer, std::span<const T> values, std::uint64_t first = 0)
+    {
+        uploadBytes(buffer, first * sizeof(T), values.data(), values.size_bytes());
+    }
+
+    /// Copies count elements from element first on (all of them by default) to the host and waits. Throws Error{Other}
+    /// when the buffer does not have them.
+    template <typename T>
+    std::vector<T> download(const BufferOf<T>& buffer, std::uint64_t first = 0, std::uint64_t count = UINT64_MAX)
+    {
+        const std::uint64_t available = buffer.count() - std::min(first, buffer.count());
+        std::vector<T> values(count == UINT64_MAX ? available : count);
+        downloadBytes(buffer, first * sizeof(T), values.data(), values.size() * sizeof(T));
+        return values;
+    }
+
+    /// A new buffer holding values.
+    template <typename T> BufferOf<T> makeBuffer(std::string name, std::span<const T> values)
+    {
+        BufferOf<T> buffer(device(), std::move(name), values.size());
+        upload(buffer, values);
+        return buffer;
+    }
+
+    /// What the validation layers have said so far (0 without them). Messages go to stderr as they come.
+    [[nodiscard]] std::uint32_t validationMessageCount() const;
+
+private:
+    void uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes);
+    void downloadBytes(const Buffer& buffer, std::uint64_t offset, void* data, std::uint64_t bytes);
+
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace zvo::vk

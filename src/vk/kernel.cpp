@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "vk/kernel.h"
+
+#include "vk/check.h"
+#include "vk/device.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace zvo::vk
+{
+
+namespace
+{
+
+// Push constants are a struct whose size is a multiple of four where C++ agrees with the shader about it.
+constexpr std::uint32_t kPushConstantUnit = 4;
+
+void checkSpecialization(const EmbeddedKernel& kernel, const KernelInterface& interface,
+                         const Specialization& specialization)
+{
+    for (std::uint32_t id = 0; id < specialization.size(); ++id)
+    {
+        const std::vector<std::uint32_t>& ids = interface.specialization_ids;
+        if (!std::binary_search(ids.begin(), ids.end(), id))
+        {
+            throw Error(ErrorCode::Other, fmt::format("kernel {} got {} specialization constants, but declares none "
+                                                      "with constant_id = {} (only: {})",
+                                                      kernel.name, specialization.size(), id, fmt::join(ids, ", ")));
+        }
+    }
+}
+
+void specializeLocalSize(KernelInterface& interface, const Specialization& specialization)
+{
+    for (std::size_t i = 0; i < interface.local_size.size(); ++i)
+    {
+        if (interface.local_size_ids[i] < specialization.size())
+        {
+            interface.local_size[i] = specialization[interface.local_size_ids[i]];
+        }
+    }
+}
+
+void checkLimits(const EmbeddedKernel& kernel, const KernelInterface& interface, const VkPhysicalDeviceLimits& limits)
+{
+    const auto [x, y, z] = interface.local_size;
+    const std::uint64_t threads = std::uint64_t{x} * y * z;
+    if (threads == 0 || threads > limits.maxComputeWorkGroupInvocations || x > limits.maxComputeWorkGroupSize[0] ||
+        y > limits.maxComputeWorkGroupSize[1] || z > limits.maxComputeWorkGroupSize[2])
+    {
+        throw Error(
+            ErrorCode::Other,
+            fmt::format("kernel {} has workgroups of {} x {} x {} threads; this device allows 1 to {}, and {} x "
+                        "{} x {}",
+                        kernel.name, x, y, z, limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0],
+                        limits.maxComputeWorkGroupSize[1], limits.maxComputeWorkGroupSize[2]));
+    }
+    const std::uint32_t bytes = interface.push_constant_bytes;
+    if (bytes > limits.maxPushConstantsSize || bytes % kPushConstantUnit != 0)
+    {
+        throw Error(ErrorCode::Other,
+                    fmt::format("kernel {} has {} bytes of push constants; it may have {} in multiples of {}",
+                                kernel.name, bytes, limits.maxPushConstantsSize, kPushConstantUnit));
+    }
+}
+
+std::string debugName(const EmbeddedKernel& kernel, const Specialization& specialization)
+{
+    return specialization.empty() ? std::string(kernel.name)
+                                  : fmt::format("{}({})", kernel.name, fmt::join(specialization, ", "));
+}
+
+} // namespace
+
+KernelCache::KernelCache(Device& device, std::span<const EmbeddedKernel> kernels, VkPipelineCache pipeline_cache)
+    : m_device(device), m_embedded(kernels), m_pipeline_cache(pipeline_cache)
+{
+}
+
+KernelCache::~KernelCache()
+{
+    const Functions& fn = m_device.fn();
+    for (const auto& [key, kernel] : m_kernels)
+    {
+        fn.vkDestroyPipeline(m_device.handle(), kernel.pipeline, m_device.allocationCallbacks());
+        fn.vkDestroyPipelineLayout(m_device.handle(), kernel.layout, m_device.allocationCallbacks());
+    }
+}
+
+const Kernel& KernelCache::get(std::string_view name, const Specialization& specialization)
+{
+    Key key{std::string(name), specialization};
+    const auto known = m_kernels.find(key);
+    if (known != m_kernels.end())
+    {
+        return known->second;
+    }
+    const auto embedded = std::find_if(m_embedded.begin(), m_embedded.end(),
+                                       [&](const EmbeddedKernel& kernel) { return kernel.name == name; });
+    if (embedded == m_embedded.end())
+    {
+        throw Error(ErrorCode::Other, fmt::format("there is no kernel {}: {} kernels are embedded, none with that name",
+                                                  name, m_embedded.size()));
+    }
+    Kernel& kernel = m_kernels[std::move(key)]; // the cache destroys what it holds, complete or not
+    try
+    {
+        create(*embedded, specialization, kernel);
+    }
+    catch (...)
+    {
+        const Functions& fn = m_device.fn();
+        fn.vkDestroyPipelineLayout(m_device.handle(), kernel.layout, m_device.allocationCallbacks());
+        m_kernels.erase({std::string(name), specialization});
+        throw;
+    }
+    return kernel;
+}
+
+void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& specialization, Kernel& kernel)
+{
+    const Functions& fn = m_device.fn();
+    kernel.name = embedded.name;
+    kernel.interface = reflectKernel(embedded.words);
+    checkSpecialization(embedded, kernel.interface, specialization);
+    specializeLocalSize(kernel.interface, specialization);
+    checkLimits(embedded, kernel.interface, m_device.limits());
+    const std::string name = debugName(embedded, specialization);
+
+    VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.interface.push_constant_bytes};
+    VkPipelineLayoutCreateInfo layout{};
+    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    layout.pushConstantRangeCount = range.size != 0 ? 1 : 0;
+    layout.pPushConstantRanges = &range;
+    VK_CHECK(fn.vkCreatePipelineLayout(m_device.handle(), &layout, m_device.allocationCallbacks(), &kernel.layout));
+    m_device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, reinterpret_cast<std::uint64_t>(kernel.layout), name);
+
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t id = 0; id < specialization.size(); ++id)
+    {
+        entries.push_back({id, id * static_cast<std::uint32_t>(sizeof(std::uint32_t)), sizeof(std::uint32_t)});
+    }
+    VkSpecializationInfo constants{};
+    constants.mapEntryCount = static_cast<std::uint32_t>(entries.size());
+    constants.pMapEntries = entries.data();
+    constants.dataSize = specialization.size() * sizeof(std::uint32_t);
+    constants.pData = specialization.data();
+
+    VkShaderModuleCreateInfo module_info{};
+    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    module_info.codeSize = embedded.words.size_bytes();
+    module_info.pCode = embedded.words.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    VK_CHECK(fn.vkCreateShaderModule(m_device.handle(), &module_info, m_device.allocationCallbacks(), &module));
+
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = specialization.empty() ? nullptr : &constants;
+    info.layout = kernel.layout;
+    const VkResult result = fn.vkCreateComputePipelines(m_device.handle(), m_pipeline_cache, 1, &info,
+                                                        m_device.allocationCallbacks(), &kernel.pipeline);
+    fn.vkDestroyShaderModule(m_device.handle(), module, m_device.allocationCallbacks());
+    if (result != VK_SUCCESS)
+    {
+        throwFailedCall(result, ("vkCreateComputePipelines for " + name).c_str(), __FILE_NAME__, __LINE__);
+    }
+    m_device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(kernel.pipeline), name);
+}
+
+} // namespace zvo::vk

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Which physical devices will do, and why the others will not.
+#include "vk/device.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace zvo::vk
+{
+
+namespace
+{
+
+constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_3;
+constexpr std::uint32_t kPushConstantBytes = 128;  // of the largest kernel parameters
+constexpr std::uint32_t kGroupThreads = 256;       // of the largest workgroup
+constexpr std::uint32_t kGroupSharedBytes = 16384; // shared memory of the largest workgroup
+
+struct Feature
+{
+    const char* name;
+    bool required;
+    VkBool32& (*get)(FeatureChain&);
+};
+
+constexpr Feature kFeatures[] = {
+    {"shaderInt64", true, [](FeatureChain& c) -> VkBool32& { return c.core.features.shaderInt64; }},
+    {"bufferDeviceAddress", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.bufferDeviceAddress; }},
+    {"scalarBlockLayout", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.scalarBlockLayout; }},
+    {"timelineSemaphore", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.timelineSemaphore; }},
+    {"hostQueryReset", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.hostQueryReset; }},
+    {"synchronization2", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan13.synchronization2; }},
+    {"maintenance4", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan13.maintenance4; }},
+    {"shaderInt16", false, [](FeatureChain& c) -> VkBool32& { return c.core.features.shaderInt16; }},
+    {"shaderInt8", false, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.shaderInt8; }},
+    {"shaderBufferInt64Atomics", false,
+     [](FeatureChain& c) -> VkBool32& { return c.vulkan12.shaderBufferInt64Atomics; }},
+    {"shaderSubgroupExtendedTypes", false,
+     [](FeatureChain& c) -> VkBool32& { return c.vulkan12.shaderSubgroupExtendedTypes; }},
+    {"subgroupSizeControl", false, [](FeatureChain& c) -> VkBool32& { return c.vulkan13.subgroupSizeControl; }},
+};
+
+struct SubgroupOperation
+{
+    const char* name;
+    VkSubgroupFeatureFlagBits bit;
+};
+
+constexpr SubgroupOperation kSubgroupOperations[] = {
+    {"subgroup basic operations", VK_SUBGROUP_FEATURE_BASIC_BIT}, {"subgroup vote", VK_SUBGROUP_FEATURE_VOTE_BIT},
+    {"subgroup arithmetic", VK_SUBGROUP_FEATURE_ARITHMETIC_BIT},  {"subgroup ballot", VK_SUBGROUP_FEATURE_BALLOT_BIT},
+    {"subgroup shuffle", VK_SUBGROUP_FEATURE_SHUFFLE_BIT},
+};
+
+std::string versionText(std::uint32_t version)
+{
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
+}
+
+const char* typeText(VkPhysicalDeviceType type)
+{
+    switch (type)
+    {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "cpu";
+    default:
+        return "other";
+    }
+}
+
+void note(DeviceReport& report, const std::string& name, bool present, bool required)
+{
+    (present ? report.present : report.missing).push_back(name);
+    if (!present && required)
+    {
+        report.reasons.push_back("lacks " + name);
+    }
+}
+
+void needAtLeast(DeviceReport& report, const char* name, std::uint32_t value, std::uint32_t least)
+{
+    if (value < least)
+    {
+        report.reasons.push_back(fmt::format("{} is {}, zvo needs {}", name, value, least));
+    }
+}
+
+void queryMemory(DeviceReport& report, const Functions& fn)
+{
+    VkPhysicalDeviceMemoryProperties memory{};
+    fn.vkGetPhysicalDeviceMemoryProperties(report.physical_device, &memory);
+    for (std::uint32_t heap = 0; heap < memory.memoryHeapCount; ++heap)
+    {
+        if ((memory.memoryHeaps[heap].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
+        {
+            report.memory_bytes = std::max<std::uint64_t>(report.memory_bytes, memory.memoryHeaps[heap].size);
+        }
+    }
+}
+
+// The first family that computes, if possible one with timestamps.
+void queryQueueFamily(DeviceReport& report, const Functions& fn, float timestamp_period_ns)
+{
+    std::uint32_t count = 0;
+    fn.vkGetPhysicalDeviceQueueFamilyProperties(report.physical_device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    fn.vkGetPhysicalDeviceQueueFamilyProperties(report.physical_device, &count, families.data());
+
+    bool found = false;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        const bool computes = (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 && families[i].queueCount > 0;
+        if (computes && (!found || (report.timestamp_valid_bits == 0 && families[i].timestampValidBits != 0)))
+        {
+            found = true;
+            report.queue_family = i;
+            report.timestamp_valid_bits = families[i].timestampValidBits;
+        }
+    }
+    report.timestamp_period_ns = report.timestamp_valid_bits != 0 ? timestamp_period_ns : 0;
+    if (!found)
+    {
+        report.reasons.emplace_back("has no compute queue");
+    }
+}
+
+void queryFeatures(DeviceReport& report, const Functions& fn)
+{
+    FeatureChain features;
+    fn.vkGetPhysicalDeviceFeatures2(report.physical_device, &features.core);
+    for (const Feature& feature : kFeatures)
+    {
+        note(report, feature.name, feature.get(features) == VK_TRUE, feature.required);
+    }
+}
+
+void queryProperties(DeviceReport& report, const Functions& fn)
+{
+    VkPhysicalDeviceVulkan13Properties properties13{};
+    properties13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES;
+    VkPhysicalDeviceVulkan12Properties properties12{};
+    properties12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES;
+    properties12.pNext = &properties13;
+    VkPhysicalDeviceVulkan11Properties properties11{};
+    properties11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES;
+    properties11.pNext = &properties12;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &properties11;
+    fn.vkGetPhysicalDeviceProperties2(report.physical_device, &properties);
+
+    report.driver = fmt::format("{} {}", properties12.driverName, properties12.driverInfo);
+    report.subgroup_size = properties11.subgroupSize;
+    report.max_buffer_bytes = properties13.maxBufferSize;
+    const bool in_compute = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+    for (const SubgroupOperation& operation : kSubgroupOperations)
+    {
+        note(report, operation.name, in_compute && (properties11.subgroupSupportedOperations & operation.bit) != 0,
+             true);
+    }
+    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+    needAtLeast(report, "maxPushConstantsSize", limits.maxPushConstantsSize, kPushConstantBytes);
+    needAtLeast(report, "maxComputeWorkGroupInvocations", limits.maxComputeWorkGroupInvocations, kGroupThreads);
+    needAtLeast(report, "maxComputeWorkGroupSize[0]", limits.maxComputeWorkGroupSize[0], kGroupThreads);
+    needAtLeast(report, "maxComputeSharedMemorySize", limits.maxComputeSharedMemorySize, kGroupSharedBytes);
+}
+
+} // namespace
+
+FeatureChain::FeatureChain()
+{
+    core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    core.pNext = &vulkan11;
+    vulkan11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
+    vulkan11.pNext = &vulkan12;
+    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    vulkan12.pNext = &vulkan13;
+    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+}
+
+RequiredFeatures::RequiredFeatures()
+{
+    for (const Feature& feature : kFeatures)
+    {
+        feature.get(m_chain) = feature.required ? VK_TRUE : VK_FALSE;
+    }
+}
+
+DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
+                   VkPhysicalDevice physical_device)
+{
+    DeviceReport report;
+    report.physical_device = physical_device;
+    const Functions fn = Functions::ofInstance(get_instance_proc_addr, instance);
+
+    VkPhysicalDeviceProperties properties{};
+    fn.vkGetPhysicalDeviceProperties(physical_device, &properties);
+    report.name = properties.deviceName;
+    report.type = typeText(properties.deviceType);
+    report.api_version = versionText(properties.apiVersion);
+    queryMemory(report, fn);
+    queryQueueFamily(report, fn, properties.limits.timestampPeriod);
+
+    if (properties.apiVersion < kApiVersion)
+    {
+        report.reasons.push_back("supports Vulkan " + report.api_version + " only, zvo needs 1.3");
+    }
+    if (fn.vkGetPhysicalDeviceFeatures2 == nullptr || fn.vkGetPhysicalDeviceProperties2 == nullptr)
+    {
+        report.reasons.emplace_back("the instance was created for Vulkan 1.0, zvo needs 1.3");
+    }
+    else
+    {
+        // Structs that an older driver does not know stay zero, so that it is said to lack what is in them.
+        queryFeatures(report, fn);
+        queryProperties(report, fn);
+    }
+    return report;
+}
+
+} // namespace zvo::vk

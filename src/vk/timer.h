@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vk/functions.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace zvo::vk
+{
+
+class Device;
+
+/// GPU time of one pass.
+struct PassTime
+{
+    std::string name;
+    double ms = 0;
+};
+
+/// Timestamps around passes, in one query pool. A pool without timestamps (the device has none) stays empty.
+class TimerPool
+{
+public:
+    TimerPool(Device& device, std::uint32_t pass_capacity);
+    ~TimerPool();
+    TimerPool(const TimerPool&) = delete;
+    TimerPool& operator=(const TimerPool&) = delete;
+
+    /// Forgets all passes; the pool may be recorded to again. The device must be done with it.
+    void reset();
+    void begin(VkCommandBuffer commands, const std::string& name);
+    void end(VkCommandBuffer commands);
+
+    /// The times of the recorded passes in order, after the device is done with them. Passes past the capacity are left
+    /// out and counted in droppedCount().
+    [[nodiscard]] std::vector<PassTime> collect() const;
+    [[nodiscard]] std::uint32_t droppedCount() const { return m_dropped_count; }
+
+private:
+    Device& m_device;
+    VkQueryPool m_pool = VK_NULL_HANDLE;
+    std::uint32_t m_pass_capacity;
+    std::uint32_t m_dropped_count = 0;
+    bool m_open = false;
+    std::vector<std::string> m_names;
+};
+
+} // namespace zvo::vk

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Writes the arguments of an indirect dispatch.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "params.h"
+
+layout(local_size_x = 1) in;
+layout(push_constant, scalar) uniform Params
+{
+    WriteArgsParams params;
+};
+
+void main()
+{
+    params.args.data[0] = DispatchArgs(params.groups, 1, 1);
+}

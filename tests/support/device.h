@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <span>
+
+namespace zvo::test
+{
+
+/// Options of the tests' devices: the software device, or the one that ZVO_TEST_DEVICE names; with validation when the
+/// environment variable ZVO_TEST_VALIDATION is 1, and also instrumented kernels when it is 2.
+vk::HeadlessOptions deviceOptions();
+
+/// The device that the tests of a binary share, made on first use with kernels; later calls must name the same ones.
+vk::HeadlessDevice& sharedDevice(std::span<const vk::EmbeddedKernel> kernels);
+
+/// Validation messages so far, of all devices made with deviceOptions().
+std::uint32_t validationMessageCount();
+
+/// Destroys the shared device.
+void destroySharedDevice();
+
+} // namespace zvo::test

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace zvo::test
+{
+
+/// One instance of the corners' triangles, three each, with one default material.
+Scene triangleSoup(const std::vector<glm::vec3>& corners);
+
+/// count random triangles in [0, extent]^3: tiny, long, thin, flat and huge ones mixed.
+Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent);
+
+/// The box from min to max, twelve triangles.
+Scene boxScene(const glm::vec3& min, const glm::vec3& max);
+
+/// A sphere of rings x 2 rings quads.
+Scene sphereScene(const glm::vec3& centre, float radius, std::uint32_t rings);
+
+/// Path of one of the big scenes that do not come with the project (scenes/README.md), if it is there.
+std::optional<std::filesystem::path> sharedScene(const std::string& name);
+
+/// Path of one of the project's own scenes.
+std::filesystem::path ownScene(const std::string& name);
+
+} // namespace zvo::test

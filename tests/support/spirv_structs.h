@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+
+namespace zvo::test
+{
+
+/// Byte offsets of the members of every named struct in a SPIR-V module, by struct and member name. Names come from the
+/// shader's source (OpName, OpMemberName); structs without offsets are left out. A struct that the module holds in
+/// several layouts appears once, if the layouts agree; throws std::runtime_error if they do not, or for words that are
+/// not SPIR-V.
+std::map<std::string, std::map<std::string, std::uint32_t>> structOffsets(std::span<const std::uint32_t> words);
+
+} // namespace zvo::test

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// Devices that somebody else owns: what zvo asks of them, and how it behaves on them.
+#include "vk/device.h"
+
+#include "vk/check.h"
+#include "vk/instance.h"
+#include "vk/kernels.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace
+{
+
+using namespace zvo;
+using test::device;
+
+std::string messageOf(const std::function<void()>& action, ErrorCode expected)
+{
+    try
+    {
+        action();
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), expected) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+// A physical device of Vulkan 1.1 that has nothing that zvo needs.
+PFN_vkVoidFunction fakeInstanceProcAddr(VkInstance, const char* name)
+{
+    const PFN_vkGetPhysicalDeviceProperties properties = [](VkPhysicalDevice, VkPhysicalDeviceProperties* out)
+    {
+        *out = {};
+        std::strcpy(out->deviceName, "Toaster");
+        out->apiVersion = VK_API_VERSION_1_1;
+        out->deviceType = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+    };
+    const PFN_vkGetPhysicalDeviceMemoryProperties memory = [](VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out)
+    { *out = {}; };
+    const PFN_vkGetPhysicalDeviceQueueFamilyProperties families =
+        [](VkPhysicalDevice, std::uint32_t* count, VkQueueFamilyProperties* out)
+    {
+        *count = 1;
+        if (out != nullptr)
+        {
+            *out = {VK_QUEUE_TRANSFER_BIT, 1, 0, {1, 1, 1}};
+        }
+    };
+    const PFN_vkGetPhysicalDeviceFeatures2 features = [](VkPhysicalDevice, VkPhysicalDeviceFeatures2*) {};
+    const PFN_vkGetPhysicalDeviceProperties2 properties2 = [](VkPhysicalDevice, VkPhysicalDeviceProperties2*) {};
+
+    const std::map<std::string, PFN_vkVoidFunction> functions = {
+        {"vkGetPhysicalDeviceProperties", reinterpret_cast<PFN_vkVoidFunction>(properties)},
+        {"vkGetPhysicalDeviceMemoryProperties", reinterpret_cast<PFN_vkVoidFunction>(memory)},
+        {"vkGetPhysicalDeviceQueueFamilyProperties", reinterpret_cast<PFN_vkVoidFunction>(families)},
+        {"vkGetPhysicalDeviceFeatures2", reinterpret_cast<PFN_vkVoidFunction>(features)},
+        {"vkGetPhysicalDeviceProperties2", reinterpret_cast<PFN_vkVoidFunction>(properties2)},
+    };
+    const auto found = functions.find(name);
+    return found != functions.end() ? found->second : nullptr;
+}
+
+TEST(Query, ListsEveryReasonOfADeviceThatLacksEverything)
+{
+    const vk::DeviceReport report = vk::query(fakeInstanceProcAddr, VK_NULL_HANDLE, VK_NULL_HANDLE);
+    EXPECT_FALSE(report.usable());
+    EXPECT_EQ(report.name, "Toaster");
+    EXPECT_EQ(report.type, "other");
+    EXPECT_EQ(report.api_version, "1.1.0");
+    EXPECT_TRUE(report.present.empty());
+    std::string reasons;
+    for (const std::string& reason : report.reasons)
+    {
+        reasons += reason + "\n";
+    }
+    for (const char* needed : {"Vulkan 1.1", "compute queue", "shaderInt64", "bufferDeviceAddress", "scalarBlockLayout",
+                               "synchronization2", "maintenance4", "timelineSemaphore", "hostQueryReset",
+                               "subgroup basic", "subgroup arithmetic", "subgroup ballot", "subgroup vote",
+                               "subgroup shuffle", "maxPushConstantsSize", "maxComputeWorkGroupInvocations"})
+    {
+        EXPECT_TRUE(contains(reasons, needed)) << needed << " is not among:\n" << reasons;
+    }
+}
+
+TEST(Query, DescribesTheSoftwareDevice)
+{
+    const vk::DeviceReport& report = device().device().report();
+    EXPECT_TRUE(report.usable());
+    EXPECT_EQ(report.type, "cpu");
+    EXPECT_GT(report.subgroup_size, 0u);
+    EXPECT_GT(report.memory_bytes, 0u);
+    EXPECT_GT(report.timestamp_period_ns, 0.0f);
+    EXPECT_NE(std::find(report.present.begin(), report.present.end(), "bufferDeviceAddress"), report.present.end());
+}
+
+vk::DeviceReport reportOf(const char* name, const char* type, std::vector<std::string> reasons = {})
+{
+    vk::DeviceReport report;
+    report.name = name;
+    report.type = type;
+    report.reasons = std::move(reasons);
+    return report;
+}
+
+TEST(ChooseDevice, TheBestUsableOneIsTheDefault)
+{
+    const std::vector<vk::DeviceReport> reports = {
+        reportOf("llvmpipe", "cpu"), reportOf("Broken", "discrete", {"lacks shaderInt64"}),
+        reportOf("Onboard", "integrated"), reportOf("Onboard 2", "integrated")};
+    EXPECT_EQ(vk::chooseDevice(reports, "").name, "Onboard");
+    EXPECT_EQ(vk::chooseDevice(reports, "cpu").name, "llvmpipe");
+    EXPECT_EQ(vk::chooseDevice(reports, "3").name, "Onboard 2");
+    EXPECT_EQ(vk::chooseDevice(reports, "BOARD 2").name, "Onboard 2");
+}
+
+TEST(ChooseDevice, ARefusalListsEveryDeviceWithEveryReason)
+{
+    const std::vector<vk::DeviceReport> reports = {
+        reportOf("First", "discrete", {"lacks shaderInt64", "lacks maintenance4"}), reportOf("Second", "cpu")};
+    for (const char* wanted : {"First", "0", "Third", "7"})
+    {
+        const std::string message = messageOf([&] { vk::chooseDevice(reports, wanted); }, ErrorCode::Device);
+        for (const char* part : {wanted, "First", "lacks shaderInt64", "lacks maintenance4", "Second"})
+        {
+            EXPECT_TRUE(contains(message, part)) << message;
+        }
+    }
+    EXPECT_TRUE(contains(messageOf([] { vk::chooseDevice({}, ""); }, ErrorCode::Device), "install a driver"));
+}
+
+TEST(ResultName, NamesResults)
+{
+    EXPECT_STREQ(vk::resultName(VK_ERROR_DEVICE_LOST), "VK_ERROR_DEVICE_LOST");
+    EXPECT_STREQ(vk::resultName(VK_SUCCESS), "VK_SUCCESS");
+}
+
+VkResult fakeCall(VkResult result)
+{
+    return result;
+}
+
+TEST(VkCheck, ThrowsWithResultCallAndPlace)
+{
+    VK_CHECK(fakeCall(VK_SUCCESS));
+    VK_CHECK(fakeCall(VK_NOT_READY));
+    const std::string lost = messageOf([] { VK_CHECK(fakeCall(VK_ERROR_DEVICE_LOST)); }, ErrorCode::Other);
+    EXPECT_TRUE(contains(lost, "fakeCall failed with VK_ERROR_DEVICE_LOST")) << lost;
+    EXPECT_TRUE(contains(lost, "device_test.cpp:")) << lost;
+    messageOf([] { VK_CHECK(fakeCall(VK_ERROR_OUT_OF_HOST_MEMORY)); }, ErrorCode::Memory);
+    messageOf([] { VK_CHECK(fakeCall(VK_ERROR_OUT_OF_DEVICE_MEMORY)); }, ErrorCode::Memory);
+}
+
+// The real driver, but for the functions that a test replaces.
+struct Interception
+{
+    PFN_vkGetInstanceProcAddr real_instance = nullptr;
+    PFN_vkGetDeviceProcAddr real_device = nullptr;
+    std::string name;
+    PFN_vkVoidFunction replacement = nullptr;
+};
+Interception g_interception;
+
+PFN_vkVoidFunction interceptedDeviceProcAddr(VkDevice vk_device, const char* name)
+{
+    return g_interception.name == name ? g_interception.replacement : g_interception.real_device(vk_device, name);
+}
+
+PFN_vkVoidFunction interceptedInstanceProcAddr(VkInstance instance, const char* name)
+{
+    const PFN_vkVoidFunction real = g_interception.real_instance(instance, name);
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+    {
+        g_interception.real_device = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
+        return reinterpret_cast<PFN_vkVoidFunction>(interceptedDeviceProcAddr);
+    }
+    return real;
+}
+
+// The shared device's handles with one function replaced.
+vk::DeviceHandles intercept(const char* name, PFN_vkVoidFunction replacement)
+{
+    vk::DeviceHandles handles = device().device().handles();
+    g_interception = {handles.get_instance_proc_addr, nullptr, name, replacement};
+    handles.get_instance_proc_addr = interceptedInstanceProcAddr;
+    return handles;
+}
+
+TEST(Device, OutOfMemoryInTheDriverIsAMemoryErrorThatNamesTheBuffer)
+{
+    const PFN_vkAllocateMemory refuse = [](VkDevice, const VkMemoryAllocateInfo*, const VkAllocationCallbacks*,
+                                           VkDeviceMemory*) { return VK_ERROR_OUT_OF_DEVICE_MEMORY; };
+    vk::Device poor(intercept("vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(refuse)), testKernels());
+    for (const std::uint64_t bytes : {100ull, 100ull << 20})
+    {
+        const std::string message =
+            messageOf([&] { const vk::Buffer buffer(poor, "the voxels", bytes); }, ErrorCode::Memory);
+        EXPECT_TRUE(contains(message, "the voxels")) << message;
+    }
+    EXPECT_EQ(poor.memory().usedBytes(), 0u);
+}
+
+TEST(Device, AShortDriverGetsSmallerBlocks)
+{
+    const PFN_vkAllocateMemory stingy = [](VkDevice vk_device, const VkMemoryAllocateInfo* info,
+                                           const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory)
+    {
+        if (info->allocationSize > 1 << 20)
+        {
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        }
+        return device().device().fn().vkAllocateMemory(vk_device, info, callbacks, memory);
+    };
+    vk::Device poor(intercept("vkAllocateMemory", reinterpret_cast<PFN_vkVoidFunction>(stingy)), testKernels());
+    const vk::Buffer a(poor, "a", 1000);
+    const vk::Buffer b(poor, "b", 1000);
+    EXPECT_NE(a.address(), b.address());
+}
+
+TEST(Device, MissingFunctionsAreNamed)
+{
+    const std::string message =
+        messageOf([] { const vk::Device lacking(intercept("vkCmdPipelineBarrier2", nullptr), testKernels()); },
+                  ErrorCode::Device);
+    EXPECT_TRUE(contains(message, "vkCmdPipelineBarrier2")) << message;
+}
+
+TEST(Device, AQueueFamilyThatDoesNotExistIsRefused)
+{
+    vk::DeviceHandles handles = device().device().handles();
+    handles.queue_family = 99;
+    messageOf([&] { const vk::Device refused(handles, testKernels()); }, ErrorCode::Device);
+}
+
+// Records into a command buffer of its own, as a host does, submits it and waits.
+void submitAsHost(vk::Device& target, const std::function<void(VkCommandBuffer)>& record)
+{
+    const vk::Functions& fn = target.fn();
+    VkQueue queue = VK_NULL_HANDLE;
+    fn.vkGetDeviceQueue(target.handle(), target.handles().queue_family, 0, &queue);
+    VkCommandPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool_info.queueFamilyIndex = target.handles().queue_family;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VK_CHECK(fn.vkCreateCommandPool(target.handle(), &pool_info, nullptr, &pool));
+    VkCommandBufferAllocateInfo allocate_info{};
+    allocate_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocate_info.commandPool = pool;
+    allocate_info.commandBufferCount = 1;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VK_CHECK(fn.vkAllocateCommandBuffers(target.handle(), &allocate_info, &commands));
+    VkCommandBufferBeginInfo begin_info{};
+    begin_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    VK_CHECK(fn.vkBeginCommandBuffer(commands, &begin_info));
+    record(commands);
+    VK_CHECK(fn.vkEndCommandBuffer(commands));
+    VkCommandBufferSubmitInfo commands_info{};
+    commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
+    commands_info.commandBuffer = commands;
+    VkSubmitInfo2 submit{};
+    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+    submit.commandBufferInfoCount = 1;
+    submit.pCommandBufferInfos = &commands_info;
+    VK_CHECK(fn.vkQueueSubmit2(queue, 1, &submit, VK_NULL_HANDLE));
+    VK_CHECK(fn.vkDeviceWaitIdle(target.handle()));
+    fn.vkDestroyCommandPool(target.handle(), pool, nullptr);
+}
+
+TEST(Device, RecordsIntoAHostsCommandBuffer)
+{
+    vk::Device guest(device().device().handles(), testKernels());
+    vk::BufferOf<gpu::uint> values(guest, "values", 1000);
+    vk::BufferOf<gpu::uint> result(guest, "result", 1000, vk::MemoryKind::Readback);
+    submitAsHost(guest,
+                 [&](VkCommandBuffer commands)
+                 {
+                     vk::FrameGraph graph(guest, commands);
+                     vk::Pass pass = graph.addPass("test/iota");
+                     const gpu::FillParams params = {.values = pass.write(values), .count = 1000};
+                     pass.dispatch(1000, params);
+                     graph.copy(values, 0, result, 0, values.bytes());
+                     graph.releaseToHost();
+                 });
+    std::vector<gpu::uint> expected(1000);
+    std::iota(expected.begin(), expected.end(), 0u);
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), result.mappedData()));
+}
+
+// Says that the silence of the layers in all other tests means something.
+TEST(Validation, SpeaksWhenABarrierIsMissing)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    if (!options.validation)
+    {
+        GTEST_SKIP() << "needs ZVO_TEST_VALIDATION=1";
+    }
+    std::atomic<std::uint32_t> messages = 0;
+    options.message_counter = &messages;
+    vk::HeadlessDevice faulty(options, testKernels());
+    const vk::Buffer from(faulty.device(), "from", 64);
+    const vk::Buffer to(faulty.device(), "to", 64);
+    submitAsHost(faulty.device(),
+                 [&](VkCommandBuffer commands)
+                 {
+                     const VkBufferCopy region{0, 0, 64};
+                     faulty.device().fn().vkCmdFillBuffer(commands, from.handle(), 0, 64, 0);
+                     faulty.device().fn().vkCmdCopyBuffer(commands, from.handle(), to.handle(), 1, &region);
+                 });
+    EXPECT_EQ(messages, 1u);
+    EXPECT_EQ(faulty.validationMessageCount(), 1u);
+}
+
+TEST(Validation, SpeaksWhenAKernelWritesPastABuffer)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    if (!options.gpu_assisted_validation)
+    {
+        GTEST_SKIP() << "needs ZVO_TEST_VALIDATION=2";
+    }
+    std::atomic<std::uint32_t> messages = 0;
+    options.message_counter = &messages;
+    vk::HeadlessDevice faulty(options, testKernels());
+    // In the same block of memory, so that what the kernel does hits nobody.
+    vk::BufferOf<gpu::uint> values(faulty.device(), "values", 64);
+    faulty.run(
+        [&](vk::FrameGraph& graph)
+        {
+            vk::Pass pass = graph.addPass("test/iota");
+            const gpu::FillParams params = {.values = pass.write(values), .count = 128};
+            pass.dispatch(128, params);
+        });
+    EXPECT_GT(messages, 0u);
+}
+
+} // namespace

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "vk/kernels.h"
+
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace zvo;
+using test::device;
+using Words = vk::BufferOf<gpu::uint>;
+
+void iota(vk::FrameGraph& graph, Words& values)
+{
+    vk::Pass pass = graph.addPass("test/iota");
+    const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(values.count())};
+    pass.dispatch(values.count(), params);
+}
+
+void scale(vk::FrameGraph& graph, const Words& source, Words& destination, gpu::uint factor)
+{
+    vk::Pass pass = graph.addPass("test/scale");
+    const gpu::CopyParams params = {
+        .source = pass.read(source),
+        .destination = pass.write(destination),
+        .count = static_cast<gpu::uint>(source.count()),
+        .factor = factor,
+    };
+    pass.dispatch(source.count(), params);
+}
+
+TEST(FoldGroups, CoversAllGroupsWithLittleWaste)
+{
+    using Groups = std::array<std::uint64_t, 2>;
+    EXPECT_EQ(vk::foldGroups(0, 65535), (Groups{0, 1}));
+    EXPECT_EQ(vk::foldGroups(1, 65535), (Groups{1, 1}));
+    EXPECT_EQ(vk::foldGroups(65535, 65535), (Groups{65535, 1}));
+    EXPECT_EQ(vk::foldGroups(65536, 65535), (Groups{32768, 2}));
+    for (std::uint64_t groups = 1; groups < 1000; ++groups)
+    {
+        const auto [x, y] = vk::foldGroups(groups, 7);
+        EXPECT_LE(x, 7u);
+        EXPECT_GE(x * y, groups);
+        EXPECT_LT(x * y, groups + y);
+    }
+}
+
+TEST(FrameGraph, PassesSeeWhatEarlierPassesWrote)
+{
+    Words a(device().device(), "a", 2049);
+    Words b(device().device(), "b", 2049);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            iota(graph, a);
+            scale(graph, a, b, 3);
+            scale(graph, b, a, 5);
+            graph.copy(a, 0, b, 4, 2048 * 4);
+            graph.fill(b, 7, 0, 1);
+        });
+    const std::vector<gpu::uint> values = device().download(b);
+    EXPECT_EQ(values[0], 7u);
+    for (gpu::uint i = 1; i < values.size(); ++i)
+    {
+        ASSERT_EQ(values[i], (i - 1) * 15);
+    }
+}
+
+TEST(FrameGraph, IndirectDispatchRunsAsManyGroupsAsAPassWrote)
+{
+    Words values(device().device(), "values", 1000);
+    vk::BufferOf<gpu::DispatchArgs> args(device().device(), "args", 1);
+    for (const gpu::uint groups : {0u, 1u, 3u})
+    {
+        device().run(
+            [&](vk::FrameGraph& graph)
+            {
+                graph.fill(values, 0);
+                vk::Pass size = graph.addPass("test/write_args");
+                const gpu::WriteArgsParams size_params = {.args = size.write(args), .groups = groups};
+                size.dispatch(1, size_params);
+                vk::Pass pass = graph.addPass("test/iota");
+                const gpu::FillParams params = {.values = pass.write(values), .count = 1000};
+                pass.dispatchIndirect(args, 0, params);
+            });
+        const std::vector<gpu::uint> result = device().download(values);
+        for (gpu::uint i = 0; i < result.size(); ++i)
+        {
+            ASSERT_EQ(result[i], i < groups * 64 ? i : 0) << groups;
+        }
+    }
+}
+
+TEST(FrameGraph, DumpShowsPassesResourcesAndBarriers)
+{
+    Words a(device().device(), "a", 100);
+    Words b(device().device(), "b", 100);
+    Words empty(device().device(), "empty", 0);
+    vk::BufferOf<gpu::DispatchArgs> args(device().device(), "args", 2);
+    std::string dump;
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.fill(args, 1);
+            iota(graph, a);
+            scale(graph, a, b, 2);
+            iota(graph, empty);
+            vk::Pass pass = graph.addPass("test/iota");
+            const gpu::FillParams params = {.values = pass.readWrite(a), .count = 64};
+            pass.dispatchIndirect(args, 1, params);
+            graph.copy(a, 0, b, 0, 8);
+            graph.releaseToHost();
+            dump = graph.dump();
+        });
+    EXPECT_EQ(dump, "pass fill args: 24 bytes; copies to args\n"
+                    "pass test/iota: 100 threads in 2 x 1 groups of 64; writes a\n"
+                    "barrier compute -> compute\n"
+                    "pass test/scale: 100 threads in 4 x 1 groups of 32; reads a; writes b\n"
+                    "pass test/iota: 0 threads, left out\n"
+                    "barrier compute|transfer -> compute|indirect\n"
+                    "pass test/iota: indirect; reads and writes a; dispatched by args\n"
+                    "barrier compute -> transfer\n"
+                    "pass copy a to b: 8 bytes; copies from a; copies to b\n"
+                    "barrier compute|transfer -> host\n");
+}
+
+TEST(FrameGraph, APassWithoutDispatchRecordsNothing)
+{
+    Words a(device().device(), "a", 100);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.addPass("test/iota").write(a);
+            EXPECT_EQ(graph.dump(), "");
+        });
+}
+
+TEST(FrameGraph, ParametersOfAnotherSizeAreRefused)
+{
+    Words a(device().device(), "a", 100);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            vk::Pass pass = graph.addPass("test/iota");
+            pass.write(a);
+            EXPECT_THROW(pass.dispatch(1, gpu::CopyParams{}), Error);
+            EXPECT_THROW(graph.addPass("test/no_params").dispatch(1, 1u), Error);
+        });
+}
+
+TEST(FrameGraph, APassIsDispatchedOnce)
+{
+    Words a(device().device(), "a", 100);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            vk::Pass pass = graph.addPass("test/iota");
+            const gpu::FillParams params = {.values = pass.write(a), .count = 100};
+            pass.dispatch(100, params);
+            EXPECT_THROW(pass.dispatch(100, params), Error);
+            EXPECT_THROW(pass.read(a), Error);
+        });
+}
+
+TEST(FrameGraph, RangesOutsideABufferAreRefused)
+{
+    Words a(device().device(), "a", 100);
+    Words b(device().device(), "b", 10);
+    vk::BufferOf<gpu::DispatchArgs> args(device().device(), "args", 1);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            EXPECT_THROW(graph.copy(a, 0, b, 0, 41), Error);
+            EXPECT_THROW(graph.copy(a, UINT64_MAX - 1, b, 0, 4), Error);
+            EXPECT_THROW(graph.copy(a, 0, a, 10, 20), Error) << "it overlaps itself";
+            EXPECT_THROW(graph.fill(b, 0, 8, 3), Error);
+            EXPECT_THROW(graph.fill(b, 0, 11), Error);
+            vk::Pass pass = graph.addPass("test/iota");
+            const gpu::FillParams params = {.values = pass.write(a), .count = 100};
+            EXPECT_THROW(pass.dispatchIndirect(args, 1, params), Error);
+            EXPECT_THROW(graph.addPass("test/iota").dispatch(std::uint64_t{1} << 33, params), Error);
+        });
+}
+
+TEST(FrameGraph, CopiesWithinOneBufferWork)
+{
+    Words a(device().device(), "a", 100);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            iota(graph, a);
+            graph.copy(a, 0, a, 200, 200);
+        });
+    const std::vector<gpu::uint> values = device().download(a);
+    for (gpu::uint i = 0; i < 100; ++i)
+    {
+        ASSERT_EQ(values[i], i % 50);
+    }
+}
+
+} // namespace

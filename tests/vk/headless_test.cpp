@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "vk/kernels.h"
+
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+namespace
+{
+
+using namespace zvo;
+using test::device;
+
+vk::BufferOf<gpu::uint> iota(vk::HeadlessDevice& target, std::uint64_t count)
+{
+    vk::BufferOf<gpu::uint> values(target.device(), "values", count);
+    target.run(
+        [&](vk::FrameGraph& graph)
+        {
+            vk::Pass pass = graph.addPass("test/iota");
+            const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(count)};
+            pass.dispatch(count, params);
+        });
+    return values;
+}
+
+std::vector<gpu::uint> counting(std::uint64_t count)
+{
+    std::vector<gpu::uint> values(count);
+    std::iota(values.begin(), values.end(), 0u);
+    return values;
+}
+
+class TemporaryFolder
+{
+public:
+    TemporaryFolder()
+        : m_path(testing::TempDir() + "/zvo_headless_test." +
+                 std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "." +
+                 std::to_string(reinterpret_cast<std::uintptr_t>(this)))
+    {
+        std::filesystem::create_directories(m_path);
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(m_path); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return m_path; }
+
+private:
+    std::filesystem::path m_path;
+};
+
+TEST(Headless, KernelsRunAtAwkwardSizes)
+{
+    for (const std::uint64_t count : {0, 1, 27, 64, 2049, 231917})
+    {
+        const vk::BufferOf<gpu::uint> values = iota(device(), count);
+        EXPECT_EQ(device().download(values), counting(count)) << count;
+    }
+}
+
+TEST(Headless, MoreGroupsThanOneDimensionHoldsAreFolded)
+{
+    const std::uint32_t max_x = device().device().limits().maxComputeWorkGroupCount[0];
+    if (max_x > 1u << 20)
+    {
+        GTEST_SKIP() << "a device that needs no folding";
+    }
+    const std::uint64_t count = std::uint64_t{max_x} * 64 + 65;
+    const vk::BufferOf<gpu::uint> values = iota(device(), count);
+    EXPECT_EQ(device().download(values), counting(count));
+}
+
+TEST(Headless, UploadAndDownloadKeepBytesAtOddOffsets)
+{
+    vk::BufferOf<std::uint8_t> buffer(device().device(), "bytes", 1001);
+    std::vector<std::uint8_t> expected(1001, 0);
+    device().upload<std::uint8_t>(buffer, expected);
+    const std::vector<std::uint8_t> part = {1, 2, 3, 4, 5, 6, 7};
+    device().upload<std::uint8_t>(buffer, part, 13);
+    std::copy(part.begin(), part.end(), expected.begin() + 13);
+    EXPECT_EQ(device().download(buffer), expected);
+    EXPECT_EQ(device().download(buffer, 14, 3), (std::vector<std::uint8_t>{2, 3, 4}));
+    EXPECT_EQ(device().download(buffer, 1000), std::vector<std::uint8_t>{0});
+    EXPECT_TRUE(device().download(buffer, 1001).empty());
+}
+
+TEST(Headless, TransfersLongerThanTheStagingBufferGoInTurns)
+{
+    std::vector<std::uint32_t> values(10'000'019);
+    std::uint32_t state = 1;
+    for (std::uint32_t& value : values)
+    {
+        state = state * 1664525u + 1013904223u;
+        value = state;
+    }
+    const vk::BufferOf<std::uint32_t> buffer = device().makeBuffer<std::uint32_t>("long", values);
+    EXPECT_EQ(device().download(buffer), values);
+}
+
+TEST(Headless, TransfersOutsideTheBufferAreRefused)
+{
+    vk::BufferOf<std::uint32_t> buffer(device().device(), "short", 4);
+    const std::vector<std::uint32_t> values(5);
+    EXPECT_THROW(device().upload<std::uint32_t>(buffer, values), Error);
+    EXPECT_THROW(device().upload<std::uint32_t>(buffer, std::span(values).first(4), 1), Error);
+    EXPECT_THROW(device().download(buffer, 5), Error);
+}
+
+TEST(Headless, ARunThatThrowsLeavesTheDeviceUsable)
+{
+    EXPECT_THROW(device().run([](vk::FrameGraph&) { throw Error(ErrorCode::Input, "while recording"); }), Error);
+    EXPECT_EQ(device().download(iota(device(), 27)), counting(27));
+}
+
+TEST(Headless, TwoDevicesWorkInOneProcess)
+{
+    vk::HeadlessDevice other(test::deviceOptions(), testKernels());
+    const vk::BufferOf<gpu::uint> here = iota(device(), 100);
+    const vk::BufferOf<gpu::uint> there = iota(other, 200);
+    EXPECT_EQ(device().download(here), counting(100));
+    EXPECT_EQ(other.download(there), counting(200));
+}
+
+TEST(Headless, AnUnknownDeviceIsRefusedWithAListOfAll)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.device = "no such device";
+    try
+    {
+        vk::HeadlessDevice refused(options, testKernels());
+        FAIL() << "it was accepted";
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), ErrorCode::Device);
+        const std::string what = error.what();
+        EXPECT_NE(what.find("no such device"), std::string::npos) << what;
+        for (const vk::DeviceReport& report : vk::queryAllDevices())
+        {
+            EXPECT_NE(what.find(report.name), std::string::npos) << what;
+        }
+    }
+}
+
+TEST(Headless, DevicesAreFoundByIndexAndByPartOfTheName)
+{
+    const std::vector<vk::DeviceReport> reports = vk::queryAllDevices();
+    for (std::size_t i = 0; i < reports.size(); ++i)
+    {
+        if (reports[i].type != "cpu" || !reports[i].usable())
+        {
+            continue;
+        }
+        vk::HeadlessOptions options = test::deviceOptions();
+        options.device = std::to_string(i);
+        EXPECT_EQ(vk::HeadlessDevice(options, {}).device().report().name, reports[i].name);
+        options.device = reports[i].name.substr(0, 4);
+        options.device[0] = 'L';
+        options.device[1] = 'L';
+        EXPECT_EQ(vk::HeadlessDevice(options, {}).device().report().name, reports[i].name);
+    }
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.device = "99";
+    EXPECT_THROW(vk::HeadlessDevice(options, {}), Error);
+}
+
+TEST(Headless, PipelineCacheFileIsWrittenAndReadAgain)
+{
+    const TemporaryFolder folder;
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.pipeline_cache_path = folder.path() / "below" / "pipelines.bin";
+    for (int round = 0; round < 2; ++round)
+    {
+        vk::HeadlessDevice cached(options, testKernels());
+        EXPECT_EQ(cached.download(iota(cached, 27)), counting(27));
+    }
+    EXPECT_TRUE(std::filesystem::exists(options.pipeline_cache_path));
+    std::size_t files = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path() / "below"))
+    {
+        ++files;
+    }
+    EXPECT_EQ(files, 1u) << "a temporary file stayed behind";
+}
+
+TEST(Headless, PipelineCacheSurvivesADamagedFile)
+{
+    const TemporaryFolder folder;
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.pipeline_cache_path = folder.path() / "pipelines.bin";
+    {
+        vk::HeadlessDevice cached(options, testKernels());
+        iota(cached, 1);
+    }
+    std::string good;
+    {
+        std::ifstream file(options.pipeline_cache_path, std::ios::binary);
+        good.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    ASSERT_GT(good.size(), 24u);
+    std::string flipped = good;
+    flipped.back() = static_cast<char>(flipped.back() ^ 1);
+    for (const std::string& contents :
+         {std::string(), std::string("garbage"), std::string(5000, '\xff'), good.substr(0, good.size() - 1), flipped})
+    {
+        std::ofstream(options.pipeline_cache_path, std::ios::binary) << contents;
+        vk::HeadlessDevice cached(options, testKernels());
+        EXPECT_EQ(cached.download(iota(cached, 27)), counting(27));
+    }
+}
+
+TEST(Headless, APipelineCacheThatCannotBeWrittenIsNoError)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.pipeline_cache_path = "/proc/no/such/folder/pipelines.bin";
+    vk::HeadlessDevice cached(options, testKernels());
+    EXPECT_EQ(cached.download(iota(cached, 27)), counting(27));
+}
+
+} // namespace

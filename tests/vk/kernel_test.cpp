@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "vk/kernels.h"
+
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace zvo;
+using test::device;
+
+std::vector<gpu::uint> runSpecialized(const vk::Specialization& specialization)
+{
+    vk::BufferOf<gpu::uint> values(device().device(), "values", 100);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            vk::Pass pass = graph.addPass("test/specialized", specialization);
+            const gpu::FillParams params = {.values = pass.write(values), .count = 100};
+            pass.dispatch(100, params);
+        });
+    return device().download(values);
+}
+
+TEST(Kernel, SpecializationConstantsReachTheKernel)
+{
+    EXPECT_EQ(runSpecialized({16, 5, 1}), std::vector<gpu::uint>(100, 16051));
+    EXPECT_EQ(runSpecialized({32, 6, 0}), std::vector<gpu::uint>(100, 32060));
+}
+
+TEST(Kernel, ConstantsThatAreNotGivenKeepTheirDefaults)
+{
+    EXPECT_EQ(runSpecialized({8}), std::vector<gpu::uint>(100, 8070));
+    EXPECT_EQ(runSpecialized({}), std::vector<gpu::uint>(100, 1070));
+}
+
+TEST(Kernel, ConstantsThatTheKernelLacksAreRefused)
+{
+    EXPECT_THROW(device().device().kernels().get("test/specialized", {8, 1, 1, 1}), Error);
+    EXPECT_THROW(device().device().kernels().get("test/iota", {1}), Error);
+}
+
+TEST(Kernel, WorkgroupsBeyondTheDeviceAreRefused)
+{
+    EXPECT_THROW(device().device().kernels().get("test/specialized", {1u << 20}), Error);
+    EXPECT_THROW(device().device().kernels().get("test/specialized", {0}), Error);
+    EXPECT_EQ(runSpecialized({8}), std::vector<gpu::uint>(100, 8070)) << "the cache is not damaged";
+}
+
+TEST(Kernel, OneChoiceOfConstantsIsOnePipeline)
+{
+    vk::KernelCache& kernels = device().device().kernels();
+    EXPECT_EQ(&kernels.get("test/specialized", {8}), &kernels.get("test/specialized", {8}));
+    EXPECT_NE(&kernels.get("test/specialized", {8}), &kernels.get("test/specialized", {16}));
+    EXPECT_EQ(kernels.get("test/specialized", {16}).interface.local_size[0], 16u);
+}
+
+TEST(Kernel, UnknownNamesAreRefused)
+{
+    try
+    {
+        device().device().kernels().get("no/such_kernel");
+        FAIL() << "it was found";
+    }
+    catch (const Error& error)
+    {
+        EXPECT_NE(std::string(error.what()).find("no/such_kernel"), std::string::npos);
+    }
+}
+
+} // namespace
