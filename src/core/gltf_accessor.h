@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/gltf_document.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// The elements of an accessor, checked to lie inside their buffer view and buffer.
+struct GltfAccessor
+{
+    const std::uint8_t* data = nullptr; // of the first element; unaligned
+    std::size_t count = 0;              // elements
+    std::size_t stride_bytes = 0;       // from one element to the next
+    std::uint32_t component_count = 0;  // in an element
+    int component_type = 0;             // TINYGLTF_COMPONENT_TYPE_*
+    bool normalized = false;            // integers stand for [0, 1] or [-1, 1]
+    std::string where;                  // "accessors[3] (POSITION of meshes[0].primitives[1])"
+};
+
+/// The accessor with that index. use: what it is for. Throws Error{Input} where it is sparse, has no data or leaves its
+/// buffer view.
+GltfAccessor openAccessor(const GltfDocument& document, int index, const std::string& use);
+
+/// Components as single precision numbers, integers as they are or normalized; component_count of the accessor is N.
+template <int N> std::vector<glm::vec<N, float>> readVectors(const GltfAccessor& accessor);
+
+/// Unsigned integers of 8, 16 or 32 bits.
+std::vector<std::uint32_t> readIndices(const GltfAccessor& accessor);
+
+} // namespace zvo

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+#include "core/gltf_document.h"
+
+#include "core/gltf_schema.h"
+#include "core/gltf_uri.h"
+#include "core/read_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+using nlohmann::json;
+using Bytes = std::span<const std::uint8_t>;
+
+static_assert(std::endian::native == std::endian::little, "glTF is little-endian and is read by copying");
+
+constexpr std::size_t kMessageStartMax = 400; // bytes of a message before and after what is left out of a long one
+constexpr std::size_t kMessageEndMax = 200;
+constexpr int kJsonDepthMax = 256; // nesting that some recursive function still stands
+
+// Binary glTF: a header of magic, version, length; then chunks of length, type and data.
+constexpr std::string_view kGlbMagic = "glTF";
+constexpr std::string_view kJsonChunk = "JSON";
+constexpr std::string_view kBinChunk{"BIN\0", 4};
+constexpr std::uint32_t kGlbVersion = 2;
+constexpr std::size_t kGlbHeaderBytes = 12;
+constexpr std::size_t kChunkHeaderBytes = 8;
+
+constexpr std::string_view kCutShort = "the file was cut short, copy or download it again";
+
+/// The parts of the document that tinygltf sees. Buffers and images, whose sizes and files it does not check well
+/// enough, are read here; extras, animations and skins are not needed.
+constexpr std::array kModelParts = {
+    "asset",     "extensionsUsed", "extensionsRequired", "scene",       "scenes",   "nodes",  "meshes",
+    "accessors", "materials",      "textures",           "bufferViews", "samplers", "cameras"};
+
+/// Extensions whose effect is loaded.
+constexpr std::array<std::string_view, 3> kSupportedExtensions = {"KHR_materials_emissive_strength",
+                                                                  "KHR_mesh_quantization", "KHR_texture_transform"};
+
+/// Extensions without which the same surfaces have the same base colour and emission: how they scatter light, lights
+/// beside the surfaces, alternatives that nobody chose, data about the file.
+constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
+    "KHR_animation_pointer",      "KHR_lights_punctual",      "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",    "KHR_materials_dispersion", "KHR_materials_ior",
+    "KHR_materials_iridescence",  "KHR_materials_sheen",      "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",      "KHR_materials_variants",
+    "KHR_materials_volume",       "KHR_xmp_json_ld"};
+
+const json& arrayOf(const json& document, const char* name)
+{
+    static const json empty = json::array();
+    const auto array = document.find(name);
+    return array != document.end() ? *array : empty;
+}
+
+template <typename List, typename Item> bool contains(const List& list, const Item& item)
+{
+    return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+std::uint32_t readU32(Bytes bytes, std::size_t offset)
+{
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + offset, sizeof(value));
+    return value;
+}
+
+std::string_view asText(Bytes bytes)
+{
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+struct Container
+{
+    Bytes json;
+    Bytes bin; // empty where there is none
+};
+
+Container splitGlb(Bytes file, const std::filesystem::path& path)
+{
+    if (file.size() < kGlbHeaderBytes)
+    {
+        throw gltfError(path,
+                        fmt::format("a binary glTF header has 12 bytes, the file {}; {}", file.size(), kCutShort));
+    }
+    const std::uint32_t version = readU32(file, 4);
+    if (version != kGlbVersion)
+    {
+        throw gltfError(path, fmt::format("binary glTF version {} is not supported; export it as glTF 2.0", version));
+    }
+    const std::uint32_t length = readU32(file, 8);
+    if (length > file.size())
+    {
+        throw gltfError(
+            path, fmt::format("the header announces {} bytes, the file has {}; {}", length, file.size(), kCutShort));
+    }
+    Container container;
+    Bytes rest = file.first(length);
+    rest = rest.subspan(std::min(kGlbHeaderBytes, rest.size()));
+    for (std::size_t chunk = 0; rest.size() >= kChunkHeaderBytes; ++chunk)
+    {
+        const std::uint32_t chunk_bytes = readU32(rest, 0);
+        const std::string_view type = asText(rest.subspan(4, 4));
+        rest = rest.subspan(kChunkHeaderBytes);
+        if (chunk_bytes > rest.size())
+        {
+            throw gltfError(path, fmt::format("chunk {} announces {} bytes, {} are left in the file; {}", chunk,
+                                              chunk_bytes, rest.size(), kCutShort));
+        }
+        if (chunk == 0 && type == kJsonChunk)
+        {
+            container.json = rest.first(chunk_bytes);
+        }
+        else if (chunk == 1 && type == kBinChunk)
+        {
+            container.bin = rest.first(chunk_bytes);
+        }
+        rest = rest.subspan(chunk_bytes);
+    }
+    if (container.json.empty())
+    {
+        throw gltfError(path, fmt::format("the first chunk is not JSON; {}", kExportAgain));
+    }
+    return container;
+}
+
+/// How deep arrays and objects are nested in JSON text.
+int nestingDepth(std::string_view text)
+{
+    int depth = 0;
+    int deepest = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i)
+    {
+        const char character = text[i];
+        if (in_string && character == '\\')
+        {
+            ++i; // what is escaped, perhaps a quote
+        }
+        else if (character == '"')
+        {
+            in_string = !in_string;
+        }
+        else if (!in_string && (character == '{' || character == '['))
+        {
+            deepest = std::max(deepest, ++depth);
+        }
+        else if (!in_string && (character == '}' || character == ']'))
+        {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
+json parseJson(std::string_view text, const std::filesystem::path& path)
+{
+    if (nestingDepth(text) > kJsonDepthMax)
+    {
+        throw gltfError(path, fmt::format("its JSON is nested more than {} deep; {}", kJsonDepthMax, kExportAgain));
+    }
+    try
+    {
+        return json::parse(text);
+    }
+    catch (const json::exception& failure)
+    {
+        // The message opens with "[json.exception...] ", which helps nobody.
+        const std::string message = failure.what();
+        const std::size_t start = message.find("] ");
+        throw gltfError(path, fmt::format("not a glTF file: {}; check that it is glTF 2.0 (.gltf or .glb)",
+                                          start == std::string::npos ? message : message.substr(start + 2)));
+    }
+}
+
+void checkVersion(const json& document, const std::filesystem::path& path)
+{
+    const json* asset = document.is_object() && document.contains("asset") ? &document["asset"] : nullptr;
+    if (asset == nullptr || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
+    {
+        throw gltfError(path, "not a glTF file: asset.version is missing; check that it is glTF 2.0 (.gltf or .glb)");
+    }
+    const auto minimum = asset->find("minVersion");
+    const bool has_minimum = minimum != asset->end() && minimum->is_string();
+    const auto version = (has_minimum ? *minimum : (*asset)["version"]).get<std::string>();
+    if (has_minimum ? version != "2.0" : !version.starts_with("2."))
+    {
+        throw gltfError(path, fmt::format("glTF version {} is not supported; export it as glTF 2.0", version));
+    }
+}
+
+void checkExtensions(const json& document, const std::filesystem::path& path)
+{
+    for (const json& item : arrayOf(document, "extensionsRequired"))
+    {
+        const auto name = item.get<std::string>();
+        if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name))
+        {
+            throw gltfError(path,
+                            fmt::format("requires the extension {}, which is not supported; export it without", name));
+        }
+    }
+}
+
+tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
+{
+    json parts = json::object();
+    for (const char* part : kModelParts)
+    {
+        if (document.contains(part))
+        {
+            parts[part] = std::move(document[part]);
+        }
+    }
+    const std::string text = parts.dump();
+    if (text.size() > std::numeric_limits<unsigned int>::max())
+    {
+        throw gltfError(path, "more than 4 GiB of JSON; export it as smaller files");
+    }
+    tinygltf::Model model;
+    std::string failure;
+    std::string warning;
+    const bool parsed = tinygltf::TinyGLTF().LoadASCIIFromString(&model, &failure, &warning, text.c_str(),
+                                                                 static_cast<unsigned int>(text.size()), "");
+    if (!parsed || !failure.empty())
+    {
+        throw gltfError(path, fmt::format("{}; {}", failure.empty() ? "not valid glTF" : failure, kExportAgain));
+    }
+    return model;
+}
+
+void loadBuffers(GltfDocument& document, const json& buffers, Bytes bin)
+{
+    for (std::size_t i = 0; i < buffers.size(); ++i)
+    {
+        const std::string where = fmt::format("buffers[{}]", i);
+        const auto wanted = buffers[i]["byteLength"].get<std::uint64_t>();
+        const auto uri = buffers[i].find("uri");
+        Bytes bytes = bin;
+        if (uri != buffers[i].end())
+        {
+            document.storage.push_back(document.readUri(uri->get<std::string>(), where + ".uri"));
+            bytes = document.storage.back();
+        }
+        else if (i > 0 || bin.empty())
+        {
+            throw document.error(
+                fmt::format("{} has neither a URI nor a binary chunk in the file; {}", where, kExportAgain));
+        }
+        if (bytes.size() < wanted)
+        {
+            throw document.error(
+                fmt::format("{} needs {} bytes, but its data has {}; {}", where, wanted, bytes.size(), kCutShort));
+        }
+        document.buffers.push_back(bytes.first(wanted));
+    }
+}
+
+std::vector<GltfImageSource> listImages(const json& images)
+{
+    std::vector<GltfImageSource> sources;
+    for (const json& image : images)
+    {
+        sources.push_back(
+            {image.value("name", std::string()), image.value("uri", std::string()), image.value("bufferView", -1)});
+    }
+    return sources;
+}
+
+} // namespace
+
+Error gltfError(const std::filesystem::path& path, std::string_view text)
+{
+    std::string message;
+    for (const char character : fmt::format("{}: {}", path.string(), text))
+    {
+        const bool control = static_cast<unsigned char>(character) < ' ';
+        if (!control || !message.ends_with(' '))
+        {
+            message += control ? ' ' : character;
+        }
+    }
+    if (message.size() > kMessageStartMax + kMessageEndMax)
+    {
+        message.replace(kMessageStartMax, message.size() - kMessageStartMax - kMessageEndMax, "...");
+    }
+    return {ErrorCode::Input, message};
+}
+
+Bytes GltfDocument::bufferView(int index) const
+{
+    const tinygltf::BufferView& view = model.bufferViews[index];
+    const Bytes buffer = buffers[view.buffer];
+    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
+    {
+        throw error(fmt::format("bufferViews[{}] takes {} bytes at {} of buffers[{}], which has {}; {}", index,
+                                view.byteLength, view.byteOffset, view.buffer, buffer.size(), kExportAgain));
+    }
+    return buffer.subspan(view.byteOffset, view.byteLength);
+}
+
+std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const std::string& where) const
+{
+    if (isDataUri(uri))
+    {
+        if (auto bytes = decodeDataUri(uri))
+        {
+            return *std::move(bytes);
+        }
+        throw error(fmt::format("{} is not a valid data URI; {}", where, kExportAgain));
+    }
+    if (isRemoteUri(uri))
+    {
+        throw error(fmt::format("{} is {}: only files beside the document and data URIs are read; download it and name "
+                                "the file",
+                                where, uri));
+    }
+    // Some exporters write names as they are, without percent-encoding.
+    const std::filesystem::path folder = path.parent_path();
+    const std::filesystem::path decoded = folder / decodePercent(uri);
+    std::error_code unreadable;
+    const bool as_written =
+        !std::filesystem::exists(decoded, unreadable) && std::filesystem::exists(folder / uri, unreadable);
+    try
+    {
+        return readFile(as_written ? folder / uri : decoded);
+    }
+    catch (const Error& failure)
+    {
+        throw error(fmt::format("{}: {}", where, failure.what()));
+    }
+}
+
+bool GltfDocument::uses(std::string_view extension) const
+{
+    return contains(model.extensionsUsed, extension) || contains(model.extensionsRequired, extension);
+}
+
+void GltfWarnings::add(const std::string& kind, const std::string& where)
+{
+    const auto [entry, is_new] = m_by_kind.emplace(kind, m_entries.size());
+    if (is_new)
+    {
+        m_entries.push_back({kind, where, 0});
+    }
+    ++m_entries[entry->second].count;
+}
+
+std::vector<std::string> GltfWarnings::lines(const std::filesystem::path& path) const
+{
+    std::vector<std::string> lines;
+    for (const Entry& entry : m_entries)
+    {
+        const std::string more = entry.count > 1 ? fmt::format(" and {} more", entry.count - 1) : "";
+        const std::string where = entry.where.empty() ? "" : fmt::format(" ({}{})", entry.where, more);
+        lines.emplace_back(gltfError(path, entry.kind + where).what());
+    }
+    return lines;
+}
+
+GltfDocument openGltf(const std::filesystem::path& path)
+{
+    GltfDocument document;
+    document.path = path;
+    document.storage.push_back(readFile(path));
+    const Bytes file = document.storage.front();
+    const bool binary = asText(file).starts_with(kGlbMagic);
+    const Container container = binary ? splitGlb(file, path) : Container{file, {}};
+    json root = parseJson(asText(container.json), path);
+    checkVersion(root, path);
+    checkGltfSchema(root, path);
+    checkExtensions(root, path);
+    loadBuffers(document, arrayOf(root, "buffers"), container.bin);
+    document.images = listImages(arrayOf(root, "images"));
+    document.model = parseModel(root, path);
+    return document;
+}
+
+} // namespace zvo

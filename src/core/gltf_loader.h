@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+
+#include <filesystem>
+#include <span>
+
+namespace zvo
+{
+
+/// The triangles, materials and cameras of the default scene of a glTF 2.0 file (.gltf or .glb), in the pose of its
+/// nodes: animations, skins and morph targets are not applied. A mesh that several nodes show is stored once; only
+/// materials and images that a triangle uses are loaded. What is left out is listed in Scene::warnings. Throws
+/// Error{Input}, one line with the path, for a file that is missing, broken or requires an unsupported extension.
+/// After: Khronos Group, glTF 2.0 Specification, version 2.0.1, 2021.
+Scene loadGltf(const std::filesystem::path& path);
+
+/// Several files as one scene, in the order of the paths.
+Scene loadScenes(std::span<const std::filesystem::path> paths);
+
+} // namespace zvo

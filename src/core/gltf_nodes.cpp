@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "core/gltf_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr double kAffineTolerance = 1e-6; // of the last row; some exporters round
+
+glm::dvec3 toVec3(const std::vector<double>& values, double missing)
+{
+    return values.empty() ? glm::dvec3(missing) : glm::dvec3(values[0], values[1], values[2]);
+}
+
+/// The rotation of the quaternion (x, y, z, w), whatever its length; a zero one is no rotation.
+glm::dmat3 rotationMatrix(const std::vector<double>& quaternion)
+{
+    if (quaternion.empty())
+    {
+        return glm::dmat3(1.0);
+    }
+    const glm::dvec4 q(quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
+    const double length_squared = glm::dot(q, q);
+    const double s = length_squared > 0.0 ? 2.0 / length_squared : 0.0;
+    const glm::dvec3 column_x(1.0 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y + q.w * q.z),
+                              s * (q.x * q.z - q.w * q.y));
+    const glm::dvec3 column_y(s * (q.x * q.y - q.w * q.z), 1.0 - s * (q.x * q.x + q.z * q.z),
+                              s * (q.y * q.z + q.w * q.x));
+    const glm::dvec3 column_z(s * (q.x * q.z + q.w * q.y), s * (q.y * q.z - q.w * q.x),
+                              1.0 - s * (q.x * q.x + q.y * q.y));
+    return {column_x, column_y, column_z};
+}
+
+glm::dmat4 localMatrix(const GltfDocument& document, int index)
+{
+    const tinygltf::Node& node = document.model.nodes[index];
+    glm::dmat4 matrix(1.0);
+    if (node.matrix.empty())
+    {
+        const glm::dmat3 rotation = rotationMatrix(node.rotation);
+        const glm::dvec3 scale = toVec3(node.scale, 1.0);
+        for (int column = 0; column < 3; ++column)
+        {
+            matrix[column] = glm::dvec4(rotation[column] * scale[column], 0.0);
+        }
+        matrix[3] = glm::dvec4(toVec3(node.translation, 0.0), 1.0);
+        return matrix;
+    }
+    for (int i = 0; i < 16; ++i)
+    {
+        matrix[i / 4][i % 4] = node.matrix[i];
+    }
+    for (int column = 0; column < 4; ++column)
+    {
+        const double affine = column == 3 ? 1.0 : 0.0;
+        if (std::abs(matrix[column][3] - affine) > kAffineTolerance)
+        {
+            throw document.error(
+                fmt::format("the last row of nodes[{}].matrix is not (0, 0, 0, 1); {}", index, kExportAgain));
+        }
+        matrix[column][3] = affine;
+    }
+    return matrix;
+}
+
+/// The parent of each node. Throws for a node with two, and for a cycle.
+std::vector<std::optional<int>> findParents(const GltfDocument& document)
+{
+    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
+    std::vector<std::optional<int>> parents(nodes.size());
+    for (int node = 0; node < static_cast<int>(nodes.size()); ++node)
+    {
+        for (const int child : nodes[node].children)
+        {
+            if (parents[child])
+            {
+                throw document.error(fmt::format("nodes[{}] is a child of nodes[{}] and of nodes[{}]; {}", child,
+                                                 *parents[child], node, kExportAgain));
+            }
+            parents[child] = node;
+        }
+    }
+    // With one parent at most, a node that no walk from a root reaches hangs on a cycle.
+    std::vector<int> reached;
+    for (int node = 0; node < static_cast<int>(nodes.size()); ++node)
+    {
+        if (!parents[node])
+        {
+            reached.push_back(node);
+        }
+    }
+    std::vector<bool> is_reached(nodes.size(), false);
+    for (std::size_t i = 0; i < reached.size(); ++i)
+    {
+        is_reached[reached[i]] = true;
+        const std::vector<int>& children = nodes[reached[i]].children;
+        reached.insert(reached.end(), children.begin(), children.end());
+    }
+    const auto lost = std::find(is_reached.begin(), is_reached.end(), false);
+    if (lost != is_reached.end())
+    {
+        throw document.error(
+            fmt::format("nodes[{}] is in or below a cycle of nodes; {}", lost - is_reached.begin(), kExportAgain));
+    }
+    return parents;
+}
+
+std::vector<int> findRoots(const GltfDocument& document, const std::vector<std::optional<int>>& parents)
+{
+    const tinygltf::Model& model = document.model;
+    if (!model.scenes.empty())
+    {
+        return model.scenes[std::max(model.defaultScene, 0)].nodes;
+    }
+    std::vector<int> roots;
+    for (int node = 0; node < static_cast<int>(parents.size()); ++node)
+    {
+        if (!parents[node])
+        {
+            roots.push_back(node);
+        }
+    }
+    return roots;
+}
+
+} // namespace
+
+std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
+{
+    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
+    const std::vector<int> roots = findRoots(document, findParents(document));
+    std::vector<GltfPlacedNode> placed;
+    std::vector<GltfPlacedNode> open; // the next one last; to_world is that of the parent
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+    {
+        open.push_back({*root, glm::dmat4(1.0)});
+    }
+    std::vector<bool> is_placed(nodes.size(), false);
+    while (!open.empty())
+    {
+        GltfPlacedNode node = open.back();
+        open.pop_back();
+        if (is_placed[node.node])
+        {
+            throw document.error(fmt::format("nodes[{}] is in the scene twice; {}", node.node, kExportAgain));
+        }
+        is_placed[node.node] = true;
+        node.to_world = node.to_world * localMatrix(document, node.node);
+        placed.push_back(node);
+        const std::vector<int>& children = nodes[node.node].children;
+        for (auto child = children.rbegin(); child != children.rend(); ++child)
+        {
+            open.push_back({*child, node.to_world});
+        }
+    }
+    return placed;
+}
+
+glm::mat4 toSinglePrecision(const GltfDocument& document, const GltfPlacedNode& node)
+{
+    const glm::mat4 matrix(node.to_world);
+    for (int i = 0; i < 16; ++i)
+    {
+        if (!std::isfinite(matrix[i / 4][i % 4]))
+        {
+            throw document.error(
+                fmt::format("the transform of nodes[{}] overflows single precision; make it smaller", node.node));
+        }
+    }
+    return matrix;
+}
+
+} // namespace zvo

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+namespace zvo
+{
+
+/// Checks what the loader relies on in a glTF 2.0 document: that properties have the type of the specification's schema
+/// and that every index is in range. Throws Error{Input} that names the first property that does not.
+void checkGltfSchema(const nlohmann::json& document, const std::filesystem::path& path);
+
+} // namespace zvo

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace zvo
+{
+
+/// Axis-aligned box in world space; empty while min > max.
+struct Bounds
+{
+    glm::vec3 min{INFINITY};
+    glm::vec3 max{-INFINITY};
+
+    [[nodiscard]] bool empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+    void extend(const glm::vec3& point)
+    {
+        min = glm::min(min, point);
+        max = glm::max(max, point);
+    }
+};
+
+/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on. Both numbers are
+/// single precision: printed with nine digits they give the same grid again, bit for bit.
+struct Grid
+{
+    glm::vec3 origin{0.0F};  // world position of the minimum corner
+    float voxel_size = 1.0F; // world units
+    std::uint32_t depth = 1; // 1 to kDepthMax
+
+    static constexpr std::uint32_t kDepthMax = 12;
+
+    [[nodiscard]] std::uint32_t resolution() const { return 1U << depth; }
+
+    /// Levels of octree nodes: two octree levels each, the odd one at the root.
+    [[nodiscard]] std::uint32_t nodeLevels() const { return (depth + 1) / 2; }
+
+    /// Voxels per edge of the cube that the root node covers, 4^nodeLevels(): the resolution, or twice it.
+    [[nodiscard]] std::uint32_t rootResolution() const { return 1U << (2 * nodeLevels()); }
+
+    /// The smallest cube around bounds, centred on it. Empty bounds or a single point give a cube of edge 1.
+    static Grid around(const Bounds& bounds, std::uint32_t depth);
+
+    /// The cube with bounds' minimum corner and the length of its longest edge. Throws Error{Usage} for empty bounds.
+    static Grid withCorner(const Bounds& bounds, std::uint32_t depth);
+};
+
+} // namespace zvo

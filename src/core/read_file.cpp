@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "core/read_file.h"
+
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <memory>
+#include <system_error>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::size_t kFirstBlockBytes = std::size_t{1} << 16U;
+
+Error readError(const std::filesystem::path& path, int code)
+{
+    return {ErrorCode::Input, fmt::format("cannot read {}: {}; check the path and its permissions", path.string(),
+                                          std::generic_category().message(code))};
+}
+
+struct CloseFile
+{
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+} // namespace
+
+std::vector<std::uint8_t> readFile(const std::filesystem::path& path)
+{
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+    if (!file)
+    {
+        throw readError(path, errno);
+    }
+    // The size is a hint: a pipe has none, and one byte more lets the first read see the end.
+    std::error_code no_size;
+    const std::uintmax_t size = std::filesystem::file_size(path, no_size);
+    std::vector<std::uint8_t> bytes(no_size ? kFirstBlockBytes : static_cast<std::size_t>(size) + 1);
+    std::size_t used = 0;
+    while (true)
+    {
+        used += std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
+        if (std::ferror(file.get()) != 0)
+        {
+            throw readError(path, errno);
+        }
+        if (used < bytes.size())
+        {
+            break;
+        }
+        bytes.resize(std::max(bytes.size() * 2, kFirstBlockBytes));
+    }
+    bytes.resize(used);
+    return bytes;
+}
+
+} // namespace zvo

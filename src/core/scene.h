@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/grid.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// A decoded picture: width * height * 4 bytes, rows from the top, RGBA with straight alpha, colour sRGB encoded.
+struct Image
+{
+    std::string name;
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+enum class WrapMode : std::uint32_t
+{
+    Repeat,
+    MirroredRepeat,
+    ClampToEdge
+};
+
+/// An image and how coordinates outside of it are taken.
+struct Texture
+{
+    std::uint32_t image = 0; // index into Scene::images
+    WrapMode wrap_u = WrapMode::Repeat;
+    WrapMode wrap_v = WrapMode::Repeat;
+};
+
+enum class AlphaMode : std::uint32_t
+{
+    Opaque, // alpha is ignored
+    Mask,   // a fragment whose alpha is below the cutoff does not exist
+    Blend   // a fragment exists in proportion to its alpha, by ordered dither on the voxel's coordinates
+};
+
+struct Material
+{
+    std::string name;
+    glm::vec4 base_color{1.0F}; // linear
+    std::optional<std::uint32_t> base_color_texture; // index into Scene::textures
+    glm::vec3 emission{0.0F};                        // linear radiance: factor times strength
+    std::optional<std::uint32_t> emission_texture;   // multiplies emission
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    float alpha_cutoff = 0.5F; // AlphaMode::Mask
+    bool double_sided = false;
+};
+
+/// A triangle list with one material. All vertex arrays are either empty or as long as positions.
+struct Primitive
+{
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals; // unit length; empty: flat shading from the triangles
+    std::vector<glm::vec2> uvs;     // texture coordinates, v = 0 at the top row
+    std::vector<glm::vec4> colors;  // linear, multiplies the base colour
+    std::vector<glm::uvec3> triangles; // vertex indices, all < positions.size()
+    std::uint32_t material = 0;        // index into Scene::materials
+};
+
+/// One appearance of a primitive in the world.
+struct Instance
+{
+    std::uint32_t primitive = 0; // index into Scene::primitives
+    glm::mat4 transform{1.0F};   // object to world, affine: the last row is (0, 0, 0, 1)
+};
+
+struct Camera
+{
+    std::string name;
+    glm::mat4 transform{1.0F}; // camera to world: looks along -z, y up
+    bool orthographic = false;
+    float vertical_fov = 0.8F;  // radians; perspective
+    float half_height = 1.0F;   // world units; orthographic
+};
+
+/// Triangles with materials, placed in the world: what a glTF file comes down to.
+struct Scene
+{
+    std::vector<Image> images;
+    std::vector<Texture> textures;
+    std::vector<Material> materials; // at least one when there are primitives
+    std::vector<Primitive> primitives;
+    std::vector<Instance> instances;
+    std::vector<Camera> cameras;
+    std::vector<std::string> warnings; // what was left out while loading, one line each
+
+    /// Triangles with instances counted each time.
+    [[nodiscard]] std::uint64_t triangleCount() const;
+
+    /// Box around all finite transformed vertices that a triangle uses, in the single precision that the voxelizer uses.
+    [[nodiscard]] Bounds bounds() const;
+
+    /// Adds everything of other, with indices shifted.
+    void append(Scene&& other);
+};
+
+/// point through transform in the order of operations that the voxelizer uses:
+/// ((m00 * x + m01 * y) + m02 * z) + m03 per component, each operation rounded to single precision.
+glm::vec3 transformPoint(const glm::mat4& transform, const glm::vec3& point);
+
+} // namespace zvo
