@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "oracle/coverage.h"
+
+#include <algorithm>
+
+namespace zvo::oracle
+{
+namespace
+{
+
+struct Interval
+{
+    Int128 low;
+    Int128 high;
+};
+
+Interval project(const Triangle& triangle, const Vec& axis)
+{
+    const Int128 p[3] = {dot(axis, triangle[0]), dot(axis, triangle[1]), dot(axis, triangle[2])};
+    return {std::min({p[0], p[1], p[2]}), std::max({p[0], p[1], p[2]})};
+}
+
+Interval project(const Box& box, const Vec& axis)
+{
+    Interval interval{0, 0};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        interval.low += axis[i] * (axis[i] < 0 ? box.high[i] : box.low[i]);
+        interval.high += axis[i] * (axis[i] < 0 ? box.low[i] : box.high[i]);
+    }
+    return interval;
+}
+
+bool separates(const Vec& axis, const Triangle& triangle, const Box& box)
+{
+    const Interval a = project(triangle, axis);
+    const Interval b = project(box, axis);
+    return a.high < b.low || b.high < a.low;
+}
+
+constexpr Int128 kOne = 1;
+constexpr std::array<Vec, 3> kUnit{Vec{kOne, 0, 0}, Vec{0, kOne, 0}, Vec{0, 0, kOne}};
+
+/// The plane, taken at the centre of the voxel's column along w, has its height in the voxel.
+bool planeInVoxel(const Triangle& triangle, const Vec& normal, const glm::uvec3& voxel, std::uint32_t resolution)
+{
+    const std::size_t w = majorAxis(normal);
+    const std::size_t u = (w + 1) % 3;
+    const std::size_t v = (w + 2) % 3;
+    const Vec center = voxelBox(voxel, voxel).low - Vec{-128, -128, -128};
+
+    // normal . (P - V0) = 0 with P = (center_u, center_v, height); height = V0_w + numerator / |normal_w|.
+    const Int128 rise = -(normal[u] * (center[u] - triangle[0][u]) + normal[v] * (center[v] - triangle[0][v]));
+    const Int128 numerator = normal[w] < 0 ? -rise : rise;
+    const Int128 denominator = absolute(normal[w]);
+    const Int128 layer = voxel[static_cast<int>(w)];
+    const Int128 low = (layer * kLatticeVoxel - triangle[0][w]) * denominator;
+    const Int128 high = ((layer + 1) * kLatticeVoxel - triangle[0][w]) * denominator;
+
+    const bool in_upper_face = normal[u] == 0 && normal[v] == 0 && triangle[0][w] == Int128{resolution} * kLatticeVoxel;
+    if (in_upper_face)
+        return layer == Int128{resolution} - 1;
+    return low <= numerator && numerator < high;
+}
+
+/// In the plane (a, b), the voxel's diamond reaches the inner side of all three edges.
+bool diamondInsideEdges(const Triangle& triangle, const Vec& normal, const Vec& center, std::size_t a)
+{
+    const std::size_t b = (a + 1) % 3;
+    const std::size_t c = (a + 2) % 3;
+    const Int128 sign = normal[c] < 0 ? -1 : 1;
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        const Vec& from = triangle[i];
+        const Vec edge = triangle[(i + 1) % 3] - from;
+        const Int128 m_a = -sign * edge[b];
+        const Int128 m_b = sign * edge[a];
+        const Int128 reach = 128 * std::max(absolute(edge[a]), absolute(edge[b]));
+        if (m_a * (center[a] - from[a]) + m_b * (center[b] - from[b]) + reach < 0)
+            return false;
+    }
+    return true;
+}
+
+/// Halves the box of voxels first to last until it is one voxel or the triangle does not touch it.
+void subdivide(const Triangle& triangle, std::uint32_t resolution, Coverage coverage, const glm::uvec3& first,
+               const glm::uvec3& last, const std::function<void(const glm::uvec3&)>& visit)
+{
+    if (!overlaps(triangle, voxelBox(first, last))) // thin coverage is a subset, a test checks it
+        return;
+    const glm::uvec3 extent = last - first;
+    if (extent == glm::uvec3{0U})
+    {
+        if (coverage == Coverage::Conservative || coversThin(triangle, first, resolution))
+            visit(first);
+        return;
+    }
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    glm::uvec3 lower_last = last;
+    glm::uvec3 upper_first = first;
+    lower_last[axis] = first[axis] + extent[axis] / 2;
+    upper_first[axis] = lower_last[axis] + 1;
+    subdivide(triangle, resolution, coverage, first, lower_last, visit);
+    subdivide(triangle, resolution, coverage, upper_first, last, visit);
+}
+
+} // namespace
+
+Vec normalOf(const Triangle& triangle)
+{
+    return cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+}
+
+std::uint32_t majorAxis(const Vec& normal)
+{
+    std::uint32_t axis = 0;
+    for (std::uint32_t i = 1; i < 3; ++i)
+        if (absolute(normal[i]) > absolute(normal[axis]))
+            axis = i;
+    return axis;
+}
+
+bool overlaps(const Triangle& triangle, const Box& box)
+{
+    for (const Vec& unit : kUnit)
+        if (separates(unit, triangle, box))
+            return false;
+    if (separates(normalOf(triangle), triangle, box))
+        return false;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (const Vec& unit : kUnit)
+            if (separates(cross(triangle[(i + 1) % 3] - triangle[i], unit), triangle, box))
+                return false;
+    return true;
+}
+
+bool coversThin(const Triangle& triangle, const glm::uvec3& voxel, std::uint32_t resolution)
+{
+    const Vec normal = normalOf(triangle);
+    if (normal == Vec{0, 0, 0})
+        return false;
+    const Box box = voxelBox(voxel, voxel);
+    const Vec center = box.low - Vec{-128, -128, -128};
+    for (const Vec& unit : kUnit)
+        if (separates(unit, triangle, box))
+            return false;
+    if (!planeInVoxel(triangle, normal, voxel, resolution))
+        return false;
+    for (std::size_t a = 0; a < 3; ++a)
+        if (!diamondInsideEdges(triangle, normal, center, a))
+            return false;
+    return true;
+}
+
+Box voxelBox(const glm::uvec3& first, const glm::uvec3& last)
+{
+    Box box{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        box.low[i] = Int128{first[static_cast<int>(i)]} * kLatticeVoxel;
+        box.high[i] = (Int128{last[static_cast<int>(i)]} + 1) * kLatticeVoxel;
+    }
+    return box;
+}
+
+void forEachCoveredVoxel(const Triangle& triangle, std::uint32_t resolution, Coverage coverage,
+                         const std::function<void(const glm::uvec3&)>& visit)
+{
+    glm::uvec3 first{};
+    glm::uvec3 last{};
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        // Closed voxels: one that ends where the triangle begins is a candidate too.
+        const Interval range = project(triangle, kUnit[i]);
+        const Int128 low = floorDivide(range.low - 1, kLatticeVoxel);
+        const Int128 high = floorDivide(range.high, kLatticeVoxel);
+        if (high < 0 || low >= resolution)
+            return;
+        first[static_cast<int>(i)] = static_cast<std::uint32_t>(std::max(low, Int128{0}));
+        last[static_cast<int>(i)] = static_cast<std::uint32_t>(std::min(high, Int128{resolution} - 1));
+    }
+    subdivide(triangle, resolution, coverage, first, last, visit);
+}
+
+} // namespace zvo::oracle

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Small inputs for the oracles' own tests.
+#pragma once
+
+#include "core/scene.h"
+#include "oracle/coverage.h"
+
+#include <random>
+#include <vector>
+
+namespace zvo::oracle::test
+{
+
+using Random = std::mt19937;
+
+inline std::int64_t pick(Random& random, std::int64_t low, std::int64_t high)
+{
+    return std::uniform_int_distribution<std::int64_t>(low, high)(random);
+}
+
+inline Vec pickPoint(Random& random, std::int64_t low, std::int64_t high)
+{
+    return {pick(random, low, high), pick(random, low, high), pick(random, low, high)};
+}
+
+inline Triangle pickTriangle(Random& random, std::int64_t low, std::int64_t high)
+{
+    return {pickPoint(random, low, high), pickPoint(random, low, high), pickPoint(random, low, high)};
+}
+
+/// One instance of the triangles, three corners each, with one default material.
+inline Scene sceneOf(const std::vector<glm::vec3>& corners)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.primitives.emplace_back();
+    scene.primitives[0].positions = corners;
+    for (std::uint32_t i = 0; i < corners.size(); i += 3)
+        scene.primitives[0].triangles.emplace_back(i, i + 1, i + 2);
+    scene.instances.emplace_back();
+    return scene;
+}
+
+inline Material materialOf(AlphaMode mode, const glm::vec4& base_color = glm::vec4(1.0F), float cutoff = 0.5F)
+{
+    Material material;
+    material.base_color = base_color;
+    material.alpha_mode = mode;
+    material.alpha_cutoff = cutoff;
+    return material;
+}
+
+/// Every voxel of the grid.
+inline std::vector<glm::uvec3> allVoxels(std::uint32_t resolution)
+{
+    std::vector<glm::uvec3> voxels;
+    for (std::uint32_t z = 0; z < resolution; ++z)
+        for (std::uint32_t y = 0; y < resolution; ++y)
+            for (std::uint32_t x = 0; x < resolution; ++x)
+                voxels.emplace_back(x, y, z);
+    return voxels;
+}
+
+} // namespace zvo::oracle::test
