@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Packing of attributes in integers, so that every device packs the same bytes.
+#include "shared/octree.h"
+#include "shared/scene.h"
+
+const int kNormalOne = 32767;      // 1 as a snorm16
+const uint kNormalSumBits = 15u;   // components are shortened to this many bits before they are divided
+
+// Octahedral code of the direction of v (Cigolle et al., A Survey of Efficient Representations for Independent Unit
+// Vectors, 2014). The zero vector becomes +z.
+uint encodeNormal(ivec3 v)
+{
+    uvec3 size = uvec3(abs(v));
+    int shift = max(findMSB(size.x | size.y | size.z) + 1 - int(kNormalSumBits), 0);
+    size >>= shift;
+    uint sum = max(size.x + size.y + size.z, 1u);
+    ivec2 p = ivec2((size.xy * uint(kNormalOne) + sum / 2u) / sum);
+    p = v.z < 0 ? kNormalOne - p.yx : p;
+    p.x = v.x < 0 ? -p.x : p.x;
+    p.y = v.y < 0 ? -p.y : p.y;
+    return (uint(p.x) & kFractionOne) | (uint(p.y) << 16);
+}
+
+// Vector in the direction of an octahedral code; the components' absolute values add up to kNormalOne.
+ivec3 decodeNormal(uint code)
+{
+    ivec2 p = ivec2(int(code << 16) >> 16, int(code) >> 16);
+    int z = kNormalOne - abs(p.x) - abs(p.y);
+    ivec2 folded = ivec2(p.x < 0 ? abs(p.y) - kNormalOne : kNormalOne - abs(p.y),
+                         p.y < 0 ? abs(p.x) - kNormalOne : kNormalOne - abs(p.x));
+    return ivec3(z < 0 ? folded : p, z);
+}
+
+// 8-bit sRGB code of a linear 16-bit fraction.
+uint encodeSrgb(SceneView_ConstPtr scene, uint linear)
+{
+    return (scene.data[0].linear_to_srgb.data[linear >> 2] >> (8u * (linear & 3u))) & 255u;
+}
+
+uint packColor(SceneView_ConstPtr scene, uvec3 linear, uint flags)
+{
+    return encodeSrgb(scene, linear.r) | (encodeSrgb(scene, linear.g) << 8) | (encodeSrgb(scene, linear.b) << 16) |
+           (flags << 24);
+}
+
+// Linear 16-bit fractions of a packed colour.
+uvec3 unpackColor(SceneView_ConstPtr scene, uint color)
+{
+    return uvec3(scene.data[0].srgb_to_linear.data[color & 255u],
+                 scene.data[0].srgb_to_linear.data[(color >> 8) & 255u],
+                 scene.data[0].srgb_to_linear.data[(color >> 16) & 255u]);
+}

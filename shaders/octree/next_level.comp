@@ -1,0 +1,23 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Notes which work items the level that was just listed has, and how many workgroups take them.
+#extension GL_GOOGLE_include_directive : require
+#include "octree/octree.h"
+
+layout(local_size_x = 1) in;
+layout(push_constant, scalar) uniform Push
+{
+    NextLevelParams params;
+};
+
+void main()
+{
+    uint first = 0u;
+    if (params.step != 0u)
+        first = params.ranges.data[params.step - 1u].first + params.ranges.data[params.step - 1u].count;
+    uint count = params.counters.data[0].node_count - first;
+    params.ranges.data[params.step] = LevelRange(first, count);
+    uint groups = (count + kNodesGroup - 1u) / kNodesGroup;
+    uint rows = (groups + params.max_groups_x - 1u) / params.max_groups_x;
+    params.args.data[0] = DispatchArgs(rows > 1u ? params.max_groups_x : groups, rows, 1u);
+}

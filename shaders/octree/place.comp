@@ -1,0 +1,34 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Gives every node of a level its number: the parent's child base plus its rank among the parent's children. Until
+// octree/assign runs, base_hi of the node holds its entry in the brick table.
+#extension GL_GOOGLE_include_directive : require
+#include "octree/octree.h"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = kNodesGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    PlaceParams params;
+};
+
+uint childNode(Node parent, uint cell)
+{
+    uint below = (1u << (cell & 31u)) - 1u;
+    return cell < 32u ? parent.base_lo + bitCount(parent.mask_lo & below)
+                      : parent.base_hi + bitCount(parent.mask_hi & below);
+}
+
+void main()
+{
+    uint index = threadIndex();
+    if (index >= params.node_count)
+        return;
+    WorkItem item = params.items.data[params.first_item + index];
+    BrickEntry brick = params.bricks.data[item.entry];
+    uint node = 0u;
+    if (params.is_root == 0u)
+        node = childNode(params.nodes.data[params.bricks.data[item.parent_entry].base], brick.key & 63u);
+    params.nodes.data[node] = Node(brick.mask_lo, 0u, brick.mask_hi, item.entry);
+    params.bricks.data[item.entry].base = node;
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// The octree in device memory.
+//
+// One node stores the 64 children of two octree levels at once, a block of 4x4x4 cells. Cell (x, y, z) of the block is
+// bit  x0 | y0 << 1 | z0 << 2 | x1 << 3 | y1 << 4 | z1 << 5  of the mask (its 6-bit Morton code), x = x0 + 2 x1 and so
+// on; so each byte of the mask is one 2x2x2 octant, and the mask's lower half are the cells with z < 2.
+//
+//     byte 0        4        8        12       16
+//          | mask_lo| base_lo| mask_hi| base_hi|
+//
+//   inner node: child c of a half is node             base + popcount(mask & bits below c)
+//   leaf node:  voxel c of a half has attribute index base + popcount(mask & bits below c)
+//
+// Nodes stand breadth first, each level in Morton order; node 0 is the root. With L = nodeLevels(depth) levels the
+// root covers 4^L voxels per edge: for an odd depth the grid is the lower octant of that cube.
+#ifndef ZVO_SHADERS_SHARED_OCTREE_H
+#define ZVO_SHADERS_SHARED_OCTREE_H
+
+#include "shared/gpu.h"
+
+GPU_NAMESPACE_BEGIN
+
+/// A 4x4x4 block of cells: 16 bytes, of which a traversal step loads one half.
+struct Node
+{
+    uint mask_lo; // cells with z < 2
+    uint base_lo; // first child node, or first voxel attribute in a leaf
+    uint mask_hi; // cells with z >= 2
+    uint base_hi;
+};
+GPU_BUFFER(Node, 16);
+
+/// What a voxel, or an inner node for level of detail, looks like: 8 bytes.
+struct Attribute
+{
+    uint color;  // sRGB red | green << 8 | blue << 16 | flags << 24
+    uint normal; // octahedral, snorm16 x | snorm16 y << 16
+};
+GPU_BUFFER(Attribute, 8);
+
+const uint kAttributeEmissive = 1u; // flag: the voxel has an entry in the emission table
+
+const uint kNodeLevelsMax = 9u; // two octree levels each: depth 18
+
+GPU_NAMESPACE_END
+
+#endif

@@ -1,0 +1,27 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Emissive voxels of each block of kScanBlock words of 32 voxels.
+#extension GL_GOOGLE_include_directive : require
+#include "octree/octree.h"
+#include "voxelize/voxelize.h"
+#include "lib/dispatch.glsl"
+#define SCAN_GROUP kScanGroup
+#include "lib/scan.glsl"
+
+layout(local_size_x = kScanGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    EmissionRankParams params;
+};
+
+void main()
+{
+    uint first = threadIndex() * kScanItems;
+    uint voxels = 0u;
+    for (uint i = first; i < min(first + kScanItems, params.word_count); ++i)
+        voxels += bitCount(params.words.data[i].x);
+    uint total;
+    workgroupExclusiveAdd(voxels, total);
+    if (gl_LocalInvocationIndex == 0u && workgroupIndex() * kScanBlock < params.word_count)
+        params.partials.data[workgroupIndex()] = total;
+}

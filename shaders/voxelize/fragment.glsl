@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// What becomes of a fragment, by kMode: a bit in the brick table, or sums in the voxel's record.
+
+// The leaf that the last fragment of this thread fell into: neighbours mostly share it.
+struct BrickCursor
+{
+    uint key;
+    uint entry;
+    uint base;    // first voxel of the leaf
+    uvec2 masks;
+};
+
+BrickCursor noBrick()
+{
+    return BrickCursor(0u, kNoEntry, 0u, uvec2(0u));
+}
+
+void moveToBrick(uint key, inout BrickCursor cursor)
+{
+    if (key != cursor.key)
+    {
+        cursor.key = key;
+        if (kMode == kModeCoverage)
+        {
+            bool claimed;
+            cursor.entry =
+                brickFindOrInsert(params.bricks, params.brick_mask, key, brickHome(key, params.brick_mask), claimed);
+            if (cursor.entry == kNoEntry)
+                atomicAdd(params.brick_counters.data[0].overflow_count, 1u);
+        }
+        else
+        {
+            cursor.entry = brickFind(BrickEntry_ConstPtr(params.bricks), params.brick_mask, key);
+            BrickEntry leaf = params.bricks.data[cursor.entry == kNoEntry ? 0u : cursor.entry];
+            cursor.base = leaf.base;
+            cursor.masks = uvec2(leaf.mask_lo, leaf.mask_hi);
+        }
+    }
+}
+
+void setVoxel(uint entry, uint cell)
+{
+    uint bit = 1u << (cell & 31u);
+    if (cell < 32u)
+    {
+        if ((params.bricks.data[entry].mask_lo & bit) == 0u)
+            atomicOr(params.bricks.data[entry].mask_lo, bit);
+    }
+    else
+    {
+        if ((params.bricks.data[entry].mask_hi & bit) == 0u)
+            atomicOr(params.bricks.data[entry].mask_hi, bit);
+    }
+}
+
+uint voxelIndex(BrickCursor cursor, uint cell)
+{
+    uint below = (1u << (cell & 31u)) - 1u;
+    return cell < 32u ? cursor.base + bitCount(cursor.masks.x & below)
+                      : cursor.base + bitCount(cursor.masks.x) + bitCount(cursor.masks.y & below);
+}
+
+void addAttributes(Surface surface, uint voxel, uvec3 weights, uvec3 color)
+{
+    ivec3 normal = fragmentNormal(surface, weights);
+    uint first = voxel * kSumWords;
+    atomicAdd(params.sums.data[first], color.r >> params.sum_shift);
+    atomicAdd(params.sums.data[first + 1u], color.g >> params.sum_shift);
+    atomicAdd(params.sums.data[first + 2u], color.b >> params.sum_shift);
+    atomicAdd(params.sums.data[first + 3u], uint(normal.x >> params.sum_shift));
+    atomicAdd(params.sums.data[first + 4u], uint(normal.y >> params.sum_shift));
+    atomicAdd(params.sums.data[first + 5u], uint(normal.z >> params.sum_shift));
+    atomicAdd(params.sums.data[first + 6u], 1u);
+    if (any(notEqual(surface.emission, uvec3(0u))) && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
+        atomicOr(params.emission_words.data[voxel >> 5].x, 1u << (voxel & 31u));
+}
+
+void addEmission(Surface surface, uint voxel, uvec3 weights)
+{
+    uvec3 emission = fragmentEmission(surface, weights);
+    uvec2 word = params.emission_words.data[voxel >> 5];
+    uint bit = 1u << (voxel & 31u);
+    if (any(notEqual(emission, uvec3(0u))) && (word.x & bit) != 0u)
+    {
+        uint first = (word.y + bitCount(word.x & (bit - 1u))) * 3u;
+        atomicAdd(params.emission_sums.data[first], emission.r >> params.sum_shift);
+        atomicAdd(params.emission_sums.data[first + 1u], emission.g >> params.sum_shift);
+        atomicAdd(params.emission_sums.data[first + 2u], emission.b >> params.sum_shift);
+    }
+}
+
+// The triangle covers this voxel.
+void emitFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, uvec3 voxel, inout BrickCursor cursor)
+{
+    uvec3 weights = uvec3(0u);
+    uvec4 color = uvec4(0u);
+    bool exists = true;
+    if (kMode != kModeCoverage || kClass == kClassAlpha)
+    {
+        weights = fixedWeights(corners);
+        color = fragmentColor(surface, weights);
+    }
+    if (kClass == kClassAlpha)
+        exists = passesAlpha(surface.material, color.a, voxel);
+    if (exists)
+    {
+        moveToBrick(mortonEncode(voxel >> 2) | params.leaf_marker, cursor);
+        if (cursor.entry != kNoEntry)
+        {
+            uint cell = cellInBlock(voxel);
+            if (kMode == kModeCoverage)
+                setVoxel(cursor.entry, cell);
+            if (kMode == kModeAttributes)
+                addAttributes(surface, voxelIndex(cursor, cell), weights, color.rgb);
+            if (kMode == kModeEmission)
+                addEmission(surface, voxelIndex(cursor, cell), weights);
+        }
+    }
+}

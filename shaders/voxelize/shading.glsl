@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// What a fragment looks like, in integers (docs/voxelization.md).
+
+// Per triangle, fetched once before the walk.
+struct Surface
+{
+    uint material;
+    ivec3 uv_u; // of the three vertices, 16.16
+    ivec3 uv_v;
+    TextureInfo texture;
+    TextureLevel level; // the level of detail that suits the triangle
+    bool textured;
+    TextureInfo emission_texture;
+    TextureLevel emission_level;
+    bool emission_textured;
+    uvec4 factor; // base colour, 16-bit fractions
+    uvec3 emission;
+    uvec2 colors[3]; // vertex colours, packed
+    bool colored;
+    ivec3 normals[3]; // length 32767
+};
+
+uvec4 unpackFractions(uvec2 packed)
+{
+    return uvec4(packed.x & kFractionOne, packed.x >> 16, packed.y & kFractionOne, packed.y >> 16);
+}
+
+// The rounded product of two 16-bit fractions.
+uint mul16(uint a, uint b)
+{
+    uint t = a * b + 32768u;
+    return (t + (t >> 16)) >> 16;
+}
+
+uvec3 mul16(uvec3 a, uvec3 b)
+{
+    uvec3 t = a * b + 32768u;
+    return (t + (t >> 16)) >> 16;
+}
+
+// Barycentric weights in 1/65536 that add up to 65536.
+uvec3 fixedWeights(EDGE_IVEC3 corners)
+{
+    EDGE_IVEC3 b = max(corners, EDGE_IVEC3(0));
+#ifdef EDGE_WIDE
+    u64vec3 wide = u64vec3(b);
+    uint64_t total = wide.x + wide.y + wide.z;
+    uvec2 words = unpack32(total);
+    int top = words.y != 0u ? 32 + findMSB(words.y) : findMSB(words.x);
+    int shift = max(top - 15, 0);
+    uvec3 small = uvec3(wide >> shift);
+    uint sum = uint(total >> shift);
+#else
+    uvec3 narrow = uvec3(b);
+    uint total = narrow.x + narrow.y + narrow.z;
+    int shift = max(findMSB(total) - 15, 0);
+    uvec3 small = narrow >> shift;
+    uint sum = total >> shift;
+#endif
+    sum = max(sum, 1u);
+    uvec2 w = (small.xy * kUvOne) / sum;
+    return total == 0 ? uvec3(21846u, 21845u, 21845u) : uvec3(w, kUvOne - w.x - w.y);
+}
+
+// The smallest level whose texels are about as large as voxels. double_area: of the triangle, in lattice units squared.
+TextureLevel pickLevel(TextureInfo info, ivec3 uv_u, ivec3 uv_v, float double_area)
+{
+    i64vec2 d1 = i64vec2(uv_u.y - uv_u.x, uv_v.y - uv_v.x);
+    i64vec2 d2 = i64vec2(uv_u.z - uv_u.x, uv_v.z - uv_v.x);
+    float uv_area = float(abs(d1.x * d2.y - d2.x * d1.y));
+    TextureLevel level = params.scene.data[0].levels.data[info.first_level];
+    precise float texels = uv_area * (float(level.width * level.height) * (1.0 / float(kUvOne)));
+    float budget = double_area * 2.0;
+    uint l = 0u;
+    for (; l + 1u < info.level_count && texels > budget; ++l)
+        budget *= 4.0;
+    return params.scene.data[0].levels.data[info.first_level + l];
+}
+
+// Texel numbers and weight of the second one along an axis.
+uvec3 texelPair(int64_t coordinate, uint size, uint wrap)
+{
+    const int64_t one = int64_t(kUvOne);
+    int repeated = int(coordinate & (one - 1));
+    int twice = int(coordinate & (2 * one - 1));
+    int mirrored = twice > int(kUvOne) ? 2 * int(kUvOne) - twice : twice;
+    int clamped = int(clamp(coordinate, int64_t(0), one));
+    int inside = wrap == kWrapRepeat ? repeated : (wrap == kWrapMirror ? mirrored : clamped);
+    int x = inside * int(size) - int(kUvOne / 2u);
+    int first = x >> 16;
+    int last = int(size) - 1;
+    int second = first + 1;
+    bool repeat = wrap == kWrapRepeat;
+    second = second > last ? (repeat ? 0 : last) : second;
+    first = first < 0 ? (repeat ? last : 0) : first;
+    return uvec3(first, second, (x >> 8) & 255);
+}
+
+uvec4 texelLinear(uint first_texel, uint x, uint y, uint width)
+{
+    uint texel = params.scene.data[0].texels.data[first_texel + y * width + x];
+    return uvec4(params.scene.data[0].srgb_to_linear.data[texel & 255u],
+                 params.scene.data[0].srgb_to_linear.data[(texel >> 8) & 255u],
+                 params.scene.data[0].srgb_to_linear.data[(texel >> 16) & 255u], texel >> 24);
+}
+
+// Linear colour and alpha as 16-bit fractions, filtered bilinearly.
+uvec4 sampleTexture(TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v, uvec3 weights)
+{
+    i64vec3 w = i64vec3(weights);
+    i64vec3 by_u = w * i64vec3(uv_u);
+    i64vec3 by_v = w * i64vec3(uv_v);
+    uvec3 x = texelPair((by_u.x + by_u.y + by_u.z) >> 16, level.width, info.wrap_u);
+    uvec3 y = texelPair((by_v.x + by_v.y + by_v.z) >> 16, level.height, info.wrap_v);
+    uvec2 wx = uvec2(256u - x.z, x.z);
+    uvec2 wy = uvec2(256u - y.z, y.z);
+    uvec4 sum = texelLinear(level.first_texel, x.x, y.x, level.width) * (wx.x * wy.x) +
+                texelLinear(level.first_texel, x.y, y.x, level.width) * (wx.y * wy.x) +
+                texelLinear(level.first_texel, x.x, y.y, level.width) * (wx.x * wy.y) +
+                texelLinear(level.first_texel, x.y, y.y, level.width) * (wx.y * wy.y);
+    return (uvec4(sum.rgb, sum.a * 257u) + 32768u) >> 16;
+}
+
+// Base colour and alpha.
+uvec4 fragmentColor(Surface surface, uvec3 weights)
+{
+    uvec4 color = uvec4(kFractionOne);
+    if (kClass != kClassPlain && surface.textured)
+        color = sampleTexture(surface.texture, surface.level, surface.uv_u, surface.uv_v, weights);
+    color = uvec4(mul16(color.rgb, surface.factor.rgb), mul16(color.a, surface.factor.a));
+    if (surface.colored)
+    {
+        uvec4 vertex = (unpackFractions(surface.colors[0]) * weights.x + unpackFractions(surface.colors[1]) * weights.y +
+                        unpackFractions(surface.colors[2]) * weights.z) >> 16;
+        color = uvec4(mul16(color.rgb, vertex.rgb), mul16(color.a, vertex.a));
+    }
+    return color;
+}
+
+// Rank 0 .. 63 of a voxel in the ordered dither of blended surfaces.
+uint ditherRank(uvec3 voxel)
+{
+    uvec3 mixed = uvec3(voxel.x, voxel.x ^ voxel.y, voxel.y ^ voxel.z);
+    uvec3 low = mixed & 1u;
+    uvec3 high = (mixed >> 1) & 1u;
+    return low.x << 5 | low.y << 4 | low.z << 3 | high.x << 2 | high.y << 1 | high.z;
+}
+
+// Whether the fragment exists.
+bool passesAlpha(uint material, uint alpha, uvec3 voxel)
+{
+    uint mode = params.scene.data[0].materials.data[material].alpha_mode;
+    uint cutoff = params.scene.data[0].materials.data[material].alpha_cutoff;
+    uint threshold = mode == kAlphaMask ? cutoff : 1024u * ditherRank(voxel) + 512u;
+    return mode == kAlphaOpaque || alpha >= threshold;
+}
+
+// Interpolated normal, not longer than 32767.
+ivec3 fragmentNormal(Surface surface, uvec3 weights)
+{
+    ivec3 w = ivec3(weights);
+    return (surface.normals[0] * w.x + surface.normals[1] * w.y + surface.normals[2] * w.z) >> 16;
+}
+
+// Emission as 16-bit fractions of the scene's brightest one.
+uvec3 fragmentEmission(Surface surface, uvec3 weights)
+{
+    uvec3 emission = surface.emission;
+    if (kClass != kClassPlain && surface.emission_textured)
+    {
+        uvec4 texel = sampleTexture(surface.emission_texture, surface.emission_level, surface.uv_u, surface.uv_v, weights);
+        emission = mul16(emission, texel.rgb);
+    }
+    return emission;
+}

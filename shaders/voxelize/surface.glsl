@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Fetches what a triangle's fragments need.
+
+// vertices: indices within the draw. normal: of the lattice points, by winding; corner_area: |n_w|.
+Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
+{
+    Surface surface;
+    Material material = params.scene.data[0].materials.data[draw.material];
+    surface.material = draw.material;
+    surface.factor = unpackFractions(material.base_color);
+    surface.emission = unpackFractions(material.emission).rgb;
+    bool has_uv = kClass != kClassPlain && draw.first_uv != kAbsent;
+    surface.textured = has_uv && material.base_texture != kAbsent;
+    surface.emission_textured = has_uv && kMode != kModeCoverage && material.emission_texture != kAbsent;
+    if (has_uv)
+    {
+        ivec2 uv0 = params.scene.data[0].uvs.data[draw.first_uv + vertices.x];
+        ivec2 uv1 = params.scene.data[0].uvs.data[draw.first_uv + vertices.y];
+        ivec2 uv2 = params.scene.data[0].uvs.data[draw.first_uv + vertices.z];
+        surface.uv_u = ivec3(uv0.x, uv1.x, uv2.x);
+        surface.uv_v = ivec3(uv0.y, uv1.y, uv2.y);
+    }
+    if (surface.textured)
+    {
+        surface.texture = params.scene.data[0].textures.data[material.base_texture];
+        surface.level = pickLevel(surface.texture, surface.uv_u, surface.uv_v, corner_area);
+    }
+    if (surface.emission_textured)
+    {
+        surface.emission_texture = params.scene.data[0].textures.data[material.emission_texture];
+        surface.emission_level = pickLevel(surface.emission_texture, surface.uv_u, surface.uv_v, corner_area);
+    }
+    surface.colored = draw.first_color != kAbsent;
+    if (surface.colored)
+        for (uint i = 0u; i < 3u; ++i)
+            surface.colors[i] = params.scene.data[0].colors.data[draw.first_color + vertices[i]];
+    if (kMode == kModeAttributes)
+    {
+        ivec3 flat_normal = unitNormal(draw.mirrored != 0u ? -normal : normal);
+        for (uint i = 0u; i < 3u; ++i)
+        {
+            surface.normals[i] = flat_normal;
+            if (draw.first_normal != kAbsent)
+            {
+                ivec3 vertex_normal = unitNormal(worldNormal(draw, vertices[i]));
+                surface.normals[i] = vertex_normal == ivec3(0) ? flat_normal : vertex_normal;
+            }
+        }
+    }
+    return surface;
+}

@@ -1,0 +1,159 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Snaps every triangle to the lattice. Small ones are rasterized here, one thread each, in 32-bit integers; big ones are
+// listed with their row blocks for voxelize/rows. (After Schwarz and Seidel 2010; coverage: docs/voxelization.md.)
+#extension GL_GOOGLE_include_directive : require
+#include "voxelize/constants.glsl"
+#define EDGE_INT int
+#define EDGE_IVEC3 ivec3
+#include "lib/bricks.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/morton.glsl"
+#include "voxelize/raster.glsl"
+#include "voxelize/shading.glsl"
+#include "voxelize/vertex.glsl"
+#include "voxelize/surface.glsl"
+#include "voxelize/fragment.glsl"
+
+layout(local_size_x = kChunkTriangles) in;
+
+// Why a triangle is left out.
+const uint kKept = 0u;
+const uint kNonfinite = 1u;
+const uint kOutOfRange = 2u;
+const uint kOutside = 3u;
+const uint kZeroArea = 4u;
+
+struct SnappedTriangle
+{
+    ivec3 v0;
+    ivec3 v1;
+    ivec3 v2;
+    i64vec3 normal;
+    ivec3 low; // touched voxels, inside the grid
+    ivec3 high;
+    uint fate;
+};
+
+SnappedTriangle snapTriangle(Draw draw, uvec3 vertices)
+{
+    vec3 p0 = worldPosition(draw, vertices.x);
+    vec3 p1 = worldPosition(draw, vertices.y);
+    vec3 p2 = worldPosition(draw, vertices.z);
+    vec3 q0 = latticePosition(p0);
+    vec3 q1 = latticePosition(p1);
+    vec3 q2 = latticePosition(p2);
+    bool finite = isFinite(p0) && isFinite(p1) && isFinite(p2);
+    bool in_range = finite && onLattice(q0) && onLattice(q1) && onLattice(q2);
+
+    SnappedTriangle t;
+    t.v0 = in_range ? ivec3(q0) : ivec3(0);
+    t.v1 = in_range ? ivec3(q1) : ivec3(0);
+    t.v2 = in_range ? ivec3(q2) : ivec3(0);
+    i64vec3 a = i64vec3(t.v1 - t.v0);
+    i64vec3 b = i64vec3(t.v2 - t.v0);
+    t.normal = a.yzx * b.zxy - a.zxy * b.yzx;
+    // A closed range [min, max] touches the closed voxels from ceil(min / 256) - 1 to floor(max / 256).
+    ivec3 low = ((min(t.v0, min(t.v1, t.v2)) + (kVoxelLattice - 1)) >> kVoxelLatticeLog2) - 1;
+    ivec3 high = max(t.v0, max(t.v1, t.v2)) >> kVoxelLatticeLog2;
+    t.low = max(low, ivec3(0));
+    t.high = min(high, ivec3(int(params.resolution) - 1));
+    bool outside = any(greaterThan(t.low, t.high));
+    bool flat_out = kCoverage == kCoverageThin && t.normal == i64vec3(0);
+    t.fate = !finite ? kNonfinite : (!in_range ? kOutOfRange : (outside ? kOutside : (flat_out ? kZeroArea : kKept)));
+    return t;
+}
+
+void countDropped(uint fate)
+{
+    if (fate == kNonfinite)
+        atomicAdd(params.counters.data[0].nonfinite, 1u);
+    if (fate == kOutOfRange)
+        atomicAdd(params.counters.data[0].out_of_range, 1u);
+    if (fate == kOutside)
+        atomicAdd(params.counters.data[0].outside, 1u);
+    if (fate == kZeroArea)
+        atomicAdd(params.counters.data[0].zero_area, 1u);
+}
+
+// Columns and rows of the bounding box as voxelize/rows walks it.
+uvec2 rasterExtent(SnappedTriangle t)
+{
+    u64vec3 size = u64vec3(abs(t.normal));
+    ivec3 extent = t.high - t.low + 1;
+    bool is_x = size.x >= size.y && size.x >= size.z;
+    return uvec2(is_x ? extent.yz : (size.y >= size.z ? extent.zx : extent.xy));
+}
+
+void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uvec2 extent)
+{
+    uvec2 blocks = uvec2((extent.x + kBlockColumns - 1u) / kBlockColumns, (extent.y + kBlockRows - 1u) / kBlockRows);
+    uint slot = atomicAdd(params.counters.data[0].big_count, 1u);
+    uint first = atomicAdd(params.counters.data[0].block_count, blocks.x * blocks.y);
+    bool fits = slot < params.big_capacity;
+    if (fits)
+        params.big_triangles.data[slot] = BigTriangle(t.v0, t.v1, t.v2, draw, triangle);
+    for (uint i = 0u; i < blocks.x * blocks.y; ++i) // blocks of a triangle that does not fit are marked as nobody's
+        if (first + i < params.block_capacity)
+            params.row_blocks.data[first + i] = RowBlock(fits ? slot : kAbsent, (i / blocks.x) | ((i % blocks.x) << 16));
+}
+
+// Walks all columns of the bounding box in one loop.
+void rasterizeSmall(RasterTriangle t, Surface surface, bool selected)
+{
+    ivec2 column = t.low.xy;
+    RasterCell row = startColumn(t, column);
+    RasterCell cell = row;
+    RasterCell first = cell; // the column's lowest layer
+    BrickCursor cursor = noBrick();
+    for (bool walking = selected; walking;)
+    {
+        if (isCovered(t, cell))
+            emitFragment(t, surface, cornerWeights(t, cell), uvec3(voxelOf(t, column, cell.w)), cursor);
+        if (kCoverage == kCoverageConservative && cell.w < min(cell.w_high, t.high.z))
+        {
+            moveLayers(t, 1, cell);
+        }
+        else
+        {
+            bool row_ends = column.x == t.high.x;
+            if (row_ends)
+                nextRow(t, row);
+            else
+                nextColumn(t, first);
+            if (row_ends)
+                first = row;
+            cell = first;
+            column = row_ends ? ivec2(t.low.x, column.y + 1) : ivec2(column.x + 1, column.y);
+            walking = column.y <= t.high.y;
+        }
+    }
+}
+
+void main()
+{
+    uint chunk_number = workgroupIndex();
+    if (chunk_number >= params.chunk_count)
+        return;
+    Chunk chunk = params.chunks.data[interleave(chunk_number, params.chunk_count)];
+    uint triangle = chunk.first_triangle + gl_LocalInvocationIndex;
+    Draw draw = params.scene.data[0].draws.data[chunk.draw];
+    if (triangle >= draw.triangle_count)
+        return;
+    uvec3 vertices = params.scene.data[0].triangles.data[draw.first_triangle + triangle];
+    SnappedTriangle snapped = snapTriangle(draw, vertices);
+    uvec2 extent = rasterExtent(snapped);
+    ivec3 size = max(snapped.v0, max(snapped.v1, snapped.v2)) - min(snapped.v0, min(snapped.v1, snapped.v2));
+    bool small = max(size.x, max(size.y, size.z)) <= kSmallExtent && extent.x * extent.y <= kSmallColumns;
+    bool kept = snapped.fate == kKept;
+    if (kMode == kModeCoverage)
+    {
+        countDropped(snapped.fate);
+        if (kept && !small)
+            listBigTriangle(snapped, chunk.draw, triangle, extent);
+    }
+    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, ivec3(snapped.normal), snapped.low,
+                                     snapped.high, int(params.resolution));
+    Surface surface = loadSurface(draw, vertices, vec3(snapped.normal), float(t.n_w));
+    rasterizeSmall(t, surface, kept && small);
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// From a draw's triangle to the lattice. Every operation here is a single rounded addition or product, so that the
+// result is the same on every device.
+
+// World position of vertex v of a draw.
+vec3 worldPosition(Draw draw, uint v)
+{
+    vec3 p = params.scene.data[0].positions.data[draw.first_vertex + v];
+    precise vec3 world = draw.transform[0] * p.x;
+    precise vec3 by_y = draw.transform[1] * p.y;
+    precise vec3 by_z = draw.transform[2] * p.z;
+    world = world + by_y;
+    world = world + by_z;
+    world = world + draw.transform[3];
+    return world;
+}
+
+// Lattice position before conversion to integers: whole numbers where they are within kLatticeLimit.
+vec3 latticePosition(vec3 world)
+{
+    precise vec3 offset = world - params.origin;
+    precise vec3 scaled = offset * params.lattice_scale;
+    return roundEven(scaled);
+}
+
+bool isFinite(vec3 v)
+{
+    const uint exponent = 2139095040u; // of infinities and NaNs
+    uvec3 bits = floatBitsToUint(v) & exponent;
+    return all(notEqual(bits, uvec3(exponent)));
+}
+
+bool onLattice(vec3 q)
+{
+    return all(lessThanEqual(abs(q), vec3(float(kLatticeLimit))));
+}
+
+// 1 / sqrt(x) for normal positive x within 2^-22, from additions and products alone: Newton's method from the usual
+// estimate by the exponent.
+float inverseSqrt(float x)
+{
+    float y = uintBitsToFloat(1597463007u - (floatBitsToUint(x) >> 1));
+    precise float half_x = 0.5 * x;
+    for (int i = 0; i < 3; ++i)
+    {
+        precise float square = y * y;
+        precise float product = half_x * square;
+        precise float correction = 1.5 - product;
+        precise float next = y * correction;
+        y = next;
+    }
+    return y;
+}
+
+// Direction of v with length 32767, rounded to integers; 0 for a vector that is zero, tiny or not finite.
+ivec3 unitNormal(vec3 v)
+{
+    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    // Scaled by a power of two into [1, 2), so that squares neither overflow nor vanish.
+    int exponent = int((floatBitsToUint(largest) >> 23) & 255u) - 127;
+    bool usable = exponent > -100 && exponent < 100;
+    exponent = usable ? exponent : 0;
+    precise vec3 scaled = v * uintBitsToFloat(uint(127 - exponent) << 23);
+    precise vec3 squares = scaled * scaled;
+    precise float length2 = squares.x + squares.y;
+    length2 = length2 + squares.z;
+    precise vec3 unit = scaled * inverseSqrt(usable ? length2 : 1.0);
+    precise vec3 fixed_point = unit * 32767.0;
+    vec3 rounded = clamp(roundEven(fixed_point), vec3(-32767.0), vec3(32767.0));
+    return usable ? ivec3(rounded) : ivec3(0);
+}
+
+// World normal of vertex v of a draw that has normals.
+vec3 worldNormal(Draw draw, uint v)
+{
+    vec3 n = params.scene.data[0].normals.data[draw.first_normal + v];
+    precise vec3 world = draw.normal_transform[0] * n.x;
+    precise vec3 by_y = draw.normal_transform[1] * n.y;
+    precise vec3 by_z = draw.normal_transform[2] * n.z;
+    world = world + by_y;
+    world = world + by_z;
+    return world;
+}

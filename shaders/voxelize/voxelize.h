@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// What the voxelization kernels share with the host.
+#ifndef ZVO_SHADERS_VOXELIZE_VOXELIZE_H
+#define ZVO_SHADERS_VOXELIZE_VOXELIZE_H
+
+#include "shared/bricks.h"
+#include "shared/octree.h"
+#include "shared/scene.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kChunkTriangles = 64u; // triangles of one draw that one workgroup takes
+const uint kResolveGroup = 64u;   // threads of a workgroup where one thread takes one voxel
+const uint kRowsGroup = 64u;      // threads of a workgroup of voxelize/rows
+const uint kBlockRows = 8u;       // rows of a row block: one thread each
+const uint kBlockColumns = 256u;  // columns of a row block: bounds a thread's work
+const uint kSmallColumns = 48u;   // a triangle over more columns than this is rasterized by rows
+const int kSmallExtent = 8192;    // lattice units: a triangle up to this size is rasterized in 32-bit integers
+const uint kFragmentsMax = 65535u; // fragments of a voxel that 32-bit sums hold
+
+const int kLatticeLimit = 536870912; // 2^29: vertices beyond are dropped
+const int kVoxelLattice = 256;       // lattice units a voxel
+const int kVoxelLatticeLog2 = 8;
+
+// Specialization constant 0: which voxels.
+const uint kCoverageConservative = 0u;
+const uint kCoverageThin = 1u;
+
+// Specialization constant 1: what a fragment does.
+const uint kModeCoverage = 0u;   // sets the voxel's bit
+const uint kModeAttributes = 1u; // adds its colour and normal to the voxel's sums
+const uint kModeEmission = 2u;   // adds its emission to the emissive voxel's sums
+
+// Specialization constant 2: what the materials of the draws need.
+const uint kClassPlain = 0u;    // no textures, opaque
+const uint kClassTextured = 1u; // opaque
+const uint kClassAlpha = 2u;    // alpha decides which fragments exist
+const uint kClassCount = 3u;
+
+// 32-bit words of a voxel's sums: linear r, g, b, normal x, y, z (two's complement), fragments.
+const uint kSumWords = 7u;
+
+/// Triangles [first_triangle, first_triangle + kChunkTriangles) of a draw.
+struct Chunk
+{
+    uint draw;
+    uint first_triangle;
+};
+GPU_BUFFER(Chunk, 4);
+
+/// A triangle that is rasterized by rows, already on the lattice.
+struct BigTriangle
+{
+    ivec3 v0;
+    ivec3 v1;
+    ivec3 v2;
+    uint draw;
+    uint triangle;
+};
+GPU_BUFFER(BigTriangle, 4);
+
+/// kBlockRows rows by kBlockColumns columns of a big triangle.
+struct RowBlock
+{
+    uint triangle; // in the list of big triangles, or kAbsent
+    uint position; // row / kBlockRows | column / kBlockColumns << 16
+};
+GPU_BUFFER(RowBlock, 4);
+
+/// Counts of one run over the triangles of one material class. Counting goes on past a capacity.
+struct RasterCounters
+{
+    uint big_count;
+    uint block_count;
+    uint nonfinite;
+    uint out_of_range;
+    uint outside;
+    uint zero_area;
+};
+GPU_BUFFER(RasterCounters, 4);
+
+struct RasterParams // push constants of voxelize/triangles and voxelize/rows
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(Chunk) chunks;           // [chunk_count]
+    GPU_PTR(BrickEntry) bricks;            // [brick_mask + 1]
+    GPU_PTR(BigTriangle) big_triangles;    // [big_capacity]
+    GPU_PTR(RowBlock) row_blocks;          // [block_capacity]
+    GPU_PTR(RasterCounters) counters;      // [1]
+    GPU_PTR(BrickCounters) brick_counters; // [1]
+    GPU_PTR(uint) sums;                    // [voxel_count * kSumWords]
+    GPU_PTR(uvec2) emission_words;         // [ceil(voxel_count / 32)]
+    GPU_PTR(uint) emission_sums;           // [emissive voxels * 3]
+    vec3 origin;                           // world position of the grid's minimum corner
+    float lattice_scale;                   // lattice units per world unit
+    uint resolution;
+    uint brick_mask;
+    uint chunk_count;
+    uint big_capacity;
+    uint block_capacity;
+    uint sum_shift;   // bits dropped from values before they are added
+    uint leaf_marker; // the leading one bit of a leaf's brick key
+};
+
+struct RowArgsParams // push constants of voxelize/row_args
+{
+    GPU_CONST_PTR(RasterCounters) counters;
+    GPU_PTR(DispatchArgs) args;
+    uint block_capacity;
+    uint max_groups_x;
+};
+
+struct ResolveParams // push constants of voxelize/resolve
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(uint) sums;              // [voxel_count * kSumWords]
+    GPU_CONST_PTR(uvec2) emission_words;   // [ceil(voxel_count / 32)], or null without emission
+    GPU_PTR(Attribute) attributes;         // [voxel_count]
+    GPU_PTR(uint) max_fragments;           // [1] raised to the largest fragment count of a voxel
+    uint voxel_count;
+    uint has_emission;
+    uint sum_shift;
+};
+
+struct EmissionRankParams // push constants of voxelize/emission_count and voxelize/emission_rank
+{
+    GPU_PTR(uvec2) words;   // [word_count] bits, rank
+    GPU_PTR(uint) partials; // [ceil(word_count / kScanBlock)]
+    uint word_count;
+};
+
+struct ResolveEmissionParams // push constants of voxelize/resolve_emission
+{
+    GPU_CONST_PTR(uint) sums;            // [voxel_count * kSumWords]
+    GPU_CONST_PTR(uint) emission_sums;   // [emissive voxels * 3]
+    GPU_CONST_PTR(uvec2) emission_words; // [ceil(voxel_count / 32)]
+    GPU_PTR(uint) emission;              // [emissive voxels] as RGB9E5
+    uint voxel_count;
+    uint sum_shift;
+};
+
+GPU_NAMESPACE_END
+
+#endif

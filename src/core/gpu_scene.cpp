@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+#include "core/gpu_scene.h"
+
+#include "core/texture_pool.h"
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+std::uint32_t toFraction(float value)
+{
+    const double clamped = value > 0.0F ? std::min(static_cast<double>(value), 1.0) : 0.0; // NaN becomes 0
+    return static_cast<std::uint32_t>(std::lround(clamped * gpu::kFractionOne));
+}
+
+gpu::uvec2 packFractions(const glm::vec4& v)
+{
+    return {toFraction(v.r) | toFraction(v.g) << 16, toFraction(v.b) | toFraction(v.a) << 16};
+}
+
+int toFixedUv(float value)
+{
+    const float limit = gpu::kUvLimit;
+    const float clamped = std::isnan(value) ? 0.0F : std::clamp(value, -limit, limit);
+    return static_cast<int>(std::nearbyint(clamped * static_cast<float>(gpu::kUvOne)));
+}
+
+std::uint32_t wrapOf(WrapMode mode)
+{
+    switch (mode)
+    {
+    case WrapMode::Repeat:
+        return gpu::kWrapRepeat;
+    case WrapMode::MirroredRepeat:
+        return gpu::kWrapMirror;
+    case WrapMode::ClampToEdge:
+        return gpu::kWrapClamp;
+    }
+    return gpu::kWrapRepeat;
+}
+
+std::uint32_t alphaModeOf(AlphaMode mode)
+{
+    switch (mode)
+    {
+    case AlphaMode::Opaque:
+        return gpu::kAlphaOpaque;
+    case AlphaMode::Mask:
+        return gpu::kAlphaMask;
+    case AlphaMode::Blend:
+        return gpu::kAlphaBlend;
+    }
+    return gpu::kAlphaOpaque;
+}
+
+bool emits(const Material& material)
+{
+    return std::max({material.emission.r, material.emission.g, material.emission.b}) > 0.0F;
+}
+
+std::uint32_t checkedCount(std::size_t count, const char* what)
+{
+    if (count >= gpu::kAbsent)
+    {
+        throw Error(ErrorCode::Input, std::string("the scene has too many ") + what + " for 32-bit numbers; split it");
+    }
+    return static_cast<std::uint32_t>(count);
+}
+
+// The host's copies of the buffers while they are put together.
+struct Staging
+{
+    std::vector<gpu::Draw> draws;
+    std::vector<gpu::uvec3> triangles;
+    std::vector<gpu::vec3> positions;
+    std::vector<gpu::vec3> normals;
+    std::vector<gpu::ivec2> uvs;
+    std::vector<gpu::uvec2> colors;
+    std::vector<gpu::Material> materials;
+    std::vector<gpu::TextureInfo> textures;
+    TexturePool pool;
+    std::array<std::vector<gpu::Chunk>, gpu::kClassCount> chunks;
+};
+
+// Where a primitive's arrays start.
+struct PrimitivePlace
+{
+    std::uint32_t first_triangle;
+    std::uint32_t first_vertex;
+    std::uint32_t first_normal;
+    std::uint32_t first_uv;
+    std::uint32_t first_color;
+};
+
+PrimitivePlace addPrimitive(Staging& staging, const Primitive& primitive)
+{
+    PrimitivePlace place{};
+    place.first_triangle = checkedCount(staging.triangles.size(), "triangles");
+    place.first_vertex = checkedCount(staging.positions.size(), "vertices");
+    place.first_normal = primitive.normals.empty() ? gpu::kAbsent : checkedCount(staging.normals.size(), "normals");
+    place.first_uv = primitive.uvs.empty() ? gpu::kAbsent : checkedCount(staging.uvs.size(), "texture coordinates");
+    place.first_color = primitive.colors.empty() ? gpu::kAbsent : checkedCount(staging.colors.size(), "colours");
+    staging.triangles.insert(staging.triangles.end(), primitive.triangles.begin(), primitive.triangles.end());
+    staging.positions.insert(staging.positions.end(), primitive.positions.begin(), primitive.positions.end());
+    staging.normals.insert(staging.normals.end(), primitive.normals.begin(), primitive.normals.end());
+    for (const glm::vec2& uv : primitive.uvs)
+    {
+        staging.uvs.emplace_back(toFixedUv(uv.x), toFixedUv(uv.y));
+    }
+    for (const glm::vec4& color : primitive.colors)
+    {
+        staging.colors.push_back(packFractions(color));
+    }
+    return place;
+}
+
+// Textures that nothing needs get no texels: their materials do without them.
+std::vector<bool> neededTextures(const Scene& scene, bool attributes)
+{
+    std::vector<bool> needed(scene.textures.size(), false);
+    for (const Material& material : scene.materials)
+    {
+        if (material.base_color_texture && (attributes || material.alpha_mode != AlphaMode::Opaque))
+        {
+            needed[*material.base_color_texture] = true;
+        }
+        if (material.emission_texture && attributes && emits(material))
+        {
+            needed[*material.emission_texture] = true;
+        }
+    }
+    return needed;
+}
+
+void addTextures(Staging& staging, const Scene& scene, const std::vector<bool>& needed)
+{
+    struct ImagePlace
+    {
+        std::uint32_t first_level = gpu::kAbsent;
+        std::uint32_t level_count = 0;
+    };
+    std::vector<ImagePlace> images(scene.images.size());
+    for (std::size_t i = 0; i < scene.textures.size(); ++i)
+    {
+        const Texture& texture = scene.textures[i];
+        ImagePlace& image = images[texture.image];
+        if (needed[i] && image.first_level == gpu::kAbsent)
+        {
+            image.first_level = staging.pool.add(scene.images[texture.image], image.level_count);
+        }
+        staging.textures.push_back(
+            {image.first_level, image.level_count, wrapOf(texture.wrap_u), wrapOf(texture.wrap_v)});
+    }
+}
+
+void addMaterial(Staging& staging, const Material& material, const std::vector<bool>& needed, float emission_scale)
+{
+    const auto textureOf = [&](const std::optional<std::uint32_t>& texture)
+    { return texture && needed[*texture] ? *texture : gpu::kAbsent; };
+    const float scale = emission_scale > 0.0F ? emission_scale : 1.0F;
+    gpu::Material result{};
+    result.base_color = packFractions(material.base_color);
+    result.emission = packFractions({material.emission / scale, 0.0F});
+    result.base_texture = textureOf(material.base_color_texture);
+    result.emission_texture = textureOf(material.emission_texture);
+    result.alpha_mode = alphaModeOf(material.alpha_mode);
+    result.alpha_cutoff = material.alpha_cutoff > 1.0F ? gpu::kUvOne : toFraction(material.alpha_cutoff);
+    staging.materials.push_back(result);
+}
+
+std::uint32_t classOf(const gpu::Material& material)
+{
+    if (material.alpha_mode != gpu::kAlphaOpaque)
+    {
+        return gpu::kClassAlpha;
+    }
+    const bool textured = material.base_texture != gpu::kAbsent || material.emission_texture != gpu::kAbsent;
+    return textured ? gpu::kClassTextured : gpu::kClassPlain;
+}
+
+double triangleArea(const Primitive& primitive, const glm::dmat3& linear)
+{
+    double area = 0;
+    for (const glm::uvec3& triangle : primitive.triangles)
+    {
+        const glm::dvec3 a = primitive.positions[triangle.x];
+        const glm::dvec3 b = primitive.positions[triangle.y];
+        const glm::dvec3 c = primitive.positions[triangle.z];
+        const double size = glm::length(glm::cross(linear * (b - a), linear * (c - a))) / 2;
+        area += std::isfinite(size) ? size : 0.0;
+    }
+    return area;
+}
+
+gpu::Draw makeDraw(const Instance& instance, const Primitive& primitive, const PrimitivePlace& place)
+{
+    const glm::dmat3 linear(instance.transform);
+    const double determinant = glm::determinant(linear);
+    const double sign = determinant < 0 ? -1.0 : 1.0;
+    gpu::Draw draw{};
+    draw.transform = gpu::mat4x3(instance.transform);
+    draw.normal_transform =
+        gpu::mat3(glm::dmat3(glm::cross(linear[1], linear[2]) * sign, glm::cross(linear[2], linear[0]) * sign,
+                             glm::cross(linear[0], linear[1]) * sign));
+    draw.first_triangle = place.first_triangle;
+    draw.triangle_count = checkedCount(primitive.triangles.size(), "triangles");
+    draw.first_vertex = place.first_vertex;
+    draw.first_normal = place.first_normal;
+    draw.first_uv = place.first_uv;
+    draw.first_color = place.first_color;
+    draw.material = primitive.material;
+    draw.mirrored = determinant < 0 ? 1 : 0;
+    return draw;
+}
+
+void addChunks(Staging& staging, std::uint32_t draw_number)
+{
+    const gpu::Draw& draw = staging.draws[draw_number];
+    std::vector<gpu::Chunk>& chunks = staging.chunks[classOf(staging.materials[draw.material])];
+    for (std::uint64_t first = 0; first < draw.triangle_count; first += gpu::kChunkTriangles)
+    {
+        chunks.push_back({draw_number, static_cast<std::uint32_t>(first)});
+    }
+    checkedCount(chunks.size() * gpu::kChunkTriangles, "triangles");
+}
+
+template <typename T>
+vk::BufferOf<T> upload(vk::HeadlessDevice& device, const char* name, const std::vector<T>& values)
+{
+    return device.makeBuffer(name, std::span<const T>(values));
+}
+
+std::vector<std::uint32_t> packBytes(const std::vector<std::uint8_t>& bytes)
+{
+    std::vector<std::uint32_t> words(bytes.size() / 4);
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+    {
+        words[i / 4] |= std::uint32_t{bytes[i]} << (8 * (i % 4));
+    }
+    return words;
+}
+
+} // namespace
+
+GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attributes)
+{
+    GpuScene result;
+    for (const Material& material : scene.materials)
+    {
+        result.emission_scale =
+            std::max({result.emission_scale, material.emission.r, material.emission.g, material.emission.b});
+    }
+
+    Staging staging;
+    const std::vector<bool> needed = neededTextures(scene, attributes);
+    addTextures(staging, scene, needed);
+    for (const Material& material : scene.materials)
+    {
+        addMaterial(staging, material, needed, result.emission_scale);
+    }
+    std::vector<PrimitivePlace> places;
+    for (const Primitive& primitive : scene.primitives)
+    {
+        places.push_back(addPrimitive(staging, primitive));
+    }
+    for (const Instance& instance : scene.instances)
+    {
+        const Primitive& primitive = scene.primitives[instance.primitive];
+        staging.draws.push_back(makeDraw(instance, primitive, places[instance.primitive]));
+        addChunks(staging, checkedCount(staging.draws.size(), "instances") - 1);
+        result.triangle_count += primitive.triangles.size();
+        result.surface_area += triangleArea(primitive, glm::dmat3(instance.transform));
+    }
+
+    result.draws = upload(device, "scene/draws", staging.draws);
+    result.triangles = upload(device, "scene/triangles", staging.triangles);
+    result.positions = upload(device, "scene/positions", staging.positions);
+    result.normals = upload(device, "scene/normals", staging.normals);
+    result.uvs = upload(device, "scene/uvs", staging.uvs);
+    result.colors = upload(device, "scene/colors", staging.colors);
+    result.materials = upload(device, "scene/materials", staging.materials);
+    result.textures = upload(device, "scene/textures", staging.textures);
+    result.levels = upload(device, "scene/texture_levels", staging.pool.levels);
+    result.texels = upload(device, "scene/texels", staging.pool.texels);
+    const auto& to_linear = srgbToLinearTable();
+    result.srgb_to_linear = device.makeBuffer("scene/srgb_to_linear", std::span<const gpu::uint>(to_linear));
+    result.linear_to_srgb = upload(device, "scene/linear_to_srgb", packBytes(linearToSrgbTable()));
+    for (std::size_t i = 0; i < result.chunks.size(); ++i)
+    {
+        result.chunks[i] = upload(device, "scene/chunks", staging.chunks[i]);
+    }
+
+    gpu::SceneView view{};
+    view.draws = {result.draws.address()};
+    view.triangles = {result.triangles.address()};
+    view.positions = {result.positions.address()};
+    view.normals = {result.normals.address()};
+    view.uvs = {result.uvs.address()};
+    view.colors = {result.colors.address()};
+    view.materials = {result.materials.address()};
+    view.textures = {result.textures.address()};
+    view.levels = {result.levels.address()};
+    view.texels = {result.texels.address()};
+    view.srgb_to_linear = {result.srgb_to_linear.address()};
+    view.linear_to_srgb = {result.linear_to_srgb.address()};
+    result.view = device.makeBuffer("scene/view", std::span<const gpu::SceneView>(&view, 1));
+    return result;
+}
+
+} // namespace zvo

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+#include "shared/scene.h"
+#include "vk/headless.h"
+#include "voxelize/voxelize.h"
+
+#include <array>
+#include <cstdint>
+
+namespace zvo
+{
+
+/// A scene in device memory; shaders/shared/scene.h documents the layout. Nothing changes it after the upload.
+struct GpuScene
+{
+    vk::BufferOf<gpu::Draw> draws;             // [instances]
+    vk::BufferOf<gpu::uvec3> triangles;        // [triangles of all primitives]
+    vk::BufferOf<gpu::vec3> positions;         // [vertices]
+    vk::BufferOf<gpu::vec3> normals;           // [vertices of primitives that have them]
+    vk::BufferOf<gpu::ivec2> uvs;              // likewise
+    vk::BufferOf<gpu::uvec2> colors;           // likewise
+    vk::BufferOf<gpu::Material> materials;     // [materials]
+    vk::BufferOf<gpu::TextureInfo> textures;   // [textures]
+    vk::BufferOf<gpu::TextureLevel> levels;    // [levels of all images]
+    vk::BufferOf<gpu::uint> texels;            // [texels of all levels]
+    vk::BufferOf<gpu::uint> srgb_to_linear;    // [256]
+    vk::BufferOf<gpu::uint> linear_to_srgb;    // [16384]
+    vk::BufferOf<gpu::SceneView> view;         // [1]
+
+    /// Chunks of the draws of each material class (kClassPlain and so on).
+    std::array<vk::BufferOf<gpu::Chunk>, gpu::kClassCount> chunks;
+
+    std::uint64_t triangle_count = 0; // instances counted each time
+    double surface_area = 0;          // world units squared
+    float emission_scale = 0;         // largest emission of any material; 0: nothing emits light
+};
+
+/// Uploads scene and waits. Without attributes, only the textures that alpha needs are kept. Throws Error{Memory} when
+/// the device's budget does not suffice and Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
+GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attributes);
+
+} // namespace zvo

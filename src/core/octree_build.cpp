@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "core/octree_build.h"
+
+namespace zvo
+{
+
+namespace
+{
+
+std::uint64_t blocksOf(std::uint64_t count, std::uint64_t size)
+{
+    return (count + size - 1) / size;
+}
+
+// Child bases of one level, from a prefix sum over its nodes.
+void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree,
+                    std::size_t level)
+{
+    const auto [first_node, node_count] = octree.levels[level];
+    const bool is_leaf = level + 1 == octree.levels.size();
+    const std::uint64_t threads = blocksOf(node_count, gpu::kScanItems);
+    {
+        vk::Pass pass = graph.addPass("octree/count");
+        const gpu::CountParams params = {pass.read(octree.nodes), pass.write(work.partials), first_node, node_count};
+        pass.dispatch(threads, params);
+    }
+    {
+        vk::Pass pass = graph.addPass("octree/scan");
+        const gpu::ScanParams params = {pass.readWrite(work.partials), pass.write(work.total),
+                                        static_cast<std::uint32_t>(blocksOf(node_count, gpu::kScanBlock))};
+        pass.dispatch(gpu::kScanGroup, params);
+    }
+    vk::Pass pass = graph.addPass("octree/assign");
+    gpu::AssignParams params{};
+    params.nodes = pass.readWrite(octree.nodes);
+    params.bricks = pass.readWrite(voxelize.bricks);
+    params.partials = pass.read(work.partials);
+    params.first_node = first_node;
+    params.node_count = node_count;
+    params.first_child = is_leaf ? 0 : first_node + node_count;
+    params.is_leaf = is_leaf ? 1 : 0;
+    pass.dispatch(threads, params);
+}
+
+} // namespace
+
+OctreeBuildBuffers::OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity)
+    : items(device, "octree/items", brick_capacity), ranges(device, "octree/ranges", gpu::kNodeLevelsMax),
+      args(device, "octree/args", 1), partials(device, "octree/partials", blocksOf(brick_capacity, gpu::kScanBlock)),
+      total(device, "octree/total", 1)
+{
+}
+
+void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
+{
+    {
+        vk::Pass pass = graph.addPass("octree/collect");
+        const gpu::CollectParams params = {pass.read(voxelize.bricks), pass.write(work.items),
+                                           pass.readWrite(voxelize.counters),
+                                           static_cast<std::uint32_t>(voxelize.bricks.count())};
+        pass.dispatch(voxelize.bricks.count(), params);
+    }
+    for (std::uint32_t step = 0; step < grid.nodeLevels(); ++step)
+    {
+        {
+            vk::Pass pass = graph.addPass("octree/next_level");
+            gpu::NextLevelParams params{};
+            params.counters = pass.read(voxelize.counters);
+            params.ranges = pass.readWrite(work.ranges);
+            params.args = pass.write(work.args);
+            params.step = step;
+            params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+            pass.dispatch(1, params);
+        }
+        if (step + 1 == grid.nodeLevels()) // the root has no parent
+        {
+            break;
+        }
+        vk::Pass pass = graph.addPass("octree/parents");
+        gpu::ParentsParams params{};
+        params.bricks = pass.readWrite(voxelize.bricks);
+        params.items = pass.readWrite(work.items);
+        params.counters = pass.readWrite(voxelize.counters);
+        params.ranges = pass.read(work.ranges);
+        params.brick_mask = static_cast<std::uint32_t>(voxelize.bricks.count() - 1);
+        params.step = step;
+        pass.dispatchIndirect(work.args, 0, params);
+    }
+}
+
+void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree)
+{
+    std::uint32_t item_end = octree.node_count; // the root is the last item
+    for (std::size_t level = 0; level < octree.levels.size(); ++level)
+    {
+        const std::uint32_t node_count = octree.levels[level].node_count;
+        {
+            vk::Pass pass = graph.addPass("octree/place");
+            gpu::PlaceParams params{};
+            params.bricks = pass.readWrite(voxelize.bricks);
+            params.items = pass.read(work.items);
+            params.nodes = pass.readWrite(octree.nodes);
+            params.first_item = item_end - node_count;
+            params.node_count = node_count;
+            params.is_root = level == 0 ? 1 : 0;
+            pass.dispatch(node_count, params);
+        }
+        item_end -= node_count;
+        assignChildren(graph, voxelize, work, octree, level);
+    }
+}
+
+void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, Octree& octree)
+{
+    for (std::size_t level = octree.levels.size(); level-- > 0;)
+    {
+        const bool is_leaf = level + 1 == octree.levels.size();
+        const auto [first_node, node_count] = octree.levels[level];
+        vk::Pass pass = graph.addPass("octree/average");
+        gpu::AverageParams params{};
+        params.scene = pass.read(scene.view);
+        params.nodes = pass.read(octree.nodes);
+        params.children = is_leaf ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes);
+        params.averages = pass.readWrite(octree.node_attributes);
+        params.first_node = first_node;
+        params.node_count = node_count;
+        pass.dispatch(node_count, params);
+    }
+}
+
+} // namespace zvo

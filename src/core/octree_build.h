@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/gpu_scene.h"
+#include "core/octree.h"
+#include "core/voxelize.h"
+#include "octree/octree.h"
+#include "vk/frame_graph.h"
+
+#include <cstdint>
+
+namespace zvo
+{
+
+/// What octree construction needs beside the brick table.
+struct OctreeBuildBuffers
+{
+    OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity);
+
+    vk::BufferOf<gpu::WorkItem> items;     // [brick_capacity] leaves first, the root last
+    vk::BufferOf<gpu::LevelRange> ranges;  // [kNodeLevelsMax] the items of each level, leaves first
+    vk::BufferOf<gpu::DispatchArgs> args;  // [1]
+    vk::BufferOf<gpu::uint> partials;      // [ceil(brick_capacity / kScanBlock)]
+    vk::BufferOf<gpu::uint> total;         // [1]
+};
+
+/// Records the passes that list the leaves in the brick table and put all their ancestors beside them, level by level
+/// (Baert, Lagae and Dutre, Out-of-Core Construction of Sparse Voxel Octrees, 2013, without the sort). Afterwards,
+/// work.ranges and voxelize.counters tell how many nodes and voxels there are. Cost: nodes, and one look at every entry
+/// of the table.
+void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work);
+
+/// Records the passes that number the nodes breadth first in Morton order and write octree.nodes, from the root down.
+/// octree.levels, node_count and nodes must be set up. Leaves in the brick table learn their first voxel.
+/// Cost: nodes. The numbers come from prefix sums: they do not depend on the order of threads.
+void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree);
+
+/// Records the passes that give inner nodes the mean attribute of their children, from the leaves up. Cost: nodes.
+void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, Octree& octree);
+
+} // namespace zvo

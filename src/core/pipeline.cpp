@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "core/pipeline.h"
+
+#include "core/octree_build.h"
+#include "core/sha256.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kRetriesMax = 16;
+
+void append(std::vector<vk::PassTime>& passes, std::vector<vk::PassTime>&& more)
+{
+    passes.insert(passes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+// Grows what was too small. False when everything sufficed.
+bool grow(VoxelizeCapacities& capacities, const gpu::BrickCounters& bricks,
+          const std::vector<gpu::RasterCounters>& rasters)
+{
+    bool grown = false;
+    if (bricks.overflow_count != 0)
+    {
+        capacities.bricks *= 4;
+        grown = true;
+    }
+    for (const gpu::RasterCounters& raster : rasters)
+    {
+        if (raster.big_count > capacities.big_triangles)
+        {
+            capacities.big_triangles = raster.big_count;
+            grown = true;
+        }
+        if (raster.block_count > capacities.row_blocks)
+        {
+            capacities.row_blocks = raster.block_count;
+            grown = true;
+        }
+    }
+    return grown;
+}
+
+std::map<std::string, std::uint64_t> droppedTriangles(const std::vector<gpu::RasterCounters>& rasters)
+{
+    std::map<std::string, std::uint64_t> dropped;
+    for (const gpu::RasterCounters& raster : rasters)
+    {
+        dropped["nonfinite"] += raster.nonfinite;
+        dropped["out_of_range"] += raster.out_of_range;
+        dropped["outside"] += raster.outside;
+        dropped["zero_area"] += raster.zero_area;
+    }
+    std::erase_if(dropped, [](const auto& entry) { return entry.second == 0; });
+    return dropped;
+}
+
+// The brick table with its node list, and how it got there.
+struct Coverings
+{
+    VoxelizeBuffers voxelize;
+    OctreeBuildBuffers work;
+    gpu::BrickCounters counters{};
+};
+
+Coverings coverVoxels(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, Coverage coverage,
+                      BuildResult& result)
+{
+    for (; result.retry_count < kRetriesMax; ++result.retry_count)
+    {
+        Coverings coverings{{device.device(), result.capacities, scene}, {device.device(), result.capacities.bricks}};
+        std::vector<vk::PassTime> passes = device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                voxelizeCoverage(graph, scene, grid, coverage, coverings.voxelize);
+                listNodes(graph, grid, coverings.voxelize, coverings.work);
+            });
+        coverings.counters = device.download(coverings.voxelize.counters).front();
+        std::vector<gpu::RasterCounters> rasters;
+        for (const VoxelizeBuffers::RowWork& rows : coverings.voxelize.rows)
+        {
+            if (rows.counters.count() != 0)
+            {
+                rasters.push_back(device.download(rows.counters).front());
+            }
+        }
+        if (!grow(result.capacities, coverings.counters, rasters))
+        {
+            result.dropped = droppedTriangles(rasters);
+            append(result.passes, std::move(passes));
+            return coverings;
+        }
+    }
+    throw Error(ErrorCode::Memory, fmt::format("voxelization found no room in {} attempts (last: a table of {} bricks); "
+                                               "lower the resolution",
+                                               kRetriesMax, result.capacities.bricks));
+}
+
+// Sizes octree from the node list.
+void allocateNodes(vk::HeadlessDevice& device, const Coverings& coverings, Octree& octree)
+{
+    octree.node_count = coverings.counters.node_count;
+    octree.voxel_count = coverings.counters.voxel_count;
+    if (octree.node_count == 0)
+    {
+        return;
+    }
+    std::vector<gpu::LevelRange> ranges = device.download(coverings.work.ranges, 0, octree.grid.nodeLevels());
+    std::reverse(ranges.begin(), ranges.end()); // the list starts with the leaves, the octree with the root
+    std::uint32_t first_node = 0;
+    for (const gpu::LevelRange& range : ranges)
+    {
+        octree.levels.push_back({first_node, range.count});
+        first_node += range.count;
+    }
+    octree.nodes = {device.device(), "octree/nodes", octree.node_count};
+}
+
+void makeEmission(vk::HeadlessDevice& device, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& voxelize,
+                  AttributeBuffers& attributes, BuildResult& result)
+{
+    Octree& octree = result.octree;
+    octree.emission_scale = scene.emission_scale;
+    const std::uint32_t emissive_count = device.download(attributes.emissive_count).front();
+    if (emissive_count == 0)
+    {
+        octree.emission_words = {};
+        return;
+    }
+    attributes.emission_sums = {device.device(), "voxelize/emission_sums", std::uint64_t{emissive_count} * 3};
+    octree.emission = {device.device(), "octree/emission", emissive_count};
+    append(result.passes,
+           device.run([&](vk::FrameGraph& graph)
+                      { voxelizeEmission(graph, scene, coverage, voxelize, attributes, octree); }));
+}
+
+void makeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& voxelize,
+                    BuildResult& result)
+{
+    Octree& octree = result.octree;
+    const bool emission = scene.emission_scale > 0.0F;
+    octree.voxel_attributes = {device.device(), "octree/voxel_attributes", octree.voxel_count};
+    octree.node_attributes = {device.device(), "octree/node_attributes", octree.node_count};
+    if (emission)
+    {
+        octree.emission_words = {device.device(), "octree/emission_words", (octree.voxel_count + 31) / 32};
+    }
+    AttributeBuffers attributes(device.device(), octree.voxel_count, emission);
+    for (bool too_many = true; too_many;)
+    {
+        std::vector<vk::PassTime> passes = device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                voxelizeAttributes(graph, scene, coverage, voxelize, attributes, octree);
+                averageNodes(graph, scene, octree);
+            });
+        const std::uint32_t fragments = device.download(attributes.max_fragments).front();
+        too_many = fragments != 0;
+        if (too_many) // drop as many value bits as the largest sum has too many
+        {
+            attributes.sum_shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
+            ++result.retry_count;
+        }
+        else
+        {
+            append(result.passes, std::move(passes));
+        }
+    }
+    if (emission)
+    {
+        makeEmission(device, scene, coverage, voxelize, attributes, result);
+    }
+}
+
+template <typename T> void hashBuffer(vk::HeadlessDevice& device, Sha256& sha, const vk::BufferOf<T>& buffer)
+{
+    constexpr std::uint64_t kPieceBytes = 64ULL << 20;
+    constexpr std::uint64_t kPiece = kPieceBytes / sizeof(T);
+    for (std::uint64_t first = 0; first < buffer.count(); first += kPiece)
+    {
+        const std::vector<T> piece = device.download(buffer, first, std::min(kPiece, buffer.count() - first));
+        sha.update(std::as_bytes(std::span(piece)));
+    }
+}
+
+} // namespace
+
+double BuildResult::stageMs(const std::string& operation) const
+{
+    double ms = 0;
+    for (const vk::PassTime& pass : passes)
+    {
+        if (pass.name.starts_with(operation + "/") || pass.name.starts_with("fill " + operation + "/"))
+        {
+            ms += pass.ms;
+        }
+    }
+    return ms;
+}
+
+BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
+                        const BuildOptions& options)
+{
+    if (grid.depth < 1 || grid.depth > Grid::kDepthMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} is out of range: 1 to {} (resolution 2 to {})",
+                                                  grid.depth, Grid::kDepthMax, 1U << Grid::kDepthMax));
+    }
+    BuildResult result;
+    result.octree.grid = grid;
+    result.capacities = options.capacities.value_or(VoxelizeCapacities::estimate(scene, grid));
+    Coverings coverings = coverVoxels(device, scene, grid, options.coverage, result);
+    allocateNodes(device, coverings, result.octree);
+    if (result.octree.node_count == 0)
+    {
+        return result;
+    }
+    append(result.passes,
+           device.run([&](vk::FrameGraph& graph)
+                      { numberNodes(graph, coverings.voxelize, coverings.work, result.octree); }));
+    coverings.work.items = {};
+    if (options.attributes)
+    {
+        makeAttributes(device, scene, options.coverage, coverings.voxelize, result);
+    }
+    return result;
+}
+
+std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree)
+{
+    Sha256 sha;
+    struct Header // 8 words without padding
+    {
+        glm::vec3 origin;
+        float voxel_size;
+        std::uint32_t depth;
+        std::uint32_t node_count;
+        std::uint32_t voxel_count;
+        float emission_scale;
+    };
+    const Header header = {octree.grid.origin, octree.grid.voxel_size, octree.grid.depth,
+                           octree.node_count,  octree.voxel_count,     octree.emission_scale};
+    sha.update(std::as_bytes(std::span(&header, 1)));
+    hashBuffer(device, sha, octree.nodes);
+    hashBuffer(device, sha, octree.voxel_attributes);
+    hashBuffer(device, sha, octree.node_attributes);
+    hashBuffer(device, sha, octree.emission_words);
+    hashBuffer(device, sha, octree.emission);
+    return sha.hexDigest();
+}
+
+std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& octree)
+{
+    const std::vector<gpu::Node> nodes = device.download(octree.nodes);
+    std::vector<std::uint64_t> codes = {0}; // of the nodes of a level, in their order
+    for (const Octree::Level& level : octree.levels)
+    {
+        std::vector<std::uint64_t> children;
+        for (std::uint32_t i = 0; i < level.node_count; ++i)
+        {
+            const gpu::Node& node = nodes[level.first_node + i];
+            const std::uint64_t mask = node.mask_lo | std::uint64_t{node.mask_hi} << 32;
+            for (std::uint64_t rest = mask; rest != 0; rest &= rest - 1)
+            {
+                children.push_back(codes[i] << 6 | static_cast<std::uint64_t>(std::countr_zero(rest)));
+            }
+        }
+        codes = std::move(children);
+    }
+    return octree.levels.empty() ? std::vector<std::uint64_t>{} : codes;
+}
+
+} // namespace zvo

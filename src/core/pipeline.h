@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/coverage.h"
+#include "core/gpu_scene.h"
+#include "core/octree.h"
+#include "core/voxelize.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// What buildOctree makes.
+struct BuildOptions
+{
+    Coverage coverage = Coverage::Thin;
+    bool attributes = true;
+    std::optional<VoxelizeCapacities> capacities; // where to start; by default, an estimate
+};
+
+/// An octree and how it came about.
+struct BuildResult
+{
+    Octree octree;
+    std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
+    std::vector<vk::PassTime> passes;             // of the runs that succeeded
+    VoxelizeCapacities capacities;                // that sufficed
+    std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
+
+    /// GPU time of the passes of an operation: "voxelize" or "octree".
+    [[nodiscard]] double stageMs(const std::string& operation) const;
+};
+
+/// Runs all of the static half on device: voxelize, build, attributes. Waits between the operations to learn sizes;
+/// what turns out too small grows, and the operation runs again. Throws Error{Memory} when the device's budget does not
+/// suffice. A scene without triangles in the grid gives an octree without nodes.
+BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
+                        const BuildOptions& options);
+
+/// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have equal
+/// sums whatever made them.
+std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree);
+
+/// The Morton codes of all voxels, ascending: voxel_count of them.
+std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& octree);
+
+} // namespace zvo

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+#include "shared/scene.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace zvo
+{
+
+/// 8-bit sRGB to linear 16-bit fraction.
+const std::array<std::uint32_t, 256>& srgbToLinearTable();
+
+/// Linear 16-bit fraction to 8-bit sRGB: [65536].
+const std::vector<std::uint8_t>& linearToSrgbTable();
+
+/// All levels of several images one behind the other. docs/voxelization.md defines the levels.
+struct TexturePool
+{
+    std::vector<gpu::TextureLevel> levels;
+    std::vector<std::uint32_t> texels; // RGBA8 in the order of the bytes
+
+    /// Adds an image with all its levels. Returns the number of its first level; level_count receives how many.
+    std::uint32_t add(const Image& image, std::uint32_t& level_count);
+};
+
+} // namespace zvo

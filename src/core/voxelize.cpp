@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "core/voxelize.h"
+
+#include "core/octree.h"
+#include "octree/octree.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint64_t kBricksMin = 4096;
+constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
+constexpr std::uint64_t kRowBlocksMin = 1 << 16;
+
+std::uint64_t blocksOf(std::uint64_t count, std::uint64_t size)
+{
+    return (count + size - 1) / size;
+}
+
+// Everything about a raster pass that does not depend on the mode.
+struct RasterJob
+{
+    const GpuScene& scene;
+    const Grid& grid;
+    Coverage coverage;
+    VoxelizeBuffers& buffers;
+    AttributeBuffers* attributes; // null in coverage mode
+    Octree* octree;               // null in coverage mode
+};
+
+gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32_t material_class)
+{
+    VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
+    const vk::BufferOf<gpu::Chunk>& chunks = job.scene.chunks[material_class];
+    gpu::RasterParams params{};
+    params.scene = pass.read(job.scene.view);
+    params.chunks = pass.read(chunks);
+    params.bricks = pass.readWrite(job.buffers.bricks);
+    params.big_triangles = pass.readWrite(rows.big_triangles);
+    params.row_blocks = pass.readWrite(rows.row_blocks);
+    params.counters = pass.readWrite(rows.counters);
+    params.brick_counters = pass.readWrite(job.buffers.counters);
+    params.origin = job.grid.origin;
+    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(job.grid.voxel_size));
+    params.resolution = job.grid.resolution();
+    params.brick_mask = static_cast<std::uint32_t>(job.buffers.bricks.count() - 1);
+    params.chunk_count = static_cast<std::uint32_t>(chunks.count());
+    params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
+    params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
+    params.leaf_marker = 1U << (6 * (job.grid.nodeLevels() - 1));
+    if (job.attributes != nullptr)
+    {
+        params.sums = pass.readWrite(job.attributes->sums);
+        params.emission_words = pass.readWrite(job.octree->emission_words);
+        params.emission_sums = pass.readWrite(job.attributes->emission_sums);
+        params.sum_shift = job.attributes->sum_shift;
+    }
+    return params;
+}
+
+// Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
+void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
+{
+    const std::uint32_t coverage =
+        job.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
+    for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
+    {
+        const std::uint64_t chunk_count = job.scene.chunks[material_class].count();
+        if (chunk_count == 0)
+        {
+            continue;
+        }
+        VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
+        const vk::Specialization variant = {coverage, mode, material_class};
+        {
+            vk::Pass pass = graph.addPass("voxelize/triangles", variant);
+            pass.dispatch(chunk_count * gpu::kChunkTriangles, rasterParams(pass, job, material_class));
+        }
+        if (mode == gpu::kModeCoverage)
+        {
+            vk::Pass pass = graph.addPass("voxelize/row_args");
+            gpu::RowArgsParams params{};
+            params.counters = pass.read(rows.counters);
+            params.args = pass.write(rows.args);
+            params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
+            params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+            pass.dispatch(1, params);
+        }
+        vk::Pass pass = graph.addPass("voxelize/rows", variant);
+        pass.dispatchIndirect(rows.args, 0, rasterParams(pass, job, material_class));
+    }
+}
+
+void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Octree& octree)
+{
+    const auto word_count = static_cast<std::uint32_t>(octree.emission_words.count());
+    const std::uint64_t threads = blocksOf(word_count, gpu::kScanItems);
+    {
+        vk::Pass pass = graph.addPass("voxelize/emission_count");
+        const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.write(attributes.partials),
+                                                word_count};
+        pass.dispatch(threads, params);
+    }
+    {
+        vk::Pass pass = graph.addPass("octree/scan");
+        const gpu::ScanParams params = {pass.readWrite(attributes.partials), pass.write(attributes.emissive_count),
+                                        static_cast<std::uint32_t>(blocksOf(word_count, gpu::kScanBlock))};
+        pass.dispatch(gpu::kScanGroup, params);
+    }
+    vk::Pass pass = graph.addPass("voxelize/emission_rank");
+    const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.readWrite(attributes.partials),
+                                            word_count};
+    pass.dispatch(threads, params);
+}
+
+} // namespace
+
+VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid)
+{
+    // A plane meets about 1.5 leaves per 16 voxels of area, and an inner node stands above every eight leaves or so. The
+    // table should be no more than half full.
+    const double voxel = grid.voxel_size;
+    const double grid_leaves = std::pow(static_cast<double>(grid.resolution()) / 4, 3);
+    const double leaves = std::min(scene.surface_area / (voxel * voxel) * 1.5 / 16, grid_leaves);
+    const auto entries = static_cast<std::uint64_t>(leaves * 1.15 * 2);
+    VoxelizeCapacities result;
+    result.bricks = std::bit_ceil(std::max(entries, kBricksMin));
+    result.big_triangles = std::clamp<std::uint64_t>(scene.triangle_count, 1, kBigTrianglesMin);
+    result.row_blocks = kRowBlocksMin;
+    return result;
+}
+
+VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene)
+    : bricks(device, "voxelize/bricks", capacities.bricks), counters(device, "voxelize/brick_counters", 1)
+{
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+        if (scene.chunks[i].count() != 0)
+        {
+            rows[i].big_triangles = {device, "voxelize/big_triangles", capacities.big_triangles};
+            rows[i].row_blocks = {device, "voxelize/row_blocks", capacities.row_blocks};
+            rows[i].counters = {device, "voxelize/raster_counters", 1};
+            rows[i].args = {device, "voxelize/row_args", 1};
+        }
+    }
+}
+
+AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission)
+    : sums(device, "voxelize/sums", std::uint64_t{voxel_count} * gpu::kSumWords),
+      max_fragments(device, "voxelize/max_fragments", 1)
+{
+    if (emission)
+    {
+        partials = {device, "voxelize/partials", blocksOf(blocksOf(voxel_count, 32), gpu::kScanBlock)};
+        emissive_count = {device, "voxelize/emissive_count", 1};
+    }
+}
+
+void voxelizeCoverage(vk::FrameGraph& graph, const GpuScene& scene, const Grid& grid, Coverage coverage,
+                      VoxelizeBuffers& buffers)
+{
+    graph.fill(buffers.bricks, 0);
+    graph.fill(buffers.counters, 0);
+    for (VoxelizeBuffers::RowWork& rows : buffers.rows)
+    {
+        if (rows.counters.count() != 0)
+        {
+            graph.fill(rows.counters, 0);
+        }
+    }
+    rasterize(graph, {scene, grid, coverage, buffers, nullptr, nullptr}, gpu::kModeCoverage);
+}
+
+void voxelizeAttributes(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+                        AttributeBuffers& attributes, Octree& octree)
+{
+    const bool emission = octree.emission_words.count() != 0;
+    graph.fill(attributes.sums, 0);
+    graph.fill(attributes.max_fragments, 0);
+    if (emission)
+    {
+        graph.fill(octree.emission_words, 0);
+    }
+    rasterize(graph, {scene, octree.grid, coverage, buffers, &attributes, &octree}, gpu::kModeAttributes);
+    {
+        vk::Pass pass = graph.addPass("voxelize/resolve");
+        gpu::ResolveParams params{};
+        params.scene = pass.read(scene.view);
+        params.sums = pass.read(attributes.sums);
+        params.emission_words = pass.read(octree.emission_words);
+        params.attributes = pass.write(octree.voxel_attributes);
+        params.max_fragments = pass.readWrite(attributes.max_fragments);
+        params.voxel_count = octree.voxel_count;
+        params.has_emission = emission ? 1 : 0;
+        params.sum_shift = attributes.sum_shift;
+        pass.dispatch(octree.voxel_count, params);
+    }
+    if (emission)
+    {
+        rankEmissiveVoxels(graph, attributes, octree);
+    }
+}
+
+void voxelizeEmission(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+                      AttributeBuffers& attributes, Octree& octree)
+{
+    graph.fill(attributes.emission_sums, 0);
+    rasterize(graph, {scene, octree.grid, coverage, buffers, &attributes, &octree}, gpu::kModeEmission);
+    vk::Pass pass = graph.addPass("voxelize/resolve_emission");
+    gpu::ResolveEmissionParams params{};
+    params.sums = pass.read(attributes.sums);
+    params.emission_sums = pass.read(attributes.emission_sums);
+    params.emission_words = pass.read(octree.emission_words);
+    params.emission = pass.write(octree.emission);
+    params.voxel_count = octree.voxel_count;
+    params.sum_shift = attributes.sum_shift;
+    pass.dispatch(octree.voxel_count, params);
+}
+
+} // namespace zvo

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/coverage.h"
+#include "core/gpu_scene.h"
+#include "core/grid.h"
+#include "shared/bricks.h"
+#include "vk/frame_graph.h"
+
+#include <array>
+#include <cstdint>
+
+namespace zvo
+{
+
+/// How much a voxelization has room for.
+struct VoxelizeCapacities
+{
+    std::uint64_t bricks = 0;        // entries of the brick table, a power of two
+    std::uint64_t big_triangles = 0; // of each material class
+    std::uint64_t row_blocks = 0;    // of each material class
+
+    /// A guess from the scene's surface area and the grid that mostly suffices.
+    static VoxelizeCapacities estimate(const GpuScene& scene, const Grid& grid);
+};
+
+/// What the passes of a voxelization write, sized once. The brick table ends up holding the leaves of the octree, and
+/// octree construction adds the inner nodes.
+struct VoxelizeBuffers
+{
+    /// Triangles that are rasterized by rows, of one material class.
+    struct RowWork
+    {
+        vk::BufferOf<gpu::BigTriangle> big_triangles; // [capacities.big_triangles]
+        vk::BufferOf<gpu::RowBlock> row_blocks;       // [capacities.row_blocks]
+        vk::BufferOf<gpu::RasterCounters> counters;   // [1]
+        vk::BufferOf<gpu::DispatchArgs> args;         // [1]
+    };
+
+    VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene);
+
+    vk::BufferOf<gpu::BrickEntry> bricks;       // [capacities.bricks]
+    vk::BufferOf<gpu::BrickCounters> counters;  // [1]
+    std::array<RowWork, gpu::kClassCount> rows; // empty for classes that the scene does not have
+};
+
+/// Sums over the fragments of each voxel, and what becomes of emission.
+struct AttributeBuffers
+{
+    AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission);
+
+    vk::BufferOf<gpu::uint> sums;          // [voxel_count * kSumWords]
+    vk::BufferOf<gpu::uint> max_fragments; // [1] the most fragments of a voxel if that is too many for sum_shift, else 0
+    vk::BufferOf<gpu::uint> partials;      // of the scan over emission_words
+    vk::BufferOf<gpu::uint> emissive_count; // [1]
+    vk::BufferOf<gpu::uint> emission_sums;  // [emissive voxels * 3], allocated when their number is known
+    std::uint32_t sum_shift = 0; // value bits dropped, so that sums of max_fragments >> sum_shift fragments fit
+};
+
+struct Octree;
+
+/// Records the coverage passes: clears the buffers, then sets the bit of every covered voxel in the brick table. Reads
+/// the scene; writes everything in buffers. What did not fit is counted, never written.
+/// Cost: triangles plus covered voxels (and the capacity of the table, once, for clearing it).
+void voxelizeCoverage(vk::FrameGraph& graph, const GpuScene& scene, const Grid& grid, Coverage coverage,
+                      VoxelizeBuffers& buffers);
+
+/// Records the passes that average colour and normal of each voxel's fragments into octree.voxel_attributes, and
+/// mark emissive voxels in octree.emission_words. The brick table must hold the first voxel of each leaf (numberNodes).
+/// Cost: triangles plus fragments plus voxels.
+void voxelizeAttributes(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+                        AttributeBuffers& attributes, Octree& octree);
+
+/// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
+/// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.
+void voxelizeEmission(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+                      AttributeBuffers& attributes, Octree& octree);
+
+} // namespace zvo

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// The voxels of the device against the exact oracle, bit for bit.
+#include "core/gltf_loader.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "oracle/octree_check.h"
+#include "oracle/voxelizer.h"
+#include "support/device.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+oracle::OctreeContents contentsOf(const Octree& octree)
+{
+    std::vector<oracle::NodeRange> levels;
+    for (const Octree::Level& level : octree.levels)
+    {
+        levels.push_back({level.first_node, level.node_count});
+    }
+    return oracle::checkOctree(device().download(octree.nodes), levels, octree.grid.depth);
+}
+
+void expectEqualsOracle(const Scene& scene, const Grid& grid, Coverage coverage)
+{
+    const GpuScene gpu_scene = uploadScene(device(), scene, false);
+    const BuildResult result = buildOctree(device(), gpu_scene, grid, {coverage, false, {}});
+    const oracle::OracleVoxels expected = oracle::voxelize(scene, grid, coverage);
+    const oracle::OctreeContents contents = contentsOf(result.octree);
+    EXPECT_TRUE(contents.violations.empty()) << contents.violations.front();
+    EXPECT_EQ(contents.codes.size(), result.octree.voxel_count);
+    std::vector<std::uint64_t> missing;
+    std::vector<std::uint64_t> extra;
+    std::set_difference(expected.codes.begin(), expected.codes.end(), contents.codes.begin(), contents.codes.end(),
+                        std::back_inserter(missing));
+    std::set_difference(contents.codes.begin(), contents.codes.end(), expected.codes.begin(), expected.codes.end(),
+                        std::back_inserter(extra));
+    EXPECT_EQ(missing.size(), 0U) << "of " << expected.codes.size() << " voxels, first " << missing.front();
+    EXPECT_EQ(extra.size(), 0U) << "beside " << expected.codes.size() << " voxels, first " << extra.front();
+    EXPECT_EQ(result.dropped, expected.dropped);
+}
+
+class VoxelizeBothCoverages : public testing::TestWithParam<Coverage>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Coverages, VoxelizeBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
+                         [](const auto& test_case)
+                         { return test_case.param == Coverage::Thin ? "Thin" : "Conservative"; });
+
+TEST_P(VoxelizeBothCoverages, EmptySceneGivesAnEmptyOctree)
+{
+    expectEqualsOracle(test::triangleSoup({}), {}, GetParam());
+}
+
+TEST_P(VoxelizeBothCoverages, RandomTrianglesEqualTheOracleAtEveryDepth)
+{
+    for (std::uint32_t depth = 1; depth <= 8; ++depth)
+    {
+        const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
+        SCOPED_TRACE(depth);
+        expectEqualsOracle(test::randomTriangles(depth, 400, static_cast<float>(grid.resolution())), grid, GetParam());
+    }
+}
+
+TEST_P(VoxelizeBothCoverages, HugeTrianglesFarBeyondTheGridEqualTheOracle)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 5};
+    Scene scene = test::randomTriangles(7, 300, 2.0e6F);
+    scene.instances[0].transform[3] = glm::vec4(-1.0e6F, -1.0e6F, -1.0e6F, 1.0F);
+    const std::vector<glm::vec3> crossing = {{-2e6F, 3, -1e6F}, {2e6F, 7, -2e6F}, {31, 12, 2e6F},
+                                             {-1e6F, -1e6F, 9}, {1e6F, 1e6F, 11}, {1e6F, -1e6F, 2}};
+    scene.append(test::triangleSoup(crossing));
+    expectEqualsOracle(scene, grid, GetParam());
+}
+
+TEST_P(VoxelizeBothCoverages, FacesOnCellBordersEqualTheOracle)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 0.5F, .depth = 5};
+    expectEqualsOracle(test::boxScene(glm::vec3(0.0F), glm::vec3(16.0F)), grid, GetParam());
+    expectEqualsOracle(test::boxScene(glm::vec3(1.5F), glm::vec3(8.0F)), grid, GetParam());
+    expectEqualsOracle(test::sphereScene(glm::vec3(8.0F), 8.0F, 24), grid, GetParam());
+    expectEqualsOracle(test::triangleSoup({{0, 4, 0}, {16, 4, 0}, {16, 4, 16}}), grid, GetParam());
+}
+
+TEST_P(VoxelizeBothCoverages, SegmentsAndPointsEqualTheOracle)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
+    expectEqualsOracle(test::triangleSoup({{1, 2, 3},
+                                           {1, 2, 3},
+                                           {1, 2, 3},
+                                           {0.5F, 0.5F, 0.5F},
+                                           {60, 50, 40},
+                                           {0.5F, 0.5F, 0.5F},
+                                           {0, 5, 0},
+                                           {64, 5, 0},
+                                           {32, 5, 0},
+                                           {-10, 3.3F, 5},
+                                           {200, 60, 70},
+                                           {95, 31.65F, 37.5F}}),
+                       grid, GetParam());
+}
+
+TEST_P(VoxelizeBothCoverages, BadVerticesAreDroppedAndCounted)
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float inf = std::numeric_limits<float>::infinity();
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 4};
+    expectEqualsOracle(test::triangleSoup({{nan, 0, 0},
+                                           {1, 2, 3},
+                                           {4, 5, 6},
+                                           {0, inf, 0},
+                                           {1, 2, 3},
+                                           {4, 5, 6},
+                                           {0, 0, 3e38F},
+                                           {1, 2, 3},
+                                           {4, 5, 6},
+                                           {-9, -9, -9},
+                                           {-8, -9, -9},
+                                           {-9, -8, -9},
+                                           {1, 2, 3},
+                                           {4, 5, 6},
+                                           {1, 9, 6}}),
+                       grid, GetParam());
+}
+
+TEST_P(VoxelizeBothCoverages, TooSmallBuffersGrowUntilEverythingFits)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 7};
+    const Scene scene = test::randomTriangles(3, 500, 128.0F);
+    const GpuScene gpu_scene = uploadScene(device(), scene, true);
+    const BuildResult roomy = buildOctree(device(), gpu_scene, grid, {GetParam(), true, {}});
+    const BuildResult cramped = buildOctree(device(), gpu_scene, grid, {GetParam(), true, VoxelizeCapacities{1, 1, 1}});
+    EXPECT_GT(cramped.retry_count, 2U);
+    EXPECT_EQ(octreeSha256(device(), cramped.octree), octreeSha256(device(), roomy.octree));
+}
+
+struct MeshCase
+{
+    const char* file;
+    std::uint32_t depth;
+    Coverage coverage;
+};
+
+class VoxelizeMesh : public testing::TestWithParam<MeshCase>
+{
+};
+
+std::vector<MeshCase> meshCases()
+{
+    std::vector<MeshCase> cases;
+    for (const char* file : {"bunny.glb", "dragon.glb", "buddha_113k.glb", "atrium.glb"})
+    {
+        for (const std::uint32_t depth : {7U, 8U})
+        {
+            for (const Coverage coverage : {Coverage::Conservative, Coverage::Thin})
+            {
+                cases.push_back({file, depth, coverage});
+            }
+        }
+    }
+    cases.push_back({"alpha_blend_mode_test.glb", 8, Coverage::Thin});
+    cases.push_back({"milk_truck.glb", 8, Coverage::Thin});
+    return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, VoxelizeMesh, testing::ValuesIn(meshCases()),
+                         [](const auto& test_case)
+                         {
+                             std::string name = test_case.param.file;
+                             std::replace(name.begin(), name.end(), '.', '_');
+                             return name + std::to_string(1U << test_case.param.depth) +
+                                    (test_case.param.coverage == Coverage::Thin ? "Thin" : "Conservative");
+                         });
+
+TEST_P(VoxelizeMesh, EqualsTheOracle)
+{
+    std::filesystem::path path = test::ownScene(GetParam().file);
+    if (!std::filesystem::exists(path))
+    {
+        const auto shared = test::sharedScene(GetParam().file);
+        if (!shared)
+        {
+            GTEST_SKIP() << GetParam().file << " is not there";
+        }
+        path = *shared;
+    }
+    const Scene scene = loadGltf(path);
+    expectEqualsOracle(scene, Grid::around(scene.bounds(), GetParam().depth), GetParam().coverage);
+}
+
+} // namespace
+} // namespace zvo
