@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packing of attributes in integers, so that every device packs the same bytes.
+#include "lib/divide.glsl"
 #include "shared/octree.h"
 #include "shared/scene.h"
 
@@ -14,7 +15,7 @@ uint encodeNormal(ivec3 v)
     int shift = max(findMSB(size.x | size.y | size.z) + 1 - int(kNormalSumBits), 0);
     size >>= shift;
     uint sum = max(size.x + size.y + size.z, 1u);
-    ivec2 p = ivec2((size.xy * uint(kNormalOne) + sum / 2u) / sum);
+    ivec2 p = ivec2(divideSmall(size.xy * uint(kNormalOne) + sum / 2u, sum));
     p = v.z < 0 ? kNormalOne - p.yx : p;
     p.x = v.x < 0 ? -p.x : p.x;
     p.y = v.y < 0 ? -p.y : p.y;

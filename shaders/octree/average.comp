@@ -29,6 +29,6 @@ void main()
         normal += decodeNormal(child.normal);
         flags |= child.color >> 24;
     }
-    color = (color + count / 2u) / count;
+    color = divideSmall(color + count / 2u, count);
     params.averages.data[params.first_node + index] = Attribute(packColor(params.scene, color, flags), encodeNormal(normal));
 }

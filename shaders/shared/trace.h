@@ -10,36 +10,51 @@
 
 GPU_NAMESPACE_BEGIN
 
-/// A ray as the traversal takes it: the direction only through its inverse. 32 bytes.
+/// A ray as the traversal takes it: the direction only through its inverse.
 struct Ray
 {
     vec3 origin;            // unit space
-    float t_min;            // hits start here; at least the smallest normal float
-    vec3 inverse_direction; // 1 / direction per axis, no component zero; see lib/ray.glsl
-    float t_max;            // no hit starts after this; may be infinite
+    float t_min;            // hits start here; taken as kTraceTimeMin if it is less
+    vec3 inverse_direction; // 1 / direction per axis, as lib/ray.glsl's inverseDirection() gives it
+    float t_max;            // no hit starts after this
 };
 GPU_BUFFER(Ray, 4);
 
-/// What a ray met first. 20 bytes.
+/// What a ray met first. 16 bytes, as lib/hit.glsl packs them:
+///
+///     where: x 18 bits | y 18 | z 18 | level 4 | face 2, from the lowest bit of where.x on
 struct Hit
 {
     float t;     // where the ray enters the cell, or t_min inside of it; undefined for a miss
     uint index;  // voxel attribute index, or node where a level of detail stopped the ray; kHitMiss
-    uint info;   // iterations | face << 16 | level << 19, see lib/hit.glsl
-    uvec2 cell;  // cell coordinates at that level: x | y << 18 | z << 36 in 64 bits
+    uvec2 where; // the cell's coordinates at its level, the level in nodes (nodeLevels() for a voxel), the face's axis
 };
-GPU_BUFFER(Hit, 4);
+GPU_BUFFER(Hit, 8);
+
+/// Counters of all passes that trace; the host clears and reads them.
+struct TraceStatus
+{
+    uint live_tiles;  // in the list that the beam pass made
+    uint capped_rays; // rays that gave up after kTraceStepsMax iterations: 0, or the octree is broken
+};
+GPU_BUFFER(TraceStatus, 4);
 
 const uint kHitMiss = ~0u; // Hit::index of a ray that met nothing
 
-const uint kHitFaceShift = 16u;  // Hit::info: the axis of the face that was hit, or kFaceInside
-const uint kHitLevelShift = 19u; // Hit::info: node levels above the cell; nodeLevels() for a voxel
-const uint kHitFaceMask = 7u;
-const uint kHitLevelMask = 15u;
-const uint kHitIterationsMask = (1u << kHitFaceShift) - 1u;
-const uint kFaceInside = 3u; // the ray started inside the cell
+const uint kHitCoordinateBits = 18u;
+const uint kHitLevelShift = 54u; // in Hit::where
+const uint kHitFaceShift = 58u;
+const uint kFaceInside = 3u; // Hit's face when the ray started inside the cell
 
-const uint kTraceStepsMax = 40000u; // iterations of one ray; running into it is counted in TraceStatus
+const float kTraceTimeMin = 1.17549435e-38f; // smallest normal float: below it, devices may flush to zero
+const float kTraceTimeMax = 3.40282347e+38f; // largest float
+
+const uint kTraceStepsMax = 40000u; // iterations of one ray; lavapipe ends every loop after 65,535
+
+// Where a ray keeps the nodes above the current one: specialization constant of all kernels that trace.
+const uint kStackRegisters = 0u; // selects; fastest on lavapipe by 20 %
+const uint kStackPrivate = 1u;   // an indexed private array
+const uint kStackShared = 2u;    // shared memory: 7 words a thread
 
 GPU_NAMESPACE_END
 

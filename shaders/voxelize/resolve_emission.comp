@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 #include "lib/dispatch.glsl"
+#include "lib/divide.glsl"
 
 layout(local_size_x = kResolveGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -34,6 +35,6 @@ void main()
     uint count = max(params.sums.data[voxel * kSumWords + 6u], 1u);
     uvec3 sum = uvec3(params.emission_sums.data[rank * 3u], params.emission_sums.data[rank * 3u + 1u],
                       params.emission_sums.data[rank * 3u + 2u]);
-    uvec3 mean = min(((sum + count / 2u) / count) << params.sum_shift, uvec3(kFractionOne));
+    uvec3 mean = min(divideSmall(sum + count / 2u, count) << params.sum_shift, uvec3(kFractionOne));
     params.emission.data[rank] = encodeRgb9e5(mean);
 }

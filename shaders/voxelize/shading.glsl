@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a fragment looks like, in integers (docs/voxelization.md).
 
+#include "lib/divide.glsl"
+
 // Per triangle, fetched once before the walk.
 struct Surface
 {
@@ -58,7 +60,7 @@ uvec3 fixedWeights(EDGE_IVEC3 corners)
     uint sum = total >> shift;
 #endif
     sum = max(sum, 1u);
-    uvec2 w = (small.xy * kUvOne) / sum;
+    uvec2 w = divideSmall(small.xy * kUvOne, sum);
     return total == 0 ? uvec3(21846u, 21845u, 21845u) : uvec3(w, kUvOne - w.x - w.y);
 }
 

@@ -58,7 +58,7 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
         const gpu::CollectParams params = {pass.read(voxelize.bricks), pass.write(work.items),
                                            pass.readWrite(voxelize.counters),
                                            static_cast<std::uint32_t>(voxelize.bricks.count())};
-        pass.dispatch(voxelize.bricks.count(), params);
+        pass.dispatch(blocksOf(voxelize.bricks.count(), gpu::kCollectItems), params);
     }
     for (std::uint32_t step = 0; step < grid.nodeLevels(); ++step)
     {

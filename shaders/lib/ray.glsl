@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Making rays for the traversal.
+
+const float kDirectionMin = 1e-20; // smaller components of a direction count as this
+
+bool isFinite(float x)
+{
+    return (floatBitsToUint(x) << 1) < (255u << 24); // the exponent is not all ones
+}
+
+bool isFinite(vec3 v)
+{
+    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
+}
+
+// 1 / direction with components that are too small replaced, their sign kept: no component is zero or infinite.
+vec3 inverseDirection(vec3 direction)
+{
+    vec3 smallest = uintBitsToFloat(floatBitsToUint(vec3(kDirectionMin)) | (floatBitsToUint(direction) & (1u << 31)));
+    return 1.0 / mix(direction, smallest, lessThan(abs(direction), vec3(kDirectionMin)));
+}

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// The one traversal of the octree: the first occupied cell along a ray. Rays are in unit space (shared/trace.h).
+//
+// Rule. A ray crosses plane p of axis i at t = (p - origin_i) * inverse_i: one rounded subtraction, one rounded product.
+// Crossings are events (t, i), ordered by t, then by axis; the start is the event (t_min, 3). A ray visits a cell if the
+// last of the start and its entries through the three lower planes comes before the first of its exits through the three
+// upper ones. The hit is the visited occupied voxel with the earliest entry. Planes are taken one at a time, so visited
+// cells are neighbours by a face and no ray slips diagonally through a 6-separating surface; and whether a cell is
+// visited depends on the ray and that cell alone, not on the way there: all variants find the same hit, bit for bit.
+//
+// Way. Directions are mirrored to be positive (J. Revelles, C. Urena, M. Lastra, An Efficient Parametric Algorithm for
+// Octree Traversal, 2000), positions are mantissa bits (S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010). The
+// state is the current node, its lower corner and the last event, kept as limits: a plane of axis i was crossed iff its
+// t < limit_i, where limit_i is the float after the event's t for axes up to the event's and the event's t after that.
+// Which cell of the node the ray is in follows from that anew in every iteration, whether it came by a descent, an
+// advance or a pop. One uniform loop with its only test in the header; each iteration loads half a node and descends
+// into the cell, or advances past it (past its 2x2x2 octant if that is empty) to the lowest node around both cells.
+//
+// The includer includes shared/trace.h and defines before:
+//   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
+//   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
+//                                      kStackShared
+//   TRAVERSE_CONSTANT_ID               first of three constant_ids, 0 by default
+
+#ifndef TRAVERSE_CONSTANT_ID
+#define TRAVERSE_CONSTANT_ID 0
+#endif
+
+layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of the octree
+layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const uint kStack = kStackRegisters;
+layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const bool kDetail = false; // stop at small nodes
+
+const uint kMantissaBits = 23u;
+const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
+const uint kLeafShift = kMantissaBits - 2u * kNodeLevels;
+const uint kSavedMax = 8u; // levels of nodes above a leaf
+
+struct Traversal
+{
+    bool hit;
+    bool capped;     // gave up after kTraceStepsMax iterations
+    uint iterations; // loop bodies
+    float t;         // of a hit: of the entry, or t_min
+    uint index;      // of a hit: attribute index of the voxel; node where a level of detail stopped
+    uint face;       // of a hit: axis of the face, or kFaceInside
+    uint level;      // of a hit: of nodes; kNodeLevels for a voxel
+    uvec3 cell;      // of a hit: coordinates among the cells of that level
+};
+
+#ifdef TRAVERSE_GROUP
+shared uint s_saved[kStack == kStackShared ? kSavedMax * TRAVERSE_GROUP : 1u];
+#endif
+
+// When the planes with these bits as coordinates are crossed.
+vec3 planeTimes(uvec3 planes, vec3 origin, vec3 inverse)
+{
+    precise vec3 distances = uintBitsToFloat(planes) - origin;
+    precise vec3 times = distances * inverse;
+    return times;
+}
+
+// Notes the node whose cells are numbered by the mantissa bits at shift.
+void saveNode(inout uint saved[kSavedMax], uint shift, uint node)
+{
+    uint level = (kRootShift - shift) >> 1;
+    if (kStack == kStackRegisters)
+        [[unroll]] for (uint k = 1u; k + 1u < kNodeLevels; ++k)
+            saved[k] = shift == kRootShift - 2u * k ? node : saved[k];
+    else if (kStack == kStackPrivate)
+        saved[level] = node;
+#ifdef TRAVERSE_GROUP
+    else
+        s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex] = node;
+#endif
+}
+
+// The node that was noted; the root for shifts outside of the octree.
+uint savedNode(uint saved[kSavedMax], uint shift)
+{
+    uint level = min((kRootShift - shift) >> 1, kSavedMax - 1u);
+    uint node = 0u;
+    if (kStack == kStackRegisters)
+        [[unroll]] for (uint k = 1u; k + 1u < kNodeLevels; ++k)
+            node = shift == kRootShift - 2u * k ? saved[k] : node;
+    else if (kStack == kStackPrivate)
+        node = saved[level];
+#ifdef TRAVERSE_GROUP
+    else
+        node = s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex];
+#endif
+    return node;
+}
+
+// The first occupied cell that the ray enters in [t_min, t_max]. With kDetail, nodes count as occupied whose edge is at
+// most max(detail.x * t, detail.y) in unit space. Nothing may be NaN; origin must be finite and inverse as
+// lib/ray.glsl's inverseDirection() makes it. What would be entered at an infinite time is never entered.
+Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail)
+{
+    const uint one = floatBitsToUint(1.0);
+    bvec3 mirrored = lessThan(ray_inverse, vec3(0.0));
+    precise vec3 flipped = 3.0 - ray_origin;
+    vec3 origin = mix(ray_origin, flipped, mirrored);
+    vec3 inverse = abs(ray_inverse);
+    uint mirror = (mirrored.x ? 9u : 0u) | (mirrored.y ? 18u : 0u) | (mirrored.z ? 36u : 0u); // bits of a cell number
+
+    // The event that enters the root, or the start.
+    t_min = max(t_min, kTraceTimeMin);
+    vec3 t_in = planeTimes(uvec3(one), origin, inverse);
+    float t = max(max(t_in.x, t_in.y), max(t_in.z, t_min));
+    bool z_in = t == t_min || t == t_in.z;
+    bool y_in = z_in || t == t_in.y;
+    uvec3 limits = floatBitsToUint(t) + uvec3(1u, y_in ? 1u : 0u, z_in ? 1u : 0u); // bits of floats
+    uint limit_max = floatBitsToUint(min(t_max, kTraceTimeMax)) + 1u;
+
+    uvec3 corner = uvec3(one);
+    uint shift = kRootShift;
+    uint node = 0u;
+    uint saved[kSavedMax];
+    uint iterations = 0u;
+    bool stopped = false; // by the level of detail
+    bool go = limits.x <= limit_max && all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
+                                                            uintBitsToFloat(limits)));
+    shift = go ? shift : kMantissaBits;
+    for (; go;)
+    {
+        ++iterations;
+        if (kStack == kStackRegisters)
+            saveNode(saved, shift, node);
+
+        // Which cell of the node the last event led to.
+        vec3 crossed = uintBitsToFloat(limits);
+        uint size = 1u << shift;
+        uvec3 middle = corner + (size << 1);
+        bvec3 upper = lessThan(planeTimes(middle, origin, inverse), crossed);
+        uvec3 cell = mix(corner, middle, upper);
+        uvec3 quarter = cell + size;
+        bvec3 odd = lessThan(planeTimes(quarter, origin, inverse), crossed);
+        uint c = (odd.x ? 1u : 0u) | (odd.y ? 2u : 0u) | (odd.z ? 4u : 0u) | (upper.x ? 8u : 0u) |
+                 (upper.y ? 16u : 0u) | (upper.z ? 32u : 0u);
+        c ^= mirror;
+
+        uvec2 half_node = loadHalf(2u * node + (c >> 5));
+        uint up_to_cell = half_node.x << (~c & 31u); // the cell's bit on top
+        uint child = half_node.y + bitCount(up_to_cell << 1);
+        bool octant_empty = ((half_node.x >> (c & 24u)) & 255u) == 0u;
+
+        // Where the ray leaves the cell or its empty octant.
+        uvec3 leave = quarter + mix(uvec3(0u), uvec3(size), bvec3(odd.x || octant_empty, odd.y || octant_empty, odd.z || octant_empty));
+        vec3 t_leave = planeTimes(leave, origin, inverse);
+        // From far away, planes of one axis can be crossed at the same time; a voxel between them is not visited.
+        bool visited = all(greaterThanEqual(t_leave, crossed));
+        bool occupied = int(up_to_cell) < 0 && (shift != kLeafShift || visited);
+        bool y_before_x = t_leave.y < t_leave.x;
+        float t_xy = y_before_x ? t_leave.y : t_leave.x;
+        bool z_first = t_leave.z < t_xy;
+        bool x_first = !y_before_x && !z_first;
+        bool y_first = y_before_x && !z_first;
+        uint leave_bits = floatBitsToUint(z_first ? t_leave.z : t_xy);
+
+        // The lowest node around this cell and the next.
+        uint leave_plane = z_first ? leave.z : y_before_x ? leave.y : leave.x;
+        uint from_plane = z_first ? corner.z : y_before_x ? corner.y : corner.x;
+        uint around_shift = uint(findMSB(leave_plane ^ from_plane) - 1) | 1u;
+        uvec3 around = uvec3(x_first ? leave_plane : corner.x, y_first ? leave_plane : corner.y,
+                             z_first ? leave_plane : corner.z) & (~0u << (around_shift + 2u));
+        uint around_node = around_shift == shift ? node : savedNode(saved, around_shift);
+
+        // Down, or on.
+        if (kStack != kStackRegisters && occupied)
+            saveNode(saved, shift, node);
+        if (kDetail)
+            stopped = occupied && float(size) * uintBitsToFloat(one - (kMantissaBits << kMantissaBits)) <=
+                                      max(detail.x * uintBitsToFloat(limits.x), detail.y);
+        limits.x = occupied ? limits.x : leave_bits + 1u;
+        limits.y = occupied ? limits.y : x_first ? leave_bits : leave_bits + 1u;
+        limits.z = occupied ? limits.z : z_first ? leave_bits + 1u : leave_bits;
+        corner = occupied ? mix(cell, quarter, odd) : around;
+        node = occupied ? child : around_node;
+        shift = occupied ? shift - 2u : around_shift;
+        go = shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max && iterations < kTraceStepsMax;
+        if (kDetail)
+            go = go && !stopped;
+    }
+
+    Traversal result;
+    result.hit = stopped || shift == kLeafShift - 2u;
+    result.capped = !result.hit && iterations >= kTraceStepsMax;
+    result.iterations = iterations;
+    result.t = uintBitsToFloat(limits.x - 1u);
+    result.index = node;
+    result.face = limits.y < limits.x ? 0u : limits.z < limits.x ? 1u : result.t == t_min ? kFaceInside : 2u;
+    result.level = (kRootShift - shift) >> 1;
+    result.cell = ((corner - one) >> (shift + 2u)) ^ mix(uvec3(0u), uvec3((1u << (2u * result.level)) - 1u), mirrored);
+    return result;
+}
