@@ -19,3 +19,11 @@ vec3 inverseDirection(vec3 direction)
     vec3 smallest = uintBitsToFloat(floatBitsToUint(vec3(kDirectionMin)) | (floatBitsToUint(direction) & (1u << 31)));
     return 1.0 / mix(direction, smallest, lessThan(abs(direction), vec3(kDirectionMin)));
 }
+
+// Whether traverse() takes the ray.
+bool isTraceable(Ray ray)
+{
+    vec3 size = abs(ray.inverse_direction);
+    return isFinite(ray.origin) && isFinite(size) && min(size.x, min(size.y, size.z)) >= kTraceTimeMin &&
+           isFinite(ray.t_min) && !isnan(ray.t_max);
+}

@@ -9,12 +9,12 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kCollectGroup = 64u;  // threads of a workgroup of octree/collect
-const uint kCollectItems = 16u;  // table entries a thread of it looks at, at most 32
-const uint kNodesGroup = 64u;    // threads of a workgroup where one thread takes one node
-const uint kScanGroup = 64u;     // threads of a workgroup that scans: barriers are dear on CPUs
-const uint kScanItems = 16u;     // elements a thread of such a workgroup takes
-const uint kScanBlock = 1024u;   // elements a workgroup takes: kScanGroup * kScanItems
+const uint kCollectGroup = 64u; // threads of a workgroup of octree/collect
+const uint kCollectItems = 16u; // table entries a thread of it looks at, at most 32
+const uint kNodesGroup = 64u;   // threads of a workgroup where one thread takes one node
+const uint kScanGroup = 64u;    // threads of a workgroup that scans: barriers are dear on CPUs
+const uint kScanItems = 16u;    // elements a thread of such a workgroup takes
+const uint kScanBlock = 1024u;  // elements a workgroup takes: kScanGroup * kScanItems
 
 /// A node under construction: its entry in the brick table and its parent's.
 struct WorkItem

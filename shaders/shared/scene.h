@@ -17,8 +17,8 @@ const uint kWrapRepeat = 0u;
 const uint kWrapMirror = 1u;
 const uint kWrapClamp = 2u;
 
-const uint kUvOne = 65536u;      // a texture coordinate of 1
-const uint kUvLimit = 8192u;     // texture coordinates beyond +-kUvLimit are clamped
+const uint kUvOne = 65536u;       // a texture coordinate of 1
+const uint kUvLimit = 8192u;      // texture coordinates beyond +-kUvLimit are clamped
 const uint kFractionOne = 65535u; // 1 as a 16-bit fraction: colours, factors, alpha
 
 /// One instance of a triangle list.
@@ -39,8 +39,8 @@ GPU_BUFFER(Draw, 4);
 
 struct Material
 {
-    uvec2 base_color; // linear r | g << 16, b | a << 16 as 16-bit fractions
-    uvec2 emission;   // r | g << 16, b as 16-bit fractions of the scene's brightest emission
+    uvec2 base_color;      // linear r | g << 16, b | a << 16 as 16-bit fractions
+    uvec2 emission;        // r | g << 16, b as 16-bit fractions of the scene's brightest emission
     uint base_texture;     // kAbsent or index
     uint emission_texture; // kAbsent or index
     uint alpha_mode;
@@ -72,7 +72,7 @@ struct SceneView
     GPU_CONST_PTR(uvec3) triangles;
     GPU_CONST_PTR(vec3) positions;
     GPU_CONST_PTR(vec3) normals;
-    GPU_CONST_PTR(ivec2) uvs;   // 16.16 fixed point
+    GPU_CONST_PTR(ivec2) uvs;    // 16.16 fixed point
     GPU_CONST_PTR(uvec2) colors; // linear r | g << 16, b | a << 16 as 16-bit fractions
     GPU_CONST_PTR(Material) materials;
     GPU_CONST_PTR(TextureInfo) textures;

@@ -97,7 +97,7 @@ void emitFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, 
     bool exists = true;
     if (kMode != kModeCoverage || kClass == kClassAlpha)
     {
-        weights = fixedWeights(corners);
+        weights = fixedWeights(corners, triangle.n_w != 0);
         color = fragmentColor(surface, weights);
     }
     if (kClass == kClassAlpha)

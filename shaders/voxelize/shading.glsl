@@ -40,8 +40,8 @@ uvec3 mul16(uvec3 a, uvec3 b)
     return (t + (t >> 16)) >> 16;
 }
 
-// Barycentric weights in 1/65536 that add up to 65536.
-uvec3 fixedWeights(EDGE_IVEC3 corners)
+// Barycentric weights in 1/65536 that add up to 65536. has_area: the triangle is not a segment or a point.
+uvec3 fixedWeights(EDGE_IVEC3 corners, bool has_area)
 {
     EDGE_IVEC3 b = max(corners, EDGE_IVEC3(0));
 #ifdef EDGE_WIDE
@@ -61,7 +61,7 @@ uvec3 fixedWeights(EDGE_IVEC3 corners)
 #endif
     sum = max(sum, 1u);
     uvec2 w = divideSmall(small.xy * kUvOne, sum);
-    return total == 0 ? uvec3(21846u, 21845u, 21845u) : uvec3(w, kUvOne - w.x - w.y);
+    return has_area ? uvec3(w, kUvOne - w.x - w.y) : uvec3(21846u, 21845u, 21845u);
 }
 
 // The smallest level whose texels are about as large as voxels. double_area: of the triangle, in lattice units squared.

@@ -9,13 +9,13 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kChunkTriangles = 64u; // triangles of one draw that one workgroup takes
-const uint kResolveGroup = 64u;   // threads of a workgroup where one thread takes one voxel
-const uint kRowsGroup = 64u;      // threads of a workgroup of voxelize/rows
-const uint kBlockRows = 8u;       // rows of a row block: one thread each
-const uint kBlockColumns = 256u;  // columns of a row block: bounds a thread's work
-const uint kSmallColumns = 48u;   // a triangle over more columns than this is rasterized by rows
-const int kSmallExtent = 8192;    // lattice units: a triangle up to this size is rasterized in 32-bit integers
+const uint kChunkTriangles = 64u;  // triangles of one draw that one workgroup takes
+const uint kResolveGroup = 64u;    // threads of a workgroup where one thread takes one voxel
+const uint kRowsGroup = 64u;       // threads of a workgroup of voxelize/rows
+const uint kBlockRows = 8u;        // rows of a row block: one thread each
+const uint kBlockColumns = 256u;   // columns of a row block: bounds a thread's work
+const uint kSmallColumns = 48u;    // a triangle over more columns than this is rasterized by rows
+const int kSmallExtent = 8192;     // lattice units: a triangle up to this size is rasterized in 32-bit integers
 const uint kFragmentsMax = 65535u; // fragments of a voxel that 32-bit sums hold
 
 const int kLatticeLimit = 536870912; // 2^29: vertices beyond are dropped
@@ -113,10 +113,10 @@ struct RowArgsParams // push constants of voxelize/row_args
 struct ResolveParams // push constants of voxelize/resolve
 {
     GPU_CONST_PTR(SceneView) scene;
-    GPU_CONST_PTR(uint) sums;              // [voxel_count * kSumWords]
-    GPU_CONST_PTR(uvec2) emission_words;   // [ceil(voxel_count / 32)], or null without emission
-    GPU_PTR(Attribute) attributes;         // [voxel_count]
-    GPU_PTR(uint) max_fragments;           // [1] raised to the largest fragment count of a voxel
+    GPU_CONST_PTR(uint) sums;            // [voxel_count * kSumWords]
+    GPU_CONST_PTR(uvec2) emission_words; // [ceil(voxel_count / 32)], or null without emission
+    GPU_PTR(Attribute) attributes;       // [voxel_count]
+    GPU_PTR(uint) max_fragments;         // [1] raised to the largest fragment count of a voxel
     uint voxel_count;
     uint has_emission;
     uint sum_shift;

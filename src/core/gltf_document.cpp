@@ -364,8 +364,7 @@ std::vector<std::string> GltfWarnings::lines(const std::filesystem::path& path) 
     for (const Entry& entry : m_entries)
     {
         const std::string more = entry.count > 1 ? fmt::format(" and {} more", entry.count - 1) : "";
-        const std::string where = entry.where.empty() ? "" : fmt::format(" ({}{})", entry.where, more);
-        lines.emplace_back(gltfError(path, entry.kind + where).what());
+        lines.emplace_back(gltfError(path, fmt::format("{} ({}{})", entry.kind, entry.where, more)).what());
     }
     return lines;
 }

@@ -47,10 +47,6 @@ public:
                 m_warnings.add("instances of EXT_mesh_gpu_instancing left out, the mesh is there once", where);
             }
         }
-        if (m_scene.instances.empty())
-        {
-            m_warnings.add("the scene has no triangles", "");
-        }
         m_scene.warnings = m_warnings.lines(m_document.path);
         return std::move(m_scene);
     }

@@ -233,8 +233,7 @@ void addChunks(Staging& staging, std::uint32_t draw_number)
     checkedCount(chunks.size() * gpu::kChunkTriangles, "triangles");
 }
 
-template <typename T>
-vk::BufferOf<T> upload(vk::HeadlessDevice& device, const char* name, const std::vector<T>& values)
+template <typename T> vk::BufferOf<T> upload(vk::HeadlessDevice& device, const char* name, const std::vector<T>& values)
 {
     return device.makeBuffer(name, std::span<const T>(values));
 }

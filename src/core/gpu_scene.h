@@ -15,19 +15,19 @@ namespace zvo
 /// A scene in device memory; shaders/shared/scene.h documents the layout. Nothing changes it after the upload.
 struct GpuScene
 {
-    vk::BufferOf<gpu::Draw> draws;             // [instances]
-    vk::BufferOf<gpu::uvec3> triangles;        // [triangles of all primitives]
-    vk::BufferOf<gpu::vec3> positions;         // [vertices]
-    vk::BufferOf<gpu::vec3> normals;           // [vertices of primitives that have them]
-    vk::BufferOf<gpu::ivec2> uvs;              // likewise
-    vk::BufferOf<gpu::uvec2> colors;           // likewise
-    vk::BufferOf<gpu::Material> materials;     // [materials]
-    vk::BufferOf<gpu::TextureInfo> textures;   // [textures]
-    vk::BufferOf<gpu::TextureLevel> levels;    // [levels of all images]
-    vk::BufferOf<gpu::uint> texels;            // [texels of all levels]
-    vk::BufferOf<gpu::uint> srgb_to_linear;    // [256]
-    vk::BufferOf<gpu::uint> linear_to_srgb;    // [16384]
-    vk::BufferOf<gpu::SceneView> view;         // [1]
+    vk::BufferOf<gpu::Draw> draws;           // [instances]
+    vk::BufferOf<gpu::uvec3> triangles;      // [triangles of all primitives]
+    vk::BufferOf<gpu::vec3> positions;       // [vertices]
+    vk::BufferOf<gpu::vec3> normals;         // [vertices of primitives that have them]
+    vk::BufferOf<gpu::ivec2> uvs;            // likewise
+    vk::BufferOf<gpu::uvec2> colors;         // likewise
+    vk::BufferOf<gpu::Material> materials;   // [materials]
+    vk::BufferOf<gpu::TextureInfo> textures; // [textures]
+    vk::BufferOf<gpu::TextureLevel> levels;  // [levels of all images]
+    vk::BufferOf<gpu::uint> texels;          // [texels of all levels]
+    vk::BufferOf<gpu::uint> srgb_to_linear;  // [256]
+    vk::BufferOf<gpu::uint> linear_to_srgb;  // [16384]
+    vk::BufferOf<gpu::SceneView> view;       // [1]
 
     /// Chunks of the draws of each material class (kClassPlain and so on).
     std::array<vk::BufferOf<gpu::Chunk>, gpu::kClassCount> chunks;

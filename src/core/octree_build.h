@@ -17,11 +17,11 @@ struct OctreeBuildBuffers
 {
     OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity);
 
-    vk::BufferOf<gpu::WorkItem> items;     // [brick_capacity] leaves first, the root last
-    vk::BufferOf<gpu::LevelRange> ranges;  // [kNodeLevelsMax] the items of each level, leaves first
-    vk::BufferOf<gpu::DispatchArgs> args;  // [1]
-    vk::BufferOf<gpu::uint> partials;      // [ceil(brick_capacity / kScanBlock)]
-    vk::BufferOf<gpu::uint> total;         // [1]
+    vk::BufferOf<gpu::WorkItem> items;    // [brick_capacity] leaves first, the root last
+    vk::BufferOf<gpu::LevelRange> ranges; // [kNodeLevelsMax] the items of each level, leaves first
+    vk::BufferOf<gpu::DispatchArgs> args; // [1]
+    vk::BufferOf<gpu::uint> partials;     // [ceil(brick_capacity / kScanBlock)]
+    vk::BufferOf<gpu::uint> total;        // [1]
 };
 
 /// Records the passes that list the leaves in the brick table and put all their ancestors beside them, level by level

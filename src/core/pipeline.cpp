@@ -101,9 +101,10 @@ Coverings coverVoxels(vk::HeadlessDevice& device, const GpuScene& scene, const G
             return coverings;
         }
     }
-    throw Error(ErrorCode::Memory, fmt::format("voxelization found no room in {} attempts (last: a table of {} bricks); "
-                                               "lower the resolution",
-                                               kRetriesMax, result.capacities.bricks));
+    throw Error(ErrorCode::Memory,
+                fmt::format("voxelization found no room in {} attempts (last: a table of {} bricks); "
+                            "lower the resolution",
+                            kRetriesMax, result.capacities.bricks));
 }
 
 // Sizes octree from the node list.
@@ -139,9 +140,8 @@ void makeEmission(vk::HeadlessDevice& device, const GpuScene& scene, Coverage co
     }
     attributes.emission_sums = {device.device(), "voxelize/emission_sums", std::uint64_t{emissive_count} * 3};
     octree.emission = {device.device(), "octree/emission", emissive_count};
-    append(result.passes,
-           device.run([&](vk::FrameGraph& graph)
-                      { voxelizeEmission(graph, scene, coverage, voxelize, attributes, octree); }));
+    append(result.passes, device.run([&](vk::FrameGraph& graph)
+                                     { voxelizeEmission(graph, scene, coverage, voxelize, attributes, octree); }));
 }
 
 void makeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& voxelize,
@@ -225,9 +225,8 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const
     {
         return result;
     }
-    append(result.passes,
-           device.run([&](vk::FrameGraph& graph)
-                      { numberNodes(graph, coverings.voxelize, coverings.work, result.octree); }));
+    append(result.passes, device.run([&](vk::FrameGraph& graph)
+                                     { numberNodes(graph, coverings.voxelize, coverings.work, result.octree); }));
     coverings.work.items = {};
     if (options.attributes)
     {

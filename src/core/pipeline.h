@@ -43,8 +43,8 @@ struct BuildResult
 BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
                         const BuildOptions& options);
 
-/// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have equal
-/// sums whatever made them.
+/// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have
+/// equal sums whatever made them.
 std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree);
 
 /// The Morton codes of all voxels, ascending: voxel_count of them.

@@ -64,7 +64,8 @@ const std::array<std::uint32_t, 256>& srgbToLinearTable()
         std::array<std::uint32_t, 256> values{};
         for (std::size_t i = 0; i < values.size(); ++i)
         {
-            values[i] = static_cast<std::uint32_t>(std::lround(kFractionOne * decodeSrgb(static_cast<double>(i) / 255)));
+            values[i] =
+                static_cast<std::uint32_t>(std::lround(kFractionOne * decodeSrgb(static_cast<double>(i) / 255)));
         }
         return values;
     }();
@@ -103,7 +104,8 @@ std::uint32_t TexturePool::add(const Image& image, std::uint32_t& level_count)
         const auto texel = [&](std::uint32_t x, std::uint32_t y)
         {
             Texel value;
-            std::memcpy(value.data(), &texels[first + std::size_t{std::min(y, height - 1)} * width + std::min(x, width - 1)],
+            std::memcpy(value.data(),
+                        &texels[first + std::size_t{std::min(y, height - 1)} * width + std::min(x, width - 1)],
                         value.size());
             return value;
         };

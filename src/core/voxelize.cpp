@@ -66,8 +66,7 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32
 // Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
 void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
 {
-    const std::uint32_t coverage =
-        job.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
+    const std::uint32_t coverage = job.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
     for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
     {
         const std::uint64_t chunk_count = job.scene.chunks[material_class].count();
@@ -122,8 +121,8 @@ void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Oct
 
 VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid)
 {
-    // A plane meets about 1.5 leaves per 16 voxels of area, and an inner node stands above every eight leaves or so. The
-    // table should be no more than half full.
+    // A plane meets about 1.5 leaves per 16 voxels of area, and an inner node stands above every eight leaves or so.
+    // The table should be no more than half full.
     const double voxel = grid.voxel_size;
     const double grid_leaves = std::pow(static_cast<double>(grid.resolution()) / 4, 3);
     const double leaves = std::min(scene.surface_area / (voxel * voxel) * 1.5 / 16, grid_leaves);

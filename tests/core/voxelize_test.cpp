@@ -3,9 +3,9 @@
 #include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
-#include "oracle/octree_check.h"
 #include "oracle/voxelizer.h"
 #include "support/device.h"
+#include "support/octree_access.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -23,22 +23,12 @@ vk::HeadlessDevice& device()
     return test::sharedDevice(zvoKernels());
 }
 
-oracle::OctreeContents contentsOf(const Octree& octree)
-{
-    std::vector<oracle::NodeRange> levels;
-    for (const Octree::Level& level : octree.levels)
-    {
-        levels.push_back({level.first_node, level.node_count});
-    }
-    return oracle::checkOctree(device().download(octree.nodes), levels, octree.grid.depth);
-}
-
 void expectEqualsOracle(const Scene& scene, const Grid& grid, Coverage coverage)
 {
     const GpuScene gpu_scene = uploadScene(device(), scene, false);
     const BuildResult result = buildOctree(device(), gpu_scene, grid, {coverage, false, {}});
     const oracle::OracleVoxels expected = oracle::voxelize(scene, grid, coverage);
-    const oracle::OctreeContents contents = contentsOf(result.octree);
+    const oracle::OctreeContents contents = test::contentsOf(device(), result.octree);
     EXPECT_TRUE(contents.violations.empty()) << contents.violations.front();
     EXPECT_EQ(contents.codes.size(), result.octree.voxel_count);
     std::vector<std::uint64_t> missing;

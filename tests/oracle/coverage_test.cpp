@@ -204,6 +204,18 @@ TEST(OracleThin, DiagonalWallHasOneVoxelPerColumnWhereConservativeHasThree)
     EXPECT_EQ(covered(wall, 4, Coverage::Conservative), touched);
 }
 
+TEST(OracleThin, MajorAxisOfEqualOnesIsTheFirst)
+{
+    // The plane x = z + 128. Along x its heights are 256 (z + 1), at the lower end of voxel z + 1; along z the voxels
+    // with x = z would be covered.
+    const Triangle wall{Vec{-2000, -9000, -2128}, Vec{-2000, 9000, -2128}, Vec{9128, 0, 9000}};
+    Voxels expected;
+    for (const glm::uvec3& voxel : test::allVoxels(4))
+        if (voxel.x == voxel.z + 1)
+            expected.insert(key(voxel));
+    EXPECT_EQ(covered(wall, 4, Coverage::Thin), expected);
+}
+
 TEST(OracleThin, SmallTriangleCoversTheVoxelWhoseDiamondItReaches)
 {
     // In the corner of the voxel, away from the diamond.

@@ -40,12 +40,9 @@ TEST(OracleFragment, WeightsAtACornerAnEdgeAndTheMiddle)
 
 TEST(OracleFragment, WeightsOutsideOfTheTriangleAreClamped)
 {
-    // E = (-128, 64, 128) * 256 for the centre (128, 128): beyond the edge across from vertex 0.
     const Triangle triangle{Vec{64, 0, 0}, Vec{0, 0, 0}, Vec{0, 64, 0}};
-    const Weights weights = fragmentWeights(triangle, {0, 0, 0});
-    EXPECT_EQ(weights[0] + weights[1] + weights[2], 65536U);
-    // E_0 = 128 * 64, E_1 = (64 - 128 - 128) * 64 < 0, E_2 = 128 * 64.
-    EXPECT_EQ(weights, (Weights{32768, 0, 32768}));
+    // At the centre (128, 128): E_0 = 128 * 64, E_1 = (64 - 128 - 128) * 64 < 0, E_2 = 128 * 64.
+    EXPECT_EQ(fragmentWeights(triangle, {0, 0, 0}), (Weights{32768, 0, 32768}));
 }
 
 TEST(OracleFragment, WeightsComeFromTheColumnOfTheMajorAxis)
@@ -58,11 +55,9 @@ TEST(OracleFragment, WeightsComeFromTheColumnOfTheMajorAxis)
 
 TEST(OracleFragment, WeightsOfLargeTrianglesAreShiftedBeforeTheDivision)
 {
-    // |n_w| = 3 * 2^20, k = 6: S >> k = 49152; b_0 is a third less 3, b_1 a third plus 2.
-    const Triangle triangle{Vec{128 - 1024, 128 - 1024, 0}, Vec{128 + 2048, 128 - 1024, 0}, Vec{128 - 1024, 128, 0}};
-    const Weights weights = fragmentWeights(triangle, {0, 0, 0});
-    // E_1 = 1024 * 1024 = 2^20; E_2 = 3072 * 1024 = 3 * 2^20; E_0 = 3 * 2^20 - E_1 - E_2 = -2^20.
-    EXPECT_EQ(weights, (Weights{0, 16384, 49152}));
+    // |n_w| = 65536, so k = 1; E_0 = 65280, E_1 = 255, E_2 = 1.
+    const Triangle triangle{Vec{127, 127, 0}, Vec{384, 383, 0}, Vec{128, 383, 0}};
+    EXPECT_EQ(fragmentWeights(triangle, {0, 0, 0}), (Weights{65280, 254, 2}));
 }
 
 TEST(OracleFragment, WeightsWithoutAreaAreThirds)

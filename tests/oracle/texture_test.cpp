@@ -104,6 +104,12 @@ TEST(OracleTexture, TexelCentersGiveTheTexelAndTheirMiddleTheMean)
     }
 }
 
+TEST(OracleTexture, AlphaIsRoundedHalvesUp)
+{
+    const MipChain mips(imageOf(2, 1, {{0, 0, 0, 0}, {0, 0, 0, 1}}));
+    EXPECT_EQ(mips.sample(0, 32768, 0, WrapMode::Repeat, WrapMode::Repeat).alpha, 129U); // 128.5
+}
+
 TEST(OracleTexture, WrapModesDifferOutsideOfTheImage)
 {
     const MipChain mips(greys({0, 0, 0, 255}));

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Rays of a picture's pixels, and the tiles that they are traced in. The includer includes trace/trace.h before.
+
+// Twice the offset of a pixel's centre from the picture's, in pixels: exact.
+vec2 pixelOffset(uvec2 pixel, uvec2 size)
+{
+    return vec2(ivec2(2u * pixel + 1u) - ivec2(size));
+}
+
+vec3 rayOffset(vec2 offset, vec3 step_x, vec3 step_y)
+{
+    precise vec3 sum = offset.x * step_x + offset.y * step_y;
+    return sum;
+}
+
+// Pixel of a thread within its tile: eight consecutive threads take 4x2 pixels, sixteen 4x4 and so on.
+uvec2 pixelInTile(uint thread)
+{
+    uvec2 bits = uvec2(thread, thread >> 1);
+    return (bits & 1u) | ((bits >> 1) & 2u) | ((bits >> 2) & 4u);
+}
+
+uvec2 unpackTile(uint tile)
+{
+    return uvec2(bitfieldExtract(tile, 0, 16), tile >> 16);
+}

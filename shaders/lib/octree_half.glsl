@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Loads of half nodes for lib/traverse.glsl from a buffer of Node. main() sets g_halves first: read from the push
+// constants inside of the traversal's loop, the address would be loaded again in every iteration.
+
+uint64_t_ConstPtr g_halves; // the nodes as 64-bit words, which lavapipe loads faster than pairs of 32-bit words
+
+uvec2 loadHalf(uint half_index)
+{
+    return unpackUint2x32(g_halves.data[half_index]);
+}

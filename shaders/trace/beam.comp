@@ -1,0 +1,99 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Which tiles can hit anything, and from where on. One ray through the middle of the tile goes through the beam grid:
+// while the tile is no wider than a cell, and the middle is in a cell that is not set, no ray of the tile is in an
+// occupied part of the octree (after S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, who trace a coarse
+// picture instead and may miss what falls between its rays).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#include "trace/trace.h"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/ray.glsl"
+
+layout(constant_id = 3) const bool kOrthographic = false;
+layout(constant_id = 4) const bool kBeam = true;   // false: every tile lives from kTraceTimeMin on
+layout(constant_id = 5) const bool kEmpty = false; // every tile is dead
+
+layout(local_size_x = kBlockTiles) in;
+layout(push_constant, scalar) uniform Push
+{
+    BeamParams params;
+};
+
+#define TRAVERSE_GROUP kBlockTiles
+#include "lib/octree_half.glsl"
+#include "lib/traverse.glsl"
+
+const float kBeamEdge = 1.0 / float(kBeamCells - 2u);          // of a cell, in unit space
+const float kBeamScale = float(kBeamCells - 2u) / float(kBeamCells); // from unit space to the beam grid's cube
+const float kBeamMargin = 0.98; // of a cell: the rest covers rounding, for origins within kBeamOriginMax
+const float kBeamOriginMax = 1000.0;
+const float kTileReach = float(kTileEdge - 1u); // from the middle of a tile to its outer pixels, in half pixels
+
+// Until when all rays of a tile are within a cell of the middle one.
+float beamEnd()
+{
+    vec3 reach = kTileReach * (abs(params.camera.step_x) + abs(params.camera.step_y));
+    float widest = max(reach.x, max(reach.y, reach.z));
+    vec3 from = abs(params.camera.origin);
+    bool near = max(from.x, max(from.y, from.z)) <= kBeamOriginMax;
+    float end = kOrthographic ? (widest <= kBeamMargin * kBeamEdge ? kTraceTimeMax : 0.0)
+                              : kBeamMargin * kBeamEdge / max(widest, kTraceTimeMin);
+    return near ? end : 0.0;
+}
+
+// Depth of the octree's farthest corner.
+float lastDepth()
+{
+    vec3 forward = params.camera.forward;
+    return dot(1.5 - params.camera.origin, forward) + 0.501 * (abs(forward.x) + abs(forward.y) + abs(forward.z));
+}
+
+float tileStart(uvec2 tile)
+{
+    vec2 middle = vec2(ivec2(2u * kTileEdge * tile + kTileEdge) - ivec2(params.width, params.height));
+    vec3 offset = rayOffset(middle, params.camera.step_x, params.camera.step_y);
+    vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
+    vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
+    float end = beamEnd();
+    g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    Traversal beam = traverse(1.5 + (origin - 1.5) * kBeamScale, inverseDirection(direction) / kBeamScale,
+                              kTraceTimeMin, end, vec2(0.0));
+    float past = lastDepth() <= end ? kTileDead : max(end, kTraceTimeMin);
+    return beam.hit ? beam.t : past;
+}
+
+// The tile of a thread: blocks follow each other at a distance, so that every part of the live list is equally hard.
+uvec2 tileOfThread(uvec2 tiles)
+{
+    uvec2 blocks = (tiles + kBlockEdge - 1u) / kBlockEdge;
+    uint block = (workgroupIndex() * params.block_stride) % (blocks.x * blocks.y);
+    return kBlockEdge * uvec2(block % blocks.x, block / blocks.x) + pixelInTile(gl_LocalInvocationIndex);
+}
+
+void main()
+{
+    uvec2 tiles = (uvec2(params.width, params.height) + kTileEdge - 1u) / kTileEdge;
+    uvec2 tile = tileOfThread(tiles);
+    bool inside = all(lessThan(tile, tiles));
+    float start = kEmpty ? kTileDead : kBeam ? tileStart(tile) : kTraceTimeMin;
+    if (inside)
+        params.starts.data[tile.y * tiles.x + tile.x] = start;
+
+    bool live = inside && start < kTileDead;
+    uvec4 ballot = subgroupBallot(live);
+    uint count = subgroupBallotBitCount(ballot);
+    uint first = 0u;
+    if (subgroupElect() && count != 0u)
+    {
+        first = atomicAdd(params.status.data[0].live_tiles, count);
+        atomicMax(params.args.data[0].x, min(first + count, kTilesFold));
+        atomicMax(params.args.data[0].y, (first + count - 1u) / kTilesFold + 1u);
+        atomicMax(params.args.data[0].z, 1u);
+    }
+    first = subgroupBroadcastFirst(first);
+    if (live)
+        params.live.data[first + subgroupBallotExclusiveBitCount(ballot)] =
+            uvec2(tile.x | (tile.y << 16), floatBitsToUint(start));
+}

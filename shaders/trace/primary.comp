@@ -1,0 +1,46 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Traces the rays of all pixels in live tiles, one workgroup a tile.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/ray.glsl"
+
+layout(constant_id = 3) const bool kOrthographic = false;
+layout(constant_id = 4) const bool kCountIterations = false;
+
+layout(local_size_x = kTilePixels) in;
+layout(push_constant, scalar) uniform Push
+{
+    PrimaryParams params;
+};
+
+#define TRAVERSE_GROUP kTilePixels
+#include "lib/octree_half.glsl"
+#include "lib/traverse.glsl"
+
+void main()
+{
+    CameraRays camera = params.camera;
+    uvec2 size = uvec2(params.width, params.height);
+    if (workgroupIndex() >= params.status.data[0].live_tiles)
+        return;
+    uvec2 tile = params.live.data[workgroupIndex()];
+    uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
+    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.step_x, camera.step_y);
+    precise vec3 direction = camera.forward + (kOrthographic ? vec3(0.0) : offset);
+    precise vec3 origin = camera.origin + (kOrthographic ? offset : vec3(0.0));
+    g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    Traversal result = traverse(origin, inverseDirection(direction), uintBitsToFloat(tile.y), kTraceTimeMax,
+                                params.detail);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    if (result.capped)
+        atomicAdd(params.status.data[0].capped_rays, 1u);
+    uint i = pixel.y * size.x + pixel.x;
+    storeHit(params.hits, i, result.t, result.hit ? result.index : kHitMiss, result.cell, result.level, result.face);
+    if (kCountIterations)
+        params.iterations.data[i] = result.iterations;
+}

@@ -1,0 +1,34 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Traces a list of rays.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/ray.glsl"
+
+layout(local_size_x = kRaysGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RaysParams params;
+};
+
+#define TRAVERSE_GROUP kRaysGroup
+#include "lib/octree_half.glsl"
+#include "lib/traverse.glsl"
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= params.ray_count)
+        return;
+    Ray ray = params.rays.data[i];
+    bool valid = isTraceable(ray);
+    g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    // An invalid ray goes through as one that ends before it starts.
+    Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0), ray.t_min,
+                                valid ? ray.t_max : 0.0, params.detail);
+    if (result.capped)
+        atomicAdd(params.status.data[0].capped_rays, 1u);
+    storeHit(params.hits, i, result.t, result.hit ? result.index : kHitMiss, result.cell, result.level, result.face);
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// What the kernels that trace rays share with the host.
+#ifndef ZVO_SHADERS_TRACE_TRACE_H
+#define ZVO_SHADERS_TRACE_TRACE_H
+
+#include "shared/octree.h"
+#include "shared/trace.h"
+
+GPU_NAMESPACE_BEGIN
+
+GPU_BUFFER(float, 4);
+
+const uint kRaysGroup = 64u; // threads of a workgroup of trace/rays
+
+// Pictures are traced in square tiles, one workgroup each.
+const uint kTileEdge = 8u;     // pixels
+const uint kTilePixels = 64u;  // and threads of the workgroup
+const uint kBlockEdge = 8u;    // tiles: a workgroup of trace/beam takes a square block of them
+const uint kBlockTiles = 64u;  // and threads of the workgroup
+const uint kTilesFold = 32768u; // workgroups along x of an indirect dispatch over live tiles
+const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the tile can hit anything
+
+// The beam grid: kBeamCells^3 cells over the octree's root cube and a border of one cell around it. A cell is set if it
+// or one of its 26 neighbours touches an occupied part of the octree. It is stored as an octree of kBeamLevels levels
+// whose nodes have room for all children: node 0 is the root, then come kBeamLevel1 and kBeamLevel2 nodes, those of
+// parent p (in Morton order of its level) from 64 p on for its lower and 64 p + 32 on for its upper half.
+const uint kBeamCells = 64u;
+const uint kBeamLevels = 3u;
+const uint kBeamFirst1 = 1u;     // first node of level 1
+const uint kBeamFirst2 = 65u;    // first node of level 2
+const uint kBeamNodes = 4161u;   // of all levels
+const uint kBeamRows = 4096u;    // of cells along x
+const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that build it
+
+/// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
+/// left, offset = n.x * step_x + n.y * step_y: perspective rays start at origin along forward + offset, orthographic
+/// ones at origin + offset along forward. forward has length 1 and is orthogonal to both steps, so t is the depth.
+struct CameraRays
+{
+    vec3 origin;
+    vec3 forward;
+    vec3 step_x; // half a pixel to the right
+    vec3 step_y; // half a pixel down
+};
+
+struct RaysParams // push constants of trace/rays
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Ray) rays;    // [ray_count]
+    GPU_PTR(Hit) hits;          // [ray_count]
+    GPU_PTR(TraceStatus) status;
+    vec2 detail; // as traverse()
+    uint ray_count;
+};
+
+struct BeamMarkParams // push constants of trace/beam_mark: one thread a row
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_PTR(uint64_t) rows; // [cells * cells] of occupied cells: row y + z * cells
+    uint levels;            // of nodes to look at
+    uint cells;             // 4^levels, at most 64
+};
+
+struct BeamDilateParams // push constants of trace/beam_dilate: one thread a row
+{
+    GPU_CONST_PTR(uint64_t) occupied; // [cells * cells]
+    GPU_PTR(uint64_t) rows;           // [kBeamRows] of the beam grid
+    uint cells;
+};
+
+struct BeamNodesParams // push constants of trace/beam_nodes: one thread a node, one workgroup its parent
+{
+    GPU_CONST_PTR(uint64_t) masks; // level 2: the rows; level 1: [64] masks in Morton order
+    GPU_PTR(uint64_t) parents;     // [nodes / 64] masks of the parents in Morton order
+    GPU_PTR(Node) nodes;           // [kBeamNodes]
+    uint first_node;               // of this level
+};
+
+struct BeamParams // push constants of trace/beam: one thread a tile
+{
+    GPU_CONST_PTR(Node) nodes;   // of the beam grid
+    GPU_PTR(float) starts;       // [tiles] row by row: where its rays may start, or kTileDead
+    GPU_PTR(uvec2) live;         // [tiles] x | y << 16, bits of the start: of tiles that are not dead
+    GPU_PTR(DispatchArgs) args;  // [1] cleared; one workgroup a live tile
+    GPU_PTR(TraceStatus) status; // [1]
+    CameraRays camera;
+    uint width; // pixels
+    uint height;
+    uint block_stride; // coprime to the number of blocks: the order in which they are taken
+};
+
+struct PrimaryParams // push constants of trace/primary
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uvec2) live;
+    GPU_PTR(TraceStatus) status;
+    GPU_PTR(Hit) hits;        // [width * height] row by row, undefined in dead tiles
+    GPU_PTR(uint) iterations; // [width * height] likewise; kCountIterations only
+    CameraRays camera;
+    uint width;
+    uint height;
+    vec2 detail;
+};
+
+struct ShadowParams // push constants of trace/shadow
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(Attribute) attributes;      // of voxels; kHasAttributes only
+    GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
+    GPU_PTR(TraceStatus) status;
+    GPU_PTR(uint) light; // [width * height] bits of light that arrives: kLightSun; undefined in dead tiles
+    vec3 forward;        // of the camera
+    vec3 step_x;
+    vec3 step_y;
+    vec3 to_sun; // length 1
+    vec3 to_sun_inverse;
+    uint width;
+    uint height;
+};
+
+struct ShadeParams // push constants of trace/shade
+{
+    GPU_CONST_PTR(float) starts;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(uint) light; // of trace/shadow; kViewIterations: the iterations
+    GPU_CONST_PTR(Attribute) attributes;
+    GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_CONST_PTR(uvec2) emission_words;
+    GPU_CONST_PTR(uint) emission;
+    GPU_PTR(uint) image; // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
+    vec3 forward;
+    vec3 step_x;
+    vec3 step_y;
+    vec3 to_sun;
+    uint size; // width | height << 16
+    float emission_scale;
+    float sun; // irradiance
+    float exposure;
+};
+
+const uint kLightSun = 255u; // mask in ShadowParams::light
+
+GPU_NAMESPACE_END
+
+#endif

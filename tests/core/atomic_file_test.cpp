@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#include "core/atomic_file.h"
+
+#include "support/temp_dir.h"
+#include "zvo/error.h"
+
+#include <csignal>
+#include <cstdint>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace zvo
+{
+
+namespace
+{
+
+std::span<const std::byte> asBytes(std::string_view text)
+{
+    return std::as_bytes(std::span(text));
+}
+
+std::string contentOf(const std::filesystem::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::size_t fileCount(const std::filesystem::path& folder)
+{
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+template <typename Write> void expectOutputError(const Write& write, const std::string& part)
+{
+    try
+    {
+        write();
+        FAIL() << "no error where \"" << part << "\" was expected";
+    }
+    catch (const Error& error)
+    {
+        const std::string message = error.what();
+        EXPECT_EQ(error.code(), ErrorCode::Output) << message;
+        EXPECT_NE(message.find(part), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+}
+
+TEST(AtomicFile, AppearsOnlyWhenCommitted)
+{
+    const test::TempDir dir;
+    const auto path = dir.path() / "out.bin";
+    {
+        AtomicFile file(path, Overwrite::Refuse);
+        file.write(asBytes("one "));
+        file.write(asBytes("two"));
+        EXPECT_FALSE(std::filesystem::exists(path));
+        file.commit();
+    }
+    EXPECT_EQ(contentOf(path), "one two");
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+}
+
+TEST(AtomicFile, RefusesToOverwriteWithAHint)
+{
+    const test::TempDir dir;
+    const auto path = dir.write("out.bin", "old");
+    expectOutputError([&] { AtomicFile(path, Overwrite::Refuse); }, "use -f to overwrite");
+    EXPECT_EQ(contentOf(path), "old");
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+}
+
+TEST(AtomicFile, RefusesToOverwriteWhatAppearedMeanwhile)
+{
+    const test::TempDir dir;
+    const auto path = dir.path() / "out.bin";
+    expectOutputError(
+        [&]
+        {
+            AtomicFile file(path, Overwrite::Refuse);
+            file.write(asBytes("new"));
+            dir.write("out.bin", "somebody else's");
+            file.commit();
+        },
+        "use -f to overwrite");
+    EXPECT_EQ(contentOf(path), "somebody else's");
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+}
+
+TEST(AtomicFile, OverwritesWhenAllowedAndKeepsThePermissions)
+{
+    const test::TempDir dir;
+    const auto path = dir.write("out.bin", "old");
+    constexpr auto kOwnerOnly = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
+    std::filesystem::permissions(path, kOwnerOnly);
+    writeFileAtomically(path, asBytes("new"), Overwrite::Allow);
+    EXPECT_EQ(contentOf(path), "new");
+    EXPECT_EQ(std::filesystem::status(path).permissions(), kOwnerOnly);
+}
+
+TEST(AtomicFile, LeavesNothingBehindWhenSomethingThrows)
+{
+    const test::TempDir dir;
+    const auto path = dir.write("out.bin", "old");
+    try
+    {
+        AtomicFile file(path, Overwrite::Allow);
+        file.write(asBytes("half"));
+        EXPECT_EQ(fileCount(dir.path()), 2U);
+        throw std::runtime_error("in between");
+    }
+    catch (const std::runtime_error&)
+    {
+        EXPECT_EQ(fileCount(dir.path()), 1U);
+    }
+    EXPECT_EQ(contentOf(path), "old");
+}
+
+TEST(AtomicFile, MissingFolderIsAnOutputError)
+{
+    const test::TempDir dir;
+    expectOutputError([&] { writeFileAtomically(dir.path() / "no" / "out.bin", {}, Overwrite::Refuse); },
+                      "No such file or directory");
+    expectOutputError([&] { writeFileAtomically("", {}, Overwrite::Refuse); }, "cannot write");
+    expectOutputError([&] { writeFileAtomically(dir.path(), {}, Overwrite::Allow); }, "Is a directory");
+}
+
+TEST(AtomicFile, FullDiskIsAnOutputError)
+{
+    if (!std::filesystem::exists("/dev/full"))
+    {
+        GTEST_SKIP() << "no /dev/full";
+    }
+    expectOutputError([] { writeFileAtomically("/dev/full", asBytes("x"), Overwrite::Refuse); }, "No space left");
+}
+
+TEST(AtomicFile, DeviceIsWrittenDirectly)
+{
+    writeFileAtomically("/dev/null", asBytes("x"), Overwrite::Refuse);
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(AtomicFile, PipeIsWrittenDirectly)
+{
+    const test::TempDir dir;
+    const auto path = dir.path() / "pipe";
+    ASSERT_EQ(mkfifo(path.c_str(), S_IRUSR | S_IWUSR), 0);
+    std::fstream reader(path); // both directions, so that opening does not wait
+    writeFileAtomically(path, asBytes("through\n"), Overwrite::Refuse);
+    std::string line;
+    std::getline(reader, line);
+    EXPECT_EQ(line, "through");
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+}
+
+TEST(AtomicFile, LinkStaysALink)
+{
+    const test::TempDir dir;
+    const auto path = dir.write("real.bin", "old");
+    const auto link = dir.path() / "link.bin";
+    std::filesystem::create_symlink(path, link);
+    writeFileAtomically(link, asBytes("new"), Overwrite::Allow);
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_EQ(contentOf(path), "new");
+}
+
+TEST(AtomicFile, NameMayHaveTheLongestLength)
+{
+    const test::TempDir dir;
+    const auto path = dir.path() / std::string(255, 'n');
+    writeFileAtomically(path, asBytes("new"), Overwrite::Refuse);
+    EXPECT_EQ(contentOf(path), "new");
+}
+
+TEST(AtomicFile, MoreFilesThanSlotsAreWritten)
+{
+    const test::TempDir dir;
+    std::vector<std::unique_ptr<AtomicFile>> files;
+    for (int i = 0; i < 40; ++i)
+    {
+        files.push_back(std::make_unique<AtomicFile>(dir.path() / std::to_string(i), Overwrite::Refuse));
+    }
+    for (const auto& file : files)
+    {
+        file->commit();
+    }
+    EXPECT_EQ(fileCount(dir.path()), 40U);
+}
+
+void removeAndExit(int)
+{
+    removePendingFiles();
+    _exit(3);
+}
+
+TEST(AtomicFile, InterruptRemovesTheTemporary)
+{
+    const test::TempDir dir;
+    const auto path = dir.write("out.bin", "old");
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0)
+    {
+        std::signal(SIGINT, removeAndExit);
+        writeFileAtomically(dir.path() / "done.bin", asBytes("done"), Overwrite::Refuse);
+        AtomicFile file(path, Overwrite::Allow);
+        file.write(asBytes("half"));
+        std::raise(SIGINT);
+        _exit(1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    EXPECT_EQ(contentOf(path), "old");
+    EXPECT_EQ(contentOf(dir.path() / "done.bin"), "done");
+    EXPECT_EQ(fileCount(dir.path()), 2U);
+}
+
+} // namespace
+
+} // namespace zvo

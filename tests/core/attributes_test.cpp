@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+// Colours, normals and emission of voxels and inner nodes.
+#include "core/gltf_loader.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/texture_pool.h"
+#include "oracle/attributes.h"
+#include "support/device.h"
+#include "support/octree_access.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <random>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+struct Built
+{
+    Octree octree;
+    std::vector<gpu::Attribute> voxels;
+    std::vector<gpu::Attribute> nodes;
+};
+
+Built build(const Scene& scene, const Grid& grid, Coverage coverage = Coverage::Thin)
+{
+    const GpuScene gpu_scene = uploadScene(device(), scene, true);
+    Built built{buildOctree(device(), gpu_scene, grid, {coverage, true, {}}).octree, {}, {}};
+    built.voxels = device().download(built.octree.voxel_attributes);
+    built.nodes = device().download(built.octree.node_attributes);
+    return built;
+}
+
+// Unpacks an octahedral normal in floating point (Cigolle et al. 2014).
+glm::dvec3 normalOf(const gpu::Attribute& attribute)
+{
+    const double x = static_cast<std::int16_t>(attribute.normal & 0xFFFF) / 32767.0;
+    const double y = static_cast<std::int16_t>(attribute.normal >> 16) / 32767.0;
+    glm::dvec3 n(x, y, 1 - std::abs(x) - std::abs(y));
+    if (n.z < 0)
+    {
+        n = {(1 - std::abs(y)) * (x < 0 ? -1 : 1), (1 - std::abs(x)) * (y < 0 ? -1 : 1), n.z};
+    }
+    return glm::normalize(n);
+}
+
+double degreesBetween(const glm::dvec3& a, const glm::dvec3& b)
+{
+    return glm::degrees(std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
+}
+
+std::uint32_t channel(std::uint32_t color, int c)
+{
+    return color >> (8 * c) & 0xFF;
+}
+
+void expectColorsEqualTheOracle(const Scene& scene, std::uint32_t depth, Coverage coverage)
+{
+    const Grid grid = Grid::around(scene.bounds(), depth);
+    const Built built = build(scene, grid, coverage);
+    const std::vector<oracle::VoxelColor> expected = oracle::voxelColors(scene, grid, coverage);
+    ASSERT_EQ(built.voxels.size(), expected.size());
+    const std::vector<std::uint8_t>& to_srgb = linearToSrgbTable();
+    std::size_t differences = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+        const oracle::VoxelColor& sums = expected[i];
+        const std::uint64_t half = sums.count / 2;
+        const std::uint32_t color = to_srgb[(sums.sum_r + half) / sums.count] |
+                                    to_srgb[(sums.sum_g + half) / sums.count] << 8 |
+                                    to_srgb[(sums.sum_b + half) / sums.count] << 16;
+        differences += (built.voxels[i].color & 0xFFFFFF) != color ? 1 : 0;
+    }
+    EXPECT_EQ(differences, 0U) << "of " << expected.size() << " voxels";
+}
+
+class SceneColors : public testing::TestWithParam<const char*>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneColors,
+                         testing::Values("sponza.glb", "damaged_helmet.glb", "milk_truck.glb",
+                                         "alpha_blend_mode_test.glb", "box_textured.glb", "cornell_box.glb"),
+                         [](const auto& test_case)
+                         {
+                             std::string name = test_case.param;
+                             return name.substr(0, name.find('.'));
+                         });
+
+TEST_P(SceneColors, EqualTheOracleBitForBit)
+{
+    const auto path = test::sharedScene(GetParam());
+    if (!path)
+    {
+        GTEST_SKIP() << GetParam() << " is not there";
+    }
+    const Scene scene = loadGltf(*path);
+    expectColorsEqualTheOracle(scene, 7, Coverage::Thin);
+    expectColorsEqualTheOracle(scene, 6, Coverage::Conservative);
+}
+
+TEST(VoxelColors, OfTheOwnAtriumEqualTheOracle)
+{
+    expectColorsEqualTheOracle(loadGltf(test::ownScene("atrium.glb")), 7, Coverage::Thin);
+}
+
+TEST(VoxelColors, VertexColorsAndOddTexturesWithEveryWrapEqualTheOracle)
+{
+    std::mt19937 random(5);
+    for (const WrapMode wrap : {WrapMode::Repeat, WrapMode::MirroredRepeat, WrapMode::ClampToEdge})
+    {
+        Scene scene = test::randomTriangles(11, 200, 32.0F);
+        scene.images.push_back({"odd", 13, 5, {}});
+        for (std::uint32_t i = 0; i < 13 * 5 * 4; ++i)
+        {
+            scene.images[0].rgba.push_back(static_cast<std::uint8_t>(random()));
+        }
+        scene.textures.push_back({0, wrap, wrap});
+        scene.materials[0].base_color_texture = 0;
+        scene.materials[0].base_color = {0.7F, 0.9F, 0.3F, 0.8F};
+        scene.materials[0].alpha_mode = AlphaMode::Blend;
+        for (std::size_t i = 0; i < scene.primitives[0].positions.size(); ++i)
+        {
+            const auto uniform = [&] { return std::uniform_real_distribution<float>(-2.0F, 3.0F)(random); };
+            scene.primitives[0].uvs.emplace_back(uniform(), uniform());
+            scene.primitives[0].colors.emplace_back(uniform(), uniform(), uniform(), 0.9F);
+        }
+        expectColorsEqualTheOracle(scene, 5, Coverage::Thin);
+        expectColorsEqualTheOracle(scene, 5, Coverage::Conservative);
+    }
+}
+
+TEST(VoxelNormals, OfABoxPointOutwardsAlongTheAxes)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 4};
+    Scene floor = test::triangleSoup({{0, 5, 0}, {0, 5, 16}, {16, 5, 16}, {0, 5, 0}, {16, 5, 16}, {16, 5, 0}});
+    for (const bool mirrored : {false, true}) // mirrored in x: the winding turns around, the normal stays
+    {
+        if (mirrored)
+        {
+            floor.instances[0].transform = glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 16, 0, 0, 1);
+        }
+        const Built built = build(floor, grid);
+        ASSERT_EQ(built.voxels.size(), 256U);
+        for (const gpu::Attribute& voxel : built.voxels)
+        {
+            EXPECT_LT(degreesBetween(normalOf(voxel), {0, 1, 0}), 0.01);
+        }
+    }
+}
+
+TEST(VoxelNormals, OfASpherePointAwayFromItsCentre)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
+    Scene sphere = test::sphereScene(glm::vec3(32.0F), 30.0F, 64);
+    for (const bool smooth : {false, true})
+    {
+        if (smooth)
+        {
+            for (const glm::vec3& position : sphere.primitives[0].positions)
+            {
+                sphere.primitives[0].normals.push_back(glm::normalize(position - glm::vec3(32.0F)));
+            }
+        }
+        const Built built = build(sphere, grid);
+        const std::vector<std::uint64_t> codes = voxelCodes(device(), built.octree);
+        double worst = 0;
+        for (std::size_t i = 0; i < codes.size(); ++i)
+        {
+            glm::dvec3 centre(0.5 - 32.0);
+            for (int bit = 0; bit < 6; ++bit)
+            {
+                for (int axis = 0; axis < 3; ++axis)
+                {
+                    centre[axis] += static_cast<double>((codes[i] >> (3 * bit + axis) & 1) << bit);
+                }
+            }
+            // The winding of the test's sphere is not fixed: either all normals point out or all point in.
+            const double angle = degreesBetween(normalOf(built.voxels[i]), centre);
+            worst = std::max(worst, std::min(angle, 180 - angle));
+        }
+        EXPECT_LT(worst, smooth ? 3.0 : 6.0);
+    }
+}
+
+TEST(NodeAttributes, AreTheMeansOfTheirChildren)
+{
+    const Scene scene = test::randomTriangles(21, 300, 64.0F);
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
+    Scene colored = scene;
+    std::mt19937 random(3);
+    for (std::size_t i = 0; i < colored.primitives[0].positions.size(); ++i)
+    {
+        const auto uniform = [&] { return std::uniform_real_distribution<float>(0.0F, 1.0F)(random); };
+        colored.primitives[0].colors.emplace_back(uniform(), uniform(), uniform(), 1.0F);
+    }
+    const Built built = build(colored, grid);
+    const std::vector<gpu::Node> nodes = device().download(built.octree.nodes);
+    for (std::size_t level = 0; level < built.octree.levels.size(); ++level)
+    {
+        const bool is_leaf = level + 1 == built.octree.levels.size();
+        const std::vector<gpu::Attribute>& children = is_leaf ? built.voxels : built.nodes;
+        const auto [first, count] = built.octree.levels[level];
+        for (std::uint32_t i = first; i < first + count; ++i)
+        {
+            const int child_count = std::popcount(nodes[i].mask_lo) + std::popcount(nodes[i].mask_hi);
+            double sums[3] = {};
+            for (int c = 0; c < child_count; ++c)
+            {
+                for (int k = 0; k < 3; ++k)
+                {
+                    sums[k] +=
+                        srgbToLinearTable()[channel(children[nodes[i].base_lo + static_cast<unsigned>(c)].color, k)];
+                }
+            }
+            for (int k = 0; k < 3; ++k)
+            {
+                const auto mean = static_cast<std::size_t>(std::floor(sums[k] / child_count + 0.5));
+                EXPECT_EQ(channel(built.nodes[i].color, k), linearToSrgbTable()[mean]) << "node " << i;
+            }
+        }
+    }
+}
+
+TEST(Emission, IsTheMeanOverAllFragmentsOfAVoxel)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 4};
+    // A lamp, and a dark sheet that shares half of its voxels, in the same layer.
+    Scene scene =
+        test::triangleSoup({{0, 5.5F, 0}, {0, 5.5F, 16}, {16, 5.5F, 16}, {0, 5.5F, 0}, {16, 5.5F, 16}, {16, 5.5F, 0}});
+    scene.materials[0].emission = {20.0F, 10.0F, 5.0F};
+    scene.append(test::triangleSoup(
+        {{0, 5.25F, 0}, {0, 5.25F, 16}, {8, 5.25F, 16}, {0, 5.25F, 0}, {8, 5.25F, 16}, {8, 5.25F, 0}}));
+    scene.append(test::triangleSoup({{0, 9.5F, 0}, {0, 9.5F, 16}, {16, 9.5F, 16}}));
+    const Built built = build(scene, grid);
+    const std::vector<gpu::uvec2> words = device().download(built.octree.emission_words);
+    const std::vector<gpu::uint> emission = device().download(built.octree.emission);
+    const std::vector<std::uint64_t> codes = voxelCodes(device(), built.octree);
+    std::size_t rank = 0;
+    for (std::size_t i = 0; i < codes.size(); ++i)
+    {
+        const bool emissive = (words[i / 32].x >> (i % 32) & 1) != 0;
+        const bool in_layer = ((codes[i] >> 1 & 1) | (codes[i] >> 4 & 1) << 1 | (codes[i] >> 7 & 1) << 2 |
+                               (codes[i] >> 10 & 1) << 3) == 5;
+        EXPECT_EQ(emissive, in_layer);
+        EXPECT_EQ((built.voxels[i].color >> 24 & gpu::kAttributeEmissive) != 0, emissive);
+        if (i % 32 == 0)
+        {
+            EXPECT_EQ(words[i / 32].y, rank);
+        }
+        if (!emissive)
+        {
+            continue;
+        }
+        const gpu::uint packed = emission[rank++];
+        const double scale = std::exp2(static_cast<double>(packed >> 27) - 24) * built.octree.emission_scale;
+        const glm::dvec3 radiance(scale * (packed & 511), scale * (packed >> 9 & 511), scale * (packed >> 18 & 511));
+        // A fragment of each triangle that touches the voxel: the lamp's share is between a third and one.
+        const double share = radiance.r / 20.0;
+        EXPECT_GT(share, 0.3);
+        EXPECT_LT(share, 1.01);
+        EXPECT_NEAR(radiance.g, radiance.r / 2, 0.05);
+        EXPECT_NEAR(radiance.b, radiance.r / 4, 0.05);
+        if ((codes[i] >> 9 & 1) != 0 && (codes[i] & 0b1001001) != 0) // x > 8: lamp only (the sheet's edge touches 8)
+        {
+            EXPECT_NEAR(radiance.r, 20.0, 0.1);
+        }
+    }
+    EXPECT_EQ(rank, 256U);
+    EXPECT_EQ(emission.size(), rank);
+}
+
+TEST(Attributes, SurviveMoreFragmentsInAVoxelThanTheSumsHold)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 2};
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < 150000; ++i)
+    {
+        corners.insert(corners.end(), {{1.2F, 1.5F, 1.2F}, {1.2F, 1.5F, 1.8F}, {1.8F, 1.5F, 1.8F}});
+    }
+    Scene scene = test::triangleSoup(corners);
+    scene.materials[0].base_color = {1.0F, 0.5F, 0.0F, 1.0F};
+    const Built built = build(scene, grid);
+    ASSERT_EQ(built.voxels.size(), 1U);
+    EXPECT_NEAR(channel(built.voxels[0].color, 0), 255, 1);
+    EXPECT_NEAR(channel(built.voxels[0].color, 1), 188, 1); // sRGB of 0.5
+    EXPECT_EQ(channel(built.voxels[0].color, 2), 0U);
+    EXPECT_LT(degreesBetween(normalOf(built.voxels[0]), {0, 1, 0}), 0.1);
+}
+
+TEST(Attributes, DoNotDependOnTheOrderOfTriangles)
+{
+    Scene scene = test::randomTriangles(31, 3000, 64.0F);
+    scene.materials[0].base_color = {0.3F, 0.6F, 0.9F, 1.0F};
+    std::mt19937 random(9);
+    for (std::size_t i = 0; i < scene.primitives[0].positions.size(); ++i)
+    {
+        const auto uniform = [&] { return std::uniform_real_distribution<float>(0.0F, 1.0F)(random); };
+        scene.primitives[0].colors.emplace_back(uniform(), uniform(), uniform(), 1.0F);
+    }
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
+    const std::string sha = octreeSha256(device(), build(scene, grid).octree);
+    std::shuffle(scene.primitives[0].triangles.begin(), scene.primitives[0].triangles.end(), random);
+    EXPECT_EQ(octreeSha256(device(), build(scene, grid).octree), sha);
+}
+
+} // namespace
+} // namespace zvo

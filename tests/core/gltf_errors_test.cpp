@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+// Every way in which a file can be broken has an error that says what, where and what to do.
+#include "core/gltf_loader.h"
+
+#include "core/image_io.h"
+#include "gltf_builder.h"
+
+#include <functional>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+constexpr const char* kHint = "export it again";
+
+/// Expects an error with the parts when the triangle document is changed that way and loaded as .glb.
+void expectBroken(const std::function<void(GltfBuilder&)>& change, std::initializer_list<std::string> parts)
+{
+    GltfBuilder builder = triangleDocument();
+    change(builder);
+    expectInputError([&] { static_cast<void>(builder.load()); }, parts);
+}
+
+void expectBrokenFile(const std::string& name, std::string_view content, std::initializer_list<std::string> parts)
+{
+    const TempDir dir;
+    const auto path = dir.write(name, content);
+    expectInputError([&] { loadGltf(path); }, parts);
+}
+
+json textured(GltfBuilder& builder, const json& image)
+{
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.add("textures", {{"source", 0}});
+    builder.add("images", image);
+    builder.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    return builder.document;
+}
+
+TEST(GltfErrors, MissingFileNamesThePathAndTheReason)
+{
+    expectInputError([] { loadGltf("/no/such/scene.glb"); }, {"/no/such/scene.glb", "No such file", "check the path"});
+    expectInputError([] { loadGltf("/"); }, {"Is a directory"});
+}
+
+TEST(GltfErrors, WhatIsNoGltfIsSaidToBeNone)
+{
+    expectBrokenFile("empty.gltf", "", {"empty.gltf", "not a glTF file", "check that it is glTF 2.0"});
+    expectBrokenFile("text.gltf", "Hello,\nworld", {"not a glTF file", "line 1"});
+    expectBrokenFile("cut.gltf", "{\"asset\": {\n\"version\": \"2.", {"not a glTF file", "line 2"});
+    expectBrokenFile("array.gltf", "[]", {"asset.version is missing"});
+    expectBrokenFile("object.gltf", "{}", {"asset.version is missing"});
+    expectBrokenFile("utf8.gltf", "{\"asset\": {\"version\": \"\xff\"}}", {"not a glTF file"});
+}
+
+TEST(GltfErrors, OtherVersionsAreRefused)
+{
+    expectBrokenFile("one.gltf", R"({"asset": {"version": "1.0"}})", {"glTF version 1.0", "export it as glTF 2.0"});
+    expectBrokenFile("new.gltf", R"({"asset": {"version": "2.1", "minVersion": "2.1"}})", {"glTF version 2.1"});
+    GltfBuilder later = triangleDocument();
+    later.document["asset"]["version"] = "2.1";
+    EXPECT_EQ(later.load().triangleCount(), 1U);
+}
+
+TEST(GltfErrors, DeepJsonIsRefused)
+{
+    const std::string deep(100000, '[');
+    expectBrokenFile("deep.gltf", R"({"asset": {"version": "2.0"}, "extras": )" + deep, {"nested more than"});
+    GltfBuilder text = triangleDocument();
+    text.document["extras"] = "\"[" + deep;
+    EXPECT_EQ(text.load().triangleCount(), 1U);
+}
+
+TEST(GltfErrors, GlbThatWasCutShortIsRefusedWhereverItEnds)
+{
+    const TempDir dir;
+    const std::vector<std::uint8_t> whole = triangleDocument().glb();
+    for (std::size_t size = 4; size < whole.size(); size += 7)
+    {
+        const auto path = dir.write("cut.glb", std::span(whole).first(size));
+        expectInputError([&] { loadGltf(path); }, {"cut.glb", "cut short, copy or download it again"});
+    }
+}
+
+TEST(GltfErrors, GlbWithWrongChunksIsRefused)
+{
+    const auto change = [](std::size_t offset, std::uint8_t value)
+    {
+        std::vector<std::uint8_t> file = triangleDocument().glb();
+        file[offset] = value;
+        return std::string(file.begin(), file.end());
+    };
+    expectBrokenFile("version.glb", change(4, 1), {"binary glTF version 1"});
+    expectBrokenFile("length.glb", change(11, 1), {"the header announces", "cut short"});
+    expectBrokenFile("chunk.glb", change(14, 1), {"chunk 0 announces", "cut short"});
+    expectBrokenFile("type.glb", change(16, 'X'), {"the first chunk is not JSON"});
+}
+
+TEST(GltfErrors, RequiredExtensionsThatAreUnknownAreNamed)
+{
+    expectBroken([](GltfBuilder& b) { b.document["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
+                 {"KHR_draco_mesh_compression", "not supported", "export it without"});
+    expectBroken([](GltfBuilder& b) { b.document["extensionsRequired"] = {"NEW\nLINE"}; }, {"NEW LINE"});
+}
+
+TEST(GltfErrors, WrongTypesAndIndicesAreNamedByTheirPlace)
+{
+    const auto primitive = [](GltfBuilder& b) -> json& { return b.document["meshes"][0]["primitives"][0]; };
+    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = 7; },
+                 {"nodes[0].mesh is 7, but the file has 1 meshes", kHint});
+    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = "a"; }, {"nodes[0].mesh is not a whole number"});
+    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = -1; }, {"nodes[0].mesh is not a whole number"});
+    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["mesh"] = 1ULL << 32U; }, {"nodes[0].mesh is 4294967296"});
+    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["matrix"] = {1, 2}; }, {"array of 16 numbers"});
+    expectBroken([](GltfBuilder& b) { b.document["nodes"] = 3; }, {"nodes is not an array"});
+    expectBroken([](GltfBuilder& b) { b.document["nodes"][0] = 3; }, {"nodes[0] is not an object"});
+    expectBroken([](GltfBuilder& b) { b.document["scenes"] = {{{"nodes", {1}}}}; }, {"scenes[0].nodes[0] is 1"});
+    expectBroken([](GltfBuilder& b) { b.document["scene"] = 0; }, {"scene is 0, but the file has 0 scenes"});
+    expectBroken([](GltfBuilder& b) { b.document["accessors"][0].erase("count"); }, {"accessors[0] has no count"});
+    expectBroken([&](GltfBuilder& b) { primitive(b).erase("attributes"); }, {"primitives[0] has no attributes"});
+    expectBroken([&](GltfBuilder& b) { primitive(b)["attributes"]["POSITION"] = 5; }, {"attributes.POSITION is 5"});
+    expectBroken([&](GltfBuilder& b) { primitive(b)["material"] = 0; }, {"0 materials"});
+    expectBroken([&](GltfBuilder& b) { primitive(b)["mode"] = 9; }, {"mode is 9"});
+}
+
+TEST(GltfErrors, CyclesAndSharedNodesAreRefused)
+{
+    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["children"] = {0}; }, {"nodes[0]", "cycle", kHint});
+    expectBroken(
+        [](GltfBuilder& b)
+        {
+            b.add("nodes", {{"children", {2}}});
+            b.add("nodes", {{"children", {1}}});
+        },
+        {"nodes[1]", "cycle"});
+    expectBroken(
+        [](GltfBuilder& b)
+        {
+            b.add("nodes", {{"children", {0}}});
+            b.add("nodes", {{"children", {0}}});
+        },
+        {"nodes[0] is a child of nodes[1] and of nodes[2]"});
+    expectBroken(
+        [](GltfBuilder& b) {
+            b.document["scenes"] = {{{"nodes", {0, 0}}}};
+        },
+        {"nodes[0] is in the scene twice"});
+}
+
+TEST(GltfErrors, TransformsThatAreNotAffineOrTooLargeAreRefused)
+{
+    expectBroken([](GltfBuilder& b)
+                 { b.document["nodes"][0]["matrix"] = {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
+                 {"last row of nodes[0].matrix"});
+    expectBroken(
+        [](GltfBuilder& b) {
+            b.document["nodes"][0]["scale"] = {1e300, 1, 1};
+        },
+        {"overflows single precision"});
+}
+
+TEST(GltfErrors, AccessorsMustLieInsideTheirViewsAndBuffers)
+{
+    const auto accessor = [](GltfBuilder& b) -> json& { return b.document["accessors"][0]; };
+    const auto view = [](GltfBuilder& b) -> json& { return b.document["bufferViews"][0]; };
+    constexpr std::uint64_t kHuge = ~0ULL;
+    expectBroken([&](GltfBuilder& b) { accessor(b)["count"] = 4; },
+                 {"accessors[0] (POSITION of meshes[0].primitives[0]) takes 4 elements", "has 36 bytes", kHint});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["count"] = kHuge; }, {"elements of 12 bytes"});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["byteOffset"] = 1; }, {"at 1 of bufferViews[0]"});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["byteOffset"] = kHuge; }, {"of bufferViews[0]"});
+    expectBroken([&](GltfBuilder& b) { view(b)["byteStride"] = 252; }, {"252 apart"});
+    expectBroken([&](GltfBuilder& b) { view(b)["byteStride"] = 8; }, {"elements of 12 bytes, 8 apart"});
+    expectBroken([&](GltfBuilder& b) { view(b)["byteStride"] = 7; }, {"byteStride", kHint});
+    expectBroken([&](GltfBuilder& b) { view(b)["byteLength"] = 37; }, {"bufferViews[0] takes 37 bytes", "has 36"});
+    expectBroken([&](GltfBuilder& b) { view(b)["byteOffset"] = kHuge; }, {"bufferViews[0] takes 36 bytes"});
+    expectBroken([&](GltfBuilder& b) { accessor(b).erase("bufferView"); }, {"has no buffer view"});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "MAT4"; }, {"element type that no vertex has"});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "VEC9"; }, {"VEC9"});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = 5124; }, {"component type 5124"});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = kU8; }, {"does not allow there"});
+    expectBroken(
+        [&](GltfBuilder& b)
+        {
+            accessor(b)["sparse"] = {{"count", 1},
+                                     {"indices", {{"bufferView", 0}, {"componentType", kU8}}},
+                                     {"values", {{"bufferView", 0}}}};
+        },
+        {"accessors[0]", "sparse", "not supported yet"});
+}
+
+TEST(GltfErrors, AttributesMustFitTheVertices)
+{
+    const auto add = [](GltfBuilder& b, const char* name, std::size_t accessor)
+    { b.document["meshes"][0]["primitives"][0]["attributes"][name] = accessor; };
+    expectBroken(
+        [&](GltfBuilder& b) {
+            add(b, "NORMAL", b.addPositions({0, 0, 1}));
+        },
+        {"NORMAL of meshes[0].primitives[0]", "1 elements for 3 vertices"});
+    expectBroken(
+        [&](GltfBuilder& b) {
+            add(b, "TEXCOORD_0", b.addAccessor<std::uint8_t>("VEC2", kU8, 3, {1, 2, 3, 4, 5, 6}));
+        },
+        {"TEXCOORD_0", "not normalized"});
+    expectBroken(
+        [&](GltfBuilder& b) {
+            add(b, "COLOR_0", b.addAccessor<float>("VEC2", kF32, 3, {1, 2, 3, 4, 5, 6}));
+        },
+        {"COLOR_0", "does not allow there"});
+}
+
+TEST(GltfErrors, IndicesMustNameVertices)
+{
+    const auto add = [](GltfBuilder& b, std::size_t accessor)
+    { b.document["meshes"][0]["primitives"][0]["indices"] = accessor; };
+    expectBroken(
+        [&](GltfBuilder& b) {
+            add(b, b.addAccessor<std::uint8_t>("SCALAR", kU8, 3, {0, 1, 3}));
+        },
+        {"element 2 of accessors[1] (indices of meshes[0].primitives[0]) is vertex 3, but there are 3", kHint});
+    expectBroken(
+        [&](GltfBuilder& b) {
+            add(b, b.addAccessor<float>("SCALAR", kF32, 3, {0, 1, 2}));
+        },
+        {"does not allow there"});
+}
+
+TEST(GltfErrors, BuffersMustBeThereAndLongEnough)
+{
+    const auto set = [](GltfBuilder& b, const json& buffer) { b.document["buffers"] = json::array({buffer}); };
+    expectBroken(
+        [&](GltfBuilder& b) {
+            set(b, {{"byteLength", 36}, {"uri", "missing.bin"}});
+        },
+        {"buffers[0].uri", "missing.bin", "No such file"});
+    expectBroken([&](GltfBuilder& b) { set(b, {{"byteLength", 41}}); }, {"buffers[0] needs 41 bytes", "has 36"});
+    expectBroken(
+        [&](GltfBuilder& b) {
+            set(b, {{"byteLength", 36}, {"uri", "data:;base64,A*"}});
+        },
+        {"buffers[0].uri is not a valid data URI"});
+    expectBroken(
+        [&](GltfBuilder& b) {
+            set(b, {{"byteLength", 36}, {"uri", "data:;base64,AAAA"}});
+        },
+        {"buffers[0] needs 36 bytes", "has 3"});
+    expectBroken(
+        [&](GltfBuilder& b) {
+            set(b, {{"byteLength", 36}, {"uri", "https://example.com/a.bin"}});
+        },
+        {"https://example.com/a.bin", "download it"});
+    expectBrokenFile("none.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1}]})",
+                     {"buffers[0] has neither a URI nor a binary chunk"});
+}
+
+TEST(GltfErrors, ImagesMustBeThereAndDecode)
+{
+    expectBroken(
+        [](GltfBuilder& b) {
+            textured(b, {{"uri", "missing%20one.png"}});
+        },
+        {"images[0].uri", "missing one.png", "No such file"});
+    expectBroken(
+        [](GltfBuilder& b) {
+            textured(b, {{"uri", "data:image/png;base64,AAAA"}});
+        },
+        {"images[0]", "not a PNG or JPEG"});
+    expectBroken(
+        [](GltfBuilder& b) {
+            textured(b, {{"bufferView", 0}, {"mimeType", "image/png"}, {"name", "skin"}});
+        },
+        {"images[0]", "not a PNG or JPEG"});
+    expectBroken([](GltfBuilder& b) { textured(b, {{"name", "skin"}}); }, {"images[0] has neither"});
+    expectBroken(
+        [](GltfBuilder& b)
+        {
+            std::vector<std::uint8_t> png = encodePng(64, 64, std::vector<std::uint8_t>(64 * 64 * 4, 7));
+            png.resize(png.size() - 30);
+            textured(b, {{"bufferView", b.addView(png.data(), png.size())}});
+        },
+        {"images[0]", "does not decode"});
+}
+
+TEST(GltfErrors, MaterialsMustBePossible)
+{
+    const auto with = [](const json& material)
+    {
+        return [material](GltfBuilder& b)
+        {
+            b.document["meshes"][0]["primitives"][0]["material"] = 0;
+            b.add("materials", material);
+        };
+    };
+    expectBroken(with({{"alphaMode", "GLASS"}}), {"materials[0].alphaMode is \"GLASS\""});
+    expectBroken(with({{"emissiveFactor", {-1, 0, 0}}}), {"materials[0].emissiveFactor is -1"});
+    expectBroken(with({{"alphaCutoff", -0.5}}), {"materials[0].alphaCutoff is -0.5"});
+    expectBroken(with({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1}}}}}), {"array of 4 numbers"});
+}
+
+TEST(GltfErrors, LongMessagesAreShortened)
+{
+    const std::string name(5000, 'x');
+    try
+    {
+        GltfBuilder builder = triangleDocument();
+        builder.document["extensionsRequired"] = {name};
+        static_cast<void>(builder.load());
+        FAIL();
+    }
+    catch (const Error& error)
+    {
+        const std::string message = error.what();
+        EXPECT_LT(message.size(), 700U);
+        EXPECT_TRUE(contains(message, "export it without")) << message;
+    }
+}
+
+TEST(GltfErrors, DamagedBytesGiveASceneOrAnInputError)
+{
+    GltfBuilder builder = triangleDocument();
+    const std::vector<std::uint8_t> png = encodePng(4, 4, std::vector<std::uint8_t>(64, 9));
+    textured(builder, {{"bufferView", builder.addView(png.data(), png.size())}});
+    json& primitive = builder.document["meshes"][0]["primitives"][0];
+    primitive["indices"] = builder.addAccessor<std::uint16_t>("SCALAR", kU16, 3, {0, 1, 2});
+    primitive["attributes"]["TEXCOORD_0"] = builder.addAccessor<float>("VEC2", kF32, 3, {0, 0, 1, 0, 0, 1});
+    const std::vector<std::uint8_t> whole = builder.glb();
+    const TempDir dir;
+    std::mt19937 random(7); // NOLINT: the same damage on every run
+    for (int i = 0; i < 3000; ++i)
+    {
+        std::vector<std::uint8_t> damaged = whole;
+        for (std::size_t k = 0; k <= random() % 3; ++k)
+        {
+            // Mostly digits and brackets, which leave the JSON readable.
+            constexpr std::string_view kLikely = "0123456789-[]{}\",:e";
+            const bool likely = random() % 4 != 0;
+            damaged[random() % damaged.size()] =
+                static_cast<std::uint8_t>(likely ? kLikely[random() % kLikely.size()] : random());
+        }
+        const auto path = dir.write("damaged.glb", damaged);
+        try
+        {
+            loadGltf(path);
+        }
+        catch (const Error& error)
+        {
+            EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
+            EXPECT_FALSE(contains(error.what(), "\n")) << error.what();
+        }
+    }
+}
+
+} // namespace
+
+} // namespace zvo::test

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "core/gltf_loader.h"
+
+#include "core/image_io.h"
+#include "gltf_builder.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+/// A triangle with material 0, texture coordinates in two sets, and a PNG of one pixel as image and texture 0.
+GltfBuilder texturedTriangle(const json& material)
+{
+    GltfBuilder builder;
+    json primitive = trianglePrimitive(builder);
+    primitive["material"] = 0;
+    primitive["attributes"]["TEXCOORD_0"] = builder.addAccessor<float>("VEC2", kF32, 3, {0, 0, 1, 0, 0, 1});
+    primitive["attributes"]["TEXCOORD_1"] = builder.addAccessor<float>("VEC2", kF32, 3, {5, 5, 6, 5, 5, 6});
+    builder.addMeshNode(primitive);
+    const std::vector<std::uint8_t> png = encodePng(1, 1, std::vector<std::uint8_t>{10, 20, 30, 40});
+    builder.add("images", {{"bufferView", builder.addView(png.data(), png.size())}, {"mimeType", "image/png"}});
+    builder.add("textures", {{"source", 0}});
+    builder.add("materials", material);
+    return builder;
+}
+
+Material materialOf(const json& material)
+{
+    return texturedTriangle(material).load().materials.at(0);
+}
+
+json baseColorTexture(const json& texture)
+{
+    return {{"pbrMetallicRoughness", {{"baseColorTexture", texture}}}};
+}
+
+TEST(GltfMaterials, MissingMaterialIsWhiteAndOpaque)
+{
+    const Scene scene = triangleDocument().load();
+    ASSERT_EQ(scene.materials.size(), 1U);
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1.0F));
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0.0F));
+    EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::Opaque);
+    EXPECT_FALSE(scene.materials[0].double_sided);
+    EXPECT_FALSE(scene.materials[0].base_color_texture.has_value());
+}
+
+TEST(GltfMaterials, FactorsAndModesAreRead)
+{
+    const Material material = materialOf({{"name", "leaf"},
+                                          {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}}},
+                                          {"emissiveFactor", {0.5, 0.25, 1.0}},
+                                          {"alphaMode", "MASK"},
+                                          {"alphaCutoff", 0.75},
+                                          {"doubleSided", true}});
+    EXPECT_EQ(material.name, "leaf");
+    EXPECT_EQ(material.base_color, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
+    EXPECT_EQ(material.emission, glm::vec3(0.5F, 0.25F, 1.0F));
+    EXPECT_EQ(material.alpha_mode, AlphaMode::Mask);
+    EXPECT_EQ(material.alpha_cutoff, 0.75F);
+    EXPECT_TRUE(material.double_sided);
+    EXPECT_EQ(materialOf({{"alphaMode", "BLEND"}}).alpha_mode, AlphaMode::Blend);
+    EXPECT_EQ(materialOf({{"alphaMode", "MASK"}}).alpha_cutoff, 0.5F);
+}
+
+TEST(GltfMaterials, EmissiveStrengthMultipliesTheFactor)
+{
+    const Material material =
+        materialOf({{"emissiveFactor", {1.0, 0.5, 0.0}},
+                    {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8.0}}}}}});
+    EXPECT_EQ(material.emission, glm::vec3(8.0F, 4.0F, 0.0F));
+    const Material without = materialOf(
+        {{"emissiveFactor", {1.0, 0.5, 0.0}}, {"extensions", {{"KHR_materials_emissive_strength", json::object()}}}});
+    EXPECT_EQ(without.emission, glm::vec3(1.0F, 0.5F, 0.0F));
+}
+
+TEST(GltfMaterials, TexturesOfColourAndEmissionShareOneImage)
+{
+    json material = baseColorTexture({{"index", 0}});
+    material["emissiveTexture"] = {{"index", 0}};
+    material["emissiveFactor"] = {1, 1, 1};
+    const Scene scene = texturedTriangle(material).load();
+    ASSERT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.images[0].rgba, (std::vector<std::uint8_t>{10, 20, 30, 40}));
+    ASSERT_EQ(scene.textures.size(), 1U);
+    EXPECT_EQ(scene.textures[0].wrap_u, WrapMode::Repeat);
+    EXPECT_EQ(scene.materials[0].base_color_texture, 0U);
+    EXPECT_EQ(scene.materials[0].emission_texture, 0U);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfMaterials, SamplerSaysHowCoordinatesWrap)
+{
+    GltfBuilder builder = texturedTriangle(baseColorTexture({{"index", 0}}));
+    builder.document["textures"][0]["sampler"] = 0;
+    builder.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.textures.at(0).wrap_u, WrapMode::ClampToEdge);
+    EXPECT_EQ(scene.textures.at(0).wrap_v, WrapMode::MirroredRepeat);
+}
+
+TEST(GltfMaterials, OnlyImagesThatAreNeededAreDecoded)
+{
+    // Image 1 is no image at all: as a normal map, as an emissive texture without emission, or unused, nobody minds.
+    json material = baseColorTexture({{"index", 0}});
+    material["normalTexture"] = {{"index", 1}};
+    material["emissiveTexture"] = {{"index", 1}};
+    GltfBuilder builder = texturedTriangle(material);
+    builder.add("images", {{"uri", "data:image/png;base64,AAAA"}});
+    builder.add("images", {{"uri", "missing.png"}});
+    builder.add("textures", {{"source", 1}});
+    builder.add("materials", baseColorTexture({{"index", 1}}));
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.images.size(), 1U);
+    EXPECT_EQ(scene.materials.size(), 1U);
+    EXPECT_FALSE(scene.materials[0].emission_texture.has_value());
+}
+
+TEST(GltfMaterials, TextureMayTakeAnySetOfCoordinates)
+{
+    EXPECT_EQ(texturedTriangle(baseColorTexture({{"index", 0}})).load().primitives[0].uvs[0], glm::vec2(0, 0));
+    const Scene scene = texturedTriangle(baseColorTexture({{"index", 0}, {"texCoord", 1}})).load();
+    EXPECT_EQ(scene.primitives[0].uvs[0], glm::vec2(5, 5));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfMaterials, MissingCoordinatesAreAWarning)
+{
+    const Scene scene = texturedTriangle(baseColorTexture({{"index", 0}, {"texCoord", 2}})).load();
+    EXPECT_TRUE(scene.primitives[0].uvs.empty());
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "TEXCOORD_2")) << scene.warnings[0];
+}
+
+TEST(GltfMaterials, EmissionWithOtherCoordinatesIsLeftOutWithAWarning)
+{
+    json material = baseColorTexture({{"index", 0}});
+    material["emissiveTexture"] = {{"index", 0}, {"texCoord", 1}};
+    material["emissiveFactor"] = {1, 1, 1};
+    const Scene scene = texturedTriangle(material).load();
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0.0F));
+    EXPECT_FALSE(scene.materials[0].emission_texture.has_value());
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "emission left out")) << scene.warnings[0];
+}
+
+TEST(GltfMaterials, TextureTransformMovesTheCoordinates)
+{
+    // The extension's example: the lower left quadrant of the image, turned by 90 degrees.
+    const json transform = {{"offset", {0, 1}}, {"rotation", std::numbers::pi / 2}, {"scale", {0.5, 0.5}}};
+    const json texture = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
+    const std::vector<glm::vec2> uvs = texturedTriangle(baseColorTexture(texture)).load().primitives[0].uvs;
+    const std::vector<glm::vec2> wanted = {{0.0F, 1.0F}, {0.0F, 0.5F}, {0.5F, 1.0F}};
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+    {
+        EXPECT_NEAR(uvs[i].x, wanted[i].x, 1e-7F) << i;
+        EXPECT_NEAR(uvs[i].y, wanted[i].y, 1e-7F) << i;
+    }
+    const json other_set = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"texCoord", 1}}}}}};
+    EXPECT_EQ(texturedTriangle(baseColorTexture(other_set)).load().primitives[0].uvs[0], glm::vec2(5, 5));
+}
+
+TEST(GltfMaterials, TextureWithoutImageIsLeftOutWithAWarning)
+{
+    GltfBuilder builder = texturedTriangle(baseColorTexture({{"index", 0}}));
+    builder.document["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    const Scene scene = builder.load();
+    EXPECT_FALSE(scene.materials[0].base_color_texture.has_value());
+    EXPECT_EQ(scene.warnings.size(), 1U);
+}
+
+TEST(GltfMaterials, ExtensionsThatOnlyChangeShadingMayBeRequired)
+{
+    GltfBuilder builder = triangleDocument();
+    builder.document["extensionsUsed"] = {"KHR_materials_ior", "VENDOR_unheard_of"};
+    builder.document["extensionsRequired"] = {"KHR_materials_ior", "KHR_lights_punctual",
+                                              "KHR_materials_emissive_strength"};
+    EXPECT_EQ(builder.load().triangleCount(), 1U);
+}
+
+} // namespace
+
+} // namespace zvo::test
