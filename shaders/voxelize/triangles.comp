@@ -98,8 +98,41 @@ void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uvec2 extent)
             params.row_blocks.data[first + i] = RowBlock(fits ? slot : kAbsent, (i / blocks.x) | ((i % blocks.x) << 16));
 }
 
-// Walks all columns of the bounding box in one loop.
-void rasterizeSmall(RasterTriangle t, Surface surface, bool selected)
+// Thin coverage, at most one voxel a column: first finds the covered columns, then takes these alone. Where branches are
+// not skipped, an empty column costs as little as that, and a fragment is dear.
+void rasterizeThin(RasterTriangle t, Surface surface, uvec2 extent, bool selected)
+{
+    uint covered = 0u; // bit i: column i, row by row
+    uint column = 0u;
+    uint column_count = selected ? extent.x * extent.y : 0u;
+    uint row_end = extent.x;
+    RasterCell row = startColumn(t, t.low.xy);
+    RasterCell cell = row;
+    for (; column < column_count;)
+    {
+        covered |= isCovered(t, cell) ? 1u << column : 0u;
+        ++column;
+        nextColumn(t, cell);
+        if (column == row_end)
+        {
+            nextRow(t, row);
+            cell = row;
+            row_end += extent.x;
+        }
+    }
+    BrickCursor cursor = noBrick();
+    for (; covered != 0u; covered &= covered - 1u)
+    {
+        uint number = uint(findLSB(covered));
+        uint y = divideSmall(number, extent.x);
+        ivec2 place = t.low.xy + ivec2(number - y * extent.x, y);
+        RasterCell fragment = startColumn(t, place);
+        emitFragment(t, surface, cornerWeights(t, fragment), uvec3(voxelOf(t, place, fragment.w)), cursor);
+    }
+}
+
+// Conservative coverage: walks all layers of all columns of the bounding box in one loop.
+void rasterizeConservative(RasterTriangle t, Surface surface, bool selected)
 {
     ivec2 column = t.low.xy;
     RasterCell row = startColumn(t, column);
@@ -110,7 +143,7 @@ void rasterizeSmall(RasterTriangle t, Surface surface, bool selected)
     {
         if (isCovered(t, cell))
             emitFragment(t, surface, cornerWeights(t, cell), uvec3(voxelOf(t, column, cell.w)), cursor);
-        if (kCoverage == kCoverageConservative && cell.w < min(cell.w_high, t.high.z))
+        if (cell.w < min(cell.w_high, t.high.z))
         {
             moveLayers(t, 1, cell);
         }
@@ -155,5 +188,8 @@ void main()
     RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, ivec3(snapped.normal), snapped.low,
                                      snapped.high, int(params.resolution));
     Surface surface = loadSurface(draw, vertices, vec3(snapped.normal), float(t.n_w));
-    rasterizeSmall(t, surface, kept && small);
+    if (kCoverage == kCoverageThin)
+        rasterizeThin(t, surface, extent, kept && small);
+    else
+        rasterizeConservative(t, surface, kept && small);
 }

@@ -14,7 +14,7 @@ const uint kResolveGroup = 64u;    // threads of a workgroup where one thread ta
 const uint kRowsGroup = 64u;       // threads of a workgroup of voxelize/rows
 const uint kBlockRows = 8u;        // rows of a row block: one thread each
 const uint kBlockColumns = 256u;   // columns of a row block: bounds a thread's work
-const uint kSmallColumns = 48u;    // a triangle over more columns than this is rasterized by rows
+const uint kSmallColumns = 32u;    // a triangle over more columns is rasterized by rows; one bit of a mask each
 const int kSmallExtent = 8192;     // lattice units: a triangle up to this size is rasterized in 32-bit integers
 const uint kFragmentsMax = 65535u; // fragments of a voxel that 32-bit sums hold
 

@@ -46,7 +46,7 @@ enum class AlphaMode : std::uint32_t
 struct Material
 {
     std::string name;
-    glm::vec4 base_color{1.0F}; // linear
+    glm::vec4 base_color{1.0F};                      // linear
     std::optional<std::uint32_t> base_color_texture; // index into Scene::textures
     glm::vec3 emission{0.0F};                        // linear radiance: factor times strength
     std::optional<std::uint32_t> emission_texture;   // multiplies emission
@@ -59,7 +59,7 @@ struct Material
 struct Primitive
 {
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals; // unit length; empty: flat shading from the triangles
+    std::vector<glm::vec3> normals; // unit length, or 0 where a vertex has none; empty: flat shading from the triangles
     std::vector<glm::vec2> uvs;     // texture coordinates, v = 0 at the top row
     std::vector<glm::vec4> colors;  // linear, multiplies the base colour
     std::vector<glm::uvec3> triangles; // vertex indices, all < positions.size()
@@ -78,8 +78,8 @@ struct Camera
     std::string name;
     glm::mat4 transform{1.0F}; // camera to world: looks along -z, y up
     bool orthographic = false;
-    float vertical_fov = 0.8F;  // radians; perspective
-    float half_height = 1.0F;   // world units; orthographic
+    float vertical_fov = 0.8F; // radians; perspective
+    float half_height = 1.0F;  // world units; orthographic
 };
 
 /// Triangles with materials, placed in the world: what a glTF file comes down to.
@@ -96,7 +96,8 @@ struct Scene
     /// Triangles with instances counted each time.
     [[nodiscard]] std::uint64_t triangleCount() const;
 
-    /// Box around all finite transformed vertices that a triangle uses, in the single precision that the voxelizer uses.
+    /// Box around all finite transformed vertices that a triangle uses, in the single precision that the voxelizer
+    /// uses.
     [[nodiscard]] Bounds bounds() const;
 
     /// Adds everything of other, with indices shifted.
