@@ -8,6 +8,11 @@ bool isFinite(float x)
     return (floatBitsToUint(x) << 1) < (255u << 24); // the exponent is not all ones
 }
 
+bool isNan(float x)
+{
+    return (floatBitsToUint(x) << 1) > (255u << 24);
+}
+
 bool isFinite(vec3 v)
 {
     return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
@@ -25,5 +30,5 @@ bool isTraceable(Ray ray)
 {
     vec3 size = abs(ray.inverse_direction);
     return isFinite(ray.origin) && isFinite(size) && min(size.x, min(size.y, size.z)) >= kTraceTimeMin &&
-           isFinite(ray.t_min) && !isnan(ray.t_max);
+           isFinite(ray.t_min) && !isNan(ray.t_max);
 }

@@ -64,12 +64,15 @@ float tileStart(uvec2 tile)
     return beam.hit ? beam.t : past;
 }
 
-// The tile of a thread: blocks follow each other at a distance, so that every part of the live list is equally hard.
+// The tile of a thread, or one outside: blocks follow each other at a distance, so that every part of the live list is
+// equally hard.
 uvec2 tileOfThread(uvec2 tiles)
 {
     uvec2 blocks = (tiles + kBlockEdge - 1u) / kBlockEdge;
-    uint block = (workgroupIndex() * params.block_stride) % (blocks.x * blocks.y);
-    return kBlockEdge * uvec2(block % blocks.x, block / blocks.x) + pixelInTile(gl_LocalInvocationIndex);
+    uint count = blocks.x * blocks.y;
+    uint block = uint(uint64_t(workgroupIndex()) * params.block_stride % count);
+    uvec2 tile = kBlockEdge * uvec2(block % blocks.x, block / blocks.x) + pixelInTile(gl_LocalInvocationIndex);
+    return workgroupIndex() < count ? tile : tiles;
 }
 
 void main()

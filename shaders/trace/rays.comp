@@ -26,8 +26,8 @@ void main()
     bool valid = isTraceable(ray);
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     // An invalid ray goes through as one that ends before it starts.
-    Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0), ray.t_min,
-                                valid ? ray.t_max : 0.0, params.detail);
+    Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0),
+                                valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail);
     if (result.capped)
         atomicAdd(params.status.data[0].capped_rays, 1u);
     storeHit(params.hits, i, result.t, result.hit ? result.index : kHitMiss, result.cell, result.level, result.face);

@@ -13,11 +13,11 @@ GPU_BUFFER(float, 4);
 const uint kRaysGroup = 64u; // threads of a workgroup of trace/rays
 
 // Pictures are traced in square tiles, one workgroup each.
-const uint kTileEdge = 8u;     // pixels
-const uint kTilePixels = 64u;  // and threads of the workgroup
-const uint kBlockEdge = 8u;    // tiles: a workgroup of trace/beam takes a square block of them
-const uint kBlockTiles = 64u;  // and threads of the workgroup
-const uint kTilesFold = 32768u; // workgroups along x of an indirect dispatch over live tiles
+const uint kTileEdge = 8u;             // pixels
+const uint kTilePixels = 64u;          // and threads of the workgroup
+const uint kBlockEdge = 8u;            // tiles: a workgroup of trace/beam takes a square block of them
+const uint kBlockTiles = 64u;          // and threads of the workgroup
+const uint kTilesFold = 32768u;        // workgroups along x of an indirect dispatch over live tiles
 const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the tile can hit anything
 
 // The beam grid: kBeamCells^3 cells over the octree's root cube and a border of one cell around it. A cell is set if it
@@ -26,11 +26,19 @@ const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the til
 // parent p (in Morton order of its level) from 64 p on for its lower and 64 p + 32 on for its upper half.
 const uint kBeamCells = 64u;
 const uint kBeamLevels = 3u;
-const uint kBeamFirst1 = 1u;     // first node of level 1
-const uint kBeamFirst2 = 65u;    // first node of level 2
-const uint kBeamNodes = 4161u;   // of all levels
-const uint kBeamRows = 4096u;    // of cells along x
-const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that build it
+const uint kBeamFirst1 = 1u;   // first node of level 1
+const uint kBeamFirst2 = 65u;  // first node of level 2
+const uint kBeamNodes = 4161u; // of all levels
+const uint kBeamRows = 4096u;  // of cells along x
+const uint kBeamGroup = 64u;   // threads of a workgroup of the kernels that build it
+
+// What a picture shows: specialization constant of trace/shade.
+const uint kViewColor = 0u;      // lit
+const uint kViewAlbedo = 1u;     // base colour alone
+const uint kViewNormal = 2u;     // 0.5 + 0.5 * shading normal
+const uint kViewDepth = 3u;      // 1 / (1 + t)
+const uint kViewLevel = 4u;      // how much coarser than a voxel the hit is
+const uint kViewIterations = 5u; // heat map, logarithmic up to 127
 
 /// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
 /// left, offset = n.x * step_x + n.y * step_y: perspective rays start at origin along forward + offset, orthographic
@@ -46,8 +54,8 @@ struct CameraRays
 struct RaysParams // push constants of trace/rays
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(Ray) rays;    // [ray_count]
-    GPU_PTR(Hit) hits;          // [ray_count]
+    GPU_CONST_PTR(Ray) rays; // [ray_count]
+    GPU_PTR(Hit) hits;       // [ray_count]
     GPU_PTR(TraceStatus) status;
     vec2 detail; // as traverse()
     uint ray_count;

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "options.h"
+
+namespace zvo::cli
+{
+
+/// `zvo bench`: measures scenes at resolutions and tells the numbers as a table, as JSON, or both. Throws Error.
+void bench(const BenchOptions& options);
+
+} // namespace zvo::cli

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "bench_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr double kMiB = 1 << 20;
+
+std::string text(const Spread& spread)
+{
+    return fmt::format("{:.2f} ({:.2f}-{:.2f})", spread.median, spread.min, spread.max);
+}
+
+std::string rate(const std::optional<double>& value)
+{
+    return value ? fmt::format("{:.1f}", *value) : "-";
+}
+
+std::string ratio(double ours, const std::optional<double>& theirs)
+{
+    return theirs && *theirs > 0 ? fmt::format("{:.2f}", ours / *theirs) : "-";
+}
+
+struct Column
+{
+    const char* name;
+    int width; // of what is mostly in it
+    std::function<std::string(const BenchRow&)> value;
+};
+
+const std::vector<Column>& columns()
+{
+    static const std::vector<Column> all = {
+        {"scene", 12, [](const BenchRow& row) { return row.scene; }},
+        {"resolution", 10, [](const BenchRow& row) { return fmt::format("{}", row.resolution); }},
+        {"coverage", 8, [](const BenchRow& row) { return std::string(coverageName(row.coverage)); }},
+        {"triangles", 9, [](const BenchRow& row) { return fmt::format("{}", row.triangles); }},
+        {"voxels", 9, [](const BenchRow& row) { return fmt::format("{}", row.voxels); }},
+        {"nodes", 9, [](const BenchRow& row) { return fmt::format("{}", row.nodes); }},
+        {"geometry B/voxel", 16,
+         [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.geometry_bytes)); }},
+        {"attributes B/voxel", 18,
+         [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.attribute_bytes)); }},
+        {"voxelize ms", 23, [](const BenchRow& row) { return text(row.voxelize_ms); }},
+        {"build ms", 23, [](const BenchRow& row) { return text(row.build_ms); }},
+        {"trace ms", 23, [](const BenchRow& row) { return text(row.trace_ms); }},
+        {"Mvoxels/s", 9, [](const BenchRow& row) { return rate(row.mvoxelsPerSecond()); }},
+        {"Mrays/s", 7, [](const BenchRow& row) { return rate(row.mraysPerSecond()); }},
+        {"Embree voxels", 13, [](const BenchRow& row) { return rate(row.embree_user_mrays_per_s); }},
+        {"ratio", 5, [](const BenchRow& row) { return ratio(row.mraysPerSecond(), row.embree_user_mrays_per_s); }},
+        {"Embree triangles", 16, [](const BenchRow& row) { return rate(row.embree_triangle_mrays_per_s); }},
+        {"ratio", 5, [](const BenchRow& row) { return ratio(row.mraysPerSecond(), row.embree_triangle_mrays_per_s); }},
+        {"peak MiB", 8,
+         [](const BenchRow& row) { return fmt::format("{:.0f}", static_cast<double>(row.peak_device_bytes) / kMiB); }},
+    };
+    return all;
+}
+
+// Names to the left, numbers to the right.
+std::string cell(const Column& column, const std::string& value)
+{
+    const bool is_name = &column == &columns().front();
+    return is_name ? fmt::format(" {:<{}} |", value, column.width) : fmt::format(" {:>{}} |", value, column.width);
+}
+
+Json spreadJson(const Spread& spread)
+{
+    return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
+}
+
+template <typename T> Json orNull(const std::optional<T>& value)
+{
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json rowJson(const BenchRow& row)
+{
+    Json json;
+    json["scene"] = row.scene;
+    json["resolution"] = row.resolution;
+    json["coverage"] = coverageName(row.coverage);
+    json["attributes"] = row.attributes ? "full" : "none";
+    json["triangles"] = row.triangles;
+    json["voxels"] = row.voxels;
+    json["nodes"] = row.nodes;
+    json["geometry_bytes_per_voxel"] = row.perVoxel(row.geometry_bytes);
+    json["attribute_bytes_per_voxel"] = row.perVoxel(row.attribute_bytes);
+    json["voxelize_ms"] = spreadJson(row.voxelize_ms);
+    json["build_ms"] = spreadJson(row.build_ms);
+    json["trace_ms"] = spreadJson(row.trace_ms);
+    json["mvoxels_per_s"] = row.mvoxelsPerSecond();
+    json["mrays_per_s"] = row.mraysPerSecond();
+    json["embree_user_mrays_per_s"] = orNull(row.embree_user_mrays_per_s);
+    json["embree_triangle_mrays_per_s"] = orNull(row.embree_triangle_mrays_per_s);
+    json["peak_device_bytes"] = row.peak_device_bytes;
+    json["rays"] = row.rays;
+    json["hits"] = row.hits;
+    json["embree_user_hits"] = orNull(row.embree_user_hits);
+    json["passes"] = passesJson(row.passes);
+    return json;
+}
+
+} // namespace
+
+Spread Spread::of(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    const double median = (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+    return {median, values.front(), values.back()};
+}
+
+double BenchRow::perVoxel(std::uint64_t bytes) const
+{
+    return voxels == 0 ? 0.0 : static_cast<double>(bytes) / static_cast<double>(voxels);
+}
+
+double BenchRow::mvoxelsPerSecond() const
+{
+    const double ms = voxelize_ms.median + build_ms.median;
+    return ms > 0 ? static_cast<double>(voxels) / ms / 1e3 : 0.0;
+}
+
+double BenchRow::mraysPerSecond() const
+{
+    return trace_ms.median > 0 ? static_cast<double>(rays) / trace_ms.median / 1e3 : 0.0;
+}
+
+std::string tableHead(const BenchHeader& header)
+{
+    std::string head =
+        fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max) of {} warm {}. "
+                    "Rays: primary, {}x{}, million a second; ratio: zvo / Embree.\n\n|",
+                    ZVO_VERSION, header.device.name, header.device.type, header.device.driver, header.run_count,
+                    header.run_count == 1 ? "run" : "runs", header.width, header.height);
+    for (const Column& column : columns())
+    {
+        head += cell(column, column.name);
+    }
+    head += "\n|";
+    for (const Column& column : columns())
+    {
+        const bool is_name = &column == &columns().front();
+        head += fmt::format("{:-<{}}{}|", "", column.width + 1, is_name ? "-" : ":");
+    }
+    return head + "\n";
+}
+
+std::string tableLine(const BenchRow& row)
+{
+    std::string line = "|";
+    for (const Column& column : columns())
+    {
+        line += cell(column, column.value(row));
+    }
+    return line + "\n";
+}
+
+std::string passTable(const BenchRow& row)
+{
+    double sum = 0;
+    std::size_t width = 4;
+    for (const vk::PassTime& pass : row.passes)
+    {
+        sum += pass.ms;
+        width = std::max(width, pass.name.size());
+    }
+    std::string table = fmt::format("\n{}, {}:\n\n| {:<{}} |        ms | share |\n|{:-<{}}|----------:|------:|\n",
+                                    row.scene, row.resolution, "pass", width, "", width + 2);
+    for (const vk::PassTime& pass : row.passes)
+    {
+        table += fmt::format("| {:<{}} | {:>9.3f} | {:>4.1f}% |\n", pass.name, width, pass.ms,
+                             sum > 0 ? 100 * pass.ms / sum : 0.0);
+    }
+    return table;
+}
+
+Json benchJson(const BenchHeader& header, const std::vector<BenchRow>& rows)
+{
+    Json json;
+    json["schema"] = "zvo.bench/1";
+    json["zvo"] = ZVO_VERSION;
+    json["device"] = deviceJson(header.device);
+    json["width"] = header.width;
+    json["height"] = header.height;
+    json["runs"] = header.run_count;
+    json["rows"] = Json::array();
+    for (const BenchRow& row : rows)
+    {
+        json["rows"].push_back(rowJson(row));
+    }
+    return json;
+}
+
+} // namespace zvo::cli

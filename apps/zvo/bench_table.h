@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/coverage.h"
+#include "report.h"
+#include "vk/timer.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zvo::cli
+{
+
+/// Of the runs of one row.
+struct Spread
+{
+    double median = 0;
+    double min = 0;
+    double max = 0;
+
+    /// values: at least one.
+    static Spread of(std::vector<double> values);
+};
+
+/// One scene at one resolution.
+struct BenchRow
+{
+    std::string scene; // the file's name without its extension
+    std::uint32_t resolution = 0;
+    Coverage coverage = Coverage::Thin;
+    bool attributes = true;
+    std::uint64_t triangles = 0;
+    std::uint64_t voxels = 0;
+    std::uint64_t nodes = 0;
+    std::uint64_t geometry_bytes = 0;
+    std::uint64_t attribute_bytes = 0;
+    std::uint64_t peak_device_bytes = 0;
+    Spread voxelize_ms;
+    Spread build_ms;
+    Spread trace_ms;
+    std::uint64_t rays = 0;
+    std::uint64_t hits = 0;                            // rays that hit a voxel
+    std::optional<double> embree_user_mrays_per_s;     // through the same voxels
+    std::optional<std::uint64_t> embree_user_hits;     // of the same rays
+    std::optional<double> embree_triangle_mrays_per_s; // through the triangles
+    std::vector<vk::PassTime> passes;                  // mean of the runs, summed by name
+
+    [[nodiscard]] double perVoxel(std::uint64_t bytes) const;
+    [[nodiscard]] double mvoxelsPerSecond() const;
+    [[nodiscard]] double mraysPerSecond() const;
+};
+
+/// What all rows share.
+struct BenchHeader
+{
+    vk::DeviceReport device;
+    std::uint32_t width = 0; // of the traced pictures
+    std::uint32_t height = 0;
+    std::uint32_t run_count = 0;
+};
+
+/// The head of the table, in Markdown: a sentence on the conditions, names of columns.
+std::string tableHead(const BenchHeader& header);
+
+/// One line of the table.
+std::string tableLine(const BenchRow& row);
+
+/// The times of a row's passes as a table of its own.
+std::string passTable(const BenchRow& row);
+
+/// The report of `zvo bench`; the names of the fields are an interface.
+Json benchJson(const BenchHeader& header, const std::vector<BenchRow>& rows);
+
+} // namespace zvo::cli

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "options.h"
+
+#include "parse.h"
+#include "zvo/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr std::size_t kHelpColumn = 34;
+constexpr float kVoxelSizeMin = 1e-35F; // 256 / voxel_size must be a finite number
+
+constexpr const char* kMainFooter = R"(
+Examples:
+  zvo render scenes/atrium.glb -o atrium.png
+  zvo voxelize bunny.glb --resolution 256 -o bunny.ply
+  zvo info
+  zvo bench --scenes ../models --resolutions 256,512
+
+'zvo COMMAND --help' tells the options of a command.
+Exit codes: 0 success, 2 usage, 3 input, 4 output, 5 no usable device, 6 memory, 1 anything else.)";
+
+constexpr const char* kRenderFooter = R"(
+Examples:
+  zvo render scenes/atrium.glb -o atrium.png --json atrium.json
+  zvo render bunny.glb -o bunny.png --resolution 1024 --view normal
+  zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60
+  zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f)";
+
+constexpr const char* kVoxelizeFooter = R"(
+A .morton file holds the sorted Morton codes of the voxels (x in bit 0, y in bit 1, z in bit 2), 64-bit
+little-endian integers, and nothing else. A .ply file holds the voxels' centres in world space as points
+with normals and sRGB colours.
+
+Examples:
+  zvo voxelize bunny.glb -o bunny.morton --resolution 256 --json -
+  zvo voxelize part.glb -o part.ply --bounds=-1,-1,-1,1,1,1
+  zvo voxelize part.glb -o - --format morton --attributes none | sha256sum)";
+
+constexpr const char* kInfoFooter = R"(
+Examples:
+  zvo info
+  zvo info --json | jq '.devices[].missing')";
+
+constexpr const char* kBenchFooter = R"(
+Each row is one scene at one resolution: a warm-up, then N runs on the device's timers. Where zvo was built with
+Embree, the same rays are also traced by Embree on all processors, through the same voxels and through the triangles.
+Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
+
+Examples:
+  zvo bench scenes/knot.glb --resolutions 256 --runs 3
+  zvo bench --scenes ../models --json bench.json --passes)";
+
+// An option with one argument that read makes a value of.
+template <typename T, typename Read>
+CLI::Option* addValue(CLI::App& app, const char* name, T& target, Read read, const char* type, const char* what)
+{
+    const std::string option = std::string(name).substr(std::string(name).rfind(',') + 1);
+    const auto assign = [&target, read, option](const std::string& text) { target = read(option, text); };
+    return app.add_option_function<std::string>(name, assign, what)->type_name(type);
+}
+
+CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const char* type, const char* what)
+{
+    return app.add_option(name, target, what)->type_name(type);
+}
+
+GridPlace parseGridPlace(std::string_view option, std::string_view text)
+{
+    const std::vector<float> v = parseFloats(option, text);
+    if (v.size() != 4 || v[3] < kVoxelSizeMin)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} {}: expected x,y,z,voxel_size with a voxel size above 0", option, text));
+    }
+    return {{v[0], v[1], v[2]}, v[3]};
+}
+
+std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names)
+{
+    if (std::find(names.begin(), names.end(), text) == names.end())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, text, fmt::join(names, ", ")));
+    }
+    return std::string(text);
+}
+
+void addDeviceOptions(CLI::App& app, DeviceOptions& options)
+{
+    addText(app, "--device", options.device, "NAME", "device by a part of its name, its number in zvo info, or cpu")
+        ->group("Device");
+    addValue(app, "--memory-limit", options.memory_limit, parseBytes, "BYTES",
+             "device memory that may be used, such as 2G or 512M")
+        ->group("Device");
+    app.add_flag("--validation", options.validation, "run with the Vulkan validation layers; fail if they speak")
+        ->group("Device");
+}
+
+void addCoverageOptions(CLI::App& app, Coverage& coverage, bool& attributes)
+{
+    addValue(app, "--coverage", coverage, parseCoverage, "thin|conservative",
+             "which voxels a triangle covers: a gap-free layer, or all that it touches (default thin)");
+    addValue(app, "--attributes", attributes, parseAttributes, "full|none",
+             "colour, normal and emission of the voxels, or only their places (default full)");
+}
+
+void addVoxelOptions(CLI::App& app, VoxelOptions& options)
+{
+    app.add_option("SCENE", options.scenes, "glTF 2.0 files (.glb, .gltf); several make one scene")
+        ->required()
+        ->type_name("FILE");
+    addValue(app, "--resolution", options.depth, parseResolution, "N",
+             "voxels per edge of the grid, a power of two from 2 to 4096 (default 512)");
+    addCoverageOptions(app, options.coverage, options.attributes);
+    addValue(app, "--bounds", options.bounds, parseBounds, "x0,y0,z0,x1,y1,z1",
+             "the grid is the cube from corner 0 on, as long as the box's longest edge");
+    addValue(app, "--grid", options.grid_place, parseGridPlace, "x,y,z,SIZE",
+             "the grid has exactly this origin and voxel size, as a JSON report states them");
+}
+
+void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)
+{
+    addText(app, "-o,--output", options.path, "FILE", what)->required()->group("Output");
+    addText(app, "--json", options.json, "FILE|-", "write a report; - is standard output")->group("Output");
+    app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group("Output");
+}
+
+CLI::App* addRender(CLI::App& app, RenderOptions& options)
+{
+    CLI::App* render = app.add_subcommand("render", "voxelize scenes and ray trace a picture of them");
+    addVoxelOptions(*render, options.voxels);
+    render
+        ->add_option_function<std::string>(
+            "--size",
+            [&options](const std::string& text)
+            { std::tie(options.width, options.height) = parseSize("--size", text); },
+            "pixels of the picture (default 1280x720)")
+        ->type_name("WxH");
+    addText(*render, "--camera", options.camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
+            "a camera of the scene, or eye, target and vertical field of view in degrees, or auto");
+    addValue(
+        *render, "--view", options.view,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"color", "albedo", "normal", "depth", "level", "iterations"});
+        },
+        "VIEW", "color, albedo, normal, depth, level or iterations (default color)");
+    addValue(*render, "--frames", options.frames, parseFrames, "A..B",
+             "turn the camera once around the scene; #### in the output's name becomes the frame's number");
+    addOutputOptions(*render, options.output, "the picture, a .png file; - is standard output");
+    addDeviceOptions(*render, options.device);
+    render->footer(kRenderFooter);
+    return render;
+}
+
+CLI::App* addVoxelize(CLI::App& app, VoxelizeOptions& options)
+{
+    CLI::App* voxelize = app.add_subcommand("voxelize", "voxelize scenes and write the voxels");
+    addVoxelOptions(*voxelize, options.voxels);
+    addOutputOptions(*voxelize, options.output, "the voxels, a .morton or .ply file; - is standard output");
+    addValue(
+        *voxelize, "--format", options.format,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"morton", "ply"});
+        },
+        "morton|ply", "what to write (default: as the output's extension says)")
+        ->group("Output");
+    addDeviceOptions(*voxelize, options.device);
+    voxelize->footer(kVoxelizeFooter);
+    return voxelize;
+}
+
+CLI::App* addInfo(CLI::App& app, InfoOptions& options)
+{
+    CLI::App* info = app.add_subcommand("info", "list the Vulkan devices and what they offer");
+    info->add_flag("--json", options.json, "as JSON");
+    addText(*info, "--device", options.device, "NAME", "which device would be used for this choice");
+    info->footer(kInfoFooter);
+    return info;
+}
+
+CLI::App* addBench(CLI::App& app, BenchOptions& options)
+{
+    CLI::App* bench = app.add_subcommand("bench", "measure voxelization, octree construction and ray tracing");
+    bench->add_option("SCENE", options.scenes, "glTF 2.0 files, each measured on its own")->type_name("FILE");
+    addValue(
+        *bench, "--scenes", options.scene_folder,
+        [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
+        "where the usual scenes are (default scenes)");
+    addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
+             "powers of two from 2 to 4096 (default 256,512,1024)");
+    addValue(
+        *bench, "--runs", options.run_count,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1000)); },
+        "N", "measured runs of each row (default 5)");
+    addCoverageOptions(*bench, options.coverage, options.attributes);
+    bench->add_flag("--passes", options.passes, "also tell the time of each pass");
+    addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
+        ->group("Output");
+    bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");
+    addDeviceOptions(*bench, options.device);
+    bench->footer(kBenchFooter);
+    return bench;
+}
+
+// Arguments that nothing took.
+std::string strangerText(const CLI::App& app)
+{
+    const std::vector<std::string> strangers = app.remaining(true);
+    const char* const what = app.get_subcommands().empty() ? "there is no command or option" : "not understood:";
+    return fmt::format("{} {}", what, fmt::join(strangers, " "));
+}
+
+Error usageError(const CLI::App& app, std::string what)
+{
+    const CLI::App* command = app.get_subcommands().empty() ? &app : app.get_subcommands().front();
+    const std::string name = command == &app ? "zvo" : "zvo " + command->get_name();
+    while (!what.empty() && (what.back() == '\n' || what.back() == '.'))
+    {
+        what.pop_back();
+    }
+    return {ErrorCode::Usage, fmt::format("{}; see {} --help", what, name)};
+}
+
+} // namespace
+
+Command parseCommandLine(int argc, const char* const* argv)
+{
+    CLI::App app("zvo turns triangle scenes into sparse voxel octrees on the GPU and ray traces them.", "zvo");
+    app.get_formatter()->column_width(kHelpColumn);
+    app.footer(kMainFooter);
+    app.set_version_flag("--version", "zvo " ZVO_VERSION, "print the version");
+    RenderOptions render;
+    VoxelizeOptions voxelize;
+    InfoOptions info;
+    BenchOptions bench;
+    const CLI::App* const render_app = addRender(app, render);
+    const CLI::App* const voxelize_app = addVoxelize(app, voxelize);
+    const CLI::App* const info_app = addInfo(app, info);
+    addBench(app, bench);
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        return app.help();
+    }
+    catch (const CLI::CallForVersion& version)
+    {
+        return std::string(version.what()) + "\n";
+    }
+    catch (const CLI::ExtrasError&)
+    {
+        throw usageError(app, strangerText(app));
+    }
+    catch (const CLI::ParseError& error)
+    {
+        throw usageError(app, error.what());
+    }
+    catch (const Error& error)
+    {
+        throw usageError(app, error.what());
+    }
+    if (app.get_subcommands().empty())
+    {
+        throw usageError(app, "a command is missing: render, voxelize, info or bench");
+    }
+    const CLI::App* const chosen = app.get_subcommands().front();
+    for (const VoxelOptions* options : {&render.voxels, &voxelize.voxels})
+    {
+        if (options->bounds && options->grid_place)
+        {
+            throw usageError(app, "--bounds and --grid exclude each other");
+        }
+    }
+    if (chosen == render_app)
+    {
+        return render;
+    }
+    if (chosen == voxelize_app)
+    {
+        return voxelize;
+    }
+    return chosen == info_app ? Command(info) : Command(bench);
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/coverage.h"
+#include "core/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace zvo::cli
+{
+
+/// Which device, and how much of it.
+struct DeviceOptions
+{
+    std::string device; // name part, index or "cpu"; empty: the best one
+    bool validation = false;
+    std::uint64_t memory_limit = UINT64_MAX; // bytes
+};
+
+/// A grid's place as a report states it.
+struct GridPlace
+{
+    glm::vec3 origin{0.0F};
+    float voxel_size = 1.0F;
+};
+
+/// What becomes voxels, and how.
+struct VoxelOptions
+{
+    std::vector<std::filesystem::path> scenes;
+    std::uint32_t depth = 9;
+    Coverage coverage = Coverage::Thin;
+    bool attributes = true;
+    std::optional<Bounds> bounds;        // the cube from this box's minimum corner on
+    std::optional<GridPlace> grid_place; // exactly this grid; neither: the cube around the scene
+};
+
+/// Where results go. "-" is standard output.
+struct OutputOptions
+{
+    std::string path;
+    std::string json; // empty: no report
+    bool overwrite = false;
+};
+
+struct RenderOptions
+{
+    VoxelOptions voxels;
+    DeviceOptions device;
+    OutputOptions output;
+    std::uint32_t width = 1280;
+    std::uint32_t height = 720;
+    std::string camera;         // as given; empty: the scene's first one, or a fitting one
+    std::string view = "color"; // one of viewNames()
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> frames;
+};
+
+struct VoxelizeOptions
+{
+    VoxelOptions voxels;
+    DeviceOptions device;
+    OutputOptions output;
+    std::string format; // "morton" or "ply"; empty: the output's extension says
+};
+
+struct InfoOptions
+{
+    std::string device;
+    bool json = false;
+};
+
+struct BenchOptions
+{
+    std::vector<std::filesystem::path> scenes; // empty: the usual ones in scene_folder
+    std::filesystem::path scene_folder = "scenes";
+    std::vector<std::uint32_t> depths = {8, 9, 10};
+    std::uint32_t run_count = 5;
+    Coverage coverage = Coverage::Thin;
+    bool attributes = true;
+    bool passes = false;
+    DeviceOptions device;
+    OutputOptions output; // path: unused
+};
+
+/// What the command line asks for: one command's options, or text to print and nothing more (help, version).
+using Command = std::variant<std::string, RenderOptions, VoxelizeOptions, InfoOptions, BenchOptions>;
+
+/// Reads the command line. Throws Error{Usage}, one line, for anything that is not understood.
+Command parseCommandLine(int argc, const char* const* argv);
+
+} // namespace zvo::cli

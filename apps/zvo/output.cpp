@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "output.h"
+
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <unistd.h>
+
+namespace zvo::cli
+{
+
+Output::Output(const std::string& target, bool overwrite)
+{
+    if (target != "-")
+    {
+        m_file = std::make_unique<AtomicFile>(target, overwrite ? Overwrite::Allow : Overwrite::Refuse);
+    }
+}
+
+void Output::write(std::span<const std::byte> bytes)
+{
+    if (m_file)
+    {
+        m_file->write(bytes);
+        return;
+    }
+    while (!bytes.empty())
+    {
+        const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+        if (written < 0 && errno != EINTR)
+        {
+            throw Error(ErrorCode::Output,
+                        fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)));
+        }
+        bytes = bytes.subspan(written < 0 ? 0 : static_cast<std::size_t>(written));
+    }
+}
+
+void Output::finish()
+{
+    if (m_file)
+    {
+        m_file->commit();
+    }
+}
+
+void checkDistinct(const OutputOptions& options)
+{
+    std::error_code ignored;
+    const bool both_to_stdout = options.path == "-" && options.json == "-";
+    const bool same_file = !options.json.empty() && options.path != "-" && options.json != "-" &&
+                           std::filesystem::weakly_canonical(options.path, ignored) ==
+                               std::filesystem::weakly_canonical(options.json, ignored);
+    if (both_to_stdout || same_file)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o and --json both name {}; they need two places", options.path));
+    }
+}
+
+std::string extensionOf(const std::string& path)
+{
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& letter : extension)
+    {
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+    return extension;
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/atomic_file.h"
+#include "options.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace zvo::cli
+{
+
+/// What a command writes: standard output for "-", otherwise a file that appears complete or not at all. Made before
+/// the work starts, so that a place that cannot be written to is an error at once. Every function throws Error{Output}.
+class Output
+{
+public:
+    Output(const std::string& target, bool overwrite);
+
+    void write(std::span<const std::byte> bytes);
+    void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+
+    /// Puts the file in its place.
+    void finish();
+
+private:
+    std::unique_ptr<AtomicFile> m_file; // null: standard output
+};
+
+/// Throws Error{Usage} where both outputs go to one place.
+void checkDistinct(const OutputOptions& options);
+
+/// The extension of a path in lower case, with its dot.
+std::string extensionOf(const std::string& path);
+
+} // namespace zvo::cli

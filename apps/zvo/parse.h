@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The words of the command line as values. Numbers are written the same in every locale; whatever is not exactly a
+// value of the kind asked for is an Error{Usage} that names the option.
+#pragma once
+
+#include "core/coverage.h"
+#include "core/scene.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace zvo::cli
+{
+
+/// A whole number in [low, high].
+std::uint64_t parseInteger(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high);
+
+/// Finite numbers with commas between them.
+std::vector<float> parseFloats(std::string_view option, std::string_view text);
+
+/// The same, or nothing where text is not such a list: it may be a name instead.
+std::optional<std::vector<float>> tryParseFloats(std::string_view text);
+
+/// A resolution that is a power of two, as a depth.
+std::uint32_t parseResolution(std::string_view option, std::string_view text);
+
+/// Resolutions with commas between them, as depths.
+std::vector<std::uint32_t> parseResolutions(std::string_view option, std::string_view text);
+
+/// Width and height in pixels: "1280x720".
+std::pair<std::uint32_t, std::uint32_t> parseSize(std::string_view option, std::string_view text);
+
+/// First and last frame: "0..35".
+std::pair<std::uint32_t, std::uint32_t> parseFrames(std::string_view option, std::string_view text);
+
+/// A number of bytes with an optional K, M, G or T (powers of 1024): "512M", "1.5G".
+std::uint64_t parseBytes(std::string_view option, std::string_view text);
+
+/// Six numbers, minimum corner then maximum corner; some extent on at least one axis.
+Bounds parseBounds(std::string_view option, std::string_view text);
+
+Coverage parseCoverage(std::string_view option, std::string_view text);
+
+/// "full": true, "none": false.
+bool parseAttributes(std::string_view option, std::string_view text);
+
+} // namespace zvo::cli

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cstdio>
+#include <string>
+#include <unistd.h>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+std::atomic<bool> g_bar_shown = false;
+static_assert(std::atomic<bool>::is_always_lock_free); // or a signal handler could not use it
+
+constexpr std::size_t kBarWidth = 30;
+constexpr char kClearLine[] = "\r\033[K";
+
+} // namespace
+
+void talk(std::string_view text)
+{
+    clearProgressBar();
+    std::string line = fmt::format("zvo: {}", text);
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
+    line += '\n';
+    std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void clearProgressBar() noexcept
+{
+    if (g_bar_shown.exchange(false))
+    {
+        static_cast<void>(!::write(STDERR_FILENO, kClearLine, sizeof(kClearLine) - 1));
+    }
+}
+
+Progress::Progress(std::size_t step_count) : m_step_count(step_count) {}
+
+Progress::~Progress()
+{
+    clearProgressBar();
+}
+
+void Progress::step(std::string_view what)
+{
+    m_step = std::min(m_step + 1, m_step_count);
+    if (::isatty(STDERR_FILENO) == 0)
+    {
+        return;
+    }
+    const std::size_t done = (m_step - 1) * kBarWidth / m_step_count;
+    const std::string line = fmt::format("{}[{:#<{}}{:.<{}}] {}/{} {:.48}", kClearLine, "", done, "", kBarWidth - done,
+                                         m_step, m_step_count, what);
+    g_bar_shown = true;
+    std::fwrite(line.data(), 1, line.size(), stderr);
+    std::fflush(stderr);
+}
+
+} // namespace zvo::cli

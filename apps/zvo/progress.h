@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What is told on standard error while the work goes on.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace zvo::cli
+{
+
+/// A line on standard error that begins with "zvo: "; control characters become spaces.
+void talk(std::string_view text);
+
+/// Takes the progress bar off the screen, if one is shown. Async-signal-safe.
+void clearProgressBar() noexcept;
+
+/// A progress bar on standard error, if that is a terminal. One at a time.
+class Progress
+{
+public:
+    explicit Progress(std::size_t step_count);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// The next step begins; what: a few words on it.
+    void step(std::string_view what);
+
+private:
+    std::size_t m_step_count;
+    std::size_t m_step = 0; // that is going on, counted from 1
+};
+
+} // namespace zvo::cli

@@ -1,0 +1,5 @@
+#include "render.h"
+namespace zvo::cli
+{
+void render(const RenderOptions&) {}
+} // namespace zvo::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "report.h"
+
+#include <algorithm>
+
+namespace zvo::cli
+{
+
+Json deviceJson(const vk::DeviceReport& device)
+{
+    return {{"name", device.name},
+            {"driver", device.driver},
+            {"type", device.type},
+            {"subgroup_size", device.subgroup_size}};
+}
+
+Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
+                std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
+                std::uint64_t peak_bytes)
+{
+    const Octree& octree = result.octree;
+    const Grid& grid = octree.grid;
+    Json dropped = Json::object();
+    for (const auto& [reason, count] : result.dropped)
+    {
+        dropped[reason] = count;
+    }
+    Json json;
+    json["schema"] = schema;
+    json["zvo"] = ZVO_VERSION;
+    json["device"] = deviceJson(device);
+    json["grid"] = {{"origin", {double{grid.origin.x}, double{grid.origin.y}, double{grid.origin.z}}},
+                    {"voxel_size", double{grid.voxel_size}},
+                    {"depth", grid.depth}};
+    json["resolution"] = grid.resolution();
+    json["coverage"] = coverageName(options.coverage);
+    json["attributes"] = options.attributes ? "full" : "none";
+    json["snapping"] = "lattice256";
+    json["scene"] = {{"triangles", triangle_count}, {"dropped", dropped}};
+    json["voxels"] = octree.voxel_count;
+    json["bricks"] = octree.levels.empty() ? 0U : octree.levels.back().node_count;
+    json["nodes"] = octree.node_count;
+    json["bytes"] = {
+        {"geometry", octree.geometryBytes()}, {"attributes", octree.attributeBytes()}, {"peak_device", peak_bytes}};
+    json["octree_sha256"] = octree_sha256;
+    json["cold_run"] = true; // times include whatever a device does only the first time
+    json["retries"] = result.retry_count;
+    json["passes"] = passesJson(result.passes);
+    json["voxelize_ms"] = result.stageMs("voxelize");
+    json["build_ms"] = result.stageMs("octree");
+    json["trace_ms"] = nullptr;
+    return json;
+}
+
+Json passesJson(const std::vector<vk::PassTime>& passes)
+{
+    Json json = Json::array();
+    for (const vk::PassTime& pass : passes)
+    {
+        json.push_back({{"name", pass.name}, {"ms", pass.ms}});
+    }
+    return json;
+}
+
+std::vector<vk::PassTime> sumByName(const std::vector<vk::PassTime>& passes)
+{
+    std::vector<vk::PassTime> sums;
+    for (const vk::PassTime& pass : passes)
+    {
+        const auto known =
+            std::find_if(sums.begin(), sums.end(), [&](const auto& sum) { return sum.name == pass.name; });
+        if (known == sums.end())
+        {
+            sums.push_back(pass);
+        }
+        else
+        {
+            known->ms += pass.ms;
+        }
+    }
+    return sums;
+}
+
+std::string jsonText(const Json& json)
+{
+    // Strings from drivers and files need not be UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+const char* coverageName(Coverage coverage)
+{
+    return coverage == Coverage::Thin ? "thin" : "conservative";
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The numbers of a run as JSON. The names of the fields are an interface: they stay.
+#pragma once
+
+#include "core/pipeline.h"
+#include "options.h"
+#include "vk/device.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace zvo::cli
+{
+
+using Json = nlohmann::ordered_json;
+
+/// Name, driver, type and subgroup size.
+Json deviceJson(const vk::DeviceReport& device);
+
+/// What `zvo render` and `zvo voxelize` report on the way from triangles to the octree; trace_ms is null. The numbers
+/// of the grid are single precision in the fewest digits of double precision that give them back bit for bit.
+/// peak_bytes: device memory of the whole run.
+Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
+                std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
+                std::uint64_t peak_bytes);
+
+/// Each pass with its time, in order.
+Json passesJson(const std::vector<vk::PassTime>& passes);
+
+/// The times of passes of the same name added up, in the order in which they first occur.
+std::vector<vk::PassTime> sumByName(const std::vector<vk::PassTime>& passes);
+
+/// json as indented text with a line break at the end.
+std::string jsonText(const Json& json);
+
+const char* coverageName(Coverage coverage);
+
+} // namespace zvo::cli

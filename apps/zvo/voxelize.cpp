@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "voxelize.h"
+
+#include "core/gpu_scene.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "export.h"
+#include "output.h"
+#include "progress.h"
+#include "report.h"
+#include "session.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+std::string formatOf(const VoxelizeOptions& options)
+{
+    if (!options.format.empty())
+    {
+        return options.format;
+    }
+    const std::string extension = extensionOf(options.output.path);
+    if (extension != ".morton" && extension != ".ply")
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o {}: the format is not clear; name it .morton or .ply, or say "
+                                                  "--format morton or --format ply",
+                                                  options.output.path));
+    }
+    return extension.substr(1);
+}
+
+} // namespace
+
+void voxelize(const VoxelizeOptions& options)
+{
+    checkDistinct(options.output);
+    const std::string format = formatOf(options);
+    Output output(options.output.path, options.output.overwrite);
+    std::optional<Output> report;
+    if (!options.output.json.empty())
+    {
+        report.emplace(options.output.json, options.output.overwrite);
+    }
+
+    Progress progress(4);
+    progress.step("loading");
+    Scene scene = loadWithWarnings(options.voxels.scenes);
+    const std::uint64_t triangle_count = scene.triangleCount();
+    const Grid grid = placeGrid(options.voxels, scene.bounds());
+
+    progress.step("copying to the device");
+    vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
+    const GpuScene gpu_scene = uploadScene(device, scene, options.voxels.attributes);
+    scene = {};
+
+    progress.step("voxelizing");
+    const BuildResult result =
+        buildOctree(device, gpu_scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
+
+    progress.step("writing");
+    format == "morton" ? writeMorton(device, result.octree, output) : writePly(device, result.octree, output);
+    if (report)
+    {
+        const Json json = octreeJson("zvo.voxelize/1", device.device().report(), options.voxels, triangle_count, result,
+                                     octreeSha256(device, result.octree), device.device().memory().peakBytes());
+        report->write(jsonText(json));
+    }
+    checkValidation(device);
+    output.finish();
+    if (report)
+    {
+        report->finish();
+    }
+    talk(fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms on {}",
+                     result.octree.voxel_count, grid.resolution(), triangle_count, result.stageMs("voxelize"),
+                     result.stageMs("octree"), device.device().report().name));
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Colours between their stored and their linear forms.
+
+vec3 decodeSrgb(vec3 code)
+{
+    return mix(code / 12.92, pow((code + 0.055) / 1.055, vec3(2.4)), greaterThan(code, vec3(0.04045)));
+}
+
+vec3 encodeSrgb(vec3 linear)
+{
+    return mix(linear * 12.92, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, greaterThan(linear, vec3(0.0031308)));
+}
+
+// Shared-exponent RGB9E5: three mantissas of 9 bits, then the exponent.
+vec3 decodeRgb9e5(uint code)
+{
+    uvec3 mantissa = (uvec3(code) >> uvec3(0u, 9u, 18u)) & 511u;
+    return vec3(mantissa) * exp2(float(code >> 27) - 24.0);
+}
+
+// Filmic curve from radiance to [0, 1) (K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015).
+vec3 toneMap(vec3 radiance)
+{
+    vec3 x = 0.6 * radiance;
+    return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// Red, green, blue in [0, 1], already encoded, with full alpha.
+uint packColor8(vec3 color)
+{
+    uvec3 byte = uvec3(color * 255.0 + 0.5);
+    return byte.r | (byte.g << 8) | (byte.b << 16) | (255u << 24);
+}
+
+// Heat from black over blue, red and yellow to white, for x in [0, 1].
+vec3 heatColor(float x)
+{
+    return clamp(vec3(3.0 * x - 0.75, 3.0 * x - 1.75, x < 0.5 ? 4.0 * x * (1.0 - x) - 2.0 * max(x - 0.25, 0.0) : 4.0 * x - 3.0),
+                 0.0, 1.0);
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Normals of hits.
+
+// Normal of the face that the ray came in through; against the ray when it started inside.
+vec3 faceNormal(uint face, vec3 direction)
+{
+    vec3 axis = vec3(face == 0u ? 1.0 : 0.0, face == 1u ? 1.0 : 0.0, face == 2u ? 1.0 : 0.0);
+    return face == kFaceInside ? -normalize(direction) : mix(axis, -axis, greaterThan(direction, vec3(0.0)));
+}
+
+// Normal of an attribute, turned towards the viewer.
+vec3 shadingNormal(uint code, vec3 direction)
+{
+    vec3 normal = normalize(vec3(decodeNormal(code)));
+    return dot(normal, direction) > 0.0 ? -normal : normal;
+}

@@ -1,0 +1,110 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// From hits to a picture: sun with shadow, sky light, emission; or one of the other views.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/attribute.glsl"
+#include "lib/camera.glsl"
+#include "lib/color.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/sky.glsl"
+#include "lib/surface_normal.glsl"
+
+layout(constant_id = 0) const uint kView = kViewColor;
+layout(constant_id = 1) const uint kNodeLevels = 5u;
+layout(constant_id = 2) const bool kOrthographic = false;
+layout(constant_id = 3) const bool kAttributes = true;
+layout(constant_id = 4) const bool kEmission = false;
+layout(constant_id = 5) const bool kShadows = true;
+
+layout(local_size_x = kTilePixels) in;
+layout(push_constant, scalar) uniform Push
+{
+    ShadeParams params;
+};
+
+const vec3 kPlainAlbedo = vec3(0.6); // without attributes
+
+struct Surface
+{
+    vec3 albedo;
+    vec3 normal;
+    vec3 emission;
+};
+
+Surface surfaceAt(Hit hit, vec3 direction)
+{
+    vec3 face_normal = faceNormal(hitFace(hit), direction);
+    Surface surface = Surface(kPlainAlbedo, face_normal, vec3(0.0));
+    if (kAttributes && !isMiss(hit))
+    {
+        bool voxel = hitLevel(hit) == kNodeLevels;
+        uint64_t_ConstPtr words = uint64_t_ConstPtr(voxel ? uint64_t(params.attributes)
+                                                          : uint64_t(params.node_attributes));
+        uvec2 stored = unpackUint2x32(words.data[hit.index]);
+        surface.albedo = decodeSrgb(unpackUnorm4x8(stored.x).rgb);
+        surface.normal = shadingNormal(stored.y, direction);
+        if (kEmission && voxel && ((stored.x >> 24) & kAttributeEmissive) != 0u)
+        {
+            uvec2 word = params.emission_words.data[hit.index >> 5];
+            uint rank = word.y + bitCount(word.x & ((1u << (hit.index & 31u)) - 1u));
+            surface.emission = params.emission_scale * decodeRgb9e5(params.emission.data[rank]);
+        }
+    }
+    return surface;
+}
+
+vec3 lit(Surface surface, uint light)
+{
+    float sun = params.sun * max(dot(surface.normal, params.to_sun), 0.0) * float(light & kLightSun) / float(kLightSun);
+    return surface.albedo * (sun * kSunColor + skyAmbient(surface.normal)) + surface.emission;
+}
+
+vec3 background(vec3 direction)
+{
+    vec3 toward = normalize(direction);
+    return skyRadiance(toward) + params.sun * 4.0 * sunDisc(toward, params.to_sun) * kSunColor;
+}
+
+void main()
+{
+    uvec2 size = uvec2(bitfieldExtract(params.size, 0, 16), params.size >> 16);
+    uvec2 tiles = (size + kTileEdge - 1u) / kTileEdge;
+    uint tile = workgroupIndex();
+    uvec2 pixel = kTileEdge * uvec2(tile % tiles.x, tile / tiles.x) + pixelInTile(gl_LocalInvocationIndex);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    uint i = pixel.y * size.x + pixel.x;
+    bool live = params.starts.data[tile] < kTileDead;
+    Hit hit = Hit(0.0, kHitMiss, uvec2(0u));
+    uint light = kView == kViewIterations ? 0u : kLightSun;
+    if (live)
+    {
+        hit = loadHit(params.hits, i);
+        if (kShadows || kView == kViewIterations)
+            light = params.light.data[i];
+    }
+    vec3 direction = params.forward;
+    if (!kOrthographic)
+        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+
+    vec3 color = vec3(0.0); // encoded
+    if (kView == kViewIterations)
+        color = heatColor(log2(1.0 + float(light)) / 7.0);
+    else if (kView == kViewDepth)
+        color = vec3(isMiss(hit) ? 0.0 : 1.0 / (1.0 + hit.t));
+    else if (kView == kViewLevel)
+        color = isMiss(hit) ? vec3(0.0) : heatColor(0.25 + 0.7 * float(kNodeLevels - hitLevel(hit)) / float(kNodeLevels));
+    else
+    {
+        Surface surface = surfaceAt(hit, direction);
+        if (kView == kViewNormal)
+            color = isMiss(hit) ? vec3(0.0) : 0.5 + 0.5 * surface.normal;
+        else if (kView == kViewAlbedo)
+            color = isMiss(hit) ? vec3(0.0) : encodeSrgb(surface.albedo);
+        else
+            color = encodeSrgb(toneMap(params.exposure * (isMiss(hit) ? background(direction) : lit(surface, light))));
+    }
+    params.image.data[i] = packColor8(color);
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "core/camera.h"
+
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr double kFramingFov = 0.6;     // radians
+constexpr double kFramingMargin = 1.05; // of the distance
+const glm::dvec3 kFramingDirection(-0.55, -0.42, -0.85);
+
+bool isFinite(const glm::dvec3& v)
+{
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Sets the axes for a view along direction, which must not be zero.
+void setAxes(ViewCamera& camera, const glm::dvec3& direction)
+{
+    camera.forward = glm::normalize(direction);
+    const bool vertical = std::abs(camera.forward.y) > 0.999999;
+    const glm::dvec3 upright = vertical ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    camera.right = glm::normalize(glm::cross(camera.forward, upright));
+    camera.up = glm::cross(camera.right, camera.forward);
+}
+
+} // namespace
+
+ViewCamera ViewCamera::of(const Camera& camera)
+{
+    const glm::dmat4 transform(camera.transform);
+    const glm::dvec3 backward(transform[2]);
+    const glm::dvec3 upward(transform[1]);
+    const glm::dvec3 sideward = glm::cross(upward, backward);
+    ViewCamera view;
+    view.position = glm::dvec3(transform[3]);
+    view.orthographic = camera.orthographic;
+    view.vertical_fov = static_cast<double>(camera.vertical_fov);
+    view.half_height = static_cast<double>(camera.half_height);
+    const double size = glm::length(sideward);
+    if (!isFinite(view.position) || !std::isfinite(size) || size == 0.0)
+    {
+        throw Error(ErrorCode::Input, fmt::format("camera \"{}\" has no direction: its transform is degenerate; choose "
+                                                  "another one or give eye and target",
+                                                  camera.name));
+    }
+    view.forward = -glm::normalize(backward);
+    view.right = sideward / size;
+    view.up = glm::cross(view.right, view.forward);
+    return view;
+}
+
+ViewCamera ViewCamera::lookAt(const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov)
+{
+    const glm::dvec3 direction = target - eye;
+    if (!isFinite(eye) || !isFinite(target) || glm::length(direction) == 0.0)
+    {
+        throw Error(ErrorCode::Usage, "the camera's eye and target must be two different points");
+    }
+    if (!(vertical_fov > 0.0 && vertical_fov < std::numbers::pi))
+    {
+        throw Error(ErrorCode::Usage, "the camera's field of view must be more than 0 and less than 180 degrees");
+    }
+    ViewCamera view;
+    view.position = eye;
+    view.vertical_fov = vertical_fov;
+    setAxes(view, direction);
+    return view;
+}
+
+ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect)
+{
+    const glm::dvec3 low(bounds.min);
+    const glm::dvec3 high(bounds.max);
+    const glm::dvec3 centre = 0.5 * (low + high);
+    ViewCamera view;
+    view.vertical_fov = kFramingFov;
+    setAxes(view, kFramingDirection);
+    const double tangent_y = std::tan(0.5 * kFramingFov);
+    const double tangent_x = tangent_y * aspect;
+    double distance = 0.0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const glm::dvec3 point((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                               (corner & 4) != 0 ? high.z : low.z);
+        const glm::dvec3 offset = point - centre;
+        const double depth = glm::dot(offset, view.forward);
+        distance = std::max({distance, std::abs(glm::dot(offset, view.right)) / tangent_x - depth,
+                             std::abs(glm::dot(offset, view.up)) / tangent_y - depth});
+    }
+    distance = distance > 0.0 ? distance * kFramingMargin : 1.0; // a single point
+    view.position = centre - distance * view.forward;
+    return view;
+}
+
+ViewCamera ViewCamera::turnedAround(const glm::dvec3& centre, double radians) const
+{
+    const double c = std::cos(radians);
+    const double s = std::sin(radians);
+    const auto turn = [c, s](const glm::dvec3& v) { return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x); };
+    ViewCamera view = *this;
+    view.position = centre + turn(position - centre);
+    view.forward = turn(forward);
+    view.right = turn(right);
+    view.up = turn(up);
+    return view;
+}
+
+TraceCamera traceCamera(const ViewCamera& camera, const Grid& grid, std::uint32_t height)
+{
+    const double edge = static_cast<double>(grid.voxel_size) * grid.rootResolution();
+    const double half_height = camera.orthographic ? camera.half_height / edge : std::tan(0.5 * camera.vertical_fov);
+    const double half_pixel = half_height / height;
+    TraceCamera result;
+    result.orthographic = camera.orthographic;
+    result.rays.origin = glm::vec3(1.0 + (camera.position - glm::dvec3(grid.origin)) / edge);
+    result.rays.forward = glm::vec3(camera.forward);
+    result.rays.step_x = glm::vec3(half_pixel * camera.right);
+    result.rays.step_y = glm::vec3(-half_pixel * camera.up);
+    return result;
+}
+
+} // namespace zvo

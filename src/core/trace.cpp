@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr float kDirectionMin = 1e-20F; // as in lib/ray.glsl
+
+struct PictureTiles
+{
+    std::uint32_t x;
+    std::uint32_t y;
+    std::uint32_t blocks;
+
+    explicit PictureTiles(const TraceBuffers& buffers)
+        : x((buffers.width + gpu::kTileEdge - 1) / gpu::kTileEdge),
+          y((buffers.height + gpu::kTileEdge - 1) / gpu::kTileEdge),
+          blocks(((x + gpu::kBlockEdge - 1) / gpu::kBlockEdge) * ((y + gpu::kBlockEdge - 1) / gpu::kBlockEdge))
+    {
+    }
+};
+
+bool isEmpty(const Octree& octree)
+{
+    return octree.node_count == 0;
+}
+
+bool hasDetail(const TraceOptions& options)
+{
+    return options.detail_pixels > 0.0F || options.detail_level != UINT32_MAX;
+}
+
+// Attributes for every hit that can occur.
+bool usesAttributes(const Octree& octree, const TraceOptions& options)
+{
+    return octree.hasAttributes() && (!hasDetail(options) || octree.node_attributes.count() != 0);
+}
+
+// The constants that every kernel with lib/traverse.glsl begins with.
+vk::Specialization traverseConstants(const Octree& octree, const TraceOptions& options)
+{
+    return {octree.grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), hasDetail(options) ? 1U : 0U};
+}
+
+vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more)
+{
+    constants.insert(constants.end(), more.begin(), more.end());
+    return constants;
+}
+
+// Nodes whose edge is at most max(x * t, y) stop a ray.
+gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera)
+{
+    gpu::vec2 detail(0.0F);
+    if (options.detail_level != UINT32_MAX)
+    {
+        detail.y = std::ldexp(1.0F, -2 * static_cast<int>(std::min(options.detail_level, gpu::kNodeLevelsMax)));
+    }
+    if (camera != nullptr)
+    {
+        const float width = 2.0F * glm::length(camera->rays.step_x) * options.detail_pixels;
+        float& part = camera->orthographic ? detail.y : detail.x;
+        part = std::max(part, width);
+    }
+    return detail;
+}
+
+float inverse(float direction)
+{
+    return 1.0F / (std::fabs(direction) < kDirectionMin ? std::copysign(kDirectionMin, direction) : direction);
+}
+
+gpu::vec3 sunDirection(const TraceOptions& options)
+{
+    const double length = glm::length(options.to_sun);
+    return length > 0.0 ? gpu::vec3(options.to_sun / length) : gpu::vec3(0.0F, 1.0F, 0.0F);
+}
+
+// A number near the golden section of count that shares no factor with it.
+std::uint32_t coprimeStride(std::uint32_t count)
+{
+    auto stride = static_cast<std::uint32_t>(0.618 * count) | 1U;
+    while (std::gcd(stride, count) != 1)
+    {
+        ++stride;
+    }
+    return stride;
+}
+
+void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+               const TraceOptions& options, TraceBuffers& buffers)
+{
+    graph.fill(buffers.args, 0);
+    graph.fill(buffers.status, 0);
+    const PictureTiles tiles(buffers);
+    const vk::Specialization constants = withFlags({gpu::kBeamLevels, static_cast<std::uint32_t>(options.stack), 0U},
+                                                   {camera.orthographic, options.beam, isEmpty(octree)});
+    vk::Pass pass = graph.addPass("trace/beam", constants);
+    gpu::BeamParams params{};
+    params.nodes = pass.read(beam.nodes);
+    params.starts = pass.write(buffers.starts);
+    params.live = pass.write(buffers.live);
+    params.args = pass.readWrite(buffers.args);
+    params.status = pass.readWrite(buffers.status);
+    params.camera = camera.rays;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    params.block_stride = coprimeStride(tiles.blocks);
+    pass.dispatch(std::uint64_t{tiles.blocks} * gpu::kBlockTiles, params);
+}
+
+} // namespace
+
+BeamGrid::BeamGrid(vk::Device& device)
+    : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
+      masks(device, "beam masks", gpu::kBeamGroup), nodes(device, "beam nodes", gpu::kBeamNodes)
+{
+}
+
+TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
+    : width(picture_width), height(picture_height), args(device, "trace args", 1), status(device, "trace status", 1)
+{
+    const PictureTiles tiles(*this);
+    const std::uint64_t tile_count = std::uint64_t{tiles.x} * tiles.y;
+    const std::uint64_t pixel_count = std::uint64_t{width} * height;
+    starts = {device, "tile starts", tile_count};
+    live = {device, "live tiles", tile_count};
+    hits = {device, "hits", pixel_count};
+    light = {device, "light", pixel_count};
+    image = {device, "image", pixel_count};
+}
+
+void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam)
+{
+    if (isEmpty(octree))
+    {
+        return;
+    }
+    const std::uint32_t levels = std::min(octree.grid.nodeLevels(), gpu::kBeamLevels);
+    const std::uint32_t cells = 1U << (2 * levels);
+    {
+        vk::Pass pass = graph.addPass("trace/beam_mark");
+        const gpu::BeamMarkParams params = {pass.read(octree.nodes), pass.write(beam.occupied), levels, cells};
+        pass.dispatch(cells * cells, params);
+    }
+    {
+        vk::Pass pass = graph.addPass("trace/beam_dilate");
+        const gpu::BeamDilateParams params = {pass.read(beam.occupied), pass.write(beam.rows), cells};
+        pass.dispatch(gpu::kBeamRows, params);
+    }
+    {
+        vk::Pass pass = graph.addPass("trace/beam_nodes", {1});
+        const gpu::BeamNodesParams params = {pass.read(beam.rows), pass.write(beam.masks), pass.write(beam.nodes),
+                                             gpu::kBeamFirst2};
+        pass.dispatch(gpu::kBeamGroup * gpu::kBeamGroup, params);
+    }
+    {
+        vk::Pass pass = graph.addPass("trace/beam_nodes", {0});
+        gpu::BeamNodesParams params{};
+        params.masks = pass.read(beam.masks);
+        params.nodes = pass.readWrite(beam.nodes);
+        params.first_node = gpu::kBeamFirst1;
+        pass.dispatch(gpu::kBeamGroup, params);
+    }
+}
+
+void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+                  const TraceOptions& options, TraceBuffers& buffers)
+{
+    traceBeam(graph, octree, beam, camera, options, buffers);
+    const bool count_iterations = options.view == View::Iterations;
+    vk::Pass pass = graph.addPass(
+        "trace/primary", withFlags(traverseConstants(octree, options), {camera.orthographic, count_iterations}));
+    gpu::PrimaryParams params{};
+    params.nodes = pass.read(octree.nodes);
+    params.live = pass.read(buffers.live);
+    params.status = pass.readWrite(buffers.status);
+    params.hits = pass.write(buffers.hits);
+    params.iterations = count_iterations ? pass.write(buffers.light) : gpu::Ptr<gpu::uint>{};
+    params.camera = camera.rays;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    params.detail = detailOf(options, &camera);
+    pass.dispatchIndirect(buffers.args, 0, params);
+}
+
+void traceShadows(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+                  TraceBuffers& buffers)
+{
+    const gpu::vec3 to_sun = sunDirection(options);
+    vk::Pass pass = graph.addPass("trace/shadow", withFlags(traverseConstants(octree, options),
+                                                            {camera.orthographic, usesAttributes(octree, options)}));
+    gpu::ShadowParams params{};
+    params.nodes = pass.read(octree.nodes);
+    params.live = pass.read(buffers.live);
+    params.hits = pass.read(buffers.hits);
+    params.attributes = pass.read(octree.voxel_attributes);
+    params.node_attributes = pass.read(octree.node_attributes);
+    params.status = pass.readWrite(buffers.status);
+    params.light = pass.write(buffers.light);
+    params.forward = camera.rays.forward;
+    params.step_x = camera.rays.step_x;
+    params.step_y = camera.rays.step_y;
+    params.to_sun = to_sun;
+    params.to_sun_inverse = {inverse(to_sun.x), inverse(to_sun.y), inverse(to_sun.z)};
+    params.width = buffers.width;
+    params.height = buffers.height;
+    pass.dispatchIndirect(buffers.args, 0, params);
+}
+
+void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+           TraceBuffers& buffers)
+{
+    const PictureTiles tiles(buffers);
+    const bool attributes = usesAttributes(octree, options);
+    const vk::Specialization constants =
+        withFlags({static_cast<std::uint32_t>(options.view), octree.grid.nodeLevels()},
+                  {camera.orthographic, attributes, attributes && octree.emission.count() != 0, options.shadows});
+    vk::Pass pass = graph.addPass("trace/shade", constants);
+    gpu::ShadeParams params{};
+    params.starts = pass.read(buffers.starts);
+    params.hits = pass.read(buffers.hits);
+    params.light = pass.read(buffers.light);
+    params.attributes = pass.read(octree.voxel_attributes);
+    params.node_attributes = pass.read(octree.node_attributes);
+    params.emission_words = pass.read(octree.emission_words);
+    params.emission = pass.read(octree.emission);
+    params.image = pass.write(buffers.image);
+    params.forward = camera.rays.forward;
+    params.step_x = camera.rays.step_x;
+    params.step_y = camera.rays.step_y;
+    params.to_sun = sunDirection(options);
+    params.size = buffers.width | buffers.height << 16;
+    params.emission_scale = octree.emission_scale;
+    params.sun = options.sun;
+    params.exposure = options.exposure;
+    pass.dispatch(std::uint64_t{tiles.x} * tiles.y * gpu::kTilePixels, params);
+}
+
+void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+           const TraceOptions& options, TraceBuffers& buffers)
+{
+    tracePrimary(graph, octree, beam, camera, options, buffers);
+    if (options.view == View::Color && options.shadows)
+    {
+        traceShadows(graph, octree, camera, options, buffers);
+    }
+    shade(graph, octree, camera, options, buffers);
+}
+
+void traceRays(vk::FrameGraph& graph, const Octree& octree, const vk::BufferOf<gpu::Ray>& rays,
+               vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options)
+{
+    if (isEmpty(octree))
+    {
+        graph.fill(hits, gpu::kHitMiss);
+        return;
+    }
+    vk::Pass pass = graph.addPass("trace/rays", traverseConstants(octree, options));
+    gpu::RaysParams params{};
+    params.nodes = pass.read(octree.nodes);
+    params.rays = pass.read(rays);
+    params.hits = pass.write(hits);
+    params.status = pass.readWrite(status);
+    params.detail = detailOf(options, nullptr);
+    params.ray_count = static_cast<std::uint32_t>(rays.count());
+    pass.dispatch(rays.count(), params);
+}
+
+} // namespace zvo

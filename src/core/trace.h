@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/camera.h"
+#include "core/octree.h"
+#include "trace/trace.h"
+#include "vk/frame_graph.h"
+
+#include <cstdint>
+
+namespace zvo
+{
+
+/// What a picture shows.
+enum class View : std::uint32_t
+{
+    Color = gpu::kViewColor,           ///< lit by sun and sky
+    Albedo = gpu::kViewAlbedo,         ///< base colour alone
+    Normal = gpu::kViewNormal,         ///< shading normal
+    Depth = gpu::kViewDepth,           ///< near is white
+    Level = gpu::kViewLevel,           ///< brighter is coarser (TraceOptions::detail_pixels)
+    Iterations = gpu::kViewIterations, ///< heat map of the traversal's loop
+};
+
+/// Where a ray keeps the nodes above the current one. The hits are the same.
+enum class TraceStack : std::uint32_t
+{
+    Registers = gpu::kStackRegisters,
+    Private = gpu::kStackPrivate,
+    Shared = gpu::kStackShared,
+};
+
+struct TraceOptions
+{
+    View view = View::Color;
+    TraceStack stack = TraceStack::Registers;
+    bool beam = true;                    // skip what the beam grid shows to be empty; the picture is the same
+    bool shadows = true;                 // View::Color: trace a ray to the sun
+    glm::dvec3 to_sun{0.35, 0.75, 0.55}; // direction, any length
+    float sun = 3.0F;                    // strength
+    float exposure = 1.0F;
+    float detail_pixels = 0.0F;              // stop at nodes that are at most this many pixels wide; 0: go on to voxels
+    std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
+};
+
+/// A coarse octree over a dilated octree (trace/trace.h), by which the beam pass finds out what rays can skip.
+struct BeamGrid
+{
+    explicit BeamGrid(vk::Device& device);
+
+    vk::BufferOf<uint64_t> occupied; // [kBeamRows]
+    vk::BufferOf<uint64_t> rows;     // [kBeamRows]
+    vk::BufferOf<uint64_t> masks;    // [kBeamGroup]
+    vk::BufferOf<gpu::Node> nodes;   // [kBeamNodes]
+};
+
+/// What the passes for a picture of width x height pixels write. Pixels are stored row by row from the top left.
+struct TraceBuffers
+{
+    TraceBuffers(vk::Device& device, std::uint32_t width, std::uint32_t height);
+
+    std::uint32_t width;
+    std::uint32_t height;
+    vk::BufferOf<float> starts;            // [tiles] of kTileEdge^2 pixels, row by row: kTileDead where nothing is hit
+    vk::BufferOf<gpu::uvec2> live;         // [tiles] the others, in any order
+    vk::BufferOf<gpu::DispatchArgs> args;  // [1] one workgroup for each of them
+    vk::BufferOf<gpu::TraceStatus> status; // [1]
+    vk::BufferOf<gpu::Hit> hits;           // [width * height]; undefined in dead tiles
+    vk::BufferOf<gpu::uint> light;         // [width * height]; undefined in dead tiles. View::Iterations: those
+    vk::BufferOf<gpu::uint> image;         // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
+};
+
+/// Records the passes that make the beam grid of octree: once for each octree. Cost: constant.
+void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam);
+
+/// Records the passes that find what each pixel's ray hits first: fills buffers.starts, live, args, status, hits (and
+/// light with iteration counts for View::Iterations). Cost: pixels of tiles that are near something.
+void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+                  const TraceOptions& options, TraceBuffers& buffers);
+
+/// Records the pass that finds which hits the sun reaches: fills buffers.light.
+void traceShadows(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+                  TraceBuffers& buffers);
+
+/// Records the pass that makes buffers.image from hits and light.
+void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+           TraceBuffers& buffers);
+
+/// Records all passes from a camera to a picture.
+void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+           const TraceOptions& options, TraceBuffers& buffers);
+
+/// Records the pass that traces a list of rays in octree's unit space: hits[i] is what rays[i] hits first. hits has
+/// room for as many. Rays with components that are NaN, infinite or (inverse directions) too small to be normal hit
+/// nothing. Adds to status[0].capped_rays.
+void traceRays(vk::FrameGraph& graph, const Octree& octree, const vk::BufferOf<gpu::Ray>& rays,
+               vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options);
+
+/// Rays of a picture that tracePrimary has to answer: what Mrays/s counts.
+inline std::uint64_t primaryRayCount(const TraceBuffers& buffers)
+{
+    return std::uint64_t{buffers.width} * buffers.height;
+}
+
+} // namespace zvo
