@@ -5,9 +5,11 @@
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "core/trace.h"
 #include "output.h"
 #include "progress.h"
 #include "session.h"
+#include "view.h"
 #include "zvo/error.h"
 
 #ifdef ZVO_EMBREE
@@ -127,11 +129,18 @@ public:
         row.triangles = scene.triangleCount();
         const Grid grid = Grid::around(scene.bounds(), depth);
         const BuildResult built = measureBuild(gpu_scene, grid, row);
+        const Bounds subject = subjectOf(scene, grid);
+        const ViewCamera view = chooseCamera(m_options.camera, scene, subject, double{kWidth} / kHeight);
+        const TraceCamera camera = traceCamera(view, grid, kHeight);
+        measureTrace(built.octree, camera, row);
         row.voxels = built.octree.voxel_count;
         row.nodes = built.octree.node_count;
         row.geometry_bytes = built.octree.geometryBytes();
         row.attribute_bytes = built.octree.attributeBytes();
         row.peak_device_bytes = m_device.device().memory().peakBytes();
+#ifdef ZVO_EMBREE
+        measureEmbree(scene, built.octree, camera, row);
+#endif
         return row;
     }
 
@@ -157,6 +166,62 @@ private:
             }
         }
     }
+
+    // Primary rays, after a warm-up.
+    void measureTrace(const Octree& octree, const TraceCamera& camera, BenchRow& row)
+    {
+        BeamGrid beam(m_device.device());
+        TraceBuffers buffers(m_device.device(), kWidth, kHeight);
+        const std::vector<vk::PassTime> beam_passes =
+            m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, beam); });
+        const auto tracePicture = [&]
+        {
+            return m_device.run([&](vk::FrameGraph& graph)
+                                { tracePrimary(graph, octree, beam, camera, TraceOptions{}, buffers); });
+        };
+        tracePicture();
+        std::vector<double> trace_ms;
+        for (std::uint32_t run = 0; run < m_options.run_count; ++run)
+        {
+            const std::vector<vk::PassTime> passes = tracePicture();
+            trace_ms.push_back(sumMs(passes));
+            addPasses(row.passes, passes, m_options.run_count);
+        }
+        row.beam_grid_ms = sumMs(beam_passes);
+        row.trace_ms = Spread::of(trace_ms);
+        row.rays = primaryRayCount(buffers);
+        row.hits = countHits(buffers);
+    }
+
+    // Pixels whose ray hit something.
+    std::uint64_t countHits(const TraceBuffers& buffers)
+    {
+        const std::vector<gpu::Hit> hits = m_device.download(buffers.hits);
+        const std::vector<float> starts = m_device.download(buffers.starts);
+        const std::uint32_t tiles_x = (kWidth + gpu::kTileEdge - 1) / gpu::kTileEdge;
+        std::uint64_t count = 0;
+        for (std::size_t pixel = 0; pixel < hits.size(); ++pixel)
+        {
+            const std::size_t tile = pixel / kWidth / gpu::kTileEdge * tiles_x + pixel % kWidth / gpu::kTileEdge;
+            count += starts[tile] != gpu::kTileDead && hits[pixel].index != gpu::kHitMiss ? 1 : 0;
+        }
+        return count;
+    }
+
+#ifdef ZVO_EMBREE
+    void measureEmbree(const Scene& scene, const Octree& octree, const TraceCamera& camera, BenchRow& row)
+    {
+        const std::vector<PrimaryRay> rays = primaryRays(camera, kWidth, kHeight);
+        const EmbreeResult voxels =
+            traceVoxelsByEmbree(octree.grid, voxelCodes(m_device, octree), rays, m_options.run_count);
+        const EmbreeResult triangles = traceTrianglesByEmbree(octree.grid, scene, rays, m_options.run_count);
+        row.embree_user_mrays_per_s = voxels.mrays_per_s;
+        row.embree_user_single_mrays_per_s = voxels.single_mrays_per_s;
+        row.embree_user_hits = voxels.hit_count;
+        row.embree_triangle_mrays_per_s = triangles.mrays_per_s;
+        row.embree_triangle_single_mrays_per_s = triangles.single_mrays_per_s;
+    }
+#endif
 
     const BenchOptions& m_options;
     vk::HeadlessDevice& m_device;

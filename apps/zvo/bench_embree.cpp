@@ -242,7 +242,38 @@ void addInstance(RTCDevice device, RTCScene scene, const Grid& grid, const Primi
     rtcAttachGeometry(scene, geometry.get());
 }
 
+PrimaryRay rayOf(const TraceCamera& camera, glm::ivec2 pixel, glm::ivec2 size)
+{
+    const glm::vec2 n(2 * pixel + 1 - size);
+    const gpu::CameraRays& rays = camera.rays;
+    const glm::vec3 offset = n.x * rays.step_x + n.y * rays.step_y;
+    return camera.orthographic ? PrimaryRay{rays.origin + offset, rays.forward}
+                               : PrimaryRay{rays.origin, rays.forward + offset};
+}
+
 } // namespace
+
+std::vector<PrimaryRay> primaryRays(const TraceCamera& camera, std::uint32_t width, std::uint32_t height)
+{
+    constexpr int kBlock = 4; // pixels on an edge
+    const glm::ivec2 size(width, height);
+    std::vector<PrimaryRay> rays;
+    rays.reserve(std::size_t{width} * height);
+    for (int top = 0; top < size.y; top += kBlock)
+    {
+        for (int left = 0; left < size.x; left += kBlock)
+        {
+            for (int y = top; y < std::min(top + kBlock, size.y); ++y)
+            {
+                for (int x = left; x < std::min(left + kBlock, size.x); ++x)
+                {
+                    rays.push_back(rayOf(camera, {x, y}, size));
+                }
+            }
+        }
+    }
+    return rays;
+}
 
 EmbreeResult traceVoxelsByEmbree(const Grid& grid, std::span<const std::uint64_t> codes,
                                  std::span<const PrimaryRay> rays, std::uint32_t run_count)

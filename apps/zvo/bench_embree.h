@@ -3,12 +3,14 @@
 // with.
 #pragma once
 
+#include "core/camera.h"
 #include "core/grid.h"
 #include "core/scene.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 namespace zvo::cli
 {
@@ -19,6 +21,9 @@ struct PrimaryRay
     glm::vec3 origin{0.0F};
     glm::vec3 direction{0.0F};
 };
+
+/// The rays of a picture, 16 neighbours in each block of 4 x 4 pixels one after another.
+std::vector<PrimaryRay> primaryRays(const TraceCamera& camera, std::uint32_t width, std::uint32_t height);
 
 struct EmbreeResult
 {

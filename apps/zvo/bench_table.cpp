@@ -101,9 +101,12 @@ Json rowJson(const BenchRow& row)
     json["embree_user_mrays_per_s"] = orNull(row.embree_user_mrays_per_s);
     json["embree_triangle_mrays_per_s"] = orNull(row.embree_triangle_mrays_per_s);
     json["peak_device_bytes"] = row.peak_device_bytes;
+    json["beam_grid_ms"] = row.beam_grid_ms;
     json["rays"] = row.rays;
     json["hits"] = row.hits;
     json["embree_user_hits"] = orNull(row.embree_user_hits);
+    json["embree_user_single_mrays_per_s"] = orNull(row.embree_user_single_mrays_per_s);
+    json["embree_triangle_single_mrays_per_s"] = orNull(row.embree_triangle_single_mrays_per_s);
     json["passes"] = passesJson(row.passes);
     return json;
 }
@@ -137,7 +140,8 @@ std::string tableHead(const BenchHeader& header)
 {
     std::string head =
         fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max) of {} warm {}. "
-                    "Rays: primary, {}x{}, million a second; ratio: zvo / Embree.\n\n|",
+                    "Rays: primary, {}x{}, million a second; ratio: zvo / Embree "
+                    "(packets of 8 or 16 rays, whichever is faster, on all processors).\n\n|",
                     ZVO_VERSION, header.device.name, header.device.type, header.device.driver, header.run_count,
                     header.run_count == 1 ? "run" : "runs", header.width, header.height);
     for (const Column& column : columns())

@@ -40,12 +40,15 @@ struct BenchRow
     Spread voxelize_ms;
     Spread build_ms;
     Spread trace_ms;
+    double beam_grid_ms = 0; // once for an octree; in no other time
     std::uint64_t rays = 0;
-    std::uint64_t hits = 0;                            // rays that hit a voxel
-    std::optional<double> embree_user_mrays_per_s;     // through the same voxels
-    std::optional<std::uint64_t> embree_user_hits;     // of the same rays
-    std::optional<double> embree_triangle_mrays_per_s; // through the triangles
-    std::vector<vk::PassTime> passes;                  // mean of the runs, summed by name
+    std::uint64_t hits = 0;                               // rays that hit a voxel
+    std::optional<double> embree_user_mrays_per_s;        // through the same voxels
+    std::optional<std::uint64_t> embree_user_hits;        // of the same rays
+    std::optional<double> embree_triangle_mrays_per_s;    // through the triangles
+    std::optional<double> embree_user_single_mrays_per_s; // ray by ray
+    std::optional<double> embree_triangle_single_mrays_per_s;
+    std::vector<vk::PassTime> passes; // mean of the runs, summed by name
 
     [[nodiscard]] double perVoxel(std::uint64_t bytes) const;
     [[nodiscard]] double mvoxelsPerSecond() const;

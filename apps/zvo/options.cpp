@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include "parse.h"
+#include "view.h"
 #include "zvo/error.h"
 
 #include <CLI/CLI.hpp>
@@ -134,6 +135,12 @@ void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)
     app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group("Output");
 }
 
+void addCameraOption(CLI::App& app, std::string& camera)
+{
+    addText(app, "--camera", camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
+            "a camera of the scene, or eye, target and vertical field of view in degrees, or auto");
+}
+
 CLI::App* addRender(CLI::App& app, RenderOptions& options)
 {
     CLI::App* render = app.add_subcommand("render", "voxelize scenes and ray trace a picture of them");
@@ -145,14 +152,11 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
             { std::tie(options.width, options.height) = parseSize("--size", text); },
             "pixels of the picture (default 1280x720)")
         ->type_name("WxH");
-    addText(*render, "--camera", options.camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
-            "a camera of the scene, or eye, target and vertical field of view in degrees, or auto");
-    addValue(
-        *render, "--view", options.view,
-        [](std::string_view option, std::string_view text) {
-            return oneOf(option, text, {"color", "albedo", "normal", "depth", "level", "iterations"});
-        },
-        "VIEW", "color, albedo, normal, depth, level or iterations (default color)");
+    addCameraOption(*render, options.camera);
+    addValue(*render, "--view", options.view, viewOf, "VIEW",
+             "color, albedo, normal, depth, level or iterations (default color)");
+    addValue(*render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
+             "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(*render, "--frames", options.frames, parseFrames, "A..B",
              "turn the camera once around the scene; #### in the output's name becomes the frame's number");
     addOutputOptions(*render, options.output, "the picture, a .png file; - is standard output");
@@ -203,6 +207,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1000)); },
         "N", "measured runs of each row (default 5)");
     addCoverageOptions(*bench, options.coverage, options.attributes);
+    addCameraOption(*bench, options.camera);
     bench->add_flag("--passes", options.passes, "also tell the time of each pass");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");

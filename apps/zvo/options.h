@@ -3,6 +3,7 @@
 
 #include "core/coverage.h"
 #include "core/scene.h"
+#include "core/trace.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -56,8 +57,9 @@ struct RenderOptions
     OutputOptions output;
     std::uint32_t width = 1280;
     std::uint32_t height = 720;
-    std::string camera;         // as given; empty: the scene's first one, or a fitting one
-    std::string view = "color"; // one of viewNames()
+    std::string camera; // as given; empty: the scene's first one, or a fitting one
+    View view = View::Color;
+    float detail_pixels = 0.0F; // rays stop at octree nodes up to this wide
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames;
 };
 
@@ -83,6 +85,7 @@ struct BenchOptions
     std::uint32_t run_count = 5;
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
+    std::string camera; // as in RenderOptions
     bool passes = false;
     DeviceOptions device;
     OutputOptions output; // path: unused

@@ -51,11 +51,14 @@ void Output::finish()
 
 void checkDistinct(const OutputOptions& options)
 {
-    std::error_code ignored;
+    const auto placeOf = [](const std::string& path)
+    {
+        std::error_code ignored;
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+    };
     const bool both_to_stdout = options.path == "-" && options.json == "-";
-    const bool same_file = !options.json.empty() && options.path != "-" && options.json != "-" &&
-                           std::filesystem::weakly_canonical(options.path, ignored) ==
-                               std::filesystem::weakly_canonical(options.json, ignored);
+    const bool both_to_files = options.path != "-" && options.json != "-" && !options.json.empty();
+    const bool same_file = both_to_files && placeOf(options.path) == placeOf(options.json);
     if (both_to_stdout || same_file)
     {
         throw Error(ErrorCode::Usage, fmt::format("-o and --json both name {}; they need two places", options.path));

@@ -59,6 +59,16 @@ std::uint64_t parseInteger(std::string_view option, std::string_view text, std::
     return *value;
 }
 
+float parsePositive(std::string_view option, std::string_view text)
+{
+    const auto value = number<float>(text);
+    if (!value || !std::isfinite(*value) || *value <= 0.0F)
+    {
+        throw valueError(option, text, "a number above 0");
+    }
+    return *value;
+}
+
 std::optional<std::vector<float>> tryParseFloats(std::string_view text)
 {
     std::vector<float> values;

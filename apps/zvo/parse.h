@@ -19,6 +19,9 @@ namespace zvo::cli
 /// A whole number in [low, high].
 std::uint64_t parseInteger(std::string_view option, std::string_view text, std::uint64_t low, std::uint64_t high);
 
+/// A finite number above 0.
+float parsePositive(std::string_view option, std::string_view text);
+
 /// Finite numbers with commas between them.
 std::vector<float> parseFloats(std::string_view option, std::string_view text);
 

@@ -2,6 +2,7 @@
 #include "report.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace zvo::cli
 {
@@ -79,6 +80,12 @@ std::vector<vk::PassTime> sumByName(const std::vector<vk::PassTime>& passes)
         }
     }
     return sums;
+}
+
+double sumMs(const std::vector<vk::PassTime>& passes)
+{
+    return std::accumulate(passes.begin(), passes.end(), 0.0,
+                           [](double sum, const vk::PassTime& pass) { return sum + pass.ms; });
 }
 
 std::string jsonText(const Json& json)

@@ -33,6 +33,9 @@ Json passesJson(const std::vector<vk::PassTime>& passes);
 /// The times of passes of the same name added up, in the order in which they first occur.
 std::vector<vk::PassTime> sumByName(const std::vector<vk::PassTime>& passes);
 
+/// The times of all passes added up.
+double sumMs(const std::vector<vk::PassTime>& passes);
+
 /// json as indented text with a line break at the end.
 std::string jsonText(const Json& json);
 

@@ -59,6 +59,12 @@ vec3 planeTimes(uvec3 planes, vec3 origin, vec3 inverse)
     return times;
 }
 
+// Length in unit space of this many mantissa steps.
+float edgeOf(uint size)
+{
+    return float(size) / float(1u << kMantissaBits);
+}
+
 // Notes the node whose cells are numbered by the mantissa bits at shift.
 void saveNode(inout uint saved[kSavedMax], uint shift, uint node)
 {
@@ -110,7 +116,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     bool z_in = t == t_min || t == t_in.z;
     bool y_in = z_in || t == t_in.y;
     uvec3 limits = floatBitsToUint(t) + uvec3(1u, y_in ? 1u : 0u, z_in ? 1u : 0u); // bits of floats
-    uint limit_max = floatBitsToUint(min(t_max, kTraceTimeMax)) + 1u;
+    uint limit_max = floatBitsToUint(clamp(t_max, 0.0, kTraceTimeMax)) + 1u;
 
     uvec3 corner = uvec3(one);
     uint shift = kRootShift;
@@ -149,7 +155,10 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         vec3 t_leave = planeTimes(leave, origin, inverse);
         // From far away, planes of one axis can be crossed at the same time; a voxel between them is not visited.
         bool visited = all(greaterThanEqual(t_leave, crossed));
-        bool occupied = int(up_to_cell) < 0 && (shift != kLeafShift || visited);
+        bool ends = shift == kLeafShift;
+        if (kDetail)
+            ends = ends || edgeOf(size) <= max(detail.x * crossed.x, detail.y);
+        bool occupied = int(up_to_cell) < 0 && (!ends || visited);
         bool y_before_x = t_leave.y < t_leave.x;
         float t_xy = y_before_x ? t_leave.y : t_leave.x;
         bool z_first = t_leave.z < t_xy;
@@ -168,9 +177,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         // Down, or on.
         if (kStack != kStackRegisters && occupied)
             saveNode(saved, shift, node);
-        if (kDetail)
-            stopped = occupied && float(size) * uintBitsToFloat(one - (kMantissaBits << kMantissaBits)) <=
-                                      max(detail.x * uintBitsToFloat(limits.x), detail.y);
+        stopped = kDetail && occupied && ends;
         limits.x = occupied ? limits.x : leave_bits + 1u;
         limits.y = occupied ? limits.y : x_first ? leave_bits : leave_bits + 1u;
         limits.z = occupied ? limits.z : z_first ? leave_bits + 1u : leave_bits;

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "view.h"
+
+#include "parse.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr float kDefaultFov = 45.0F; // degrees
+
+struct NamedView
+{
+    std::string_view name;
+    View view;
+};
+
+constexpr std::array kViews = {
+    NamedView{"color", View::Color}, NamedView{"albedo", View::Albedo}, NamedView{"normal", View::Normal},
+    NamedView{"depth", View::Depth}, NamedView{"level", View::Level},   NamedView{"iterations", View::Iterations},
+};
+
+ViewCamera cameraFromNumbers(const std::vector<float>& v)
+{
+    if (v.size() != 6 && v.size() != 7)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("--camera: expected ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov, but "
+                                                  "there are {} numbers",
+                                                  v.size()));
+    }
+    const float fov = v.size() == 7 ? v[6] : kDefaultFov;
+    return ViewCamera::lookAt({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, glm::radians(double{fov}));
+}
+
+Error noSuchCamera(const std::string& wanted, const Scene& scene)
+{
+    std::vector<std::string> names;
+    for (const Camera& camera : scene.cameras)
+    {
+        names.push_back(fmt::format("\"{}\"", camera.name));
+    }
+    const std::string has = names.empty() ? "has no cameras" : fmt::format("has {}", fmt::join(names, ", "));
+    return {ErrorCode::Usage,
+            fmt::format("--camera {}: there is no such camera; the scene {}; auto and ex,ey,ez,tx,ty,tz always work",
+                        wanted, has)};
+}
+
+} // namespace
+
+Bounds subjectOf(const Scene& scene, const Grid& grid)
+{
+    const float edge = grid.voxel_size * static_cast<float>(grid.resolution());
+    const Bounds cube = {grid.origin, grid.origin + edge};
+    const Bounds bounds = scene.bounds();
+    const Bounds common = {glm::max(cube.min, bounds.min), glm::min(cube.max, bounds.max)};
+    return common.empty() ? cube : common;
+}
+
+ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect)
+{
+    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [&](const Camera& camera) { return wanted.empty() || camera.name == wanted; });
+    if (named != scene.cameras.end())
+    {
+        return ViewCamera::of(*named);
+    }
+    if (wanted.empty() || wanted == "auto")
+    {
+        return ViewCamera::framing(subject, aspect);
+    }
+    if (const auto numbers = tryParseFloats(wanted))
+    {
+        return cameraFromNumbers(*numbers);
+    }
+    throw noSuchCamera(wanted, scene);
+}
+
+View viewOf(std::string_view option, std::string_view name)
+{
+    std::vector<std::string_view> names;
+    for (const NamedView& named : kViews)
+    {
+        if (named.name == name)
+        {
+            return named.view;
+        }
+        names.push_back(named.name);
+    }
+    throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, name, fmt::join(names, ", ")));
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/camera.h"
+#include "core/trace.h"
+
+#include <string>
+
+namespace zvo::cli
+{
+
+/// Part of scene that lies in grid, or all of grid where there is none: what a picture is about.
+Bounds subjectOf(const Scene& scene, const Grid& grid);
+
+/// The camera that wanted names: "ex,ey,ez,tx,ty,tz[,fov]", a camera of scene, or "auto"; empty: the scene's first
+/// camera, or as auto, which fits subject into the picture. Throws Error{Usage} where there is no such camera.
+ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect);
+
+/// The view of that name. Throws Error{Usage} that lists the names.
+View viewOf(std::string_view option, std::string_view name);
+
+} // namespace zvo::cli

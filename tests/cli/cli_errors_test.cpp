@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// What the program says and returns when something is wrong: one line on standard error, and the right exit code.
+#include "cli/cli_scene.h"
+#include "cli/run_zvo.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <ostream>
+#include <thread>
+
+namespace zvo::test
+{
+namespace
+{
+
+struct ErrorCase
+{
+    const char* name;
+    int exit_code;
+    std::vector<std::string> arguments;
+    std::vector<std::string> words; // that the message contains
+    std::vector<std::string> environment;
+};
+
+void PrintTo(const ErrorCase& error_case, std::ostream* stream)
+{
+    *stream << error_case.name;
+}
+
+const std::vector<ErrorCase>& errorCases()
+{
+    static const std::vector<ErrorCase> cases = {
+        {"NoCommand", 2, {}, {"command", "render"}, {}},
+        {"UnknownCommand", 2, {"rendr"}, {"rendr"}, {}},
+        {"UnknownFlag", 2, {"render", "cube.glb", "-o", "a.png", "--colour"}, {"--colour", "zvo render --help"}, {}},
+        {"NoScene", 2, {"render", "-o", "a.png"}, {"SCENE"}, {}},
+        {"NoOutput", 2, {"render", "cube.glb"}, {"--output"}, {}},
+        {"ResolutionOfNoPowerOfTwo",
+         2,
+         {"render", "cube.glb", "-o", "a.png", "--resolution", "500"},
+         {"500", "power of two"},
+         {}},
+        {"ResolutionTooHigh", 2, {"bench", "cube.glb", "--resolutions", "64,8192"}, {"8192", "4096"}, {}},
+        {"FlagTwice",
+         2,
+         {"voxelize", "cube.glb", "-o", "a.ply", "--resolution", "8", "--resolution", "16"},
+         {"--resolution"},
+         {}},
+        {"SizeOfOneNumber", 2, {"render", "cube.glb", "-o", "a.png", "--size", "1280"}, {"1280x720"}, {}},
+        {"UnknownView", 2, {"render", "cube.glb", "-o", "a.png", "--view", "xray"}, {"xray", "normal"}, {}},
+        {"UnknownCamera", 2, {"render", "cube.glb", "-o", "a.png", "--camera", "back"}, {"back", "\"front\""}, {}},
+        {"CameraOfFiveNumbers", 2, {"render", "cube.glb", "-o", "a.png", "--camera", "1,2,3,4,5"}, {"5 numbers"}, {}},
+        {"BoundsUpsideDown", 2, {"voxelize", "cube.glb", "-o", "a.ply", "--bounds", "1,0,0,0,1,1"}, {"x0 <= x1"}, {}},
+        {"BoundsAndGrid",
+         2,
+         {"voxelize", "cube.glb", "-o", "a.ply", "--bounds", "0,0,0,1,1,1", "--grid", "0,0,0,1"},
+         {"--grid"},
+         {}},
+        {"MemoryLimitWithoutNumber", 2, {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "G"}, {"512M"}, {}},
+        {"NumberInAnotherLocale", 2, {"voxelize", "cube.glb", "-o", "a.ply", "--grid", "0;0;0;0,1"}, {"numbers"}, {}},
+        {"PictureOfUnknownExtension", 2, {"render", "cube.glb", "-o", "a.jpg"}, {"a.jpg", ".png"}, {}},
+        {"VoxelsOfUnknownExtension", 2, {"voxelize", "cube.glb", "-o", "a.vox"}, {"a.vox", ".morton", ".ply"}, {}},
+        {"FramesWithoutPlaceForNumber", 2, {"render", "cube.glb", "-o", "a.png", "--frames", "0..3"}, {"####"}, {}},
+        {"FramesBackwards", 2, {"render", "cube.glb", "-o", "a_#.png", "--frames", "3..0"}, {"0..35"}, {}},
+        {"BothOutputsToStandardOutput", 2, {"render", "cube.glb", "-o", "-", "--json", "-"}, {"two places"}, {}},
+        {"BothOutputsToOneFile", 2, {"render", "cube.glb", "-o", "a.png", "--json", "./a.png"}, {"two places"}, {}},
+
+        {"MissingFile", 3, {"render", "absent.glb", "-o", "a.png"}, {"absent.glb", "No such file"}, {}},
+        {"BrokenGlb", 3, {"render", "broken.glb", "-o", "a.png"}, {"broken.glb"}, {}},
+        {"EmptyFile", 3, {"voxelize", "empty.glb", "-o", "a.ply"}, {"empty.glb"}, {}},
+        {"MissingBuffer", 3, {"voxelize", "no_buffer.gltf", "-o", "a.ply"}, {"absent.bin"}, {}},
+        {"UnknownRequiredExtension", 3, {"voxelize", "extension.glb", "-o", "a.ply"}, {"EXT_from_the_future"}, {}},
+        {"NoUsualScenes", 3, {"bench", "--scenes", "."}, {"bunny_low.glb"}, {}},
+
+        {"PictureExists", 4, {"render", "cube.glb", "-o", "taken.png"}, {"taken.png", "-f"}, {}},
+        {"ReportExists", 4, {"render", "cube.glb", "-o", "a.png", "--json", "taken.png"}, {"taken.png", "-f"}, {}},
+        {"FrameExists", 4, {"render", "cube.glb", "-o", "frame#.png", "--frames", "0..3"}, {"frame2.png", "-f"}, {}},
+        {"OutputInMissingFolder", 4, {"voxelize", "absent.glb", "-o", "absent/a.ply"}, {"absent/a.ply"}, {}},
+        {"OutputIsAFolder", 4, {"voxelize", "cube.glb", "-o", ".", "--format", "ply"}, {"directory"}, {}},
+        {"DiskFull",
+         4,
+         {"voxelize", "cube.glb", "-o", "/dev/full", "--format", "ply", "--resolution", "8"},
+         {"No space left"},
+         {}},
+
+        {"UnknownDevice", 5, {"voxelize", "cube.glb", "-o", "a.ply", "--device", "voodoo"}, {"voodoo", "llvmpipe"}, {}},
+        {"NoDriver",
+         5,
+         {"voxelize", "cube.glb", "-o", "a.ply"},
+         {"Vulkan"},
+         {"VK_ICD_FILENAMES=/absent.json", "VK_DRIVER_FILES=/absent.json"}},
+
+        {"MemoryLimitTooLow", 6, {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "64K"}, {"limit"}, {}},
+    };
+    return cases;
+}
+
+class CliError : public testing::TestWithParam<ErrorCase>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Cli, CliError, testing::ValuesIn(errorCases()),
+                         [](const auto& test_case) { return std::string(test_case.param.name); });
+
+TEST_P(CliError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
+{
+    const TempDir dir;
+    GltfBuilder builder = colouredCube();
+    const std::vector<std::uint8_t> cube = builder.glb();
+    dir.write("cube.glb", cube);
+    dir.write("broken.glb", std::span(cube).first(cube.size() / 2));
+    dir.write("empty.glb", std::string_view());
+    dir.write("taken.png", std::string_view("kept"));
+    dir.write("frame2.png", std::string_view("kept"));
+    json no_buffer = builder.finished();
+    no_buffer["buffers"][0]["uri"] = "absent.bin";
+    dir.write("no_buffer.gltf", no_buffer.dump());
+    builder.document["extensionsUsed"] = builder.document["extensionsRequired"] = {"EXT_from_the_future"};
+    dir.write("extension.glb", builder.glb());
+    const std::vector<std::string> before = filesIn(dir.path());
+
+    const Outcome outcome = runZvo(dir.path(), GetParam().arguments, GetParam().environment);
+    EXPECT_EQ(outcome.exit_code, GetParam().exit_code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
+    EXPECT_EQ(outcome.err.find_first_of("\n\r\t"), outcome.err.size() - 1) << outcome.err;
+    for (const std::string& word : GetParam().words)
+    {
+        EXPECT_TRUE(contains(outcome.err, word)) << '"' << word << "\" is not in: " << outcome.err;
+    }
+    EXPECT_EQ(filesIn(dir.path()), before);
+    EXPECT_EQ(contentOf(dir.path() / "taken.png"), "kept");
+}
+
+TEST(Cli, InterruptLeavesNoFile)
+{
+    const TempDir dir;
+    const TempDir out;
+    const std::string scene = dir.write("cube.glb", colouredCube().glb()).string();
+    for (const int signal : {SIGINT, SIGTERM})
+    {
+        ZvoProcess process(out.path(), {"voxelize", scene, "-o", "a.ply", "--resolution", "2048"});
+        while (filesIn(out.path()).empty()) // it starts with its output
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        process.signal(signal);
+        const Outcome outcome = process.wait();
+        EXPECT_EQ(outcome.exit_code, 128 + signal) << outcome.err;
+        EXPECT_EQ(filesIn(out.path()), std::vector<std::string>{});
+    }
+}
+
+TEST(Cli, ForceOverwrites)
+{
+    const TempDir dir;
+    dir.write("cube.glb", colouredCube().glb());
+    dir.write("a.morton", std::string_view("old"));
+    const Outcome outcome = runZvo(dir.path(), {"voxelize", "cube.glb", "-o", "a.morton", "--resolution", "8", "-f"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(contentOf(dir.path() / "a.morton").size() % 8, 0U);
+    EXPECT_EQ(filesIn(dir.path()), (std::vector<std::string>{"a.morton", "cube.glb"}));
+}
+
+} // namespace
+} // namespace zvo::test

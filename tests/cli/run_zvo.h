@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Runs the program as a shell would.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// What a finished run of zvo left behind.
+struct Outcome
+{
+    int exit_code = -1; // 128 + n: ended by signal n
+    std::string out;
+    std::string err;
+};
+
+/// A run of zvo that is going on.
+class ZvoProcess
+{
+public:
+    /// Starts zvo with arguments in folder, its output going to files elsewhere. environment: "NAME=value" beside this
+    /// process's own variables. On the software device; with validation where the tests' devices have it.
+    ZvoProcess(const std::filesystem::path& folder, std::vector<std::string> arguments,
+               const std::vector<std::string>& environment = {});
+    ~ZvoProcess();
+    ZvoProcess(const ZvoProcess&) = delete;
+    ZvoProcess& operator=(const ZvoProcess&) = delete;
+
+    void signal(int number) const;
+    Outcome wait();
+
+private:
+    std::filesystem::path m_out;
+    std::filesystem::path m_err;
+    pid_t m_pid = -1;
+};
+
+/// Runs zvo to its end.
+Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+               const std::vector<std::string>& environment = {});
+
+/// All bytes of a file.
+std::string contentOf(const std::filesystem::path& file);
+
+/// Names of everything in folder, hidden files included, sorted.
+std::vector<std::string> filesIn(const std::filesystem::path& folder);
+
+} // namespace zvo::test

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// Pictures: what may change how they are made but not what they show.
+#include "core/kernels.h"
+#include "core/trace.h"
+#include "oracle/trace.h"
+#include "support/device.h"
+#include "support/spirv_structs.h"
+#include "support/trace_octrees.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <random>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+/// A picture and how it came about.
+struct Picture
+{
+    std::vector<gpu::uint> image;
+    std::vector<gpu::Hit> hits; // misses in dead tiles, too
+    std::uint32_t live_tiles = 0;
+};
+
+Picture take(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
+             const TraceOptions& options)
+{
+    BeamGrid beam(device().device());
+    TraceBuffers buffers(device().device(), width, height);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.fill(buffers.hits, gpu::kHitMiss);
+            buildBeam(graph, octree, beam);
+            trace(graph, octree, beam, camera, options, buffers);
+        });
+    const gpu::TraceStatus status = device().download(buffers.status).at(0);
+    EXPECT_EQ(status.capped_rays, 0U);
+    return {device().download(buffers.image), device().download(buffers.hits), status.live_tiles};
+}
+
+std::uint32_t hitCount(const Picture& picture)
+{
+    std::uint32_t count = 0;
+    for (const gpu::Hit& hit : picture.hits)
+    {
+        count += hit.index != gpu::kHitMiss ? 1 : 0;
+    }
+    return count;
+}
+
+void expectSameHits(const Picture& a, const Picture& b)
+{
+    ASSERT_EQ(a.hits.size(), b.hits.size());
+    for (std::size_t i = 0; i < a.hits.size(); ++i)
+    {
+        ASSERT_EQ(a.hits[i].index, b.hits[i].index) << "pixel " << i;
+        if (a.hits[i].index != gpu::kHitMiss)
+        {
+            ASSERT_EQ(a.hits[i].t, b.hits[i].t) << "pixel " << i;
+            ASSERT_EQ(a.hits[i].where, b.hits[i].where) << "pixel " << i;
+        }
+    }
+    EXPECT_EQ(a.image, b.image);
+}
+
+/// Cameras inside, outside, close, far away, along axes and orthographic ones, for a grid with its corner at 0.
+std::vector<ViewCamera> manyCameras(const Grid& grid)
+{
+    const auto edge = static_cast<double>(grid.resolution());
+    const glm::dvec3 middle(0.5 * edge);
+    std::vector<ViewCamera> cameras;
+    cameras.push_back(ViewCamera::framing({glm::vec3(0.0F), glm::vec3(static_cast<float>(edge))}, 1.3));
+    cameras.push_back(ViewCamera::lookAt(middle, middle + glm::dvec3(1.0, 0.3, 0.2), 1.2));
+    cameras.push_back(ViewCamera::lookAt(middle + 0.2, middle + glm::dvec3(0.0, 0.0, 1.0), 2.5));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(0.5, 0.5, 3.0), middle, 0.3));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(1.02, 0.9, 0.4), middle, 1.0));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(20.0, 7.0, -9.0), middle, 0.05));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(20.0, 7.0, -9.0), middle, 1.0));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(300.0, 200.0, 100.0), middle, 0.004));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(5e3, 2e3, 1e3), middle, 0.0003));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(0.5, 4.0, 0.5), middle, 0.4));
+    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(-1.0, 0.5, 0.5), edge * glm::dvec3(-2.0, 0.5, 0.5), 1.0));
+    for (const double half_height : {0.02, 0.3, 0.8, 5.0})
+    {
+        ViewCamera camera = ViewCamera::lookAt(edge * glm::dvec3(1.4, 1.1, 1.7), middle, 0.5);
+        camera.orthographic = true;
+        camera.half_height = half_height * edge;
+        cameras.push_back(camera);
+    }
+    return cameras;
+}
+
+TEST(TracePicture, BeamDoesNotChangeThePicture)
+{
+    std::mt19937 random(6);
+    const std::pair<std::uint32_t, test::Codes> sets[] = {
+        {1, {0, 5}},
+        {2, test::randomCodes(2, 9, random)},
+        {3, test::randomCodes(3, 9, random)},
+        {5, test::randomCodes(5, 60, random)},
+        {6, test::sphereShell(6, 20.0)},
+        {7, test::randomCodes(7, 400, random)},
+        {8, test::randomCodes(8, 3000, random)},
+        {11, test::randomCodes(11, 3000, random)},
+    };
+    std::uint32_t saved_tiles = 0;
+    for (const auto& [depth, codes] : sets)
+    {
+        Octree octree = test::octreeOf(device(), codes, depth);
+        test::addAttributes(device(), octree);
+        std::size_t number = 0;
+        for (const ViewCamera& camera : manyCameras(octree.grid))
+        {
+            SCOPED_TRACE("depth " + std::to_string(depth) + " camera " + std::to_string(number++));
+            const TraceCamera rays = traceCamera(camera, octree.grid, 150);
+            TraceOptions options;
+            const Picture with = take(octree, rays, 203, 150, options);
+            options.beam = false;
+            const Picture without = take(octree, rays, 203, 150, options);
+            expectSameHits(with, without);
+            EXPECT_EQ(without.live_tiles, 26U * 19U);
+            saved_tiles += without.live_tiles - with.live_tiles;
+        }
+    }
+    EXPECT_GT(saved_tiles, 5000U);
+}
+
+TEST(TracePicture, EveryStackGivesTheSamePicture)
+{
+    std::mt19937 random(7);
+    Octree octree = test::octreeOf(device(), test::randomCodes(7, 30000, random), 7);
+    test::addAttributes(device(), octree);
+    const TraceCamera camera =
+        traceCamera(ViewCamera::framing({glm::vec3(0.0F), glm::vec3(128.0F)}, 1.0), octree.grid, 120);
+    const Picture first = take(octree, camera, 120, 120, {});
+    EXPECT_GT(hitCount(first), 3000U);
+    for (const TraceStack stack : {TraceStack::Private, TraceStack::Shared})
+    {
+        TraceOptions options;
+        options.stack = stack;
+        expectSameHits(first, take(octree, camera, 120, 120, options));
+    }
+}
+
+TEST(TracePicture, HitsEqualTheReference)
+{
+    constexpr std::uint32_t kDepth = 6;
+    const test::Codes codes = test::spongeCodes(kDepth);
+    const Octree octree = test::octreeOf(device(), codes, kDepth);
+    const oracle::VoxelTracer tracer(codes, kDepth);
+    for (const ViewCamera& view : manyCameras(octree.grid))
+    {
+        const TraceCamera camera = traceCamera(view, octree.grid, 41);
+        const Picture picture = take(octree, camera, 67, 41, {});
+        const gpu::CameraRays& rays = camera.rays;
+        for (int y = 0; y < 41; ++y)
+        {
+            for (int x = 0; x < 67; ++x)
+            {
+                const glm::vec3 offset =
+                    static_cast<float>(2 * x + 1 - 67) * rays.step_x + static_cast<float>(2 * y + 1 - 41) * rays.step_y;
+                const glm::vec3 origin = camera.orthographic ? rays.origin + offset : rays.origin;
+                const glm::vec3 direction = camera.orthographic ? rays.forward : rays.forward + offset;
+                const auto expected = tracer.trace(oracle::makeRay(origin, direction, gpu::kTraceTimeMin));
+                const gpu::Hit& hit = picture.hits[static_cast<std::size_t>(y * 67 + x)];
+                ASSERT_EQ(hit.index != gpu::kHitMiss, expected.has_value());
+                if (expected)
+                {
+                    ASSERT_EQ(codes.at(hit.index), expected->code);
+                    ASSERT_EQ(hit.t, expected->t);
+                }
+            }
+        }
+    }
+}
+
+TEST(TracePicture, SizesThatDoNotFillTilesLeaveNothingUnwritten)
+{
+    const Octree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
+    for (const auto& [width, height] : {std::pair{1U, 1U}, {8U, 8U}, {9U, 7U}, {65U, 3U}, {130U, 67U}})
+    {
+        const ViewCamera view = ViewCamera::framing({glm::vec3(0.0F), glm::vec3(32.0F)}, double(width) / height);
+        const Picture picture = take(octree, traceCamera(view, octree.grid, height), width, height, {});
+        for (const gpu::uint pixel : picture.image)
+        {
+            ASSERT_EQ(pixel >> 24, 255U);
+        }
+        EXPECT_GT(hitCount(picture), 0U);
+    }
+}
+
+TEST(TracePicture, EveryViewOfAnEmptyOctreeIsBackground)
+{
+    const Octree octree = test::octreeOf(device(), {}, 5);
+    const ViewCamera view = ViewCamera::framing({glm::vec3(0.0F), glm::vec3(32.0F)}, 1.0);
+    for (const View shown : {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations})
+    {
+        TraceOptions options;
+        options.view = shown;
+        const Picture picture = take(octree, traceCamera(view, octree.grid, 40), 40, 40, options);
+        EXPECT_EQ(picture.live_tiles, 0U);
+        EXPECT_EQ(hitCount(picture), 0U);
+        if (shown != View::Color)
+        {
+            EXPECT_EQ(picture.image, std::vector<gpu::uint>(1600, 255U << 24));
+        }
+    }
+}
+
+TEST(TracePicture, ViewsShowWhatTheyAreNamedAfter)
+{
+    // One wall of voxels across the grid, seen from the front, that fills the picture.
+    const test::Codes codes = test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; });
+    Octree octree = test::octreeOf(device(), codes, 4);
+    const std::vector<gpu::Attribute> attributes(codes.size(), {200U | 100U << 8 | 50U << 16, 0U}); // normal +z
+    octree.voxel_attributes = device().makeBuffer("attributes", std::span<const gpu::Attribute>(attributes));
+    const ViewCamera front = ViewCamera::lookAt({8, 8, 24}, {8, 8, 0}, 0.2);
+    const ViewCamera back = ViewCamera::lookAt({8, 8, -8}, {8, 8, 0}, 0.2);
+    const auto pixel = [&](const ViewCamera& camera, View view)
+    {
+        TraceOptions options;
+        options.view = view;
+        return take(octree, traceCamera(camera, octree.grid, 16), 16, 16, options).image.at(8 * 16 + 8) & 0xFFFFFF;
+    };
+    EXPECT_EQ(pixel(front, View::Albedo), 200U | 100U << 8 | 50U << 16);
+    EXPECT_EQ(pixel(front, View::Normal), 128U | 128U << 8 | 255U << 16);
+    EXPECT_EQ(pixel(back, View::Normal), 128U | 128U << 8 | 0U << 16); // two-sided: turned towards the viewer
+    const auto depth = static_cast<gpu::uint>(255.0 / (1.0 + 20.0 / 16.0) + 0.5);
+    EXPECT_EQ(pixel(front, View::Depth), depth * (1U + (1U << 8) + (1U << 16)));
+    EXPECT_NE(pixel(front, View::Iterations), 0U);
+}
+
+TEST(TracePicture, AWallShadesWhatIsBehindIt)
+{
+    // A floor, and a roof over half of it; the sun is straight above.
+    const test::Codes codes =
+        test::codesWhere(5, [](const glm::uvec3& voxel) { return voxel.y == 0 || (voxel.y == 12 && voxel.x < 16); });
+    const Octree octree = test::octreeOf(device(), codes, 5);
+    const TraceCamera camera = traceCamera(ViewCamera::lookAt({16, 8, 60}, {16, 0, 16}, 0.3), octree.grid, 32);
+    TraceOptions options;
+    options.to_sun = {0.0, 1.0, 0.0};
+    const Picture lit = take(octree, camera, 64, 32, options);
+    const auto red = [&](int x, int y) { return lit.image.at(static_cast<std::size_t>(y * 64 + x)) & 255U; };
+    EXPECT_LT(red(26, 16) + 40, red(38, 16));
+    options.shadows = false;
+    const Picture unshaded = take(octree, camera, 64, 32, options);
+    EXPECT_GT(unshaded.image.at(16 * 64 + 26) & 255U, red(26, 16) + 40);
+}
+
+TEST(TracePicture, DetailShowsCoarserNodesFartherAway)
+{
+    Octree octree = test::octreeOf(device(), test::codesWhere(7, [](const glm::uvec3& v) { return v.y == 3; }), 7);
+    const TraceCamera camera = traceCamera(ViewCamera::lookAt({64, 30, 130}, {64, 0, 40}, 1.0), octree.grid, 64);
+    TraceOptions options;
+    options.detail_pixels = 3.0F;
+    const Picture picture = take(octree, camera, 64, 64, options);
+    const auto level = [&](int y)
+    { return picture.hits.at(static_cast<std::size_t>(y * 64 + 32)).where.y >> 22 & 15U; };
+    EXPECT_EQ(level(60), 4U);
+    EXPECT_LT(level(28), 4U);
+}
+
+#define ZVO_EXPECT_OFFSET(type, member) EXPECT_EQ(offsets.at(#member), offsetof(gpu::type, member)) << kernel.name
+
+TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
+{
+    std::uint32_t checked = 0;
+    for (const vk::EmbeddedKernel& kernel : zvoKernels())
+    {
+        if (!kernel.name.starts_with("trace/"))
+        {
+            continue;
+        }
+        for (const auto& [name, offsets] : test::structOffsets(kernel.words))
+        {
+            if (name == "ShadeParams")
+            {
+                ZVO_EXPECT_OFFSET(ShadeParams, image);
+                ZVO_EXPECT_OFFSET(ShadeParams, step_y);
+                ZVO_EXPECT_OFFSET(ShadeParams, size);
+                ZVO_EXPECT_OFFSET(ShadeParams, exposure);
+                ++checked;
+            }
+            else if (name == "PrimaryParams")
+            {
+                ZVO_EXPECT_OFFSET(PrimaryParams, iterations);
+                ZVO_EXPECT_OFFSET(PrimaryParams, camera);
+                ZVO_EXPECT_OFFSET(PrimaryParams, detail);
+                ++checked;
+            }
+            else if (name == "BeamParams")
+            {
+                ZVO_EXPECT_OFFSET(BeamParams, camera);
+                ZVO_EXPECT_OFFSET(BeamParams, block_stride);
+                ++checked;
+            }
+            else if (name == "ShadowParams")
+            {
+                ZVO_EXPECT_OFFSET(ShadowParams, light);
+                ZVO_EXPECT_OFFSET(ShadowParams, to_sun_inverse);
+                ZVO_EXPECT_OFFSET(ShadowParams, height);
+                ++checked;
+            }
+            else if (name == "RaysParams")
+            {
+                ZVO_EXPECT_OFFSET(RaysParams, detail);
+                ZVO_EXPECT_OFFSET(RaysParams, ray_count);
+                ++checked;
+            }
+            else if (name == "Ray")
+            {
+                ZVO_EXPECT_OFFSET(Ray, t_min);
+                ZVO_EXPECT_OFFSET(Ray, inverse_direction);
+                ZVO_EXPECT_OFFSET(Ray, t_max);
+                ++checked;
+            }
+        }
+    }
+    EXPECT_GE(checked, 6U);
+}
+
+} // namespace
+} // namespace zvo

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+// Lists of rays on the device against the reference, bit for bit.
+#include "core/kernels.h"
+#include "core/trace.h"
+#include "oracle/morton.h"
+#include "oracle/trace.h"
+#include "support/device.h"
+#include "support/trace_octrees.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+
+namespace zvo
+{
+namespace
+{
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+/// A hit as the device stores it, taken apart.
+struct DeviceHit
+{
+    float t = 0.0F;
+    std::uint32_t index = 0;
+    std::uint32_t face = 0;
+    std::uint32_t level = 0;
+    glm::uvec3 cell{0U};
+};
+
+std::optional<DeviceHit> unpack(const gpu::Hit& hit)
+{
+    if (hit.index == gpu::kHitMiss)
+    {
+        return std::nullopt;
+    }
+    const std::uint64_t where = hit.where.x | std::uint64_t{hit.where.y} << 32;
+    const std::uint64_t coordinate = (std::uint64_t{1} << gpu::kHitCoordinateBits) - 1;
+    const auto part = [&](std::uint32_t axis)
+    { return static_cast<std::uint32_t>(where >> (axis * gpu::kHitCoordinateBits) & coordinate); };
+    return DeviceHit{hit.t,
+                     hit.index,
+                     static_cast<std::uint32_t>(where >> gpu::kHitFaceShift & 3),
+                     static_cast<std::uint32_t>(where >> gpu::kHitLevelShift & 15),
+                     {part(0), part(1), part(2)}};
+}
+
+gpu::Ray deviceRay(const oracle::Ray& ray, float t_max = kInfinity)
+{
+    return {ray.origin, ray.t_min, ray.inv, t_max};
+}
+
+std::vector<gpu::Hit> traceOnDevice(const Octree& octree, const std::vector<gpu::Ray>& rays,
+                                    const TraceOptions& options = {})
+{
+    const vk::BufferOf<gpu::Ray> ray_buffer = device().makeBuffer("rays", std::span<const gpu::Ray>(rays));
+    vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.size());
+    vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.fill(status, 0);
+            traceRays(graph, octree, ray_buffer, hits, status, options);
+        });
+    EXPECT_EQ(device().download(status).at(0).capped_rays, 0U);
+    return device().download(hits);
+}
+
+/// Rays from inside, outside and far away; some along axes and diagonals, some from and through corners of voxels, some
+/// almost parallel to planes.
+oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const test::Codes& codes)
+{
+    const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+    const auto uniform = [&](float low, float high)
+    { return std::uniform_real_distribution<float>(low, high)(random); };
+    const auto edge = 1.0F / static_cast<float>(resolution);
+    const int kind = pick(0, 8);
+    glm::vec3 origin(uniform(0.5F, 2.5F), uniform(0.5F, 2.5F), uniform(0.5F, 2.5F));
+    glm::vec3 direction(uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F), uniform(-1.0F, 1.0F));
+    const glm::vec3 voxel(oracle::mortonDecode(codes[random() % codes.size()]));
+    const bool aims = pick(0, 1) == 1;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        if (kind == 1 || kind == 2)
+        {
+            origin[axis] = 1.0F + edge * static_cast<float>(pick(-2, static_cast<int>(resolution) + 2));
+        }
+        if (aims) // at a point of a voxel, or one of its corners
+        {
+            const float inside = kind == 1 ? static_cast<float>(pick(0, 1)) : uniform(0.0F, 1.0F);
+            direction[axis] = 1.0F + edge * (voxel[axis] + inside) - origin[axis];
+        }
+        if (kind == 2 || kind == 3)
+        {
+            direction[axis] = pick(0, 1) == 0 ? -0.0F : static_cast<float>(pick(-1, 1));
+        }
+        if (kind == 4)
+        {
+            direction[axis] *= axis == pick(0, 2) ? 1.0F : 1e-6F;
+        }
+        if (kind == 5 || kind == 6) // from far away: planes may fall together
+        {
+            origin[axis] =
+                1.0F + edge * (voxel[axis] + uniform(0.0F, 1.0F)) - direction[axis] * (kind == 5 ? 100.0F : 1e6F);
+        }
+        if (kind == 7)
+        {
+            direction[axis] *= std::ldexp(1.0F, pick(-60, 60));
+        }
+        if (kind == 8) // from a point of a voxel
+        {
+            origin[axis] = 1.0F + edge * (voxel[axis] + uniform(-1.0F, 2.0F));
+        }
+    }
+    const float t_min = pick(0, 3) == 0 ? uniform(0.0F, 1.0F) : 0.0F;
+    return oracle::makeRay(origin, direction, std::max(t_min, gpu::kTraceTimeMin));
+}
+
+/// Traces count rays and compares every one with the reference.
+void expectEqualsReference(const test::Codes& codes, std::uint32_t depth, std::uint32_t count,
+                           const TraceOptions& options = {})
+{
+    const Octree octree = test::octreeOf(device(), codes, depth);
+    const oracle::VoxelTracer tracer(codes, depth);
+    std::mt19937 random(depth * 1000 + count);
+    std::vector<oracle::Ray> rays;
+    std::vector<gpu::Ray> device_rays;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        rays.push_back(pickRay(random, octree.grid.rootResolution(), codes));
+        device_rays.push_back(deviceRay(rays.back()));
+    }
+    const std::vector<gpu::Hit> hits = traceOnDevice(octree, device_rays, options);
+    std::uint32_t hit_count = 0;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        const std::optional<oracle::Hit> expected = tracer.trace(rays[i]);
+        const std::optional<DeviceHit> hit = unpack(hits[i]);
+        ASSERT_EQ(hit.has_value(), expected.has_value()) << "depth " << depth << " ray " << i;
+        if (!expected)
+        {
+            continue;
+        }
+        ++hit_count;
+        ASSERT_LT(hit->index, codes.size()) << "depth " << depth << " ray " << i;
+        ASSERT_EQ(codes[hit->index], expected->code) << "depth " << depth << " ray " << i;
+        ASSERT_EQ(oracle::mortonEncode(hit->cell), expected->code) << "depth " << depth << " ray " << i;
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(hit->t), std::bit_cast<std::uint32_t>(expected->t))
+            << "depth " << depth << " ray " << i;
+        ASSERT_EQ(hit->face, expected->face) << "depth " << depth << " ray " << i;
+        ASSERT_EQ(hit->level, octree.grid.nodeLevels());
+    }
+    EXPECT_GE(hit_count, count / 10) << "depth " << depth;
+}
+
+TEST(Trace, HitsOfRandomVoxelsEqualTheReferenceAtEveryDepth)
+{
+    std::mt19937 random(1);
+    const std::uint32_t counts[] = {3, 20, 100, 400, 2049, 8000, 30000, 30000, 60000, 60000, 60000, 60000};
+    for (std::uint32_t depth = 1; depth <= Grid::kDepthMax; ++depth)
+    {
+        expectEqualsReference(test::randomCodes(depth, counts[depth - 1], random), depth, 10201);
+    }
+}
+
+TEST(Trace, HitsOfOneVoxelEqualTheReference)
+{
+    for (std::uint32_t depth = 1; depth <= 9; ++depth)
+    {
+        const std::uint64_t last = (std::uint64_t{1} << (3 * depth)) - 1;
+        for (const std::uint64_t code : {std::uint64_t{0}, last, last / 3, last / 2})
+        {
+            expectEqualsReference({code}, depth, 500);
+        }
+    }
+}
+
+TEST(Trace, HitsOfFullGridsEqualTheReference)
+{
+    for (std::uint32_t depth = 1; depth <= 5; ++depth)
+    {
+        expectEqualsReference(test::codesWhere(depth, [](const glm::uvec3&) { return true; }), depth, 2049);
+    }
+}
+
+TEST(Trace, HitsOfShellsAndSpongesEqualTheReference)
+{
+    for (std::uint32_t depth = 3; depth <= 7; ++depth)
+    {
+        expectEqualsReference(test::sphereShell(depth, 0.45 * std::ldexp(1.0, static_cast<int>(depth))), depth, 4096);
+        if (depth <= 6)
+        {
+            expectEqualsReference(test::spongeCodes(depth), depth, 4096);
+        }
+    }
+}
+
+TEST(Trace, EveryStackGivesTheSameHits)
+{
+    std::mt19937 random(2);
+    for (const std::uint32_t depth : {1U, 2U, 4U, 7U, 11U})
+    {
+        const test::Codes codes = test::randomCodes(depth, 4000, random);
+        for (const TraceStack stack : {TraceStack::Private, TraceStack::Shared})
+        {
+            TraceOptions options;
+            options.stack = stack;
+            expectEqualsReference(codes, depth, 2049, options);
+        }
+    }
+}
+
+TEST(Trace, RayCountsThatDoNotFillAWorkgroup)
+{
+    std::mt19937 random(3);
+    const test::Codes codes = test::randomCodes(5, 3000, random);
+    for (const std::uint32_t count : {1U, 27U, 64U, 65U})
+    {
+        expectEqualsReference(codes, 5, count);
+    }
+}
+
+TEST(Trace, NoRayLeaksThroughAClosedSphere)
+{
+    constexpr std::uint32_t kDepth = 7;
+    const Octree octree = test::octreeOf(device(), test::sphereShell(kDepth, 50.0), kDepth);
+    const auto edge = 1.0F / static_cast<float>(octree.grid.rootResolution());
+    std::mt19937 random(4);
+    std::normal_distribution<float> normal;
+    std::vector<gpu::Ray> rays;
+    for (int i = 0; i < 200000; ++i)
+    {
+        glm::vec3 direction(normal(random), normal(random), normal(random));
+        if (i % 3 == 0) // through many edges: small integer directions from corners of voxels
+        {
+            direction = glm::vec3(glm::ivec3(random() % 9, random() % 9, random() % 9) - 4);
+        }
+        const glm::vec3 voxel(glm::uvec3(60 + random() % 8, 60 + random() % 8, 60 + random() % 8));
+        rays.push_back(deviceRay(oracle::makeRay(1.0F + edge * voxel, direction, gpu::kTraceTimeMin)));
+    }
+    std::uint32_t leak_count = 0;
+    for (const gpu::Hit& hit : traceOnDevice(octree, rays))
+    {
+        leak_count += hit.index == gpu::kHitMiss ? 1 : 0;
+    }
+    EXPECT_EQ(leak_count, 0U);
+}
+
+TEST(Trace, InvalidRaysMiss)
+{
+    const test::Codes codes = test::codesWhere(3, [](const glm::uvec3&) { return true; });
+    const Octree octree = test::octreeOf(device(), codes, 3);
+    const gpu::Ray good = {{1.1F, 1.2F, 0.5F}, gpu::kTraceTimeMin, {1e20F, -1e20F, 1.0F}, kInfinity};
+    std::vector<gpu::Ray> rays;
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity})
+    {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            rays.push_back(good);
+            rays.back().origin[axis] = bad;
+            rays.push_back(good);
+            rays.back().inverse_direction[axis] = bad;
+        }
+        rays.push_back(good);
+        rays.back().t_min = bad;
+    }
+    for (const float bad : {0.0F, -0.0F, 1e-40F})
+    {
+        rays.push_back(good);
+        rays.back().inverse_direction.y = bad;
+    }
+    rays.push_back(good);
+    rays.back().t_max = std::numeric_limits<float>::quiet_NaN();
+    rays.push_back(good);
+    rays.back().t_max = -1.0F;
+    const std::size_t bad_count = rays.size();
+    rays.push_back(good);
+    rays.push_back(good);
+    rays.back().t_min = -5.0F; // taken as the smallest start
+    const std::vector<gpu::Hit> hits = traceOnDevice(octree, rays);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+    {
+        EXPECT_EQ(hits[i].index == gpu::kHitMiss, i < bad_count) << i;
+    }
+}
+
+TEST(Trace, NothingIsHitAfterTheEnd)
+{
+    const test::Codes codes = {oracle::mortonEncode({5, 3, 3})};
+    const Octree octree = test::octreeOf(device(), codes, 4);
+    const auto middle = 1.0F + 3.5F / 16.0F;
+    const float entry = 0.5F + 5.0F / 16.0F; // from 0.5
+    const auto ray = [&](float t_max) {
+        return deviceRay(oracle::makeRay({0.5F, middle, middle}, {1.0F, 0.0F, 0.0F}, gpu::kTraceTimeMin), t_max);
+    };
+    const std::vector<gpu::Hit> hits =
+        traceOnDevice(octree, {ray(entry), ray(std::nextafter(entry, 0.0F)), ray(0.1F), ray(2.0F)});
+    EXPECT_EQ(hits[0].index, 0U);
+    EXPECT_EQ(hits[0].t, entry);
+    EXPECT_EQ(hits[1].index, gpu::kHitMiss);
+    EXPECT_EQ(hits[2].index, gpu::kHitMiss);
+    EXPECT_EQ(hits[3].index, 0U);
+}
+
+TEST(Trace, EmptyOctreeIsNeverHit)
+{
+    const Octree octree = test::octreeOf(device(), {}, 5);
+    const gpu::Ray ray = {{1.1F, 1.2F, 0.5F}, gpu::kTraceTimeMin, {1e20F, -1e20F, 1.0F}, kInfinity};
+    for (const gpu::Hit& hit : traceOnDevice(octree, {ray, ray, ray}))
+    {
+        EXPECT_EQ(hit.index, gpu::kHitMiss);
+    }
+}
+
+TEST(Trace, DetailStopsAtTheNodesOfALevel)
+{
+    constexpr std::uint32_t kDepth = 8;
+    std::mt19937 random(5);
+    const test::Codes codes = test::randomCodes(kDepth, 20000, random);
+    const Octree octree = test::octreeOf(device(), codes, kDepth);
+    std::vector<oracle::Ray> rays;
+    std::vector<gpu::Ray> device_rays;
+    for (int i = 0; i < 4000; ++i)
+    {
+        rays.push_back(pickRay(random, octree.grid.rootResolution(), codes));
+        device_rays.push_back(deviceRay(rays.back()));
+    }
+    for (std::uint32_t level = 1; level < octree.grid.nodeLevels(); ++level)
+    {
+        test::Codes nodes;
+        for (const std::uint64_t code : codes)
+        {
+            nodes.push_back(code >> (6 * (octree.grid.nodeLevels() - level)));
+        }
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        const oracle::VoxelTracer tracer(nodes, 2 * level);
+        TraceOptions options;
+        options.detail_level = level;
+        const std::vector<gpu::Hit> hits = traceOnDevice(octree, device_rays, options);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+        {
+            const std::optional<oracle::Hit> expected = tracer.trace(rays[i]);
+            const std::optional<DeviceHit> hit = unpack(hits[i]);
+            ASSERT_EQ(hit.has_value(), expected.has_value()) << "level " << level << " ray " << i;
+            if (!expected)
+            {
+                continue;
+            }
+            ASSERT_EQ(hit->level, level);
+            ASSERT_EQ(nodes.at(hit->index - octree.levels[level].first_node), expected->code);
+            ASSERT_EQ(oracle::mortonEncode(hit->cell), expected->code);
+            ASSERT_EQ(hit->t, expected->t);
+            ASSERT_EQ(hit->face, expected->face);
+        }
+    }
+}
+
+} // namespace
+} // namespace zvo

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Small octrees for tracing, made on the host from sets of voxels.
+#pragma once
+
+#include "core/octree.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// Morton codes, sorted and unique.
+using Codes = std::vector<std::uint64_t>;
+
+/// The voxels of a grid of this depth for which inside() holds.
+Codes codesWhere(std::uint32_t depth, const std::function<bool(const glm::uvec3&)>& inside);
+
+/// At most count random voxels: half of them anywhere, half of them in clusters.
+Codes randomCodes(std::uint32_t depth, std::uint32_t count, std::mt19937& random);
+
+/// The voxels whose distance from the grid's centre is within half a voxel of radius (in voxels), so that the shell has
+/// no holes between face neighbours.
+Codes sphereShell(std::uint32_t depth, double radius);
+
+/// Menger's sponge in base 4: a cell of every block of 4x4x4 is left out if two coordinates are in its middle.
+Codes spongeCodes(std::uint32_t depth);
+
+/// The octree of codes in device memory; the grid has its corner at 0 and voxels of size 1. Without attributes.
+Octree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth);
+
+/// Gives every voxel and node of octree an arbitrary attribute, and some voxels emission.
+void addAttributes(vk::HeadlessDevice& device, Octree& octree);
+
+} // namespace zvo::test
