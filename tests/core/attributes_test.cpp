@@ -298,6 +298,21 @@ TEST(Attributes, SurviveMoreFragmentsInAVoxelThanTheSumsHold)
     EXPECT_LT(degreesBetween(normalOf(built.voxels[0]), {0, 1, 0}), 0.1);
 }
 
+void expectNoDependenceOnOrder(Scene scene, const Grid& grid)
+{
+    for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
+    {
+        const std::string sha = octreeSha256(device(), build(scene, grid, coverage).octree);
+        std::mt19937 random(9);
+        for (Primitive& primitive : scene.primitives)
+        {
+            std::shuffle(primitive.triangles.begin(), primitive.triangles.end(), random);
+        }
+        std::shuffle(scene.instances.begin(), scene.instances.end(), random);
+        EXPECT_EQ(octreeSha256(device(), build(scene, grid, coverage).octree), sha);
+    }
+}
+
 TEST(Attributes, DoNotDependOnTheOrderOfTriangles)
 {
     Scene scene = test::randomTriangles(31, 3000, 64.0F);
@@ -308,10 +323,25 @@ TEST(Attributes, DoNotDependOnTheOrderOfTriangles)
         const auto uniform = [&] { return std::uniform_real_distribution<float>(0.0F, 1.0F)(random); };
         scene.primitives[0].colors.emplace_back(uniform(), uniform(), uniform(), 1.0F);
     }
-    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
-    const std::string sha = octreeSha256(device(), build(scene, grid).octree);
-    std::shuffle(scene.primitives[0].triangles.begin(), scene.primitives[0].triangles.end(), random);
-    EXPECT_EQ(octreeSha256(device(), build(scene, grid).octree), sha);
+    expectNoDependenceOnOrder(scene, {.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6});
+}
+
+TEST(Attributes, OfMeshesDoNotDependOnTheOrderOfTrianglesAndInstances)
+{
+    std::vector<std::filesystem::path> paths = {test::ownScene("atrium.glb")};
+    for (const char* name : {"bunny.glb", "sponza.glb"})
+    {
+        if (const auto path = test::sharedScene(name))
+        {
+            paths.push_back(*path);
+        }
+    }
+    for (const std::filesystem::path& path : paths)
+    {
+        SCOPED_TRACE(path.filename().string());
+        const Scene scene = loadGltf(path);
+        expectNoDependenceOnOrder(scene, Grid::around(scene.bounds(), 8));
+    }
 }
 
 } // namespace

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// One octree, byte for byte, whatever the device's threads and subgroups. The software device takes both from the
+// environment when a process starts.
+#include "cli/run_zvo.h"
+#include "support/scenes.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace zvo::test
+{
+namespace
+{
+
+struct Machine
+{
+    int threads;
+    int vector_bits;
+};
+
+// Subgroups of 4, 8 and, where the processor has the registers, 16.
+std::vector<Machine> machines()
+{
+    std::vector<int> widths = {128, 256};
+    if (__builtin_cpu_supports("avx512f") != 0)
+    {
+        widths.push_back(512);
+    }
+    std::vector<Machine> all;
+    for (const int width : widths)
+    {
+        for (const int threads : {0, 1, 2, 4})
+        {
+            all.push_back({threads, width});
+        }
+    }
+    return all;
+}
+
+struct DeterminismCase
+{
+    const char* scene;
+    const char* resolution;
+};
+
+class OctreeBytes : public testing::TestWithParam<std::tuple<DeterminismCase, const char*>>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, OctreeBytes,
+                         testing::Combine(testing::Values(DeterminismCase{"atrium.glb", "256"},
+                                                          DeterminismCase{"bunny.glb", "256"},
+                                                          DeterminismCase{"sponza.glb", "128"}),
+                                          testing::Values("thin", "conservative")),
+                         [](const auto& test_case)
+                         {
+                             const std::string scene = std::get<0>(test_case.param).scene;
+                             return scene.substr(0, scene.find('.')) + "_" + std::get<1>(test_case.param);
+                         });
+
+TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
+{
+    const auto [scene, coverage] = GetParam();
+    std::filesystem::path path = ownScene(scene.scene);
+    if (!std::filesystem::exists(path))
+    {
+        const auto shared = sharedScene(scene.scene);
+        if (!shared)
+        {
+            GTEST_SKIP() << scene.scene << " is not there";
+        }
+        path = *shared;
+    }
+    const TempDir dir;
+    std::set<std::string> sums;
+    std::set<int> subgroup_sizes;
+    for (const Machine& machine : machines())
+    {
+        const Outcome outcome = runZvo(dir.path(),
+                                       {"voxelize", path.string(), "-o", "x.morton", "-f", "--json", "-",
+                                        "--resolution", scene.resolution, "--coverage", coverage},
+                                       {"LP_NUM_THREADS=" + std::to_string(machine.threads),
+                                        "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        const nlohmann::json report = nlohmann::json::parse(outcome.out);
+        sums.insert(report.at("octree_sha256").get<std::string>());
+        subgroup_sizes.insert(report.at("device").at("subgroup_size").get<int>());
+        if (report.at("device").at("type") != "cpu")
+        {
+            GTEST_SKIP() << "only the software device takes its threads from the environment";
+        }
+    }
+    EXPECT_EQ(sums.size(), 1U);
+    EXPECT_EQ(subgroup_sizes.size(), machines().size() / 4);
+}
+
+} // namespace
+} // namespace zvo::test
