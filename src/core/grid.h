@@ -21,8 +21,8 @@ struct Bounds
     }
 };
 
-/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on. Both numbers are
-/// single precision: printed with nine digits they give the same grid again, bit for bit.
+/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on. Both numbers
+/// are single precision: printed with nine digits they give the same grid again, bit for bit.
 struct Grid
 {
     glm::vec3 origin{0.0F};  // world position of the minimum corner
