@@ -302,6 +302,9 @@ def rose_window(radius):
     return frame, pane
 
 
-def dado():
-    """The marble skirting of a bay's wall on the ground floor."""
-    return box((-BAY / 2, STEP, 0), (BAY / 2, 0.88, 0.06), skip="-z -y -x +x")
+def dado(gap=0.0):
+    """The marble skirting of a bay's wall on the ground floor; gap: half width of the door in it."""
+    mesh = Mesh()
+    for a, b in ((-BAY / 2, -gap), (gap, BAY / 2)):
+        mesh.append(box((a, STEP, 0), (b, 0.88, 0.06), skip="-z -y -x +x"))
+    return mesh

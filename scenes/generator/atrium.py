@@ -12,10 +12,10 @@ from generator.glb import CLAMP_TO_EDGE, REPEAT
 from generator.textures import rgb
 
 CAMERAS = (  # name, eye, target, vertical field of view in degrees
-    ("default", (8.5, 3.4, 2.0), (-4.0, 2.8, -1.3), 54.0),
-    ("floor", (7.4, 1.45, 0.7), (-3.0, 3.5, -0.9), 60.0),
-    ("gallery", (-8.3, 6.6, 1.4), (2.0, 2.5, -1.6), 60.0),
-    ("roof", (11.0, 19.0, 10.0), (0.0, 2.0, -0.6), 48.0),
+    ("default", (-8.5, 3.4, 2.0), (4.0, 2.8, -1.3), 54.0),
+    ("floor", (-7.4, 1.45, 0.7), (3.0, 3.5, -0.9), 60.0),
+    ("gallery", (8.3, 6.6, 1.4), (-2.0, 2.5, -1.6), 60.0),
+    ("roof", (-11.0, 19.0, 10.0), (0.0, 2.0, -0.6), 48.0),
 )
 
 
@@ -36,9 +36,9 @@ def _textured_materials(composer):
     add("starry vault", t.starry_vault())
     add("terracotta tiles", t.gallery_floor(), 1.3)
     add("wood", t.wood(45, rgb("a3733f"), rgb("6b4525"), 6), 1.3)
-    add("red cloth", t.drape(rgb("c02630"), rgb("86141f")), 0.9, double_sided=True)
-    add("blue cloth", t.drape(rgb("2a4fa8"), rgb("182f70")), 0.9, double_sided=True)
-    add("green cloth", t.drape(rgb("2f7d4a"), rgb("175030")), 0.9, double_sided=True)
+    add("red cloth", t.drape(rgb("c02630"), rgb("86141f")), 1.3, double_sided=True)
+    add("blue cloth", t.drape(rgb("2a4fa8"), rgb("182f70")), 1.3, double_sided=True)
+    add("green cloth", t.drape(rgb("2f7d4a"), rgb("175030")), 1.3, double_sided=True)
     add("carpet", t.runner())
     leaf = {"wrap": CLAMP_TO_EDGE, "alpha_mode": "MASK", "alpha_cutoff": 0.4, "double_sided": True}
     add("orange leaves", foliage.leaf_cluster(77, rgb("274f22"), rgb("79a840"), rgb("b5d074"), 22, 0.25, 0.075), **leaf)
@@ -79,13 +79,13 @@ def build():
     building.aisles(composer, sides)
     building.outer_walls(composer, sides)
     building.tiled_roof(composer, sides)
-    building.flight_of_stairs(composer)
+    flight = building.flight_of_stairs(composer)
     interior.fountain(composer)
     interior.drapes(composer, sides)
     interior.lanterns(composer, sides)
     interior.benches(composer)
     interior.potted_plants(composer)
-    interior.creepers(composer, sides)
+    interior.creepers(composer, sides, flight)
     for name, eye, target, fov in CAMERAS:
         composer.document.camera(name, vec.columns(vec.look_at(eye, target)), math.radians(fov), 16 / 9)
     return composer.document

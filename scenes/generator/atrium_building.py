@@ -12,7 +12,7 @@ from generator.plan import (AISLE, BAY, BAYS, CORNICE, EAVE, HALF_X, HALF_Z, KER
                             UPPER_RADIUS, UPPER_SPRING, VAULT_HALF, VAULT_MIDDLE, VAULT_RISE, WALL, WALL_TOP, WALL_X,
                             WALL_Z, bays, column_lines)
 
-STAIR_FOOT = stairs.LENGTH - (HALF_X - LOWER_HALF - CORNICE)  # x where the stairs begin
+STAIR_FOOT = HALF_X - LOWER_HALF - CORNICE - stairs.LENGTH  # x where the stairs begin; they climb along +x
 WINDOW_SILL, WINDOW_SPRING, WINDOW_HALF = 6.05, 7.35, 0.5
 ROSE_CENTER, ROSE_RADIUS = 7.25, 1.0
 
@@ -72,7 +72,7 @@ def arcades(composer, sides):
             for part in ("lower arch", "lower archivolt", "upper arch", "upper archivolt"):
                 place(part, parent=bay)
             place("tie rod", (0, LOWER_SPRING + 0.06, 0), bay)
-            if (side, i) != ("west", 0):  # where the stairs arrive
+            if (side, i) != ("east", 0):  # where the stairs arrive
                 place("rails", (0, UPPER_FLOOR, 0), bay)
                 for k in range(-4, 5):
                     place("baluster", (k * 0.235, UPPER_FLOOR + 0.12, 0), bay)
@@ -146,15 +146,17 @@ def outer_walls(composer, sides):
     define("niche", (frame, "marble"), (back, "ochre"))
     define("urn", (urn(), "marble"))
     define("dado", (architecture.dado(), "marble"))
+    define("dado beside a door", (architecture.dado(0.7), "marble"))
     define("quoin", (box((-0.2, 0, -0.2), (0.2, WALL_TOP, 0.2), skip="-y +y"), "limestone"))
 
     for side, parent in sides.items():
         reach = BAYS[side] // 2 + 1
         for i in range(-reach, reach + 1):
-            x, corner, rose = i * BAY, abs(i) == reach, (side, i) == ("west", 0)
+            x, corner, rose = i * BAY, abs(i) == reach, (side, i) == ("east", 0)
             place("lower wall", (x, 0, 0), parent)
-            place("dado", (x, 0, -AISLE), parent)
-            if not corner and i % 2 == 0 and not rose:
+            door = not corner and i % 2 == 0 and not rose
+            place("dado beside a door" if door else "dado", (x, 0, -AISLE), parent)
+            if door:
                 place("door", (x, 0, -AISLE), parent)
             elif not corner:
                 place("niche", (x, 0, -AISLE), parent)
@@ -216,6 +218,7 @@ def _spread(half, spacing):
 
 
 def flight_of_stairs(composer):
+    """Returns the group of the flight, in the frame of generator.stairs."""
     define, place = composer.define, composer.place
     stone, carpet = stairs.step()
     define("step", (stone, "marble"), (carpet, "carpet"))
@@ -224,10 +227,10 @@ def flight_of_stairs(composer):
     define("stair rail", (stairs.handrail(), "marble"))
     define("newel", (stairs.newel(), "marble"))
     define("passage", (stairs.passage(), "limestone"))
-    flight = composer.group("stairs", (STAIR_FOOT, 0, 0))
+    flight = composer.group("stairs", (STAIR_FOOT, 0, 0), rotation=vec.quaternion("y", 180))
     for k in range(stairs.STEPS - 1):  # the gallery is the last one
         place("step", (-k * stairs.GOING, k * stairs.RISE, 0), flight)
-    for name, sign in (("south", 1), ("north", -1)):
+    for name, sign in (("north", 1), ("south", -1)):
         z = sign * (stairs.HALF_TREAD + stairs.CHEEK / 2)
         half = composer.group(f"stairs {name}", (0, 0, z), flight, scale=[1, 1, sign])
         place("stair wall", parent=half)
@@ -237,3 +240,4 @@ def flight_of_stairs(composer):
             place("baluster", (x, stairs.slope_height(x) + 0.155, 0), half, scale=[1, 1.15, 1])
         place("newel", (0.2, 0, 0), half)
     place("passage", parent=flight)
+    return flight

@@ -10,7 +10,7 @@ from generator.geometry import Mesh
 from generator.plan import (BAY, BAYS, CEILING, CORNICE, HALF_X, HALF_Z, LOWER_HALF, LOWER_SPRING, RAIL, STEP,
                             UPPER_FLOOR, VAULT_MIDDLE, VAULT_RISE, bays, column_lines)
 
-FOUNTAIN = (2.6, 0.0, 0.0)
+FOUNTAIN = (-2.6, 0.0, 0.0)
 COLORS = ("red", "blue", "green")
 
 
@@ -41,12 +41,12 @@ def drapes(composer, sides):
     for color in COLORS:
         define(f"{color} curtain", (curtain, f"{color} cloth"), (band, "gold"))
         define(f"{color} banner", (cloth, f"{color} cloth"), (hem, "gold"))
-    for side, shift, numbers in (("north", 0, (-3, -1, 1, 3)), ("south", 1, (-3, -1, 1, 3)), ("east", 0, (-1, 1))):
+    for side, shift, numbers in (("north", 0, (3, 1, -1, -3)), ("south", 1, (3, 1, -1, -3)), ("west", 0, (1, -1))):
         for n, i in enumerate(numbers):
             for sign in (-1, 1):
                 place(f"{COLORS[(n + shift) % 3]} curtain", (i * BAY - sign, LOWER_SPRING + 0.04, 0), sides[side],
                       scale=[sign, 1, 1])
-    for side, shift, numbers in (("north", 1, (-2, 0, 2)), ("south", 2, (-2, 0)), ("east", 1, (0,))):
+    for side, shift, numbers in (("north", 1, (2, 0, -2)), ("south", 2, (2, 0)), ("west", 1, (0,))):
         for n, i in enumerate(numbers):
             place(f"{COLORS[(n + shift) % 3]} banner", (i * BAY, UPPER_FLOOR + RAIL, 0), sides[side])
 
@@ -64,7 +64,7 @@ def lanterns(composer, sides):
 
 def benches(composer):
     composer.define("bench", (furnishings.bench(), "marble"))
-    for x in (-3.9, 1.3):
+    for x in (3.9, -1.3):
         for sign in (-1, 1):
             composer.place("bench", (x, 0, sign * (HALF_Z - 0.85)))
 
@@ -90,33 +90,33 @@ def potted_plants(composer):
         place("fern", (0, 0.33, 0), node)
 
     for sign in (-1, 1):
-        for n, x in enumerate((-6.5, -1.3, 3.9, 6.5)):
+        for n, x in enumerate((6.5, 1.3, -3.9, -6.5)):
             tree(x, sign * (HALF_Z - 0.95), 80 * n + 40 * sign, 0.92 + 0.05 * (n % 3))
-        fern(STAIR_FOOT + 0.75, 0, sign * 1.25, 50 * sign, 1.05)
-        fern(HALF_X - 0.95, 0, sign * 2.6, 90 * sign, 1.2)
-        fern(HALF_X - 0.9, 0, sign * 1.3, 20 * sign, 0.9)
+        fern(STAIR_FOOT - 0.75, 0, sign * 1.25, 50 * sign, 1.05)
+        fern(0.95 - HALF_X, 0, sign * 2.6, 90 * sign, 1.2)
+        fern(0.9 - HALF_X, 0, sign * 1.3, 20 * sign, 0.9)
 
 
-def creepers(composer, sides):
+def creepers(composer, sides, flight):
     define, place = composer.define, composer.place
     define("vine", (plants.column_creeper(21, 150, 0.22, 3.0, 1.6, 0.30), "ivy"))
     define("hanging ivy", (plants.hanging_mass(31, 170, 2.0, 1.5, 0.32), "ivy"))
     define("hanging bougainvillea", (plants.hanging_mass(41, 170, 1.9, 1.35, 0.34), "bougainvillea"))
     define("stair ivy", (_stair_ivy(), "ivy"))
-    for side, line, turn in (("north", 1, 0), ("north", 5, 120), ("south", 2, 60), ("south", 6, 200)):
+    for side, line, turn in (("north", 6, 0), ("north", 2, -120), ("south", 5, -60), ("south", 1, -200)):
         place("vine", (column_lines(side)[line], STEP, 0), sides[side], vec.quaternion("y", turn))
     for side, i, name, sign in (
-        ("north", -1, "ivy", 1), ("south", 1, "ivy", -1), ("south", 3, "ivy", 1), ("west", 1, "ivy", 1),
-        ("north", 3, "bougainvillea", 1), ("north", -3, "bougainvillea", -1), ("south", -3, "bougainvillea", -1),
-        ("west", -1, "bougainvillea", 1),
+        ("north", 1, "ivy", -1), ("south", -1, "ivy", 1), ("south", -3, "ivy", -1), ("east", -1, "ivy", -1),
+        ("north", -3, "bougainvillea", -1), ("north", 3, "bougainvillea", 1), ("south", 3, "bougainvillea", 1),
+        ("east", 1, "bougainvillea", -1),
     ):
         place(f"hanging {name}", (i * BAY, UPPER_FLOOR, LOWER_HALF + CORNICE), sides[side], scale=[sign, 1, 1])
     for sign in (1, -1):
-        place("stair ivy", (STAIR_FOOT, 0, 0), scale=[1, 1, sign])
+        place("stair ivy", parent=flight, scale=[1, 1, sign])
 
 
 def _stair_ivy():
-    """Ivy on the south wall of the stairs, densest at the foot of the wall; the passage stays free."""
+    """Ivy on one wall of the stairs, densest at the foot of the wall; the passage stays free."""
     z = stairs.HALF_TREAD + stairs.CHEEK
     middle, radius, spring = stairs.PASSAGE
 

@@ -166,7 +166,7 @@ def knot_third(along, around):
         a = 2 * math.pi * (u + v)
         n = vec.add(vec.scaled(normal, math.cos(a)), vec.scaled(side, math.sin(a)))
         ridge = 0.5 + 0.5 * math.cos(3 * a - 2 * math.pi * 6 * v)
-        color = vec.mixed((0.36, 0.165, 0.045), (0.05, 0.23, 0.18), 0.65 * (1 - ridge) ** 2)
+        color = vec.mixed((0.55, 0.29, 0.09), (0.09, 0.36, 0.29), 0.65 * (1 - ridge) ** 2)
         return vec.add(p, vec.scaled(n, 0.082 + 0.018 * ridge)), n, (0.0, 0.0), color
 
     return Mesh().grid(around, along, point)

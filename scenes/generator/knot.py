@@ -60,5 +60,5 @@ def build():
     document = Document("CC0 1.0: no rights reserved")
     material = document.material("glaze", roughness=0.4)
     document.node("knot", mesh=document.mesh("knot", (mesh.without_uvs(), material)))
-    document.camera("default", vec.columns(vec.look_at((1.9, 2.6, 3.2), (0.0, -0.08, 0.0))), math.radians(33), 16 / 9)
+    document.camera("default", vec.columns(vec.look_at((1.9, 2.6, 3.2), (0.0, -0.08, 0.0))), math.radians(36), 16 / 9)
     return document

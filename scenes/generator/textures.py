@@ -191,7 +191,7 @@ def wood(seed, light, dark, planks):
 
 
 def drape(cloth, deep):
-    """Heavy cloth with gold: u around a repeat of 0.9 m, v along one of 0.9 m."""
+    """Heavy cloth with gold: u across, v along, one repeat of 1.3 m."""
     size = 256
     weave = fractal_noise(size, 64, 2, 51)
     gold, pale = rgb("e2b24a"), rgb("f3d27c")
@@ -224,15 +224,13 @@ def runner():
 
     def painter(u, v, k):
         x, y = abs(u - 0.5), abs(v - 0.5)
-        if x > 0.47:
+        if x > 0.46 or 0.32 < x < 0.36:
             color = gold
         elif x > 0.36:
-            color = gold if abs((v * 2) % 1 - 0.5) + abs(x - 0.415) / 0.05 * 0.35 < 0.36 else blue
-        elif x > 0.34:
-            color = gold
+            color = blue
         else:
-            d = abs((u - 0.16) / 0.227 % 1 - 0.5) + abs((v * 2) % 1 - 0.5)
-            color = gold if d < 0.16 else (deep if 0.3 < d < 0.42 else red)
+            lozenge = x / 0.15 + y / 0.38
+            color = gold if 0.68 < lozenge < 1.0 else (deep if lozenge < 0.68 or x > 0.27 else red)
         return shade(color, 0.88 + 0.24 * weave[k])
 
     return painted(size, painter, 32)
