@@ -99,7 +99,22 @@ std::vector<fs::path> scenesOf(const BenchOptions& options)
                                                   "--scenes",
                                                   options.scene_folder.string(), fmt::join(kUsualScenes, ", ")));
     }
+    talk(fmt::format("{} has none of {}: measuring the project's own scenes", options.scene_folder.string(),
+                     fmt::join(kUsualScenes, ", ")));
     return scenes;
+}
+
+// Finds out now what would otherwise show after an hour. Throws the loader's error for a file that is missing.
+void checkPresent(const std::vector<fs::path>& paths)
+{
+    for (const fs::path& path : paths)
+    {
+        std::error_code ignored;
+        if (!fs::exists(path, ignored))
+        {
+            loadWithWarnings(std::span(&path, 1));
+        }
+    }
 }
 
 // Adds run times of passes to sums of the same names; both in order of occurrence.
@@ -232,6 +247,7 @@ private:
 void bench(const BenchOptions& options)
 {
     const std::vector<fs::path> paths = scenesOf(options);
+    checkPresent(paths);
     std::optional<Output> report;
     if (!options.output.json.empty())
     {

@@ -17,6 +17,7 @@ namespace zvo::cli
 namespace
 {
 
+constexpr std::uint32_t kOcclusionRaysMax = 64; // as TraceOptions has it
 constexpr std::size_t kHelpColumn = 34;
 constexpr float kVoxelSizeMin = 1e-35F; // 256 / voxel_size must be a finite number
 
@@ -155,6 +156,11 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
     addCameraOption(*render, options.camera);
     addValue(*render, "--view", options.view, viewOf, "VIEW",
              "color, albedo, normal, depth, level or iterations (default color)");
+    addValue(
+        *render, "--occlusion", options.occlusion_rays,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 0, kOcclusionRaysMax)); },
+        "RAYS", "rays a pixel that find how much of the sky it sees, 0 to 64 (default 0)");
     addValue(*render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(*render, "--frames", options.frames, parseFrames, "A..B",

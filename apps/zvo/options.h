@@ -59,7 +59,8 @@ struct RenderOptions
     std::uint32_t height = 720;
     std::string camera; // as given; empty: the scene's first one, or a fitting one
     View view = View::Color;
-    float detail_pixels = 0.0F; // rays stop at octree nodes up to this wide
+    std::uint32_t occlusion_rays = 0; // a pixel
+    float detail_pixels = 0.0F;       // rays stop at octree nodes up to this wide
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames;
 };
 

@@ -93,9 +93,19 @@ struct PictureTimes
     double shade_ms = 0; // shadow rays and colour
 };
 
-void append(std::vector<vk::PassTime>& passes, const std::vector<vk::PassTime>& more)
+// The time of the passes up to the primary rays: what comes after them is light and colour.
+double primaryMs(const std::vector<vk::PassTime>& passes)
 {
-    passes.insert(passes.end(), more.begin(), more.end());
+    double ms = 0;
+    for (const vk::PassTime& pass : passes)
+    {
+        ms += pass.ms;
+        if (pass.name == "trace/primary")
+        {
+            break;
+        }
+    }
+    return ms;
 }
 
 class Renderer
@@ -107,6 +117,7 @@ public:
     {
         m_options.view = options.view;
         m_options.detail_pixels = options.detail_pixels;
+        m_options.occlusion_rays = options.occlusion_rays;
         m_beam_passes = device.run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, m_beam); });
     }
 
@@ -117,20 +128,10 @@ public:
     std::vector<std::uint8_t> render(const ViewCamera& view, PictureTimes& times)
     {
         const TraceCamera camera = traceCamera(view, m_octree.grid, m_buffers.height);
-        times.passes = m_device.run([&](vk::FrameGraph& graph)
-                                    { tracePrimary(graph, m_octree, m_beam, camera, m_options, m_buffers); });
-        times.trace_ms = sumMs(times.passes);
-        const std::vector<vk::PassTime> shade_passes = m_device.run(
-            [&](vk::FrameGraph& graph)
-            {
-                if (m_options.view == View::Color && m_options.shadows)
-                {
-                    traceShadows(graph, m_octree, camera, m_options, m_buffers);
-                }
-                shade(graph, m_octree, camera, m_options, m_buffers);
-            });
-        times.shade_ms = sumMs(shade_passes);
-        append(times.passes, shade_passes);
+        times.passes =
+            m_device.run([&](vk::FrameGraph& graph) { trace(graph, m_octree, m_beam, camera, m_options, m_buffers); });
+        times.trace_ms = primaryMs(times.passes);
+        times.shade_ms = sumMs(times.passes) - times.trace_ms;
         m_capped_rays += m_device.download(m_buffers.status).front().capped_rays;
         const std::vector<gpu::uint> image = m_device.download(m_buffers.image);
         const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.data());
@@ -199,6 +200,7 @@ void render(const RenderOptions& options)
     progress.step("voxelizing");
     const BuildResult result =
         buildOctree(device, *gpu_scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
+    warnOfDropped(result);
     gpu_scene.reset();
 
     Renderer renderer(device, result.octree, options);

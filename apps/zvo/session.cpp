@@ -71,6 +71,18 @@ Grid placeGrid(const VoxelOptions& options, const Bounds& bounds)
     return options.bounds ? Grid::withCorner(*options.bounds, options.depth) : Grid::around(bounds, options.depth);
 }
 
+void warnOfDropped(const BuildResult& result)
+{
+    for (const char* reason : {"nonfinite", "out_of_range"})
+    {
+        const auto dropped = result.dropped.find(reason);
+        if (dropped != result.dropped.end())
+        {
+            talk(fmt::format("warning: {} triangles left out ({})", dropped->second, reason));
+        }
+    }
+}
+
 void checkValidation(const vk::HeadlessDevice& device)
 {
     const std::uint32_t count = device.validationMessageCount();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/grid.h"
+#include "core/pipeline.h"
 #include "core/scene.h"
 #include "options.h"
 #include "vk/headless.h"
@@ -21,6 +22,9 @@ Scene loadWithWarnings(std::span<const std::filesystem::path> paths);
 
 /// The grid that options ask for, or the one around bounds.
 Grid placeGrid(const VoxelOptions& options, const Bounds& bounds);
+
+/// Tells of triangles that were left out because their numbers make no sense.
+void warnOfDropped(const BuildResult& result);
 
 /// Throws Error{Other} where the validation layers have said something.
 void checkValidation(const vk::HeadlessDevice& device);

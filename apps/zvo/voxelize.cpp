@@ -64,6 +64,7 @@ void voxelize(const VoxelizeOptions& options)
     progress.step("voxelizing");
     const BuildResult result =
         buildOctree(device, gpu_scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
+    warnOfDropped(result);
 
     progress.step("writing");
     format == "morton" ? writeMorton(device, result.octree, output) : writePly(device, result.octree, output);

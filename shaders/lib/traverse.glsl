@@ -14,7 +14,8 @@
 // t < limit_i, where limit_i is the float after the event's t for axes up to the event's and the event's t after that.
 // Which cell of the node the ray is in follows from that anew in every iteration, whether it came by a descent, an
 // advance or a pop. One uniform loop with its only test in the header; each iteration loads half a node and descends
-// into the cell, or advances past it (past its 2x2x2 octant if that is empty) to the lowest node around both cells.
+// into the cell, or advances past it (past its 2x2x2 octant, or the half node, if that is empty) to the lowest node
+// around both cells.
 //
 // The includer includes shared/trace.h and defines before:
 //   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
@@ -47,6 +48,7 @@ struct Traversal
     uvec3 cell;      // of a hit: coordinates among the cells of that level
 };
 
+uint g_saved[kSavedMax]; // nodes above the current one, by level
 #ifdef TRAVERSE_GROUP
 shared uint s_saved[kStack == kStackShared ? kSavedMax * TRAVERSE_GROUP : 1u];
 #endif
@@ -66,14 +68,14 @@ float edgeOf(uint size)
 }
 
 // Notes the node whose cells are numbered by the mantissa bits at shift.
-void saveNode(inout uint saved[kSavedMax], uint shift, uint node)
+void saveNode(uint shift, uint node)
 {
     uint level = (kRootShift - shift) >> 1;
     if (kStack == kStackRegisters)
         [[unroll]] for (uint k = 1u; k + 1u < kNodeLevels; ++k)
-            saved[k] = shift == kRootShift - 2u * k ? node : saved[k];
+            g_saved[k] = shift == kRootShift - 2u * k ? node : g_saved[k];
     else if (kStack == kStackPrivate)
-        saved[level] = node;
+        g_saved[level] = node;
 #ifdef TRAVERSE_GROUP
     else
         s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex] = node;
@@ -81,15 +83,15 @@ void saveNode(inout uint saved[kSavedMax], uint shift, uint node)
 }
 
 // The node that was noted; the root for shifts outside of the octree.
-uint savedNode(uint saved[kSavedMax], uint shift)
+uint savedNode(uint shift)
 {
     uint level = min((kRootShift - shift) >> 1, kSavedMax - 1u);
     uint node = 0u;
     if (kStack == kStackRegisters)
         [[unroll]] for (uint k = 1u; k + 1u < kNodeLevels; ++k)
-            node = shift == kRootShift - 2u * k ? saved[k] : node;
+            node = shift == kRootShift - 2u * k ? g_saved[k] : node;
     else if (kStack == kStackPrivate)
-        node = saved[level];
+        node = g_saved[level];
 #ifdef TRAVERSE_GROUP
     else
         node = s_saved[level * TRAVERSE_GROUP + gl_LocalInvocationIndex];
@@ -121,7 +123,6 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     uvec3 corner = uvec3(one);
     uint shift = kRootShift;
     uint node = 0u;
-    uint saved[kSavedMax];
     uint iterations = 0u;
     bool stopped = false; // by the level of detail
     bool go = limits.x <= limit_max && all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
@@ -131,7 +132,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     {
         ++iterations;
         if (kStack == kStackRegisters)
-            saveNode(saved, shift, node);
+            saveNode(shift, node);
 
         // Which cell of the node the last event led to.
         vec3 crossed = uintBitsToFloat(limits);
@@ -150,8 +151,11 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         uint child = half_node.y + bitCount(up_to_cell << 1);
         bool octant_empty = ((half_node.x >> (c & 24u)) & 255u) == 0u;
 
-        // Where the ray leaves the cell or its empty octant.
-        uvec3 leave = quarter + mix(uvec3(0u), uvec3(size), bvec3(odd.x || octant_empty, odd.y || octant_empty, odd.z || octant_empty));
+        // Where the ray leaves the cell, its octant if that is empty, or all of the half node.
+        bvec3 far = bvec3(odd.x || octant_empty, odd.y || octant_empty, odd.z || octant_empty);
+        bvec2 farther = bvec2(half_node.x == 0u && !upper.x, half_node.x == 0u && !upper.y);
+        uvec3 leave = quarter + mix(uvec3(0u), uvec3(size), far);
+        leave.xy += mix(uvec2(0u), uvec2(size << 1), farther);
         vec3 t_leave = planeTimes(leave, origin, inverse);
         // From far away, planes of one axis can be crossed at the same time; a voxel between them is not visited.
         bool visited = all(greaterThanEqual(t_leave, crossed));
@@ -172,11 +176,11 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         uint around_shift = uint(findMSB(leave_plane ^ from_plane) - 1) | 1u;
         uvec3 around = uvec3(x_first ? leave_plane : corner.x, y_first ? leave_plane : corner.y,
                              z_first ? leave_plane : corner.z) & (~0u << (around_shift + 2u));
-        uint around_node = around_shift == shift ? node : savedNode(saved, around_shift);
+        uint around_node = around_shift == shift ? node : savedNode(around_shift);
 
         // Down, or on.
         if (kStack != kStackRegisters && occupied)
-            saveNode(saved, shift, node);
+            saveNode(shift, node);
         stopped = kDetail && occupied && ends;
         limits.x = occupied ? limits.x : leave_bits + 1u;
         limits.y = occupied ? limits.y : x_first ? leave_bits : leave_bits + 1u;

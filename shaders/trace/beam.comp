@@ -25,22 +25,21 @@ layout(push_constant, scalar) uniform Push
 #include "lib/octree_half.glsl"
 #include "lib/traverse.glsl"
 
-const float kBeamEdge = 1.0 / float(kBeamCells - 2u);          // of a cell, in unit space
 const float kBeamScale = float(kBeamCells - 2u) / float(kBeamCells); // from unit space to the beam grid's cube
+const float kCoarseEdge = 1.0 / float(kBeamCells - 2u);              // of a cell, in unit space
+const float kFineEdge = 0.25 * kCoarseEdge;
 const float kBeamMargin = 0.98; // of a cell: the rest covers rounding, for origins within kBeamOriginMax
 const float kBeamOriginMax = 1000.0;
+const float kCellDepthMax = 1.8 * kCoarseEdge;      // more than a ray's depth grows inside a cell
 const float kTileReach = float(kTileEdge - 1u); // from the middle of a tile to its outer pixels, in half pixels
 
-// Until when all rays of a tile are within a cell of the middle one.
-float beamEnd()
+// Until when all rays of a tile are within an edge of the middle one.
+float endWithin(float edge)
 {
     vec3 reach = kTileReach * (abs(params.camera.step_x) + abs(params.camera.step_y));
     float widest = max(reach.x, max(reach.y, reach.z));
-    vec3 from = abs(params.camera.origin);
-    bool near = max(from.x, max(from.y, from.z)) <= kBeamOriginMax;
-    float end = kOrthographic ? (widest <= kBeamMargin * kBeamEdge ? kTraceTimeMax : 0.0)
-                              : kBeamMargin * kBeamEdge / max(widest, kTraceTimeMin);
-    return near ? end : 0.0;
+    return kOrthographic ? (widest <= kBeamMargin * edge ? kTraceTimeMax : 0.0)
+                         : kBeamMargin * edge / max(widest, kTraceTimeMin);
 }
 
 // Depth of the octree's farthest corner.
@@ -56,10 +55,15 @@ float tileStart(uvec2 tile)
     vec3 offset = rayOffset(middle, params.camera.step_x, params.camera.step_y);
     vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
-    float end = beamEnd();
+    vec3 from = abs(params.camera.origin);
+    bool near = max(from.x, max(from.y, from.z)) <= kBeamOriginMax;
+    float end = near ? endWithin(kCoarseEdge) : 0.0;
+    // Coarse cells that the ray would leave too late for fine ones end it.
+    float fine_end = endWithin(kFineEdge) - kCellDepthMax;
+    vec2 detail = fine_end > kTraceTimeMin ? vec2(1.0 / (float(kBeamCells) * fine_end), 0.0) : vec2(0.0, 1.0 / float(kBeamCells));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     Traversal beam = traverse(1.5 + (origin - 1.5) * kBeamScale, inverseDirection(direction) / kBeamScale,
-                              kTraceTimeMin, end, vec2(0.0));
+                              kTraceTimeMin, end, detail);
     float past = lastDepth() <= end ? kTileDead : max(end, kTraceTimeMin);
     return beam.hit ? beam.t : past;
 }

@@ -25,9 +25,9 @@ void main()
 {
     CameraRays camera = params.camera;
     uvec2 size = uvec2(params.width, params.height);
-    if (workgroupIndex() >= params.status.data[0].live_tiles)
-        return;
     uvec2 tile = params.live.data[workgroupIndex()];
+    if (tile.x == kNoTile)
+        return;
     uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
     vec3 offset = rayOffset(pixelOffset(pixel, size), camera.step_x, camera.step_y);
     precise vec3 direction = camera.forward + (kOrthographic ? vec3(0.0) : offset);

@@ -22,7 +22,11 @@ void main()
     uint i = threadIndex();
     if (i >= params.ray_count)
         return;
-    Ray ray = params.rays.data[i];
+    Ray ray; // by members: GPU-assisted validation takes the struct for larger than it is
+    ray.origin = params.rays.data[i].origin;
+    ray.t_min = params.rays.data[i].t_min;
+    ray.inverse_direction = params.rays.data[i].inverse_direction;
+    ray.t_max = params.rays.data[i].t_max;
     bool valid = isTraceable(ray);
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     // An invalid ray goes through as one that ends before it starts.

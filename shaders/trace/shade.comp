@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From hits to a picture: sun with shadow, sky light, emission; or one of the other views.
+// From hits to their pixels, one workgroup a live tile: sun with shadow, sky light, emission; or one of the other views.
+// Misses keep what is there (trace/sky).
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute.glsl"
@@ -16,7 +17,7 @@ layout(constant_id = 1) const uint kNodeLevels = 5u;
 layout(constant_id = 2) const bool kOrthographic = false;
 layout(constant_id = 3) const bool kAttributes = true;
 layout(constant_id = 4) const bool kEmission = false;
-layout(constant_id = 5) const bool kShadows = true;
+layout(constant_id = 5) const bool kLight = true; // params.light was filled
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -44,7 +45,7 @@ Surface surfaceAt(Hit hit, vec3 direction)
                                                           : uint64_t(params.node_attributes));
         uvec2 stored = unpackUint2x32(words.data[hit.index]);
         surface.albedo = decodeSrgb(unpackUnorm4x8(stored.x).rgb);
-        surface.normal = shadingNormal(stored.y, direction);
+        surface.normal = shadingNormal(stored.y, face_normal, direction);
         if (kEmission && voxel && ((stored.x >> 24) & kAttributeEmissive) != 0u)
         {
             uvec2 word = params.emission_words.data[hit.index >> 5];
@@ -57,54 +58,43 @@ Surface surfaceAt(Hit hit, vec3 direction)
 
 vec3 lit(Surface surface, uint light)
 {
-    float sun = params.sun * max(dot(surface.normal, params.to_sun), 0.0) * float(light & kLightSun) / float(kLightSun);
-    return surface.albedo * (sun * kSunColor + skyAmbient(surface.normal)) + surface.emission;
-}
-
-vec3 background(vec3 direction)
-{
-    vec3 toward = normalize(direction);
-    return skyRadiance(toward) + params.sun * 4.0 * sunDisc(toward, params.to_sun) * kSunColor;
+    float sun = max(dot(surface.normal, params.sun), 0.0) * float(light & kLightSun) / 255.0;
+    float sky = float(light >> kLightSkyShift) / 255.0;
+    return surface.albedo * (sun * kSunColor + sky * skyAmbient(surface.normal)) + surface.emission;
 }
 
 void main()
 {
-    uvec2 size = uvec2(bitfieldExtract(params.size, 0, 16), params.size >> 16);
-    uvec2 tiles = (size + kTileEdge - 1u) / kTileEdge;
-    uint tile = workgroupIndex();
-    uvec2 pixel = kTileEdge * uvec2(tile % tiles.x, tile / tiles.x) + pixelInTile(gl_LocalInvocationIndex);
+    uvec2 size = uvec2(params.width, params.height);
+    uvec2 tile = params.live.data[workgroupIndex()];
+    if (tile.x == kNoTile)
+        return;
+    uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
     if (any(greaterThanEqual(pixel, size)))
         return;
     uint i = pixel.y * size.x + pixel.x;
-    bool live = params.starts.data[tile] < kTileDead;
-    Hit hit = Hit(0.0, kHitMiss, uvec2(0u));
-    uint light = kView == kViewIterations ? 0u : kLightSun;
-    if (live)
-    {
-        hit = loadHit(params.hits, i);
-        if (kShadows || kView == kViewIterations)
-            light = params.light.data[i];
-    }
-    vec3 direction = params.forward;
-    if (!kOrthographic)
-        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
-
-    vec3 color = vec3(0.0); // encoded
+    Hit hit = loadHit(params.hits, i);
+    uint light = kLight ? params.light.data[i] : kLightAll;
+    vec3 color; // encoded
     if (kView == kViewIterations)
         color = heatColor(log2(1.0 + float(light)) / 7.0);
     else if (kView == kViewDepth)
-        color = vec3(isMiss(hit) ? 0.0 : 1.0 / (1.0 + hit.t));
+        color = vec3(1.0 / (1.0 + hit.t));
     else if (kView == kViewLevel)
-        color = isMiss(hit) ? vec3(0.0) : heatColor(0.25 + 0.7 * float(kNodeLevels - hitLevel(hit)) / float(kNodeLevels));
+        color = heatColor(0.25 + 0.7 * float(kNodeLevels - hitLevel(hit)) / float(kNodeLevels));
     else
     {
+        vec3 direction = params.forward;
+        if (!kOrthographic)
+            direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
         Surface surface = surfaceAt(hit, direction);
         if (kView == kViewNormal)
-            color = isMiss(hit) ? vec3(0.0) : 0.5 + 0.5 * surface.normal;
+            color = 0.5 + 0.5 * surface.normal;
         else if (kView == kViewAlbedo)
-            color = isMiss(hit) ? vec3(0.0) : encodeSrgb(surface.albedo);
+            color = encodeSrgb(surface.albedo);
         else
-            color = encodeSrgb(toneMap(params.exposure * (isMiss(hit) ? background(direction) : lit(surface, light))));
+            color = develop(lit(surface, light), params.exposure, pixel);
     }
-    params.image.data[i] = packColor8(color);
+    if (!isMiss(hit) || kView == kViewIterations)
+        params.image.data[i] = packColor8(color);
 }

@@ -21,19 +21,16 @@ layout(push_constant, scalar) uniform Push
 #define TRAVERSE_GROUP kTilePixels
 #include "lib/octree_half.glsl"
 #include "lib/traverse.glsl"
+#include "lib/lit_point.glsl"
 
-// The ray starts in the middle of the voxel, lifted along both normals and towards the sun, so that neither the voxel
-// nor the steps of the surface around it shade it.
-const float kLiftFace = 0.75;   // voxels
-const float kLiftNormal = 0.75;
-const float kLiftSun = 1.0;
+const float kLiftSun = 1.0; // voxels
 
 void main()
 {
     uvec2 size = uvec2(params.width, params.height);
-    if (workgroupIndex() >= params.status.data[0].live_tiles)
-        return;
     uvec2 tile = params.live.data[workgroupIndex()];
+    if (tile.x == kNoTile)
+        return;
     uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
     if (any(greaterThanEqual(pixel, size)))
         return;
@@ -42,22 +39,13 @@ void main()
     vec3 direction = params.forward;
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
-    vec3 face_normal = faceNormal(hitFace(hit), direction);
-    vec3 normal = face_normal;
-    if (kAttributes && !isMiss(hit))
-    {
-        bool voxel = !kDetail || hitLevel(hit) == kNodeLevels;
-        uint64_t attributes = voxel ? uint64_t(params.attributes) : uint64_t(params.node_attributes);
-        normal = shadingNormal(Attribute_ConstPtr(attributes).data[hit.index].normal, direction);
-    }
-    float edge = exp2(-2.0 * float(hitLevel(hit)));
-    vec3 middle = 1.0 + (vec3(hitCell(hit)) + 0.5) * edge;
-    vec3 origin = middle + edge * (kLiftFace * face_normal + kLiftNormal * normal + kLiftSun * params.to_sun);
-    bool faces_sun = !isMiss(hit) && dot(normal, params.to_sun) > 0.0;
+    LitPoint point = litPoint(hit, direction, kAttributes, params.attributes, params.node_attributes);
+    vec3 origin = point.origin + kLiftSun * point.edge * params.to_sun;
+    bool faces_sun = !isMiss(hit) && dot(point.normal, params.to_sun) > 0.0;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     Traversal shadow = traverse(origin, params.to_sun_inverse, kTraceTimeMin, faces_sun ? kTraceTimeMax : 0.0,
                                 vec2(0.0));
     if (shadow.capped)
         atomicAdd(params.status.data[0].capped_rays, 1u);
-    params.light.data[i] = faces_sun && !shadow.hit ? kLightSun : 0u;
+    params.light.data[i] = kLightAll - (faces_sun && !shadow.hit ? 0u : kLightSun);
 }

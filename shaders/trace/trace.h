@@ -11,6 +11,8 @@ GPU_NAMESPACE_BEGIN
 GPU_BUFFER(float, 4);
 
 const uint kRaysGroup = 64u; // threads of a workgroup of trace/rays
+const uint kSkyRows = 8u;    // pixels that a thread of trace/sky takes: the division for its place is dear
+const uint kSkyGroup = 64u;  // threads of a workgroup of trace/sky
 
 // Pictures are traced in square tiles, one workgroup each.
 const uint kTileEdge = 8u;             // pixels
@@ -18,19 +20,28 @@ const uint kTilePixels = 64u;          // and threads of the workgroup
 const uint kBlockEdge = 8u;            // tiles: a workgroup of trace/beam takes a square block of them
 const uint kBlockTiles = 64u;          // and threads of the workgroup
 const uint kTilesFold = 32768u;        // workgroups along x of an indirect dispatch over live tiles
+const uint kNoTile = ~0u;              // in the list of live tiles, after the last one
 const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the tile can hit anything
 
 // The beam grid: kBeamCells^3 cells over the octree's root cube and a border of one cell around it. A cell is set if it
-// or one of its 26 neighbours touches an occupied part of the octree. It is stored as an octree of kBeamLevels levels
-// whose nodes have room for all children: node 0 is the root, then come kBeamLevel1 and kBeamLevel2 nodes, those of
-// parent p (in Morton order of its level) from 64 p on for its lower and 64 p + 32 on for its upper half.
+// or one of its 26 neighbours touches an occupied part of the octree. Below the set cells lie finer ones, a quarter as
+// large, set by the same rule with neighbours of their own size. It is stored as an octree whose nodes have room for
+// all children: node 0 is the root, then come the nodes of levels 1, 2 and 3; those of parent p (in Morton order of its
+// level) from 64 p on for its lower and 64 p + 32 on for its upper half.
 const uint kBeamCells = 64u;
-const uint kBeamLevels = 3u;
-const uint kBeamFirst1 = 1u;   // first node of level 1
-const uint kBeamFirst2 = 65u;  // first node of level 2
-const uint kBeamNodes = 4161u; // of all levels
-const uint kBeamRows = 4096u;  // of cells along x
-const uint kBeamGroup = 64u;   // threads of a workgroup of the kernels that build it
+const uint kBeamLevels = 3u;     // of nodes; 4 for an octree with as many
+const uint kBeamFirst1 = 1u;     // first node of level 1
+const uint kBeamFirst2 = 65u;    // first node of level 2
+const uint kBeamFirst3 = 4161u;  // first node of level 3
+const uint kBeamNodes = 266305u; // of all levels
+const uint kBeamRows = 4096u;    // of cells along x
+const uint kBeamMasks = 4160u;   // of level 2, then of level 1
+const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that build it
+
+// Light that arrives at a hit, for the parts of it: 0 none, 255 all.
+const uint kLightSun = 255u; // mask
+const uint kLightSkyShift = 8u;
+const uint kLightAll = 65535u;
 
 // What a picture shows: specialization constant of trace/shade.
 const uint kViewColor = 0u;      // lit
@@ -78,17 +89,23 @@ struct BeamDilateParams // push constants of trace/beam_dilate: one thread a row
 
 struct BeamNodesParams // push constants of trace/beam_nodes: one thread a node, one workgroup its parent
 {
-    GPU_CONST_PTR(uint64_t) masks; // level 2: the rows; level 1: [64] masks in Morton order
-    GPU_PTR(uint64_t) parents;     // [nodes / 64] masks of the parents in Morton order
-    GPU_PTR(Node) nodes;           // [kBeamNodes]
-    uint first_node;               // of this level
+    GPU_CONST_PTR(uint64_t) rows; // of the beam grid; level 2 only
+    GPU_PTR(uint64_t) masks;      // [kBeamMasks] in Morton order of their level
+    GPU_PTR(Node) nodes;          // [kBeamNodes]
+};
+
+struct BeamRefineParams // push constants of trace/beam_refine: one thread a cell of the beam grid
+{
+    GPU_CONST_PTR(Node) octree;
+    GPU_CONST_PTR(uint64_t) masks;
+    GPU_PTR(Node) nodes;
 };
 
 struct BeamParams // push constants of trace/beam: one thread a tile
 {
-    GPU_CONST_PTR(Node) nodes;   // of the beam grid
-    GPU_PTR(float) starts;       // [tiles] row by row: where its rays may start, or kTileDead
-    GPU_PTR(uvec2) live;         // [tiles] x | y << 16, bits of the start: of tiles that are not dead
+    GPU_CONST_PTR(Node) nodes; // of the beam grid
+    GPU_PTR(float) starts;     // [tiles] row by row: where its rays may start, or kTileDead
+    GPU_PTR(uvec2) live; // [tiles] x | y << 16, bits of the start: of tiles that are not dead; filled with kNoTile
     GPU_PTR(DispatchArgs) args;  // [1] cleared; one workgroup a live tile
     GPU_PTR(TraceStatus) status; // [1]
     CameraRays camera;
@@ -118,7 +135,7 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Attribute) attributes;      // of voxels; kHasAttributes only
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
     GPU_PTR(TraceStatus) status;
-    GPU_PTR(uint) light; // [width * height] bits of light that arrives: kLightSun; undefined in dead tiles
+    GPU_PTR(uint) light; // [width * height] light that arrives; undefined in dead tiles
     vec3 forward;        // of the camera
     vec3 step_x;
     vec3 step_y;
@@ -128,27 +145,56 @@ struct ShadowParams // push constants of trace/shadow
     uint height;
 };
 
-struct ShadeParams // push constants of trace/shade
+struct OcclusionParams // push constants of trace/occlusion
 {
-    GPU_CONST_PTR(float) starts;
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uvec2) live;
     GPU_CONST_PTR(Hit) hits;
-    GPU_CONST_PTR(uint) light; // of trace/shadow; kViewIterations: the iterations
     GPU_CONST_PTR(Attribute) attributes;
     GPU_CONST_PTR(Attribute) node_attributes;
-    GPU_CONST_PTR(uvec2) emission_words;
-    GPU_CONST_PTR(uint) emission;
-    GPU_PTR(uint) image; // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
+    GPU_PTR(TraceStatus) status;
+    GPU_PTR(uint) light;
     vec3 forward;
     vec3 step_x;
     vec3 step_y;
-    vec3 to_sun;
-    uint size; // width | height << 16
-    float emission_scale;
-    float sun; // irradiance
+    uint width;
+    uint height;
+    uint ray_count;
+    float radius; // unit space
+};
+
+struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a column
+{
+    GPU_PTR(uint) image; // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
+    vec3 forward;        // of the camera
+    vec3 step_x;
+    vec3 step_y;
+    vec3 to_sun; // length 1
+    uint width;
+    uint height;
+    float sun; // strength
     float exposure;
 };
 
-const uint kLightSun = 255u; // mask in ShadowParams::light
+struct ShadeParams // push constants of trace/shade
+{
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(uint) light;           // of trace/shadow and trace/occlusion; kViewIterations: the iterations
+    GPU_CONST_PTR(Attribute) attributes; // of voxels
+    GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_CONST_PTR(uvec2) emission_words;
+    GPU_CONST_PTR(uint) emission;
+    GPU_PTR(uint) image;
+    vec3 forward;
+    vec3 step_x;
+    vec3 step_y;
+    vec3 sun; // towards it, as long as it is strong
+    uint width;
+    uint height;
+    float emission_scale;
+    float exposure;
+};
 
 GPU_NAMESPACE_END
 

@@ -14,8 +14,8 @@ namespace zvo
 namespace
 {
 
-constexpr double kFramingFov = 0.6;     // radians
-constexpr double kFramingMargin = 1.05; // of the distance
+constexpr double kFramingFov = 0.6;   // radians
+constexpr double kFramingFill = 0.92; // of the picture
 const glm::dvec3 kFramingDirection(-0.55, -0.42, -0.85);
 
 bool isFinite(const glm::dvec3& v)
@@ -32,6 +32,57 @@ void setAxes(ViewCamera& camera, const glm::dvec3& direction)
     camera.right = glm::normalize(glm::cross(camera.forward, upright));
     camera.up = glm::cross(camera.right, camera.forward);
 }
+
+/// The nearest camera with a given direction that shows a set of points.
+///
+/// In the camera's axes, with forward as z, a camera at c shows the points for which |x - c.x| <= t.x (z - c.z) and
+/// |y - c.y| <= t.y (z - c.z). Per axis and side that bounds one linear function of c by its maximum over the points.
+class Frame
+{
+public:
+    explicit Frame(double aspect)
+    {
+        m_camera.vertical_fov = kFramingFov;
+        setAxes(m_camera, kFramingDirection);
+        const double tangent = kFramingFill * std::tan(0.5 * kFramingFov);
+        m_tangent = {tangent * aspect, tangent};
+    }
+
+    void include(const glm::dvec3& point)
+    {
+        const glm::dvec2 across(glm::dot(point, m_camera.right), glm::dot(point, m_camera.up));
+        const double depth = glm::dot(point, m_camera.forward);
+        if (!isFinite(point))
+        {
+            return;
+        }
+        m_high = glm::max(m_high, across - m_tangent * depth);
+        m_low = glm::max(m_low, -across - m_tangent * depth);
+        m_nearest = std::min(m_nearest, depth);
+    }
+
+    [[nodiscard]] ViewCamera camera() const
+    {
+        if (!std::isfinite(m_nearest))
+        {
+            return m_camera; // there are no points
+        }
+        const glm::dvec2 across = 0.5 * (m_high - m_low);
+        const glm::dvec2 depths = -0.5 * (m_high + m_low) / m_tangent;
+        double depth = std::min(depths.x, depths.y);
+        depth = depth < m_nearest ? depth : m_nearest - 1.0; // a single point
+        ViewCamera camera = m_camera;
+        camera.position = across.x * camera.right + across.y * camera.up + depth * camera.forward;
+        return camera;
+    }
+
+private:
+    ViewCamera m_camera;
+    glm::dvec2 m_tangent{1.0};
+    glm::dvec2 m_high{-INFINITY};
+    glm::dvec2 m_low{-INFINITY};
+    double m_nearest = INFINITY;
+};
 
 } // namespace
 
@@ -77,29 +128,28 @@ ViewCamera ViewCamera::lookAt(const glm::dvec3& eye, const glm::dvec3& target, d
     return view;
 }
 
+ViewCamera ViewCamera::framing(const Scene& scene, double aspect)
+{
+    Frame frame(aspect);
+    for (const Instance& instance : scene.instances)
+    {
+        for (const glm::vec3& position : scene.primitives.at(instance.primitive).positions)
+        {
+            frame.include(transformPoint(instance.transform, position));
+        }
+    }
+    return frame.camera();
+}
+
 ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect)
 {
-    const glm::dvec3 low(bounds.min);
-    const glm::dvec3 high(bounds.max);
-    const glm::dvec3 centre = 0.5 * (low + high);
-    ViewCamera view;
-    view.vertical_fov = kFramingFov;
-    setAxes(view, kFramingDirection);
-    const double tangent_y = std::tan(0.5 * kFramingFov);
-    const double tangent_x = tangent_y * aspect;
-    double distance = 0.0;
+    Frame frame(aspect);
     for (int corner = 0; corner < 8; ++corner)
     {
-        const glm::dvec3 point((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                               (corner & 4) != 0 ? high.z : low.z);
-        const glm::dvec3 offset = point - centre;
-        const double depth = glm::dot(offset, view.forward);
-        distance = std::max({distance, std::abs(glm::dot(offset, view.right)) / tangent_x - depth,
-                             std::abs(glm::dot(offset, view.up)) / tangent_y - depth});
+        frame.include({(corner & 1) != 0 ? bounds.max.x : bounds.min.x, (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                       (corner & 4) != 0 ? bounds.max.z : bounds.min.z});
     }
-    distance = distance > 0.0 ? distance * kFramingMargin : 1.0; // a single point
-    view.position = centre - distance * view.forward;
-    return view;
+    return frame.camera();
 }
 
 ViewCamera ViewCamera::turnedAround(const glm::dvec3& centre, double radians) const

@@ -28,8 +28,11 @@ struct ViewCamera
     /// point or not finite, or if the field of view (radians) is not inside (0, pi).
     static ViewCamera lookAt(const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov);
 
-    /// A three-quarter view from the front, right and above in which all of bounds fills a picture whose width is
-    /// aspect times its height. bounds must not be empty.
+    /// A three-quarter view from the front, right and above in which the scene's vertices fill a picture whose width is
+    /// aspect times its height, as near as that goes.
+    static ViewCamera framing(const Scene& scene, double aspect);
+
+    /// The same for the corners of a box.
     static ViewCamera framing(const Bounds& bounds, double aspect);
 
     /// This camera turned about the vertical axis through centre, counterclockwise as seen from above.

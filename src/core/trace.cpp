@@ -13,6 +13,8 @@ namespace
 {
 
 constexpr float kDirectionMin = 1e-20F; // as in lib/ray.glsl
+constexpr std::uint32_t kOcclusionRaysMax = 64;
+constexpr std::uint32_t kBlack = 255U << 24;
 
 struct PictureTiles
 {
@@ -31,6 +33,12 @@ struct PictureTiles
 bool isEmpty(const Octree& octree)
 {
     return octree.node_count == 0;
+}
+
+// Whether the octree has cells as small as the beam grid's finer ones.
+bool hasFineBeam(const Octree& octree)
+{
+    return octree.grid.nodeLevels() > gpu::kBeamLevels;
 }
 
 bool hasDetail(const TraceOptions& options)
@@ -95,14 +103,41 @@ std::uint32_t coprimeStride(std::uint32_t count)
     return stride;
 }
 
+bool needsLight(const TraceOptions& options)
+{
+    return options.view == View::Color && (options.shadows || options.occlusion_rays != 0);
+}
+
+// What the passes have in common that trace rays from hits.
+template <typename Params>
+Params lightParams(vk::Pass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+{
+    Params params{};
+    params.nodes = pass.read(octree.nodes);
+    params.live = pass.read(buffers.live);
+    params.hits = pass.read(buffers.hits);
+    params.attributes = pass.read(octree.voxel_attributes);
+    params.node_attributes = pass.read(octree.node_attributes);
+    params.status = pass.readWrite(buffers.status);
+    params.forward = camera.rays.forward;
+    params.step_x = camera.rays.step_x;
+    params.step_y = camera.rays.step_y;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    return params;
+}
+
 void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
                const TraceOptions& options, TraceBuffers& buffers)
 {
+    graph.fill(buffers.live, gpu::kNoTile);
     graph.fill(buffers.args, 0);
     graph.fill(buffers.status, 0);
     const PictureTiles tiles(buffers);
-    const vk::Specialization constants = withFlags({gpu::kBeamLevels, static_cast<std::uint32_t>(options.stack), 0U},
-                                                   {camera.orthographic, options.beam, isEmpty(octree)});
+    const bool fine = hasFineBeam(octree);
+    const vk::Specialization constants =
+        withFlags({gpu::kBeamLevels + (fine ? 1 : 0), static_cast<std::uint32_t>(options.stack), fine ? 1U : 0U},
+                  {camera.orthographic, options.beam, isEmpty(octree)});
     vk::Pass pass = graph.addPass("trace/beam", constants);
     gpu::BeamParams params{};
     params.nodes = pass.read(beam.nodes);
@@ -121,7 +156,7 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
 
 BeamGrid::BeamGrid(vk::Device& device)
     : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
-      masks(device, "beam masks", gpu::kBeamGroup), nodes(device, "beam nodes", gpu::kBeamNodes)
+      masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes)
 {
 }
 
@@ -156,19 +191,19 @@ void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam)
         const gpu::BeamDilateParams params = {pass.read(beam.occupied), pass.write(beam.rows), cells};
         pass.dispatch(gpu::kBeamRows, params);
     }
+    for (const bool level2 : {true, false})
     {
-        vk::Pass pass = graph.addPass("trace/beam_nodes", {1});
-        const gpu::BeamNodesParams params = {pass.read(beam.rows), pass.write(beam.masks), pass.write(beam.nodes),
-                                             gpu::kBeamFirst2};
-        pass.dispatch(gpu::kBeamGroup * gpu::kBeamGroup, params);
+        vk::Pass pass = graph.addPass("trace/beam_nodes", {level2 ? 1U : 0U});
+        const gpu::BeamNodesParams params = {pass.read(beam.rows), pass.readWrite(beam.masks),
+                                             pass.readWrite(beam.nodes)};
+        pass.dispatch(gpu::kBeamGroup * (level2 ? gpu::kBeamGroup : 1), params);
     }
+    if (hasFineBeam(octree))
     {
-        vk::Pass pass = graph.addPass("trace/beam_nodes", {0});
-        gpu::BeamNodesParams params{};
-        params.masks = pass.read(beam.masks);
-        params.nodes = pass.readWrite(beam.nodes);
-        params.first_node = gpu::kBeamFirst1;
-        pass.dispatch(gpu::kBeamGroup, params);
+        vk::Pass pass = graph.addPass("trace/beam_refine");
+        const gpu::BeamRefineParams params = {pass.read(octree.nodes), pass.read(beam.masks),
+                                              pass.readWrite(beam.nodes)};
+        pass.dispatch(gpu::kBeamRows * gpu::kBeamGroup, params);
     }
 }
 
@@ -192,66 +227,91 @@ void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& b
     pass.dispatchIndirect(buffers.args, 0, params);
 }
 
-void traceShadows(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
-                  TraceBuffers& buffers)
+void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+                TraceBuffers& buffers)
 {
-    const gpu::vec3 to_sun = sunDirection(options);
-    vk::Pass pass = graph.addPass("trace/shadow", withFlags(traverseConstants(octree, options),
-                                                            {camera.orthographic, usesAttributes(octree, options)}));
-    gpu::ShadowParams params{};
-    params.nodes = pass.read(octree.nodes);
-    params.live = pass.read(buffers.live);
-    params.hits = pass.read(buffers.hits);
-    params.attributes = pass.read(octree.voxel_attributes);
-    params.node_attributes = pass.read(octree.node_attributes);
-    params.status = pass.readWrite(buffers.status);
-    params.light = pass.write(buffers.light);
-    params.forward = camera.rays.forward;
-    params.step_x = camera.rays.step_x;
-    params.step_y = camera.rays.step_y;
-    params.to_sun = to_sun;
-    params.to_sun_inverse = {inverse(to_sun.x), inverse(to_sun.y), inverse(to_sun.z)};
-    params.width = buffers.width;
-    params.height = buffers.height;
-    pass.dispatchIndirect(buffers.args, 0, params);
+    const vk::Specialization constants =
+        withFlags(traverseConstants(octree, options), {camera.orthographic, usesAttributes(octree, options)});
+    if (options.shadows)
+    {
+        const gpu::vec3 to_sun = sunDirection(options);
+        vk::Pass pass = graph.addPass("trace/shadow", constants);
+        auto params = lightParams<gpu::ShadowParams>(pass, octree, camera, buffers);
+        params.light = pass.write(buffers.light);
+        params.to_sun = to_sun;
+        params.to_sun_inverse = {inverse(to_sun.x), inverse(to_sun.y), inverse(to_sun.z)};
+        pass.dispatchIndirect(buffers.args, 0, params);
+    }
+    if (options.occlusion_rays != 0)
+    {
+        const Grid& grid = octree.grid;
+        vk::Pass pass = graph.addPass("trace/occlusion", withFlags(constants, {options.shadows}));
+        auto params = lightParams<gpu::OcclusionParams>(pass, octree, camera, buffers);
+        params.light = pass.readWrite(buffers.light);
+        params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
+        params.radius =
+            options.occlusion_reach * static_cast<float>(grid.resolution()) / static_cast<float>(grid.rootResolution());
+        pass.dispatchIndirect(buffers.args, 0, params);
+    }
 }
 
 void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers)
 {
-    const PictureTiles tiles(buffers);
+    const gpu::vec3 to_sun = sunDirection(options);
+    if (options.view == View::Color)
+    {
+        vk::Pass pass = graph.addPass("trace/sky", withFlags({}, {camera.orthographic}));
+        gpu::SkyParams params{};
+        params.image = pass.write(buffers.image);
+        params.forward = camera.rays.forward;
+        params.step_x = camera.rays.step_x;
+        params.step_y = camera.rays.step_y;
+        params.to_sun = to_sun;
+        params.width = buffers.width;
+        params.height = buffers.height;
+        params.sun = options.sun;
+        params.exposure = options.exposure;
+        const std::uint64_t rows = (buffers.height + gpu::kSkyRows - 1) / gpu::kSkyRows;
+        pass.dispatch(rows * buffers.width, params);
+    }
+    else
+    {
+        graph.fill(buffers.image, kBlack);
+    }
     const bool attributes = usesAttributes(octree, options);
     const vk::Specialization constants =
         withFlags({static_cast<std::uint32_t>(options.view), octree.grid.nodeLevels()},
-                  {camera.orthographic, attributes, attributes && octree.emission.count() != 0, options.shadows});
+                  {camera.orthographic, attributes, attributes && octree.emission.count() != 0,
+                   needsLight(options) || options.view == View::Iterations});
     vk::Pass pass = graph.addPass("trace/shade", constants);
     gpu::ShadeParams params{};
-    params.starts = pass.read(buffers.starts);
+    params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
     params.light = pass.read(buffers.light);
     params.attributes = pass.read(octree.voxel_attributes);
     params.node_attributes = pass.read(octree.node_attributes);
     params.emission_words = pass.read(octree.emission_words);
     params.emission = pass.read(octree.emission);
-    params.image = pass.write(buffers.image);
+    params.image = pass.readWrite(buffers.image);
     params.forward = camera.rays.forward;
     params.step_x = camera.rays.step_x;
     params.step_y = camera.rays.step_y;
-    params.to_sun = sunDirection(options);
-    params.size = buffers.width | buffers.height << 16;
+    params.sun = options.sun * to_sun;
+    params.width = buffers.width;
+    params.height = buffers.height;
     params.emission_scale = octree.emission_scale;
-    params.sun = options.sun;
     params.exposure = options.exposure;
-    pass.dispatch(std::uint64_t{tiles.x} * tiles.y * gpu::kTilePixels, params);
+    pass.dispatchIndirect(buffers.args, 0, params);
 }
 
 void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers)
 {
     tracePrimary(graph, octree, beam, camera, options, buffers);
-    if (options.view == View::Color && options.shadows)
+    if (needsLight(options))
     {
-        traceShadows(graph, octree, camera, options, buffers);
+        traceLight(graph, octree, camera, options, buffers);
     }
     shade(graph, octree, camera, options, buffers);
 }

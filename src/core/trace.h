@@ -36,10 +36,12 @@ struct TraceOptions
     TraceStack stack = TraceStack::Registers;
     bool beam = true;                    // skip what the beam grid shows to be empty; the picture is the same
     bool shadows = true;                 // View::Color: trace a ray to the sun
-    glm::dvec3 to_sun{0.35, 0.75, 0.55}; // direction, any length
-    float sun = 3.0F;                    // strength
+    glm::dvec3 to_sun{-0.6, 0.75, 0.45}; // direction, any length
+    float sun = 2.2F;                    // strength
     float exposure = 1.0F;
-    float detail_pixels = 0.0F;              // stop at nodes that are at most this many pixels wide; 0: go on to voxels
+    std::uint32_t occlusion_rays = 0; // View::Color: for each hit, to find how much of the sky it sees; at most 64
+    float occlusion_reach = 0.1F;     // of these rays, as a part of the grid's edge
+    float detail_pixels = 0.0F;       // stop at nodes that are at most this many pixels wide; 0: go on to voxels
     std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
 };
 
@@ -50,7 +52,7 @@ struct BeamGrid
 
     vk::BufferOf<uint64_t> occupied; // [kBeamRows]
     vk::BufferOf<uint64_t> rows;     // [kBeamRows]
-    vk::BufferOf<uint64_t> masks;    // [kBeamGroup]
+    vk::BufferOf<uint64_t> masks;    // [kBeamMasks]
     vk::BufferOf<gpu::Node> nodes;   // [kBeamNodes]
 };
 
@@ -62,7 +64,7 @@ struct TraceBuffers
     std::uint32_t width;
     std::uint32_t height;
     vk::BufferOf<float> starts;            // [tiles] of kTileEdge^2 pixels, row by row: kTileDead where nothing is hit
-    vk::BufferOf<gpu::uvec2> live;         // [tiles] the others, in any order
+    vk::BufferOf<gpu::uvec2> live;         // [tiles] the others, in any order, then kNoTile
     vk::BufferOf<gpu::DispatchArgs> args;  // [1] one workgroup for each of them
     vk::BufferOf<gpu::TraceStatus> status; // [1]
     vk::BufferOf<gpu::Hit> hits;           // [width * height]; undefined in dead tiles
@@ -70,7 +72,8 @@ struct TraceBuffers
     vk::BufferOf<gpu::uint> image;         // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
 };
 
-/// Records the passes that make the beam grid of octree: once for each octree. Cost: constant.
+/// Records the passes that make the beam grid of octree: once for each octree. Cost: constant, and the cells
+/// that the octree touches in the beam grid.
 void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam);
 
 /// Records the passes that find what each pixel's ray hits first: fills buffers.starts, live, args, status, hits (and
@@ -78,11 +81,11 @@ void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam);
 void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers);
 
-/// Records the pass that finds which hits the sun reaches: fills buffers.light.
-void traceShadows(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
-                  TraceBuffers& buffers);
+/// Records the passes that options ask for to find how much light of sun and sky arrives at hits: fills buffers.light.
+void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+                TraceBuffers& buffers);
 
-/// Records the pass that makes buffers.image from hits and light.
+/// Records the passes that make buffers.image from hits and, as far as options ask for it, light.
 void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers);
 

@@ -72,7 +72,7 @@ const std::vector<ErrorCase>& errorCases()
         {"EmptyFile", 3, {"voxelize", "empty.glb", "-o", "a.ply"}, {"empty.glb"}, {}},
         {"MissingBuffer", 3, {"voxelize", "no_buffer.gltf", "-o", "a.ply"}, {"absent.bin"}, {}},
         {"UnknownRequiredExtension", 3, {"voxelize", "extension.glb", "-o", "a.ply"}, {"EXT_from_the_future"}, {}},
-        {"NoUsualScenes", 3, {"bench", "--scenes", "."}, {"bunny_low.glb"}, {}},
+        {"BenchOfMissingFile", 3, {"bench", "absent.glb"}, {"absent.glb"}, {}},
 
         {"PictureExists", 4, {"render", "cube.glb", "-o", "taken.png"}, {"taken.png", "-f"}, {}},
         {"ReportExists", 4, {"render", "cube.glb", "-o", "a.png", "--json", "taken.png"}, {"taken.png", "-f"}, {}},

@@ -256,6 +256,26 @@ TEST(TracePicture, AWallShadesWhatIsBehindIt)
     EXPECT_GT(unshaded.image.at(16 * 64 + 26) & 255U, red(26, 16) + 40);
 }
 
+TEST(TracePicture, OcclusionDarkensCorners)
+{
+    // A floor and a wall behind it, seen from above, in the shade.
+    const Octree octree = test::octreeOf(
+        device(), test::codesWhere(6, [](const glm::uvec3& v) { return v.y == 0 || (v.z == 0 && v.y < 30); }), 6);
+    const TraceCamera camera = traceCamera(ViewCamera::lookAt({32, 60, 33}, {32, 0, 32}, 0.9), octree.grid, 64);
+    TraceOptions options;
+    options.sun = 0.0F;
+    options.shadows = false;
+    options.occlusion_rays = 16;
+    options.occlusion_reach = 0.3F;
+    const Picture picture = take(octree, camera, 64, 64, options);
+    const auto red = [&](int y) { return picture.image.at(static_cast<std::size_t>(y * 64 + 32)) & 255U; };
+    EXPECT_GT(red(40), 20U);
+    EXPECT_LT(red(4) + 20, red(40)); // beside the wall
+    options.occlusion_rays = 0;
+    const Picture open = take(octree, camera, 64, 64, options);
+    EXPECT_LE(red(4), open.image.at(4 * 64 + 32) & 255U);
+}
+
 TEST(TracePicture, DetailShowsCoarserNodesFartherAway)
 {
     Octree octree = test::octreeOf(device(), test::codesWhere(7, [](const glm::uvec3& v) { return v.y == 3; }), 7);
@@ -286,7 +306,7 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
             {
                 ZVO_EXPECT_OFFSET(ShadeParams, image);
                 ZVO_EXPECT_OFFSET(ShadeParams, step_y);
-                ZVO_EXPECT_OFFSET(ShadeParams, size);
+                ZVO_EXPECT_OFFSET(ShadeParams, sun);
                 ZVO_EXPECT_OFFSET(ShadeParams, exposure);
                 ++checked;
             }

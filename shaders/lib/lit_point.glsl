@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Where rays start that gather light for a hit. The includer includes trace/trace.h, lib/attribute.glsl, lib/hit.glsl,
+// lib/surface_normal.glsl and lib/traverse.glsl before.
+
+struct LitPoint
+{
+    vec3 normal;
+    vec3 origin; // above the middle of the voxel
+    float edge;  // of the voxel, in unit space
+};
+
+// Lifted along both normals, so that neither the voxel nor the steps of the surface around it are in the way.
+const float kLiftFace = 0.75; // voxels
+const float kLiftNormal = 0.75;
+
+// direction: of the ray that hit. Without attributes, nor for a miss, the pointers are not used.
+LitPoint litPoint(Hit hit, vec3 direction, bool has_attributes, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes)
+{
+    vec3 face_normal = faceNormal(hitFace(hit), direction);
+    LitPoint point;
+    point.normal = face_normal;
+    if (has_attributes && !isMiss(hit))
+    {
+        bool voxel = !kDetail || hitLevel(hit) == kNodeLevels;
+        uint64_t attributes = voxel ? uint64_t(voxels) : uint64_t(nodes);
+        point.normal = shadingNormal(Attribute_ConstPtr(attributes).data[hit.index].normal, face_normal, direction);
+    }
+    point.edge = exp2(-2.0 * float(hitLevel(hit)));
+    vec3 middle = 1.0 + (vec3(hitCell(hit)) + 0.5) * point.edge;
+    point.origin = middle + point.edge * (kLiftFace * face_normal + kLiftNormal * point.normal);
+    return point;
+}

@@ -1,0 +1,74 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// How much of the sky light arrives at hits: a few short rays, spread over the hemisphere by the cosine in the same fixed
+// pattern for every pixel (a Fibonacci lattice). One workgroup a live tile.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/attribute.glsl"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/ray.glsl"
+#include "lib/surface_normal.glsl"
+
+layout(constant_id = 3) const bool kOrthographic = false;
+layout(constant_id = 4) const bool kAttributes = true;
+layout(constant_id = 5) const bool kShadows = true; // trace/shadow has run
+
+layout(local_size_x = kTilePixels) in;
+layout(push_constant, scalar) uniform Push
+{
+    OcclusionParams params;
+};
+
+#define TRAVERSE_GROUP kTilePixels
+#include "lib/octree_half.glsl"
+#include "lib/traverse.glsl"
+#include "lib/lit_point.glsl"
+
+const float kGoldenAngle = 2.39996323;
+
+// Axes orthogonal to a normal (T. Duff et al., Building an Orthonormal Basis, Revisited, 2017).
+mat3 frameAround(vec3 n)
+{
+    float sign = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (sign + n.z);
+    float b = n.x * n.y * a;
+    return mat3(vec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y), n);
+}
+
+void main()
+{
+    uvec2 size = uvec2(params.width, params.height);
+    uvec2 tile = params.live.data[workgroupIndex()];
+    if (tile.x == kNoTile)
+        return;
+    uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    uint i = pixel.y * size.x + pixel.x;
+    Hit hit = loadHit(params.hits, i);
+    vec3 direction = params.forward;
+    if (!kOrthographic)
+        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+    LitPoint point = litPoint(hit, direction, kAttributes, params.attributes, params.node_attributes);
+    mat3 frame = frameAround(point.normal);
+    float end = isMiss(hit) ? 0.0 : params.radius;
+    g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    float open = 0.0;
+    bool capped = false;
+    for (uint k = 0u; k < params.ray_count; ++k)
+    {
+        float u = (float(k) + 0.5) / float(params.ray_count);
+        float angle = kGoldenAngle * float(k);
+        vec3 toward = frame * vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));
+        Traversal ray = traverse(point.origin, inverseDirection(toward), kTraceTimeMin, end, vec2(0.0));
+        float reached = ray.hit ? ray.t / max(end, kTraceTimeMin) : 1.0;
+        open += reached;
+        capped = capped || ray.capped;
+    }
+    if (capped)
+        atomicAdd(params.status.data[0].capped_rays, 1u);
+    uint arriving = uint(255.0 * open / float(params.ray_count) + 0.5);
+    params.light.data[i] = (kShadows ? params.light.data[i] & kLightSun : kLightSun) | (arriving << kLightSkyShift);
+}

@@ -1,0 +1,39 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// A picture of the sky alone.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/camera.glsl"
+#include "lib/color.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/sky.glsl"
+
+layout(constant_id = 0) const bool kOrthographic = false;
+
+layout(local_size_x = kSkyGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    SkyParams params;
+};
+
+const float kSunDisc = 4.0; // radiance of the sun's disc by its strength
+
+vec3 skyColor(uvec2 pixel, uvec2 size)
+{
+    vec3 direction = params.forward;
+    if (!kOrthographic)
+        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+    direction = normalize(direction);
+    vec3 radiance = skyRadiance(direction) + kSunDisc * params.sun * sunDisc(direction, params.to_sun) * kSunColor;
+    return develop(radiance, params.exposure, pixel);
+}
+
+void main()
+{
+    uvec2 size = uvec2(params.width, params.height);
+    uint column = threadIndex() % size.x;
+    uint first = threadIndex() / size.x * kSkyRows;
+    uint last = min(first + kSkyRows, size.y);
+    for (uint y = first; y < last; ++y)
+        params.image.data[y * size.x + column] = packColor8(skyColor(uvec2(column, y), size));
+}

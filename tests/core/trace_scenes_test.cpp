@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Rays through the octrees of whole scenes against the reference, bit for bit.
+#include "core/gltf_loader.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "support/device.h"
+#include "support/scenes.h"
+#include "support/trace_rays.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo
+{
+namespace
+{
+
+constexpr std::uint32_t kRayCount = 100000;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+class TraceScenes : public testing::TestWithParam<const char*>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TraceScenes,
+                         testing::Values("bunny.glb", "dragon.glb", "buddha_113k.glb", "atrium.glb"),
+                         [](const auto& test_case)
+                         {
+                             const std::string name = test_case.param;
+                             return name.substr(0, name.find('.'));
+                         });
+
+TEST_P(TraceScenes, HitsEqualTheReference)
+{
+    std::filesystem::path path = test::ownScene(GetParam());
+    if (!std::filesystem::exists(path))
+    {
+        const auto shared = test::sharedScene(GetParam());
+        if (!shared)
+        {
+            GTEST_SKIP() << GetParam() << " is not there";
+        }
+        path = *shared;
+    }
+    const Scene scene = loadGltf(path);
+    const GpuScene gpu_scene = uploadScene(device(), scene, false);
+    for (const std::uint32_t depth : {7U, 8U})
+    {
+        for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
+        {
+            const Grid grid = Grid::around(scene.bounds(), depth);
+            const Octree octree = buildOctree(device(), gpu_scene, grid, {coverage, false, {}}).octree;
+            test::expectEqualsReference(device(), octree, voxelCodes(device(), octree), kRayCount, {}, false);
+        }
+    }
+}
+
+} // namespace
+} // namespace zvo

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Lists of rays on the device, and their comparison with the reference.
+#pragma once
+
+#include "core/trace.h"
+#include "oracle/trace.h"
+#include "support/trace_octrees.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// A hit as the device stores it, taken apart.
+struct DeviceHit
+{
+    float t = 0.0F;
+    std::uint32_t index = 0;
+    std::uint32_t face = 0;
+    std::uint32_t level = 0;
+    glm::uvec3 cell{0U};
+};
+
+/// Nothing for a miss.
+std::optional<DeviceHit> unpack(const gpu::Hit& hit);
+
+gpu::Ray deviceRay(const oracle::Ray& ray, float t_max = std::numeric_limits<float>::infinity());
+
+/// Rays from inside, outside and far away; some along axes and diagonals, some from and through corners of voxels, some
+/// almost parallel to planes. resolution: of the root cube. very_far: some from a million cubes away, where many planes
+/// fall together and the reference has to look at almost every voxel.
+oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes& codes, bool very_far = true);
+
+/// Hits of rays, in their order; expects that no ray ran into the cap on iterations.
+std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const Octree& octree, const std::vector<gpu::Ray>& rays,
+                                    const TraceOptions& options = {});
+
+/// Traces count rays of many kinds through octree, which holds codes, and expects that voxel, t and face of each equal
+/// the reference's bit for bit, and that some of them hit.
+void expectEqualsReference(vk::HeadlessDevice& device, const Octree& octree, const Codes& codes, std::uint32_t count,
+                           const TraceOptions& options = {}, bool very_far = true);
+
+} // namespace zvo::test
