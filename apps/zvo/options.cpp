@@ -35,7 +35,7 @@ constexpr const char* kRenderFooter = R"(
 Examples:
   zvo render scenes/atrium.glb -o atrium.png --json atrium.json
   zvo render bunny.glb -o bunny.png --resolution 1024 --view normal
-  zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60
+  zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60 --occlusion 16
   zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f)";
 
 constexpr const char* kVoxelizeFooter = R"(
@@ -161,6 +161,9 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
         [](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 0, kOcclusionRaysMax)); },
         "RAYS", "rays a pixel that find how much of the sky it sees, 0 to 64 (default 0)");
+    addValue(*render, "--sun", options.to_sun, parseDirection, "x,y,z",
+             "direction to the sun (default -0.6,0.75,0.45)");
+    addValue(*render, "--exposure", options.exposure, parsePositive, "FACTOR", "brightness of the picture (default 1)");
     addValue(*render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(*render, "--frames", options.frames, parseFrames, "A..B",

@@ -60,7 +60,9 @@ struct RenderOptions
     std::string camera; // as given; empty: the scene's first one, or a fitting one
     View view = View::Color;
     std::uint32_t occlusion_rays = 0; // a pixel
-    float detail_pixels = 0.0F;       // rays stop at octree nodes up to this wide
+    std::optional<glm::dvec3> to_sun; // direction, any length
+    float exposure = 1.0F;
+    float detail_pixels = 0.0F; // rays stop at octree nodes up to this wide
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames;
 };
 

@@ -181,6 +181,20 @@ Bounds parseBounds(std::string_view option, std::string_view text)
     throw valueError(option, text, "x0,y0,z0,x1,y1,z1 with x0 <= x1, y0 <= y1, z0 <= z1 and not all equal");
 }
 
+glm::dvec3 parseDirection(std::string_view option, std::string_view text)
+{
+    const auto values = tryParseFloats(text);
+    if (values && values->size() == 3)
+    {
+        const glm::dvec3 direction((*values)[0], (*values)[1], (*values)[2]);
+        if (direction != glm::dvec3(0.0))
+        {
+            return direction;
+        }
+    }
+    throw valueError(option, text, "x,y,z, not all 0");
+}
+
 Coverage parseCoverage(std::string_view option, std::string_view text)
 {
     if (text != "thin" && text != "conservative")

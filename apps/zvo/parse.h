@@ -22,6 +22,9 @@ std::uint64_t parseInteger(std::string_view option, std::string_view text, std::
 /// A finite number above 0.
 float parsePositive(std::string_view option, std::string_view text);
 
+/// Three finite numbers with commas between them, not all 0.
+glm::dvec3 parseDirection(std::string_view option, std::string_view text);
+
 /// Finite numbers with commas between them.
 std::vector<float> parseFloats(std::string_view option, std::string_view text);
 

@@ -118,6 +118,8 @@ public:
         m_options.view = options.view;
         m_options.detail_pixels = options.detail_pixels;
         m_options.occlusion_rays = options.occlusion_rays;
+        m_options.exposure = options.exposure;
+        m_options.to_sun = options.to_sun.value_or(m_options.to_sun);
         m_beam_passes = device.run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, m_beam); });
     }
 
