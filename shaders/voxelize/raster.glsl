@@ -47,12 +47,20 @@ EDGE_IVEC3 edgeSupport(EDGE_IVEC3 a, EDGE_IVEC3 b)
     return kCoverage == kCoverageConservative ? half_a + half_b : max(half_a, half_b);
 }
 
-// n: the exact normal (of the lattice points as they are); low, high: touched voxels in x, y, z.
-RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, EDGE_IVEC3 n, ivec3 low, ivec3 high, int resolution)
+// Which of x, y, z is w. A triangle without area has no major axis: w is the axis along which its box is thinnest, so
+// that a column has few layers to try. low, high: touched voxels.
+uint majorAxis(i64vec3 n, ivec3 low, ivec3 high)
 {
-    EDGE_IVEC3 size = abs(n);
+    i64vec3 size = n == i64vec3(0) ? i64vec3(low - high) : abs(n);
+    return size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
+}
+
+// n: the exact normal (of the lattice points as they are); low, high: touched voxels in x, y, z.
+RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, EDGE_IVEC3 n, uint axis, ivec3 low, ivec3 high,
+                             int resolution)
+{
     RasterTriangle t;
-    t.axis = size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
+    t.axis = axis;
     // Rows of the matrix are vertices; columns are picked in cyclic order from the axis after w.
     ivec3 x = ivec3(v0.x, v1.x, v2.x);
     ivec3 y = ivec3(v0.y, v1.y, v2.y);

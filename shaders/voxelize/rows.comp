@@ -91,7 +91,8 @@ void main()
     ivec3 high = max(big.v0, max(big.v1, big.v2)) >> kVoxelLatticeLog2;
     low = max(low, ivec3(0));
     high = min(high, ivec3(int(params.resolution) - 1));
-    RasterTriangle t = setupTriangle(big.v0, big.v1, big.v2, normal, low, high, int(params.resolution));
+    RasterTriangle t = setupTriangle(big.v0, big.v1, big.v2, normal, majorAxis(normal, low, high), low, high,
+                                     int(params.resolution));
     Surface surface = loadSurface(draw, vertices, vec3(normal), float(t.n_w));
 
     ivec2 column = t.low.xy + ivec2((block.position >> 16) * kBlockColumns,

@@ -77,12 +77,10 @@ void countDropped(uint fate)
 }
 
 // Columns and rows of the bounding box as voxelize/rows walks it.
-uvec2 rasterExtent(SnappedTriangle t)
+uvec2 rasterExtent(SnappedTriangle t, uint axis)
 {
-    u64vec3 size = u64vec3(abs(t.normal));
     ivec3 extent = t.high - t.low + 1;
-    bool is_x = size.x >= size.y && size.x >= size.z;
-    return uvec2(is_x ? extent.yz : (size.y >= size.z ? extent.zx : extent.xy));
+    return uvec2(axis == 0u ? extent.yz : (axis == 1u ? extent.zx : extent.xy));
 }
 
 void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uvec2 extent)
@@ -175,7 +173,8 @@ void main()
         return;
     uvec3 vertices = params.scene.data[0].triangles.data[draw.first_triangle + triangle];
     SnappedTriangle snapped = snapTriangle(draw, vertices);
-    uvec2 extent = rasterExtent(snapped);
+    uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
+    uvec2 extent = rasterExtent(snapped, axis);
     ivec3 size = max(snapped.v0, max(snapped.v1, snapped.v2)) - min(snapped.v0, min(snapped.v1, snapped.v2));
     bool small = max(size.x, max(size.y, size.z)) <= kSmallExtent && extent.x * extent.y <= kSmallColumns;
     bool kept = snapped.fate == kKept;
@@ -185,7 +184,7 @@ void main()
         if (kept && !small)
             listBigTriangle(snapped, chunk.draw, triangle, extent);
     }
-    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, ivec3(snapped.normal), snapped.low,
+    RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, ivec3(snapped.normal), axis, snapped.low,
                                      snapped.high, int(params.resolution));
     Surface surface = loadSurface(draw, vertices, vec3(snapped.normal), float(t.n_w));
     if (kCoverage == kCoverageThin)

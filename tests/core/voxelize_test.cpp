@@ -73,6 +73,7 @@ TEST_P(VoxelizeBothCoverages, HugeTrianglesFarBeyondTheGridEqualTheOracle)
     const std::vector<glm::vec3> crossing = {{-2e6F, 3, -1e6F}, {2e6F, 7, -2e6F}, {31, 12, 2e6F},
                                              {-1e6F, -1e6F, 9}, {1e6F, 1e6F, 11}, {1e6F, -1e6F, 2}};
     scene.append(test::triangleSoup(crossing));
+    EXPECT_GT(oracle::voxelize(scene, grid, GetParam()).codes.size(), 1000U) << "few of them cross the grid";
     expectEqualsOracle(scene, grid, GetParam());
 }
 
@@ -101,6 +102,21 @@ TEST_P(VoxelizeBothCoverages, SegmentsAndPointsEqualTheOracle)
                                            {200, 60, 70},
                                            {95, 31.65F, 37.5F}}),
                        grid, GetParam());
+}
+
+TEST_P(VoxelizeBothCoverages, LongSegmentsInAllDirectionsEqualTheOracle)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 10};
+    std::vector<glm::vec3> corners;
+    for (int direction = 1; direction < 27; ++direction) // every sum of axes, shortened along some
+    {
+        const glm::vec3 extent(static_cast<float>(direction % 3) * 511.5F,
+                               static_cast<float>(direction / 3 % 3) * 511.5F,
+                               static_cast<float>(direction / 9) * 511.5F);
+        const glm::vec3 start = (glm::vec3(1023.25F) - extent) * 0.5F;
+        corners.insert(corners.end(), {start, start + extent, start});
+    }
+    expectEqualsOracle(test::triangleSoup(corners), grid, GetParam());
 }
 
 TEST_P(VoxelizeBothCoverages, BadVerticesAreDroppedAndCounted)
