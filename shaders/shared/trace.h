@@ -52,9 +52,9 @@ const float kTraceTimeMax = 3.40282347e+38f; // largest float
 const uint kTraceStepsMax = 40000u; // iterations of one ray; lavapipe ends every loop after 65,535
 
 // Where a ray keeps the nodes above the current one: specialization constant of all kernels that trace.
-const uint kStackRegisters = 0u; // selects; fastest on lavapipe by 20 %
+const uint kStackRegisters = 0u; // selects; on lavapipe faster by half than shared memory
 const uint kStackPrivate = 1u;   // an indexed private array
-const uint kStackShared = 2u;    // shared memory: 7 words a thread
+const uint kStackShared = 2u;    // shared memory: 8 words a thread
 
 GPU_NAMESPACE_END
 
