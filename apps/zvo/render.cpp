@@ -90,7 +90,7 @@ struct PictureTimes
 {
     std::vector<vk::PassTime> passes;
     double trace_ms = 0; // beam and primary rays
-    double shade_ms = 0; // shadow rays and colour
+    double shade_ms = 0; // shadow and occlusion rays, and colour
 };
 
 // The time of the passes up to the primary rays: what comes after them is light and colour.

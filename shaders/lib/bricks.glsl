@@ -2,7 +2,7 @@
 // Lock-free find and insert in the brick table (shared/bricks.h). Linear probing; entries are never removed.
 #include "shared/bricks.h"
 
-const uint kNoEntry = 4294967295u;
+const uint kNoEntry = ~0u;
 
 // First entry to look at. Keys that differ in the lowest bits only stand side by side.
 uint brickHome(uint key, uint mask)

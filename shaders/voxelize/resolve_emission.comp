@@ -12,7 +12,8 @@ layout(push_constant, scalar) uniform Push
     ResolveEmissionParams params;
 };
 
-// 16-bit fractions to RGB9E5 (value = mantissa * 2^(exponent - 24)), rounded down by at most 9 bits' precision.
+// 16-bit fractions to RGB9E5 (value = mantissa * 2^(exponent - 24)): the exponent fits the largest channel, what lies
+// below nine bits is cut off.
 uint encodeRgb9e5(uvec3 fraction)
 {
     int top = findMSB(max(fraction.r, max(fraction.g, fraction.b)) | 1u);

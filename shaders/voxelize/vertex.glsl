@@ -25,7 +25,7 @@ vec3 latticePosition(vec3 world)
 
 bool isFinite(vec3 v)
 {
-    const uint exponent = 2139095040u; // of infinities and NaNs
+    const uint exponent = 255u << 23; // of infinities and NaNs
     uvec3 bits = floatBitsToUint(v) & exponent;
     return all(notEqual(bits, uvec3(exponent)));
 }

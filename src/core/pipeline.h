@@ -39,7 +39,8 @@ struct BuildResult
 
 /// Runs all of the static half on device: voxelize, build, attributes. Waits between the operations to learn sizes;
 /// what turns out too small grows, and the operation runs again. Throws Error{Memory} when the device's budget does not
-/// suffice. A scene without triangles in the grid gives an octree without nodes.
+/// suffice and Error{Usage} for a depth outside 1 to Grid::kDepthMax. A scene without triangles in the grid gives an
+/// octree without nodes.
 BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
                         const BuildOptions& options);
 

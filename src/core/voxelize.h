@@ -49,10 +49,9 @@ struct AttributeBuffers
 {
     AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission);
 
-    vk::BufferOf<gpu::uint> sums; // [voxel_count * kSumWords]
-    vk::BufferOf<gpu::uint>
-        max_fragments;                // [1] the most fragments of a voxel if that is too many for sum_shift, else 0
-    vk::BufferOf<gpu::uint> partials; // of the scan over emission_words
+    vk::BufferOf<gpu::uint> sums;           // [voxel_count * kSumWords]
+    vk::BufferOf<gpu::uint> max_fragments;  // [1] most fragments of a voxel if too many for sum_shift, else 0
+    vk::BufferOf<gpu::uint> partials;       // of the scan over emission_words
     vk::BufferOf<gpu::uint> emissive_count; // [1]
     vk::BufferOf<gpu::uint> emission_sums;  // [emissive voxels * 3], allocated when their number is known
     std::uint32_t sum_shift = 0; // value bits dropped, so that sums of max_fragments >> sum_shift fragments fit

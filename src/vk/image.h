@@ -17,6 +17,7 @@ public:
     Image() = default;
 
     /// width x height pixels in format; the contents are undefined and the layout is VK_IMAGE_LAYOUT_UNDEFINED.
+    /// There is a view unless usage is copies only. Throws Error{Memory} when the device's budget does not allow it.
     Image(Device& device, std::string name, std::uint32_t width, std::uint32_t height, VkFormat format,
           VkImageUsageFlags usage);
     ~Image();
