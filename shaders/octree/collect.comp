@@ -36,7 +36,9 @@ void main()
     if (subgroupElect() && total != 0u)
     {
         first = atomicAdd(params.counters.data[0].node_count, total);
-        atomicAdd(params.counters.data[0].voxel_count, voxel_total);
+        uint voxels_before = atomicAdd(params.counters.data[0].voxel_count, voxel_total);
+        if (voxels_before + voxel_total < voxels_before)
+            atomicAdd(params.counters.data[0].voxel_carry, 1u);
     }
     uint slot = subgroupBroadcastFirst(first) + before;
     for (; occupied != 0u; occupied &= occupied - 1u)

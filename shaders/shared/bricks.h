@@ -25,7 +25,8 @@ const uint kBrickRunLog2 = 3u;     // neighbours in Morton order share a run of 
 struct BrickCounters
 {
     uint node_count;     // nodes listed so far
-    uint voxel_count;    // voxels in the leaves
+    uint voxel_count;    // voxels in the leaves, modulo 2^32
+    uint voxel_carry;    // how often that wrapped around
     uint overflow_count; // inserts that found no place
 };
 GPU_BUFFER(BrickCounters, 4);

@@ -7,7 +7,7 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kAbsent = 4294967295u; // in place of an index: there is none
+const uint kAbsent = ~0u; // in place of an index: there is none
 
 const uint kAlphaOpaque = 0u;
 const uint kAlphaMask = 1u;

@@ -63,14 +63,13 @@ uint voxelIndex(BrickCursor cursor, uint cell)
 void addAttributes(Surface surface, uint voxel, uvec3 weights, uvec3 color)
 {
     ivec3 normal = fragmentNormal(surface, weights);
-    uint first = voxel * kSumWords;
-    atomicAdd(params.sums.data[first], color.r >> params.sum_shift);
-    atomicAdd(params.sums.data[first + 1u], color.g >> params.sum_shift);
-    atomicAdd(params.sums.data[first + 2u], color.b >> params.sum_shift);
-    atomicAdd(params.sums.data[first + 3u], uint(normal.x >> params.sum_shift));
-    atomicAdd(params.sums.data[first + 4u], uint(normal.y >> params.sum_shift));
-    atomicAdd(params.sums.data[first + 5u], uint(normal.z >> params.sum_shift));
-    atomicAdd(params.sums.data[first + 6u], 1u);
+    atomicAdd(params.sums.data[voxel].red, color.r >> params.sum_shift);
+    atomicAdd(params.sums.data[voxel].green, color.g >> params.sum_shift);
+    atomicAdd(params.sums.data[voxel].blue, color.b >> params.sum_shift);
+    atomicAdd(params.sums.data[voxel].normal_x, uint(normal.x >> params.sum_shift));
+    atomicAdd(params.sums.data[voxel].normal_y, uint(normal.y >> params.sum_shift));
+    atomicAdd(params.sums.data[voxel].normal_z, uint(normal.z >> params.sum_shift));
+    atomicAdd(params.sums.data[voxel].fragments, 1u);
     if (any(notEqual(surface.emission, uvec3(0u))) && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
         atomicOr(params.emission_words.data[voxel >> 5].x, 1u << (voxel & 31u));
 }
@@ -82,10 +81,10 @@ void addEmission(Surface surface, uint voxel, uvec3 weights)
     uint bit = 1u << (voxel & 31u);
     if (any(notEqual(emission, uvec3(0u))) && (word.x & bit) != 0u)
     {
-        uint first = (word.y + bitCount(word.x & (bit - 1u))) * 3u;
-        atomicAdd(params.emission_sums.data[first], emission.r >> params.sum_shift);
-        atomicAdd(params.emission_sums.data[first + 1u], emission.g >> params.sum_shift);
-        atomicAdd(params.emission_sums.data[first + 2u], emission.b >> params.sum_shift);
+        uint rank = word.y + bitCount(word.x & (bit - 1u));
+        atomicAdd(params.emission_sums.data[rank].red, emission.r >> params.sum_shift);
+        atomicAdd(params.emission_sums.data[rank].green, emission.g >> params.sum_shift);
+        atomicAdd(params.emission_sums.data[rank].blue, emission.b >> params.sum_shift);
     }
 }
 

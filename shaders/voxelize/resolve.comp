@@ -17,14 +17,14 @@ void main()
     uint voxel = threadIndex();
     if (voxel >= params.voxel_count)
         return;
-    uint first = voxel * kSumWords;
-    uint count = params.sums.data[first + 6u];
+    VoxelSums sums = params.sums.data[voxel];
+    uint count = sums.fragments;
     if ((count >> params.sum_shift) > kFragmentsMax)
         atomicMax(params.max_fragments.data[0], count);
     uint divisor = max(count, 1u);
-    uvec3 sum = uvec3(params.sums.data[first], params.sums.data[first + 1u], params.sums.data[first + 2u]);
+    uvec3 sum = uvec3(sums.red, sums.green, sums.blue);
     uvec3 color = min(divideSmall(sum + divisor / 2u, divisor) << params.sum_shift, uvec3(kFractionOne));
-    ivec3 normal = ivec3(params.sums.data[first + 3u], params.sums.data[first + 4u], params.sums.data[first + 5u]);
+    ivec3 normal = ivec3(sums.normal_x, sums.normal_y, sums.normal_z);
     uint flags = 0u;
     if (params.has_emission != 0u && ((params.emission_words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u)
         flags = kAttributeEmissive;

@@ -33,9 +33,9 @@ void main()
     if ((word.x & bit) == 0u)
         return;
     uint rank = word.y + bitCount(word.x & (bit - 1u));
-    uint count = max(params.sums.data[voxel * kSumWords + 6u], 1u);
-    uvec3 sum = uvec3(params.emission_sums.data[rank * 3u], params.emission_sums.data[rank * 3u + 1u],
-                      params.emission_sums.data[rank * 3u + 2u]);
+    uint count = max(params.sums.data[voxel].fragments, 1u);
+    EmissionSums sums = params.emission_sums.data[rank];
+    uvec3 sum = uvec3(sums.red, sums.green, sums.blue);
     uvec3 mean = min(divideSmall(sum + count / 2u, count) << params.sum_shift, uvec3(kFractionOne));
     params.emission.data[rank] = encodeRgb9e5(mean);
 }

@@ -88,6 +88,8 @@ void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uvec2 extent)
     uvec2 blocks = uvec2((extent.x + kBlockColumns - 1u) / kBlockColumns, (extent.y + kBlockRows - 1u) / kBlockRows);
     uint slot = atomicAdd(params.counters.data[0].big_count, 1u);
     uint first = atomicAdd(params.counters.data[0].block_count, blocks.x * blocks.y);
+    if (first > kRowBlocksMax)
+        atomicMax(params.counters.data[0].blocks_exceeded, 1u);
     bool fits = slot < params.big_capacity;
     if (fits)
         params.big_triangles.data[slot] = BigTriangle(t.v0, t.v1, t.v2, draw, triangle);

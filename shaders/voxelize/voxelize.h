@@ -9,17 +9,18 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kChunkTriangles = 64u;  // triangles of one draw that one workgroup takes
-const uint kResolveGroup = 64u;    // threads of a workgroup where one thread takes one voxel
-const uint kRowsGroup = 64u;       // threads of a workgroup of voxelize/rows
-const uint kBlockRows = 8u;        // rows of a row block: one thread each
-const uint kBlockColumns = 256u;   // columns of a row block: bounds a thread's work
-const uint kSmallColumns = 32u;    // a triangle over more columns is rasterized by rows; one bit of a mask each
-const int kSmallExtent = 8192;     // lattice units: a triangle up to this size is rasterized in 32-bit integers
-const uint kFragmentsMax = 65535u; // fragments of a voxel that 32-bit sums hold
+const uint kChunkTriangles = 64u;    // triangles of one draw that one workgroup takes
+const uint kResolveGroup = 64u;      // threads of a workgroup where one thread takes one voxel
+const uint kRowsGroup = 64u;         // threads of a workgroup of voxelize/rows
+const uint kBlockRows = 8u;          // rows of a row block: one thread each
+const uint kBlockColumns = 256u;     // columns of a row block: bounds a thread's work
+const uint kSmallColumns = 32u;      // a triangle over more columns is rasterized by rows; one bit of a mask each
+const int kSmallExtent = 8192;       // lattice units: a triangle up to this size is rasterized in 32-bit integers
+const uint kRowBlocksMax = 1u << 28; // row blocks that one run may list
+const uint kFragmentsMax = 65535u;   // fragments of a voxel that 32-bit sums hold
 
-const int kLatticeLimit = 536870912; // 2^29: vertices beyond are dropped
-const int kVoxelLattice = 256;       // lattice units a voxel
+const int kLatticeLimit = 1 << 29; // vertices beyond are dropped
+const int kVoxelLattice = 256;     // lattice units a voxel
 const int kVoxelLatticeLog2 = 8;
 
 // Specialization constant 0: which voxels.
@@ -37,8 +38,27 @@ const uint kClassTextured = 1u; // opaque
 const uint kClassAlpha = 2u;    // alpha decides which fragments exist
 const uint kClassCount = 3u;
 
-// 32-bit words of a voxel's sums: linear r, g, b, normal x, y, z (two's complement), fragments.
-const uint kSumWords = 7u;
+/// Sums over the fragments of a voxel, values shifted right by sum_shift.
+struct VoxelSums
+{
+    uint red; // linear, 16-bit fractions
+    uint green;
+    uint blue;
+    uint normal_x; // two's complement, length 32767
+    uint normal_y;
+    uint normal_z;
+    uint fragments;
+};
+GPU_BUFFER(VoxelSums, 4);
+
+/// Likewise of an emissive voxel: 16-bit fractions of the scene's brightest emission.
+struct EmissionSums
+{
+    uint red;
+    uint green;
+    uint blue;
+};
+GPU_BUFFER(EmissionSums, 4);
 
 /// Triangles [first_triangle, first_triangle + kChunkTriangles) of a draw.
 struct Chunk
@@ -72,6 +92,7 @@ struct RasterCounters
 {
     uint big_count;
     uint block_count;
+    uint blocks_exceeded; // more than kRowBlocksMax: block_count may have wrapped around
     uint nonfinite;
     uint out_of_range;
     uint outside;
@@ -88,9 +109,9 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
     GPU_PTR(RowBlock) row_blocks;          // [block_capacity]
     GPU_PTR(RasterCounters) counters;      // [1]
     GPU_PTR(BrickCounters) brick_counters; // [1]
-    GPU_PTR(uint) sums;                    // [voxel_count * kSumWords]
+    GPU_PTR(VoxelSums) sums;               // [voxel_count]
     GPU_PTR(uvec2) emission_words;         // [ceil(voxel_count / 32)]
-    GPU_PTR(uint) emission_sums;           // [emissive voxels * 3]
+    GPU_PTR(EmissionSums) emission_sums;   // [emissive voxels]
     vec3 origin;                           // world position of the grid's minimum corner
     float lattice_scale;                   // lattice units per world unit
     uint resolution;
@@ -113,7 +134,7 @@ struct RowArgsParams // push constants of voxelize/row_args
 struct ResolveParams // push constants of voxelize/resolve
 {
     GPU_CONST_PTR(SceneView) scene;
-    GPU_CONST_PTR(uint) sums;            // [voxel_count * kSumWords]
+    GPU_CONST_PTR(VoxelSums) sums;       // [voxel_count]
     GPU_CONST_PTR(uvec2) emission_words; // [ceil(voxel_count / 32)], or null without emission
     GPU_PTR(Attribute) attributes;       // [voxel_count]
     GPU_PTR(uint) max_fragments;         // [1] raised to the largest fragment count of a voxel
@@ -131,10 +152,10 @@ struct EmissionRankParams // push constants of voxelize/emission_count and voxel
 
 struct ResolveEmissionParams // push constants of voxelize/resolve_emission
 {
-    GPU_CONST_PTR(uint) sums;            // [voxel_count * kSumWords]
-    GPU_CONST_PTR(uint) emission_sums;   // [emissive voxels * 3]
-    GPU_CONST_PTR(uvec2) emission_words; // [ceil(voxel_count / 32)]
-    GPU_PTR(uint) emission;              // [emissive voxels] as RGB9E5
+    GPU_CONST_PTR(VoxelSums) sums;             // [voxel_count]
+    GPU_CONST_PTR(EmissionSums) emission_sums; // [emissive voxels]
+    GPU_CONST_PTR(uvec2) emission_words;       // [ceil(voxel_count / 32)]
+    GPU_PTR(uint) emission;                    // [emissive voxels] as RGB9E5
     uint voxel_count;
     uint sum_shift;
 };

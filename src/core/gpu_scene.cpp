@@ -253,6 +253,7 @@ std::vector<std::uint32_t> packBytes(const std::vector<std::uint8_t>& bytes)
 GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attributes)
 {
     GpuScene result;
+    result.has_attributes = attributes;
     for (const Material& material : scene.materials)
     {
         result.emission_scale =

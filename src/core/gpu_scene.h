@@ -32,6 +32,7 @@ struct GpuScene
     /// Chunks of the draws of each material class (kClassPlain and so on).
     std::array<vk::BufferOf<gpu::Chunk>, gpu::kClassCount> chunks;
 
+    bool has_attributes = false;      // textures for colour and emission are there
     std::uint64_t triangle_count = 0; // instances counted each time
     double surface_area = 0;          // world units squared
     float emission_scale = 0;         // largest emission of any material; 0: nothing emits light

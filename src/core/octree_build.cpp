@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/octree_build.h"
 
+#include "core/divide_up.h"
+
 namespace zvo
 {
 
 namespace
 {
-
-std::uint64_t blocksOf(std::uint64_t count, std::uint64_t size)
-{
-    return (count + size - 1) / size;
-}
 
 // Child bases of one level, from a prefix sum over its nodes.
 void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree,
@@ -18,7 +15,7 @@ void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuil
 {
     const auto [first_node, node_count] = octree.levels[level];
     const bool is_leaf = level + 1 == octree.levels.size();
-    const std::uint64_t threads = blocksOf(node_count, gpu::kScanItems);
+    const std::uint64_t threads = divideUp(node_count, gpu::kScanItems);
     {
         vk::Pass pass = graph.addPass("octree/count");
         const gpu::CountParams params = {pass.read(octree.nodes), pass.write(work.partials), first_node, node_count};
@@ -27,7 +24,7 @@ void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuil
     {
         vk::Pass pass = graph.addPass("octree/scan");
         const gpu::ScanParams params = {pass.readWrite(work.partials), pass.write(work.total),
-                                        static_cast<std::uint32_t>(blocksOf(node_count, gpu::kScanBlock))};
+                                        static_cast<std::uint32_t>(divideUp(node_count, gpu::kScanBlock))};
         pass.dispatch(gpu::kScanGroup, params);
     }
     vk::Pass pass = graph.addPass("octree/assign");
@@ -46,7 +43,7 @@ void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuil
 
 OctreeBuildBuffers::OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity)
     : items(device, "octree/items", brick_capacity), ranges(device, "octree/ranges", gpu::kNodeLevelsMax),
-      args(device, "octree/args", 1), partials(device, "octree/partials", blocksOf(brick_capacity, gpu::kScanBlock)),
+      args(device, "octree/args", 1), partials(device, "octree/partials", divideUp(brick_capacity, gpu::kScanBlock)),
       total(device, "octree/total", 1)
 {
 }
@@ -58,7 +55,7 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
         const gpu::CollectParams params = {pass.read(voxelize.bricks), pass.write(work.items),
                                            pass.readWrite(voxelize.counters),
                                            static_cast<std::uint32_t>(voxelize.bricks.count())};
-        pass.dispatch(blocksOf(voxelize.bricks.count(), gpu::kCollectItems), params);
+        pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
     }
     for (std::uint32_t step = 0; step < grid.nodeLevels(); ++step)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/pipeline.h"
 
+#include "core/divide_up.h"
 #include "core/octree_build.h"
 #include "core/sha256.h"
 #include "zvo/error.h"
@@ -25,6 +26,14 @@ void append(std::vector<vk::PassTime>& passes, std::vector<vk::PassTime>&& more)
     passes.insert(passes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+[[noreturn]] void throwTooBig(const char* what)
+{
+    throw Error(ErrorCode::Memory,
+                fmt::format("the scene makes more {} than 32-bit numbers count; lower the resolution, "
+                            "or split the scene",
+                            what));
+}
+
 // Grows what was too small. False when everything sufficed.
 bool grow(VoxelizeCapacities& capacities, const gpu::BrickCounters& bricks,
           const std::vector<gpu::RasterCounters>& rasters)
@@ -32,11 +41,19 @@ bool grow(VoxelizeCapacities& capacities, const gpu::BrickCounters& bricks,
     bool grown = false;
     if (bricks.overflow_count != 0)
     {
-        capacities.bricks *= 4;
+        if (capacities.bricks >= VoxelizeCapacities::kBricksMax)
+        {
+            throwTooBig("octree nodes");
+        }
+        capacities.bricks = std::min(capacities.bricks * 4, VoxelizeCapacities::kBricksMax);
         grown = true;
     }
     for (const gpu::RasterCounters& raster : rasters)
     {
+        if (raster.blocks_exceeded != 0)
+        {
+            throwTooBig("pieces of large triangles");
+        }
         if (raster.big_count > capacities.big_triangles)
         {
             capacities.big_triangles = raster.big_count;
@@ -96,6 +113,10 @@ Coverings coverVoxels(vk::HeadlessDevice& device, const GpuScene& scene, const G
         }
         if (!grow(result.capacities, coverings.counters, rasters))
         {
+            if (coverings.counters.voxel_carry != 0)
+            {
+                throwTooBig("voxels");
+            }
             result.dropped = droppedTriangles(rasters);
             append(result.passes, std::move(passes));
             return coverings;
@@ -138,7 +159,7 @@ void makeEmission(vk::HeadlessDevice& device, const GpuScene& scene, Coverage co
         octree.emission_words = {};
         return;
     }
-    attributes.emission_sums = {device.device(), "voxelize/emission_sums", std::uint64_t{emissive_count} * 3};
+    attributes.emission_sums = {device.device(), "voxelize/emission_sums", emissive_count};
     octree.emission = {device.device(), "octree/emission", emissive_count};
     append(result.passes, device.run([&](vk::FrameGraph& graph)
                                      { voxelizeEmission(graph, scene, coverage, voxelize, attributes, octree); }));
@@ -153,7 +174,7 @@ void makeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Coverage 
     octree.node_attributes = {device.device(), "octree/node_attributes", octree.node_count};
     if (emission)
     {
-        octree.emission_words = {device.device(), "octree/emission_words", (octree.voxel_count + 31) / 32};
+        octree.emission_words = {device.device(), "octree/emission_words", divideUp(octree.voxel_count, 32)};
     }
     AttributeBuffers attributes(device.device(), octree.voxel_count, emission);
     for (bool too_many = true; too_many;)
@@ -215,6 +236,10 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const
     {
         throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} is out of range: 1 to {} (resolution 2 to {})",
                                                   grid.depth, Grid::kDepthMax, 1U << Grid::kDepthMax));
+    }
+    if (options.attributes && !scene.has_attributes)
+    {
+        throw Error(ErrorCode::Usage, "attributes were asked of a scene that was uploaded without them");
     }
     BuildResult result;
     result.octree.grid = grid;

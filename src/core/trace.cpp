@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace.h"
 
+#include "core/divide_up.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -167,7 +169,9 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
     const std::uint64_t tile_count = std::uint64_t{tiles.x} * tiles.y;
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
     starts = {device, "tile starts", tile_count};
-    live = {device, "live tiles", tile_count};
+    // Indirect dispatches over more tiles than one row of workgroups fill up their last row.
+    const std::uint64_t rows = divideUp(tile_count, gpu::kTilesFold);
+    live = {device, "live tiles", rows > 1 ? rows * gpu::kTilesFold : tile_count};
     hits = {device, "hits", pixel_count};
     light = {device, "light", pixel_count};
     image = {device, "image", pixel_count};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/voxelize.h"
 
+#include "core/divide_up.h"
 #include "core/octree.h"
 #include "octree/octree.h"
 
@@ -16,11 +17,6 @@ namespace
 constexpr std::uint64_t kBricksMin = 4096;
 constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
 constexpr std::uint64_t kRowBlocksMin = 1 << 16;
-
-std::uint64_t blocksOf(std::uint64_t count, std::uint64_t size)
-{
-    return (count + size - 1) / size;
-}
 
 // Everything about a raster pass that does not depend on the mode.
 struct RasterJob
@@ -98,7 +94,7 @@ void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
 void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Octree& octree)
 {
     const auto word_count = static_cast<std::uint32_t>(octree.emission_words.count());
-    const std::uint64_t threads = blocksOf(word_count, gpu::kScanItems);
+    const std::uint64_t threads = divideUp(word_count, gpu::kScanItems);
     {
         vk::Pass pass = graph.addPass("voxelize/emission_count");
         const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.write(attributes.partials),
@@ -108,7 +104,7 @@ void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Oct
     {
         vk::Pass pass = graph.addPass("octree/scan");
         const gpu::ScanParams params = {pass.readWrite(attributes.partials), pass.write(attributes.emissive_count),
-                                        static_cast<std::uint32_t>(blocksOf(word_count, gpu::kScanBlock))};
+                                        static_cast<std::uint32_t>(divideUp(word_count, gpu::kScanBlock))};
         pass.dispatch(gpu::kScanGroup, params);
     }
     vk::Pass pass = graph.addPass("voxelize/emission_rank");
@@ -128,7 +124,7 @@ VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Gri
     const double leaves = std::min(scene.surface_area / (voxel * voxel) * 1.5 / 16, grid_leaves);
     const auto entries = static_cast<std::uint64_t>(leaves * 1.15 * 2);
     VoxelizeCapacities result;
-    result.bricks = std::bit_ceil(std::max(entries, kBricksMin));
+    result.bricks = std::bit_ceil(std::clamp(entries, kBricksMin, kBricksMax));
     result.big_triangles = std::clamp<std::uint64_t>(scene.triangle_count, 1, kBigTrianglesMin);
     result.row_blocks = kRowBlocksMin;
     return result;
@@ -150,12 +146,11 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
 }
 
 AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission)
-    : sums(device, "voxelize/sums", std::uint64_t{voxel_count} * gpu::kSumWords),
-      max_fragments(device, "voxelize/max_fragments", 1)
+    : sums(device, "voxelize/sums", voxel_count), max_fragments(device, "voxelize/max_fragments", 1)
 {
     if (emission)
     {
-        partials = {device, "voxelize/partials", blocksOf(blocksOf(voxel_count, 32), gpu::kScanBlock)};
+        partials = {device, "voxelize/partials", divideUp(divideUp(voxel_count, 32), gpu::kScanBlock)};
         emissive_count = {device, "voxelize/emissive_count", 1};
     }
 }

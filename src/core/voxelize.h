@@ -20,6 +20,9 @@ struct VoxelizeCapacities
     std::uint64_t big_triangles = 0; // of each material class
     std::uint64_t row_blocks = 0;    // of each material class
 
+    /// More entries than this do not fit the 32-bit numbers of the brick table.
+    static constexpr std::uint64_t kBricksMax = 1ULL << 31;
+
     /// A guess from the scene's surface area and the grid that mostly suffices.
     static VoxelizeCapacities estimate(const GpuScene& scene, const Grid& grid);
 };
@@ -49,11 +52,11 @@ struct AttributeBuffers
 {
     AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission);
 
-    vk::BufferOf<gpu::uint> sums;           // [voxel_count * kSumWords]
-    vk::BufferOf<gpu::uint> max_fragments;  // [1] most fragments of a voxel if too many for sum_shift, else 0
-    vk::BufferOf<gpu::uint> partials;       // of the scan over emission_words
-    vk::BufferOf<gpu::uint> emissive_count; // [1]
-    vk::BufferOf<gpu::uint> emission_sums;  // [emissive voxels * 3], allocated when their number is known
+    vk::BufferOf<gpu::VoxelSums> sums;             // [voxel_count]
+    vk::BufferOf<gpu::uint> max_fragments;         // [1] most fragments of a voxel if too many for sum_shift, else 0
+    vk::BufferOf<gpu::uint> partials;              // of the scan over emission_words
+    vk::BufferOf<gpu::uint> emissive_count;        // [1]
+    vk::BufferOf<gpu::EmissionSums> emission_sums; // [emissive voxels], allocated when their number is known
     std::uint32_t sum_shift = 0; // value bits dropped, so that sums of max_fragments >> sum_shift fragments fit
 };
 
