@@ -198,6 +198,19 @@ TEST(TracePicture, SizesThatDoNotFillTilesLeaveNothingUnwritten)
     }
 }
 
+TEST(TracePicture, MoreLiveTilesThanOneRowOfWorkgroupsAreAllTraced)
+{
+    // Inside a shell every tile lives. The tiles past the first row of workgroups do not fill the last one.
+    const Octree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
+    const ViewCamera view = ViewCamera::lookAt(glm::dvec3(16.0), glm::dvec3(17.0, 16.5, 16.2), 1.0);
+    constexpr std::uint32_t kWidth = 8 * 331;
+    constexpr std::uint32_t kHeight = 8 * 100;
+    const Picture picture = take(octree, traceCamera(view, octree.grid, kHeight), kWidth, kHeight, {});
+    static_assert(kWidth / 8 * (kHeight / 8) > gpu::kTilesFold);
+    EXPECT_EQ(picture.live_tiles, kWidth / 8 * (kHeight / 8));
+    EXPECT_EQ(hitCount(picture), kWidth * kHeight);
+}
+
 TEST(TracePicture, EveryViewOfAnEmptyOctreeIsBackground)
 {
     const Octree octree = test::octreeOf(device(), {}, 5);
