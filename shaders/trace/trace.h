@@ -132,7 +132,7 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(uvec2) live;
     GPU_CONST_PTR(Hit) hits;
-    GPU_CONST_PTR(Attribute) attributes;      // of voxels; kHasAttributes only
+    GPU_CONST_PTR(Attribute) attributes;      // of voxels; kAttributes only
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
     GPU_PTR(TraceStatus) status;
     GPU_PTR(uint) light; // [width * height] light that arrives; undefined in dead tiles

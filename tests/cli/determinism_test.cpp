@@ -64,15 +64,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OctreeBytes,
 TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
 {
     const auto [scene, coverage] = GetParam();
-    std::filesystem::path path = ownScene(scene.scene);
-    if (!std::filesystem::exists(path))
+    const auto path = findScene(scene.scene);
+    if (!path)
     {
-        const auto shared = sharedScene(scene.scene);
-        if (!shared)
-        {
-            GTEST_SKIP() << scene.scene << " is not there";
-        }
-        path = *shared;
+        GTEST_SKIP() << scene.scene << " is not there";
     }
     const TempDir dir;
     std::set<std::string> sums;
@@ -80,7 +75,7 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
     for (const Machine& machine : machines())
     {
         const Outcome outcome = runZvo(dir.path(),
-                                       {"voxelize", path.string(), "-o", "x.morton", "-f", "--json", "-",
+                                       {"voxelize", path->string(), "-o", "x.morton", "-f", "--json", "-",
                                         "--resolution", scene.resolution, "--coverage", coverage},
                                        {"LP_NUM_THREADS=" + std::to_string(machine.threads),
                                         "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});

@@ -35,17 +35,12 @@ INSTANTIATE_TEST_SUITE_P(Scenes, TraceScenes,
 
 TEST_P(TraceScenes, HitsEqualTheReference)
 {
-    std::filesystem::path path = test::ownScene(GetParam());
-    if (!std::filesystem::exists(path))
+    const auto path = test::findScene(GetParam());
+    if (!path)
     {
-        const auto shared = test::sharedScene(GetParam());
-        if (!shared)
-        {
-            GTEST_SKIP() << GetParam() << " is not there";
-        }
-        path = *shared;
+        GTEST_SKIP() << GetParam() << " is not there";
     }
-    const Scene scene = loadGltf(path);
+    const Scene scene = loadGltf(*path);
     const GpuScene gpu_scene = uploadScene(device(), scene, false);
     for (const std::uint32_t depth : {7U, 8U})
     {

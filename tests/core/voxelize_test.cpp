@@ -193,17 +193,12 @@ INSTANTIATE_TEST_SUITE_P(Meshes, VoxelizeMesh, testing::ValuesIn(meshCases()),
 
 TEST_P(VoxelizeMesh, EqualsTheOracle)
 {
-    std::filesystem::path path = test::ownScene(GetParam().file);
-    if (!std::filesystem::exists(path))
+    const auto path = test::findScene(GetParam().file);
+    if (!path)
     {
-        const auto shared = test::sharedScene(GetParam().file);
-        if (!shared)
-        {
-            GTEST_SKIP() << GetParam().file << " is not there";
-        }
-        path = *shared;
+        GTEST_SKIP() << GetParam().file << " is not there";
     }
-    const Scene scene = loadGltf(path);
+    const Scene scene = loadGltf(*path);
     expectEqualsOracle(scene, Grid::around(scene.bounds(), GetParam().depth), GetParam().coverage);
 }
 

@@ -114,4 +114,10 @@ std::filesystem::path ownScene(const std::string& name)
     return std::filesystem::path(ZVO_SCENES_DIR) / name;
 }
 
+std::optional<std::filesystem::path> findScene(const std::string& name)
+{
+    const std::filesystem::path own = ownScene(name);
+    return std::filesystem::exists(own) ? std::optional(own) : sharedScene(name);
+}
+
 } // namespace zvo::test

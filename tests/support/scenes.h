@@ -29,4 +29,7 @@ std::optional<std::filesystem::path> sharedScene(const std::string& name);
 /// Path of one of the project's own scenes.
 std::filesystem::path ownScene(const std::string& name);
 
+/// Path of an own scene, or else of one of the big ones, if it is there.
+std::optional<std::filesystem::path> findScene(const std::string& name);
+
 } // namespace zvo::test
