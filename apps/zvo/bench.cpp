@@ -69,12 +69,18 @@ std::vector<fs::path> scenesOf(const BenchOptions& options)
     {
         return options.scenes;
     }
+    std::error_code missing;
+    if (options.scene_folder && !fs::is_directory(*options.scene_folder, missing))
+    {
+        throw Error(ErrorCode::Input, fmt::format("--scenes {} is not a folder", options.scene_folder->string()));
+    }
+    const fs::path folder = options.scene_folder.value_or("scenes");
     std::vector<fs::path> scenes;
     std::vector<std::string> absent;
     for (const char* name : kUsualScenes)
     {
         std::error_code ignored;
-        const fs::path path = options.scene_folder / name;
+        const fs::path path = folder / name;
         if (fs::exists(path, ignored))
         {
             scenes.push_back(path);
@@ -88,7 +94,7 @@ std::vector<fs::path> scenesOf(const BenchOptions& options)
     {
         if (!absent.empty())
         {
-            talk(fmt::format("warning: {} has no {}", options.scene_folder.string(), fmt::join(absent, ", ")));
+            talk(fmt::format("warning: {} has no {}", folder.string(), fmt::join(absent, ", ")));
         }
         return scenes;
     }
@@ -97,9 +103,9 @@ std::vector<fs::path> scenesOf(const BenchOptions& options)
     {
         throw Error(ErrorCode::Input, fmt::format("{} has none of {}; name scenes to measure, or their folder by "
                                                   "--scenes",
-                                                  options.scene_folder.string(), fmt::join(kUsualScenes, ", ")));
+                                                  folder.string(), fmt::join(kUsualScenes, ", ")));
     }
-    talk(fmt::format("{} has none of {}: measuring the project's own scenes", options.scene_folder.string(),
+    talk(fmt::format("{} has none of {}: measuring the project's own scenes", folder.string(),
                      fmt::join(kUsualScenes, ", ")));
     return scenes;
 }

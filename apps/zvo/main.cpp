@@ -47,6 +47,7 @@ void installSignalHandlers()
         }
     }
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of the write
+    std::signal(SIGXFSZ, SIG_IGN); // and so is a file that grows too big
 }
 
 struct Run

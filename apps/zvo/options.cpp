@@ -139,7 +139,8 @@ void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)
 void addCameraOption(CLI::App& app, std::string& camera)
 {
     addText(app, "--camera", camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
-            "a camera of the scene, or eye, target and vertical field of view in degrees, or auto");
+            "a camera of the scene, or eye, target and vertical field of view in degrees, or auto, which frames "
+            "everything (default: the scene's first camera, or else auto)");
 }
 
 CLI::App* addRender(CLI::App& app, RenderOptions& options)

@@ -82,8 +82,8 @@ struct InfoOptions
 
 struct BenchOptions
 {
-    std::vector<std::filesystem::path> scenes; // empty: the usual ones in scene_folder
-    std::filesystem::path scene_folder = "scenes";
+    std::vector<std::filesystem::path> scenes;         // empty: the usual ones in scene_folder
+    std::optional<std::filesystem::path> scene_folder; // not given: scenes
     std::vector<std::uint32_t> depths = {8, 9, 10};
     std::uint32_t run_count = 5;
     Coverage coverage = Coverage::Thin;

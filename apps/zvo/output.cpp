@@ -49,19 +49,32 @@ void Output::finish()
     }
 }
 
-void checkDistinct(const OutputOptions& options)
+void checkPlaces(const OutputOptions& options, std::span<const std::filesystem::path> inputs)
 {
-    const auto placeOf = [](const std::string& path)
+    const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b)
     {
         std::error_code ignored;
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+        const auto placeOf = [&ignored](const std::filesystem::path& path)
+        { return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored); };
+        return placeOf(a) == placeOf(b) || std::filesystem::equivalent(a, b, ignored);
     };
     const bool both_to_stdout = options.path == "-" && options.json == "-";
     const bool both_to_files = options.path != "-" && options.json != "-" && !options.json.empty();
-    const bool same_file = both_to_files && placeOf(options.path) == placeOf(options.json);
-    if (both_to_stdout || same_file)
+    if (both_to_stdout || (both_to_files && same(options.path, options.json)))
     {
         throw Error(ErrorCode::Usage, fmt::format("-o and --json both name {}; they need two places", options.path));
+    }
+    for (const std::filesystem::path& input : inputs)
+    {
+        for (const std::string& output : {options.path, options.json})
+        {
+            if (!output.empty() && output != "-" && same(output, input))
+            {
+                throw Error(ErrorCode::Usage, fmt::format("{} is an input and would be overwritten; name another "
+                                                          "output",
+                                                          output));
+            }
+        }
     }
 }
 

@@ -30,8 +30,8 @@ private:
     std::unique_ptr<AtomicFile> m_file; // null: standard output
 };
 
-/// Throws Error{Usage} where both outputs go to one place.
-void checkDistinct(const OutputOptions& options);
+/// Throws Error{Usage} if two results go to one place, or if one would overwrite an input.
+void checkPlaces(const OutputOptions& options, std::span<const std::filesystem::path> inputs);
 
 /// The extension of a path in lower case, with its dot.
 std::string extensionOf(const std::string& path);

@@ -192,7 +192,7 @@ glm::dvec3 parseDirection(std::string_view option, std::string_view text)
             return direction;
         }
     }
-    throw valueError(option, text, "x,y,z, not all 0");
+    throw valueError(option, text, "three finite numbers x,y,z, not all 0");
 }
 
 Coverage parseCoverage(std::string_view option, std::string_view text)

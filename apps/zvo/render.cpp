@@ -177,7 +177,7 @@ void addTrace(Json& json, const RenderOptions& options, const Renderer& renderer
 
 void render(const RenderOptions& options)
 {
-    checkDistinct(options.output);
+    checkPlaces(options.output, options.voxels.scenes);
     Pictures pictures(options);
     std::optional<Output> report;
     if (!options.output.json.empty())

@@ -73,6 +73,11 @@ Grid placeGrid(const VoxelOptions& options, const Bounds& bounds)
 
 void warnOfDropped(const BuildResult& result)
 {
+    if (result.octree.voxel_count == 0)
+    {
+        talk("warning: there are no voxels; the grid misses the scene, or its triangles have no area at this "
+             "resolution");
+    }
     for (const char* reason : {"nonfinite", "out_of_range"})
     {
         const auto dropped = result.dropped.find(reason);

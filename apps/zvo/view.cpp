@@ -49,9 +49,9 @@ Error noSuchCamera(const std::string& wanted, const Scene& scene)
         names.push_back(fmt::format("\"{}\"", camera.name));
     }
     const std::string has = names.empty() ? "has no cameras" : fmt::format("has {}", fmt::join(names, ", "));
-    return {ErrorCode::Usage,
-            fmt::format("--camera {}: there is no such camera; the scene {}; auto and ex,ey,ez,tx,ty,tz always work",
-                        wanted, has)};
+    return {ErrorCode::Usage, fmt::format("--camera {}: there is no such camera; the scene {}; auto and six finite "
+                                          "numbers ex,ey,ez,tx,ty,tz always work",
+                                          wanted, has)};
 }
 
 } // namespace

@@ -41,7 +41,7 @@ std::string formatOf(const VoxelizeOptions& options)
 
 void voxelize(const VoxelizeOptions& options)
 {
-    checkDistinct(options.output);
+    checkPlaces(options.output, options.voxels.scenes);
     const std::string format = formatOf(options);
     Output output(options.output.path, options.output.overwrite);
     std::optional<Output> report;

@@ -28,6 +28,9 @@ layout(push_constant, scalar) uniform Push
 
 const float kGoldenAngle = 2.39996323;
 
+// What a ray counts for that starts inside of a voxel, in a crevice narrower than the lift: nothing is known there.
+const float kInsideShare = 0.4;
+
 // Axes orthogonal to a normal (T. Duff et al., Building an Orthonormal Basis, Revisited, 2017).
 mat3 frameAround(vec3 n)
 {
@@ -63,7 +66,8 @@ void main()
         float angle = kGoldenAngle * float(k);
         vec3 toward = frame * vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));
         Traversal ray = traverse(point.origin, inverseDirection(toward), kTraceTimeMin, end, vec2(0.0));
-        float reached = ray.hit ? ray.t / max(end, kTraceTimeMin) : 1.0;
+        float way = ray.face == kFaceInside ? kInsideShare : ray.t / max(end, kTraceTimeMin);
+        float reached = ray.hit ? way : 1.0;
         open += reached;
         capped = capped || ray.capped;
     }

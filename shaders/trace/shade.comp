@@ -27,6 +27,8 @@ layout(push_constant, scalar) uniform Push
 
 const vec3 kPlainAlbedo = vec3(0.6); // without attributes
 
+const float kBounced = 0.12; // of the sky's light that reaches even a closed corner, by way of other surfaces
+
 struct Surface
 {
     vec3 albedo;
@@ -59,7 +61,7 @@ Surface surfaceAt(Hit hit, vec3 direction)
 vec3 lit(Surface surface, uint light)
 {
     float sun = max(dot(surface.normal, params.sun), 0.0) * float(light & kLightSun) / 255.0;
-    float sky = float(light >> kLightSkyShift) / 255.0;
+    float sky = mix(kBounced, 1.0, float(light >> kLightSkyShift) / 255.0);
     return surface.albedo * (sun * kSunColor + sky * skyAmbient(surface.normal)) + surface.emission;
 }
 

@@ -39,6 +39,11 @@ std::vector<std::uint8_t> readFile(const std::filesystem::path& path)
     {
         throw readError(path, errno);
     }
+    std::error_code ignored;
+    if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
+    {
+        throw Error(ErrorCode::Input, fmt::format("cannot read {}: it is a device, not a file", path.string()));
+    }
     // The size is a hint: a pipe has none, and one byte more lets the first read see the end.
     std::error_code no_size;
     const std::uintmax_t size = std::filesystem::file_size(path, no_size);

@@ -67,6 +67,15 @@ const std::vector<ErrorCase>& errorCases()
         {"BothOutputsToStandardOutput", 2, {"render", "cube.glb", "-o", "-", "--json", "-"}, {"two places"}, {}},
         {"BothOutputsToOneFile", 2, {"render", "cube.glb", "-o", "a.png", "--json", "./a.png"}, {"two places"}, {}},
 
+        {"OutputIsTheInput",
+         2,
+         {"voxelize", "cube.glb", "-o", "./cube.glb", "--format", "ply", "-f"},
+         {"overwritten"},
+         {}},
+        {"ReportIsTheInput", 2, {"render", "cube.glb", "-o", "a.png", "--json", "cube.glb", "-f"}, {"overwritten"}, {}},
+
+        {"InputIsADevice", 3, {"render", "/dev/zero", "-o", "a.png"}, {"/dev/zero", "device"}, {}},
+        {"BenchOfMissingFolder", 3, {"bench", "--scenes", "absent"}, {"absent", "folder"}, {}},
         {"MissingFile", 3, {"render", "absent.glb", "-o", "a.png"}, {"absent.glb", "No such file"}, {}},
         {"BrokenGlb", 3, {"render", "broken.glb", "-o", "a.png"}, {"broken.glb"}, {}},
         {"EmptyFile", 3, {"voxelize", "empty.glb", "-o", "a.ply"}, {"empty.glb"}, {}},
