@@ -103,7 +103,10 @@ void addDeviceOptions(CLI::App& app, DeviceOptions& options)
     addValue(app, "--memory-limit", options.memory_limit, parseBytes, "BYTES",
              "device memory that may be used, such as 2G or 512M")
         ->group("Device");
-    app.add_flag("--validation", options.validation, "run with the Vulkan validation layers; fail if they speak")
+    app.add_flag("--validation", options.validation,
+                 "run with the Vulkan validation layers (core, synchronization); fail if they speak")
+        ->group("Device");
+    app.add_flag("--gpu-validation", options.gpu_validation, "the same with instrumented kernels, slow")
         ->group("Device");
 }
 

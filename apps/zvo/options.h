@@ -21,6 +21,7 @@ struct DeviceOptions
 {
     std::string device; // name part, index or "cpu"; empty: the best one
     bool validation = false;
+    bool gpu_validation = false;             // also instruments the kernels
     std::uint64_t memory_limit = UINT64_MAX; // bytes
 };
 

@@ -41,7 +41,8 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
 {
     vk::HeadlessOptions headless;
     headless.device = options.device;
-    headless.validation = options.validation;
+    headless.validation = options.validation || options.gpu_validation;
+    headless.gpu_assisted_validation = options.gpu_validation;
     headless.memory_budget_bytes = options.memory_limit;
     const std::filesystem::path folder = cacheFolder();
     headless.pipeline_cache_path = folder.empty() ? "" : (folder / "pipelines.bin").string();
