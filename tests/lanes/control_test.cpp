@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Faults made on purpose. The scripts that run tests under a tool first run the fault that the tool is there to find: a
+// tool that stays silent about it proves nothing by staying silent about the rest.
+#include "vk/kernels.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo
+{
+namespace
+{
+
+constexpr std::uint32_t kCount = 1U << 18; // long enough that all threads of the device take part
+
+// For scripts/check-races.
+TEST(Control, DISABLED_WorkgroupsRaceForAWord)
+{
+    vk::BufferOf<gpu::uint> values(test::device().device(), "values", kCount);
+    test::device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            vk::Pass pass = graph.addPass("test/race");
+            const gpu::FillParams params{.values = pass.write(values), .count = kCount};
+            pass.dispatch(kCount, params);
+        });
+    EXPECT_LT(test::device().download(values, 0, 1).front(), kCount);
+}
+
+// For scripts/check-memcheck.
+TEST(Control, DISABLED_KernelBranchesOnFreshMemory)
+{
+    const vk::BufferOf<gpu::uint> fresh(test::device().device(), "fresh", kCount);
+    vk::BufferOf<gpu::uint> steps(test::device().device(), "steps", kCount);
+    test::device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            vk::Pass pass = graph.addPass("test/branch");
+            const gpu::CopyParams params{
+                .source = pass.read(fresh), .destination = pass.write(steps), .count = kCount, .factor = 1};
+            pass.dispatch(kCount, params);
+        });
+    EXPECT_LE(test::device().download(steps, 0, 1).front(), 15U);
+}
+
+// For scripts/check-poison.
+TEST(Control, DISABLED_FreshMemoryIsNotZero)
+{
+    const vk::BufferOf<gpu::uint> fresh(test::device().device(), "fresh", kCount);
+    EXPECT_NE(test::device().download(fresh), std::vector<gpu::uint>(kCount, 0U));
+}
+
+} // namespace
+} // namespace zvo

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Every kernel of the library, run once on work so small that a tool which slows programs down a hundredfold can watch:
+// valgrind, instrumented kernels, poisoned memory.
+#include "core/grid.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/trace.h"
+#include "oracle/voxelizer.h"
+#include "support/device.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+// Names of the kernels that have run.
+using Names = std::set<std::string>;
+
+void addNames(Names& names, const std::vector<vk::PassTime>& passes)
+{
+    for (const vk::PassTime& pass : passes)
+    {
+        names.insert(pass.name);
+    }
+}
+
+// A few triangles with all that a material can have, in three materials: plain, textured and emissive, blended.
+Scene smallScene()
+{
+    Scene scene = test::randomTriangles(3, 12, 16.0F);
+    Primitive& plain = scene.primitives[0];
+    Primitive textured = plain;
+    for (const glm::vec3& position : plain.positions)
+    {
+        textured.uvs.emplace_back(position.x * 0.1F, position.y * 0.1F);
+        textured.normals.emplace_back(0.0F, 1.0F, 0.0F);
+        textured.colors.emplace_back(0.5F, 1.0F, 0.25F, 0.75F);
+    }
+    scene.images.push_back({"checker", 2, 2, {255, 0, 0, 255, 0, 255, 0, 90, 0, 0, 255, 255, 255, 255, 255, 160}});
+    scene.textures.push_back({0, WrapMode::Repeat, WrapMode::MirroredRepeat});
+    Material emissive;
+    emissive.base_color_texture = 0;
+    emissive.emission = glm::vec3(2.0F, 1.0F, 0.5F);
+    emissive.emission_texture = 0;
+    Material blended;
+    blended.base_color_texture = 0;
+    blended.alpha_mode = AlphaMode::Blend;
+    scene.materials.push_back(emissive);
+    scene.materials.push_back(blended);
+    textured.material = 1;
+    scene.primitives.push_back(textured);
+    textured.material = 2;
+    scene.primitives.push_back(textured);
+    scene.instances.push_back({1, glm::mat4(0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1)});
+    scene.instances.push_back({2, glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 16, 0, 0, 1)});
+    return scene;
+}
+
+// Pictures by every path of the tracer.
+Names tracePictures(const Octree& octree)
+{
+    Names names;
+    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    BeamGrid beam(device().device());
+    TraceBuffers buffers(device().device(), 17, 9);
+    addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, beam); }));
+    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
+    {
+        for (const View shown : {View::Color, View::Iterations})
+        {
+            TraceOptions options;
+            options.view = shown;
+            options.stack = stack;
+            options.occlusion_rays = 2;
+            options.beam = stack != TraceStack::Private;
+            const TraceCamera camera = traceCamera(view, octree.grid, buffers.height);
+            addNames(names, device().run([&](vk::FrameGraph& graph)
+                                         { trace(graph, octree, beam, camera, options, buffers); }));
+        }
+    }
+    const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
+    const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
+    vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
+    vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph)
+                        {
+                            graph.fill(status, 0);
+                            traceRays(graph, octree, rays, hits, status, {});
+                        }));
+    return names;
+}
+
+TEST(EveryKernel, RunsOnASmallScene)
+{
+    const Scene scene = smallScene();
+    const GpuScene gpu_scene = uploadScene(device(), scene, true);
+    Names names;
+    for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
+    {
+        for (const std::uint32_t depth : {3U, 7U}) // the beam has finer cells from depth 7 on
+        {
+            const float voxel_size = 16.0F / static_cast<float>(1U << depth);
+            const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = voxel_size, .depth = depth};
+            const BuildResult built = buildOctree(device(), gpu_scene, grid, {coverage, true, {}});
+            EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, coverage).codes);
+            addNames(names, built.passes);
+            names.merge(tracePictures(built.octree));
+        }
+    }
+    for (const vk::EmbeddedKernel& kernel : zvoKernels())
+    {
+        EXPECT_TRUE(names.contains(std::string(kernel.name))) << kernel.name << " did not run";
+    }
+}
+
+} // namespace
+} // namespace zvo
