@@ -19,10 +19,12 @@ constexpr double kFloatMax = std::numeric_limits<float>::max();
 /// Below it 256 / voxel_size, the scale of the lattice, comes close to the end of single precision.
 constexpr double kVoxelSizeMin = 1e-35;
 
+/// Stays within single precision: so does what the box encloses.
 float roundDown(double value)
 {
-    const auto nearest = static_cast<float>(std::clamp(value, -kFloatMax, kFloatMax));
-    return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, -INFINITY);
+    const double clamped = std::clamp(value, -kFloatMax, kFloatMax);
+    const auto nearest = static_cast<float>(clamped);
+    return static_cast<double>(nearest) <= clamped ? nearest : std::nextafter(nearest, -INFINITY);
 }
 
 float roundUp(double value)

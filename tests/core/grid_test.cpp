@@ -3,7 +3,9 @@
 
 #include "zvo/error.h"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 #include <random>
 
 namespace zvo
@@ -49,6 +51,23 @@ TEST(Grid, EmptyBoxOrPointGivesTheUnitCube)
     EXPECT_EQ(point.voxel_size, 0.5F);
     EXPECT_EQ(point.origin, glm::vec3(6.5F));
     EXPECT_EQ(Grid::withCorner(box(glm::vec3(7), glm::vec3(7)), 1).voxel_size, 0.5F);
+}
+
+TEST(Grid, BoxAtTheEndOfSinglePrecisionHasAFiniteGrid)
+{
+    constexpr float kMax = std::numeric_limits<float>::max();
+    for (const Bounds& bounds : {Bounds{{-kMax, -kMax, 0}, {kMax, 0, 1}}, Bounds{{-kMax, 1, 0}, {kMax, kMax, 1}},
+                                 Bounds{glm::vec3(-kMax), glm::vec3(kMax)}, Bounds{glm::vec3(kMax), glm::vec3(kMax)},
+                                 Bounds{{0, -kMax, 0}, {kMax, -kMax, 0}}})
+    {
+        for (const Grid& grid :
+             {Grid::around(bounds, 1), Grid::around(bounds, Grid::kDepthMax), Grid::withCorner(bounds, 1)})
+        {
+            EXPECT_TRUE(std::isfinite(grid.voxel_size)) << grid.voxel_size;
+            EXPECT_TRUE(std::isfinite(grid.origin.x) && std::isfinite(grid.origin.y) && std::isfinite(grid.origin.z));
+            EXPECT_TRUE(encloses(grid, bounds));
+        }
+    }
 }
 
 TEST(Grid, WithCornerRefusesAnEmptyBox)
