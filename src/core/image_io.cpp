@@ -1,13 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "core/image_io.h"
 
+#include "core/image_check.h"
 #include "zvo/error.h"
 
 #include <algorithm>
 #include <cassert>
 #include <climits>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
+
+namespace
+{
+
+/// The most that the decoder may take at a time, so that a small file which unfolds without end is stopped.
+thread_local std::size_t t_decoder_bytes_max = 0;
+
+/// Zeros: where a file leaves pixels out, they are the same on every run.
+void* decoderAllocate(std::size_t bytes)
+{
+    return bytes <= t_decoder_bytes_max ? std::calloc(bytes, 1) : nullptr;
+}
+
+void* decoderReallocate(void* old, std::size_t bytes)
+{
+    return bytes <= t_decoder_bytes_max ? std::realloc(old, bytes) : nullptr;
+}
+
+} // namespace
 
 // stb as static functions: a program that links zvo may bring its own.
 #define STB_IMAGE_STATIC
@@ -16,6 +37,9 @@
 #define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
 #define STBI_FAILURE_USERMSG
+#define STBI_MALLOC(bytes) decoderAllocate(bytes)
+#define STBI_REALLOC(old, bytes) decoderReallocate(old, bytes)
+#define STBI_FREE(old) std::free(old)
 #include <stb/stb_image.h>
 
 #define STB_IMAGE_WRITE_STATIC
@@ -30,6 +54,7 @@ namespace
 {
 
 constexpr int kChannels = 4;
+constexpr std::size_t kDecoderBytesMin = std::size_t{1} << 16U; // for its tables
 
 struct FreePixels
 {
@@ -38,11 +63,16 @@ struct FreePixels
 
 } // namespace
 
-Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where)
+Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
+                  std::uint64_t bytes_max)
 {
     const auto fail = [&](const std::string& what) -> Error {
         return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
     };
+    if (encoded.empty())
+    {
+        throw fail("not a PNG or JPEG image (it is empty); save it as one");
+    }
     if (encoded.size() > INT_MAX)
     {
         throw fail("the image file is larger than 2 GiB; make it smaller");
@@ -51,6 +81,11 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
     int width = 0;
     int height = 0;
     int channels = 0;
+    t_decoder_bytes_max = kDecoderBytesMin;
+    if (const std::string fault = findImageFault(encoded); !fault.empty())
+    {
+        throw fail(fmt::format("the image does not decode ({}); save it again", fault));
+    }
     if (stbi_info_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels) == 0)
     {
         throw fail(fmt::format("not a PNG or JPEG image ({}); save it as one", stbi_failure_reason()));
@@ -60,6 +95,21 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
         throw fail(fmt::format("the image has {} x {} pixels, more than {} on an edge; scale it down", width, height,
                                kImageEdgeMax));
     }
+    const ImageCost cost =
+        estimateImageCost(encoded, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    if (!cost.plausible)
+    {
+        throw fail(fmt::format("the image announces {} x {} pixels, more than its {} bytes can hold; save it again",
+                               width, height, encoded.size()));
+    }
+    const std::size_t rgba_bytes = std::size_t{static_cast<std::uint32_t>(width)} * height * kChannels;
+    if (rgba_bytes > bytes_max)
+    {
+        throw fail(fmt::format("with its {} x {} pixels, the scene's images take more than {} bytes; scale them down",
+                               width, height, bytes_max));
+    }
+    // Twice: the decoder doubles what turns out too small.
+    t_decoder_bytes_max = kDecoderBytesMin + 2 * (encoded.size() + std::max<std::size_t>(cost.raw_bytes, rgba_bytes));
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels, kChannels));
     if (!pixels)

@@ -15,8 +15,10 @@ namespace zvo
 inline constexpr std::uint32_t kImageEdgeMax = 16384;
 
 /// Decodes a PNG or JPEG to 8-bit RGBA; 16-bit channels keep their upper byte, grey and palettes become colours. name
-/// becomes the image's. Throws Error{Input} that begins with where.
-Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where);
+/// becomes the image's. Throws Error{Input} that begins with where; before it decodes anything, for an image of more
+/// than bytes_max bytes decoded.
+Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
+                  std::uint64_t bytes_max = UINT64_MAX);
 
 /// A PNG file of width * height pixels from rgba, 4 bytes each, rows from the top. Equal pictures give equal bytes.
 std::vector<std::uint8_t> encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
