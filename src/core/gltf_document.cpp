@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -243,6 +244,7 @@ tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
 
 void loadBuffers(GltfDocument& document, const json& buffers, Bytes bin)
 {
+    std::map<std::string, Bytes> files; // by path: many buffers may lie in one file
     for (std::size_t i = 0; i < buffers.size(); ++i)
     {
         const std::string where = fmt::format("buffers[{}]", i);
@@ -251,8 +253,15 @@ void loadBuffers(GltfDocument& document, const json& buffers, Bytes bin)
         Bytes bytes = bin;
         if (uri != buffers[i].end())
         {
-            document.storage.push_back(document.readUri(uri->get<std::string>(), where + ".uri"));
-            bytes = document.storage.back();
+            const auto text = uri->get<std::string>();
+            const std::string key = isDataUri(text) ? text : std::filesystem::path(text).lexically_normal().string();
+            const auto [file, is_new] = files.emplace(key, Bytes());
+            if (is_new)
+            {
+                document.storage.push_back(document.readUri(text, where + ".uri"));
+                file->second = document.storage.back();
+            }
+            bytes = file->second;
         }
         else if (i > 0 || bin.empty())
         {
@@ -266,6 +275,20 @@ void loadBuffers(GltfDocument& document, const json& buffers, Bytes bin)
         }
         document.buffers.push_back(bytes.first(wanted));
     }
+}
+
+/// Whether a file lies in folder or below, after all symbolic links. What is not there lies where it would be.
+bool liesBelow(const std::filesystem::path& folder, const std::filesystem::path& file)
+{
+    std::error_code failure;
+    const std::filesystem::path real_folder = std::filesystem::weakly_canonical(folder, failure);
+    const std::filesystem::path real_file = std::filesystem::weakly_canonical(file, failure);
+    if (failure)
+    {
+        return false;
+    }
+    return std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end()).first ==
+           real_folder.end();
 }
 
 std::vector<GltfImageSource> listImages(const json& images)
@@ -327,15 +350,30 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
                                 "the file",
                                 where, uri));
     }
+    const std::string decoded = decodePercent(uri);
+    if (decoded.find('\0') != std::string::npos)
+    {
+        throw error(fmt::format("{} has a zero byte in it; {}", where, kExportAgain));
+    }
     // Some exporters write names as they are, without percent-encoding.
-    const std::filesystem::path folder = path.parent_path();
-    const std::filesystem::path decoded = folder / decodePercent(uri);
     std::error_code unreadable;
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     const bool as_written =
-        !std::filesystem::exists(decoded, unreadable) && std::filesystem::exists(folder / uri, unreadable);
+        !std::filesystem::exists(folder / decoded, unreadable) && std::filesystem::exists(folder / uri, unreadable);
+    const std::filesystem::path file = folder / (as_written ? uri : decoded);
+    if (!liesBelow(folder, file))
+    {
+        throw error(fmt::format("{} is {}, which leaves the document's folder; only files in it and below are read; "
+                                "put the file there and name it",
+                                where, uri));
+    }
+    if (std::filesystem::is_fifo(file, unreadable) || std::filesystem::is_socket(file, unreadable))
+    {
+        throw error(fmt::format("{} is {}, which is not a file; name one", where, uri));
+    }
     try
     {
-        return readFile(as_written ? folder / uri : decoded);
+        return readFile(file);
     }
     catch (const Error& failure)
     {

@@ -42,7 +42,8 @@ struct GltfDocument
     /// The bytes of a buffer view. Throws Error{Input} where it leaves its buffer.
     [[nodiscard]] std::span<const std::uint8_t> bufferView(int index) const;
 
-    /// The bytes behind a URI: data, or a file relative to the document. where: the property, for the Error{Input}.
+    /// The bytes behind a URI: data, or a file in the document's folder or below. where: the property, for the
+    /// Error{Input}.
     [[nodiscard]] std::vector<std::uint8_t> readUri(const std::string& uri, const std::string& where) const;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(path, text); }

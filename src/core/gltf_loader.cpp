@@ -5,6 +5,7 @@
 #include "core/gltf_geometry.h"
 #include "core/gltf_materials.h"
 #include "core/gltf_nodes.h"
+#include "core/gltf_size.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -26,7 +27,9 @@ public:
 
     Scene load()
     {
-        for (const GltfPlacedNode& placed : placeGltfNodes(m_document))
+        const std::vector<GltfPlacedNode> nodes = placeGltfNodes(m_document);
+        checkGltfSize(m_document, nodes);
+        for (const GltfPlacedNode& placed : nodes)
         {
             const tinygltf::Node& node = m_document.model.nodes[placed.node];
             const std::string where = fmt::format("nodes[{}]", placed.node);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/gltf_materials.h"
 
+#include "core/gltf_size.h"
 #include "core/image_io.h"
 
 #include <cmath>
@@ -101,7 +102,7 @@ GltfUvSource uvSource(const tinygltf::TextureInfo& info)
 } // namespace
 
 GltfMaterials::GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings)
-    : m_document(document), m_scene(scene), m_warnings(warnings)
+    : m_document(document), m_scene(scene), m_warnings(warnings), m_image_bytes_left(sceneBytesMax())
 {
 }
 
@@ -214,8 +215,9 @@ std::uint32_t GltfMaterials::image(int index)
     const std::string file = has_file ? source.uri : place;
     try
     {
-        m_scene.images.push_back(
-            decodeImage(encoded, source.name.empty() ? file : source.name, place + " (" + file + ")"));
+        m_scene.images.push_back(decodeImage(encoded, source.name.empty() ? file : source.name,
+                                             place + " (" + file + ")", m_image_bytes_left));
+        m_image_bytes_left -= m_scene.images.back().rgba.size();
     }
     catch (const Error& failure)
     {

@@ -53,6 +53,7 @@ private:
     std::map<int, GltfMaterial> m_materials;
     std::map<int, std::uint32_t> m_textures; // indices into Scene::textures
     std::map<int, std::uint32_t> m_images;   // indices into Scene::images
+    std::uint64_t m_image_bytes_left;        // of images that are not decoded yet
 };
 
 } // namespace zvo

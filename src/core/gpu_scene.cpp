@@ -120,6 +120,8 @@ PrimitivePlace addPrimitive(Staging& staging, const Primitive& primitive)
     {
         staging.colors.push_back(packFractions(color));
     }
+    checkedCount(staging.triangles.size(), "triangles"); // the last ones have numbers, too
+    checkedCount(staging.positions.size(), "vertices");
     return place;
 }
 
