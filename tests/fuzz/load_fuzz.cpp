@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+// A libFuzzer target: the bytes of a .glb or .gltf file are loaded, checked and voxelized at 16^3. A file that the
+// loader refuses must give an Error{Input} of one line; everything else must hold what Scene promises and voxelize.
+#include "core/gltf_loader.h"
+#include "core/image_io.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "fuzz/gltf_mutator.h"
+#include "support/temp_dir.h"
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+
+// libFuzzer's own mutation, for custom mutators.
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t size_max);
+
+namespace zvo::test
+{
+
+namespace
+{
+
+constexpr std::uint32_t kDepth = 4; // 16^3
+
+// What is bigger only takes time on the device.
+constexpr std::uint64_t kTrianglesMax = 2000;
+constexpr std::size_t kInstancesMax = 200;
+constexpr std::uint64_t kTexelsMax = 1U << 14U;
+
+void require(bool condition, const char* what)
+{
+    if (!condition)
+    {
+        std::fprintf(stderr, "load_fuzz: %s\n", what);
+        std::abort();
+    }
+}
+
+/// A folder with the input and a few files that it may name.
+class Folder
+{
+public:
+    Folder()
+    {
+        m_dir.write("side.bin", std::string(64, '\1'));
+        m_dir.write("side.png", encodePng(2, 2, std::vector<std::uint8_t>(16, 200)));
+    }
+
+    std::filesystem::path write(std::span<const std::uint8_t> content) const { return m_dir.write("input", content); }
+
+private:
+    TempDir m_dir;
+};
+
+/// Made once; destroyed before the driver's own statics are.
+struct Session
+{
+    Folder folder;
+    std::unique_ptr<vk::HeadlessDevice> device; // none: the voxelizer is left out
+};
+
+std::unique_ptr<Session> g_session;
+
+std::optional<Scene> loadInput(std::span<const std::uint8_t> input)
+{
+    try
+    {
+        return loadGltf(g_session->folder.write(input));
+    }
+    catch (const Error& error)
+    {
+        const std::string message = error.what();
+        require(error.code() == ErrorCode::Input, "an error of the loader that does not blame the input");
+        require(message.find_first_of("\n\r\t") == std::string::npos, "a message of more than one line");
+        return std::nullopt;
+    }
+}
+
+void checkPrimitive(const Scene& scene, const Primitive& primitive)
+{
+    const std::size_t vertex_count = primitive.positions.size();
+    const auto fits = [&](std::size_t count) { return count == 0 || count == vertex_count; };
+    require(fits(primitive.normals.size()) && fits(primitive.uvs.size()) && fits(primitive.colors.size()),
+            "vertex arrays of different lengths");
+    require(primitive.material < scene.materials.size(), "a material that is not there");
+    for (const glm::uvec3& triangle : primitive.triangles)
+    {
+        require(std::max({triangle.x, triangle.y, triangle.z}) < vertex_count, "a vertex that is not there");
+    }
+    for (const glm::vec3& normal : primitive.normals)
+    {
+        const float length = glm::length(normal);
+        require(length == 0.0F || std::abs(length - 1.0F) < 1e-5F, "a normal that is not of unit length");
+    }
+}
+
+/// What the comments in core/scene.h say.
+void checkScene(const Scene& scene)
+{
+    for (const Image& image : scene.images)
+    {
+        require(image.width > 0 && image.height > 0, "an image without pixels");
+        require(image.rgba.size() == std::size_t{image.width} * image.height * 4, "an image of another size");
+    }
+    for (const Texture& texture : scene.textures)
+    {
+        require(texture.image < scene.images.size(), "an image that is not there");
+    }
+    for (const Material& material : scene.materials)
+    {
+        require(material.base_color_texture.value_or(0) < std::max<std::size_t>(scene.textures.size(), 1) &&
+                    material.emission_texture.value_or(0) < std::max<std::size_t>(scene.textures.size(), 1),
+                "a texture that is not there");
+        require(glm::all(glm::greaterThanEqual(material.emission, glm::vec3(0.0F))), "emission below 0");
+    }
+    for (const Primitive& primitive : scene.primitives)
+    {
+        checkPrimitive(scene, primitive);
+    }
+    for (const Instance& instance : scene.instances)
+    {
+        require(instance.primitive < scene.primitives.size(), "a primitive that is not there");
+        for (int column = 0; column < 4; ++column)
+        {
+            require(instance.transform[column].w == (column == 3 ? 1.0F : 0.0F), "a transform that is not affine");
+            require(std::isfinite(glm::dot(glm::dvec4(instance.transform[column]), glm::dvec4(1.0))),
+                    "a transform that is not finite");
+        }
+    }
+}
+
+bool isSmall(const Scene& scene)
+{
+    std::uint64_t texels = 0;
+    for (const Image& image : scene.images)
+    {
+        texels += std::uint64_t{image.width} * image.height;
+    }
+    return scene.triangleCount() <= kTrianglesMax && scene.instances.size() <= kInstancesMax && texels <= kTexelsMax;
+}
+
+void voxelize(vk::HeadlessDevice& device, const Scene& scene, const BuildOptions& options)
+{
+    const Grid grid = Grid::around(scene.bounds(), kDepth);
+    require(std::isfinite(grid.voxel_size) && grid.voxel_size > 0.0F, "a grid without a voxel size");
+    const GpuScene gpu_scene = uploadScene(device, scene, options.attributes);
+    const BuildResult result = buildOctree(device, gpu_scene, grid, options);
+    const std::vector<std::uint64_t> codes = voxelCodes(device, result.octree);
+    require(codes.size() == result.octree.voxel_count, "an octree that has other voxels than it counts");
+    require(std::is_sorted(codes.begin(), codes.end()), "voxels out of order");
+    require(codes.empty() || codes.back() >> (3 * kDepth) == 0, "a voxel outside of the grid");
+    std::uint64_t dropped = 0;
+    for (const auto& [reason, count] : result.dropped)
+    {
+        dropped += count;
+    }
+    require(dropped <= gpu_scene.triangle_count, "more triangles left out than there are");
+}
+
+void closeSession()
+{
+    g_session.reset();
+}
+
+} // namespace
+
+} // namespace zvo::test
+
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/)
+{
+    using namespace zvo::test;
+    g_session = std::make_unique<Session>();
+    std::atexit(closeSession);
+    if (std::getenv("ZVO_FUZZ_LOAD_ONLY") == nullptr)
+    {
+        zvo::vk::HeadlessOptions options;
+        options.device = "cpu";
+        g_session->device = std::make_unique<zvo::vk::HeadlessDevice>(options, zvo::zvoKernels());
+    }
+    return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    using namespace zvo::test;
+    const std::optional<zvo::Scene> scene = loadInput({data, size});
+    if (!scene)
+    {
+        return 0;
+    }
+    checkScene(*scene);
+    if (g_session->device && isSmall(*scene))
+    {
+        // Some inputs without attributes, some conservative.
+        zvo::BuildOptions options;
+        options.attributes = size % 4 != 0 || size % 16 == 0;
+        options.coverage = size % 8 == 4 ? zvo::Coverage::Conservative : zvo::Coverage::Thin;
+        voxelize(*g_session->device, *scene, options);
+    }
+    return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t size_max,
+                                               unsigned int seed);
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t size_max,
+                                               unsigned int seed)
+{
+    using namespace zvo::test;
+    std::mt19937 random(seed);
+    const std::uint32_t choice = random() % 16;
+    if (choice == 0)
+    {
+        return LLVMFuzzerMutate(data, size, size_max); // also breaks headers
+    }
+    GltfParts parts = GltfParts::split({data, size});
+    const auto mutateBytes = [&](auto& bytes)
+    {
+        const std::size_t byte_count = bytes.size();
+        bytes.resize(byte_count + byte_count / 4 + 16);
+        bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), byte_count, bytes.size()));
+    };
+    if (choice < 3)
+    {
+        mutateBytes(parts.text);
+    }
+    else if (choice < 6 && !parts.bin.empty())
+    {
+        mutateBytes(parts.bin);
+    }
+    else if (choice < 8 && !parts.bin.empty())
+    {
+        mutateBin(parts.bin, random);
+    }
+    else
+    {
+        mutateJson(parts.text, random);
+    }
+    const std::vector<std::uint8_t> file = parts.join();
+    if (file.size() > size_max)
+    {
+        return LLVMFuzzerMutate(data, size, size_max);
+    }
+    std::copy(file.begin(), file.end(), data);
+    return file.size();
+}
+
+extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std::size_t size1,
+                                                 const std::uint8_t* data2, std::size_t size2, std::uint8_t* out,
+                                                 std::size_t out_size_max, unsigned int seed);
+extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std::size_t size1,
+                                                 const std::uint8_t* data2, std::size_t size2, std::uint8_t* out,
+                                                 std::size_t out_size_max, unsigned int seed)
+{
+    using namespace zvo::test;
+    std::mt19937 random(seed);
+    GltfParts parts = GltfParts::split({data1, size1});
+    GltfParts other = GltfParts::split({data2, size2});
+    if (random() % 4 == 0)
+    {
+        parts.bin = std::move(other.bin);
+    }
+    else
+    {
+        crossJson(parts.text, other.text, random);
+    }
+    const std::vector<std::uint8_t> file = parts.join();
+    if (file.size() > out_size_max)
+    {
+        return 0;
+    }
+    std::copy(file.begin(), file.end(), out);
+    return file.size();
+}
