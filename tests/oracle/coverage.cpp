@@ -42,9 +42,10 @@ constexpr Int128 kOne = 1;
 constexpr std::array<Vec, 3> kUnit{Vec{kOne, 0, 0}, Vec{0, kOne, 0}, Vec{0, 0, kOne}};
 
 /// The plane, taken at the centre of the voxel's column along w, has its height in the voxel.
-bool planeInVoxel(const Triangle& triangle, const Vec& normal, const glm::uvec3& voxel, std::uint32_t resolution)
+bool planeInVoxel(const Triangle& triangle, const Vec& normal, const glm::uvec3& voxel, std::uint32_t resolution,
+                  const ThinRule& rule)
 {
-    const std::size_t w = majorAxis(normal);
+    const std::size_t w = majorAxis(normal, rule.tie_order);
     const std::size_t u = (w + 1) % 3;
     const std::size_t v = (w + 2) % 3;
     const Vec center = voxelBox(voxel, voxel).low - Vec{-128, -128, -128};
@@ -57,10 +58,12 @@ bool planeInVoxel(const Triangle& triangle, const Vec& normal, const glm::uvec3&
     const Int128 low = (layer * kLatticeVoxel - triangle[0][w]) * denominator;
     const Int128 high = ((layer + 1) * kLatticeVoxel - triangle[0][w]) * denominator;
 
-    const bool in_upper_face = normal[u] == 0 && normal[v] == 0 && triangle[0][w] == Int128{resolution} * kLatticeVoxel;
-    if (in_upper_face)
+    const bool level = normal[u] == 0 && normal[v] == 0;
+    if (level && rule.border_below[w] && triangle[0][w] == 0)
+        return layer == 0;
+    if (level && !rule.border_below[w] && triangle[0][w] == Int128{resolution} * kLatticeVoxel)
         return layer == Int128{resolution} - 1;
-    return low <= numerator && numerator < high;
+    return rule.border_below[w] ? low < numerator && numerator <= high : low <= numerator && numerator < high;
 }
 
 /// In the plane (a, b), the voxel's diamond reaches the inner side of all three edges.
@@ -82,17 +85,67 @@ bool diamondInsideEdges(const Triangle& triangle, const Vec& normal, const Vec& 
     return true;
 }
 
-/// Halves the box of voxels first to last until it is one voxel or the triangle does not touch it.
-void subdivide(const Triangle& triangle, std::uint32_t resolution, Coverage coverage, const glm::uvec3& first,
-               const glm::uvec3& last, const std::function<void(const glm::uvec3&)>& visit)
+/// overlaps() for many boxes: what depends on the triangle alone is computed once.
+class OverlapTest
 {
-    if (!overlaps(triangle, voxelBox(first, last))) // thin coverage is a subset, a test checks it
+public:
+    explicit OverlapTest(const Triangle& triangle)
+    {
+        for (const Vec& unit : kUnit)
+            add(unit, triangle);
+        add(normalOf(triangle), triangle);
+        for (std::size_t i = 0; i < 3; ++i)
+            for (const Vec& unit : kUnit)
+                add(cross(triangle[(i + 1) % 3] - triangle[i], unit), triangle);
+    }
+
+    [[nodiscard]] bool overlaps(const Box& box) const
+    {
+        for (const Axis& axis : m_axes)
+        {
+            const Interval interval = project(box, axis.direction);
+            if (axis.triangle.high < interval.low || interval.high < axis.triangle.low)
+                return false;
+        }
+        return true;
+    }
+
+private:
+    struct Axis
+    {
+        Vec direction;
+        Interval triangle;
+    };
+
+    void add(const Vec& direction, const Triangle& triangle)
+    {
+        m_axes[m_count++] = {direction, project(triangle, direction)};
+    }
+
+    std::array<Axis, 13> m_axes{};
+    std::size_t m_count = 0;
+};
+
+struct Walk
+{
+    const Triangle& triangle;
+    const OverlapTest& test;
+    std::uint32_t resolution;
+    Coverage coverage;
+    const ThinRule& rule;
+    const std::function<void(const glm::uvec3&)>& visit;
+};
+
+/// Halves the box of voxels first to last until it is one voxel or the triangle does not touch it.
+void subdivide(const Walk& walk, const glm::uvec3& first, const glm::uvec3& last)
+{
+    if (!walk.test.overlaps(voxelBox(first, last))) // thin coverage is a subset, a test checks it
         return;
     const glm::uvec3 extent = last - first;
     if (extent == glm::uvec3{0U})
     {
-        if (coverage == Coverage::Conservative || coversThin(triangle, first, resolution))
-            visit(first);
+        if (walk.coverage == Coverage::Conservative || coversThin(walk.triangle, first, walk.resolution, walk.rule))
+            walk.visit(first);
         return;
     }
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
@@ -100,8 +153,8 @@ void subdivide(const Triangle& triangle, std::uint32_t resolution, Coverage cove
     glm::uvec3 upper_first = first;
     lower_last[axis] = first[axis] + extent[axis] / 2;
     upper_first[axis] = lower_last[axis] + 1;
-    subdivide(triangle, resolution, coverage, first, lower_last, visit);
-    subdivide(triangle, resolution, coverage, upper_first, last, visit);
+    subdivide(walk, first, lower_last);
+    subdivide(walk, upper_first, last);
 }
 
 } // namespace
@@ -111,10 +164,10 @@ Vec normalOf(const Triangle& triangle)
     return cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
 }
 
-std::uint32_t majorAxis(const Vec& normal)
+std::uint32_t majorAxis(const Vec& normal, const std::array<std::uint32_t, 3>& tie_order)
 {
-    std::uint32_t axis = 0;
-    for (std::uint32_t i = 1; i < 3; ++i)
+    std::uint32_t axis = tie_order[0];
+    for (const std::uint32_t i : {tie_order[1], tie_order[2]})
         if (absolute(normal[i]) > absolute(normal[axis]))
             axis = i;
     return axis;
@@ -134,7 +187,7 @@ bool overlaps(const Triangle& triangle, const Box& box)
     return true;
 }
 
-bool coversThin(const Triangle& triangle, const glm::uvec3& voxel, std::uint32_t resolution)
+bool coversThin(const Triangle& triangle, const glm::uvec3& voxel, std::uint32_t resolution, const ThinRule& rule)
 {
     const Vec normal = normalOf(triangle);
     if (normal == Vec{0, 0, 0})
@@ -144,7 +197,7 @@ bool coversThin(const Triangle& triangle, const glm::uvec3& voxel, std::uint32_t
     for (const Vec& unit : kUnit)
         if (separates(unit, triangle, box))
             return false;
-    if (!planeInVoxel(triangle, normal, voxel, resolution))
+    if (!planeInVoxel(triangle, normal, voxel, resolution, rule))
         return false;
     for (std::size_t a = 0; a < 3; ++a)
         if (!diamondInsideEdges(triangle, normal, center, a))
@@ -164,7 +217,7 @@ Box voxelBox(const glm::uvec3& first, const glm::uvec3& last)
 }
 
 void forEachCoveredVoxel(const Triangle& triangle, std::uint32_t resolution, Coverage coverage,
-                         const std::function<void(const glm::uvec3&)>& visit)
+                         const std::function<void(const glm::uvec3&)>& visit, const ThinRule& rule)
 {
     glm::uvec3 first{};
     glm::uvec3 last{};
@@ -179,7 +232,7 @@ void forEachCoveredVoxel(const Triangle& triangle, std::uint32_t resolution, Cov
         first[static_cast<int>(i)] = static_cast<std::uint32_t>(std::max(low, Int128{0}));
         last[static_cast<int>(i)] = static_cast<std::uint32_t>(std::min(high, Int128{resolution} - 1));
     }
-    subdivide(triangle, resolution, coverage, first, last, visit);
+    subdivide({triangle, OverlapTest(triangle), resolution, coverage, rule, visit}, first, last);
 }
 
 } // namespace zvo::oracle

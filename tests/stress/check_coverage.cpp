@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// check_coverage: millions of triangles and whole meshes, device against oracle, both coverages. Ends with 1 when
+// anything differs.
+#include "core/gltf_loader.h"
+#include "core/kernels.h"
+#include "stress/compare_coverage.h"
+#include "support/device.h"
+#include "support/scenes.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+namespace zvo::stress
+{
+namespace
+{
+
+constexpr std::array<Coverage, 2> kCoverages{Coverage::Conservative, Coverage::Thin};
+
+/// Shares of all triangles, in percent, by shape.
+constexpr std::array<std::uint64_t, kShapeCount> kShares{18, 16, 16, 18, 16, 5, 5, 4, 2};
+
+struct Options
+{
+    std::uint64_t triangles = 10'000'000;
+    std::uint64_t seed = 1;
+    std::string shape; // empty: all
+    std::int64_t batch = -1;
+    bool meshes = true;
+};
+
+const char* nameOf(Coverage coverage)
+{
+    return coverage == Coverage::Thin ? "thin" : "conservative";
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void printHeader(const char* first_column)
+{
+    fmt::print("{:<22} {:<12} {:>10} {:>9} {:>12} {:>12} {:>8} {:>11}\n", first_column, "coverage", "triangles",
+               "dropped", "voxels", "fragments", "hidden", "differences");
+}
+
+void print(const std::string& name, Coverage coverage, const Tally& tally)
+{
+    fmt::print("{:<22} {:<12} {:>10} {:>9} {:>12} {:>12} {:>8} {:>11}\n", name, nameOf(coverage), tally.triangles,
+               tally.dropped, tally.voxels, tally.fragments, tally.hidden, tally.differences);
+    std::fflush(stdout);
+}
+
+/// Tallies by shape and coverage.
+using Tallies = std::array<std::array<Tally, 2>, kShapeCount>;
+
+void runBatch(vk::HeadlessDevice& device, const Options& options, Shape shape, std::uint64_t number,
+              std::size_t count_max, Tallies& tallies)
+{
+    const Batch batch = makeBatch(options.seed, shape, number, count_max);
+    for (std::size_t i = 0; i < kCoverages.size(); ++i)
+    {
+        const Tally tally = compareBatch(device, batch, kCoverages[i]);
+        if (tally.differences != 0)
+            fmt::print(stderr, "{} differences: --seed {} --shape {} --batch {}, {}\n", tally.differences, options.seed,
+                       nameOf(shape), number, nameOf(kCoverages[i]));
+        for (const std::string& finding : tally.findings)
+            fmt::print(stderr, "  {}\n", finding);
+        tallies[static_cast<std::size_t>(shape)][i].add(tally);
+    }
+}
+
+/// Differences.
+std::uint64_t checkTriangles(vk::HeadlessDevice& device, const Options& options)
+{
+    Tallies tallies;
+    std::array<std::uint64_t, kShapeCount> next{}; // number of the next batch
+    const auto start = std::chrono::steady_clock::now();
+    double told = 0;
+    for (std::uint64_t done = 0; done < options.triangles;)
+    {
+        // The shape that is furthest behind its share.
+        std::size_t shape = 0;
+        for (std::size_t i = 0; i < kShapeCount; ++i)
+        {
+            const bool wanted = options.shape.empty() || options.shape == nameOf(static_cast<Shape>(i));
+            const bool current = options.shape.empty() || options.shape == nameOf(static_cast<Shape>(shape));
+            const auto behind = [&](std::size_t k) { return tallies[k][0].triangles * 100 / kShares[k]; };
+            if (wanted && (!current || behind(i) < behind(shape)))
+                shape = i;
+        }
+        const std::uint64_t before = tallies[shape][0].triangles;
+        const std::uint64_t number = options.batch >= 0 ? static_cast<std::uint64_t>(options.batch) : next[shape]++;
+        runBatch(device, options, static_cast<Shape>(shape), number, 1 << 20, tallies);
+        done += options.batch >= 0 ? options.triangles : tallies[shape][0].triangles - before;
+        if (secondsSince(start) > told + 30)
+        {
+            told = secondsSince(start);
+            fmt::print(stderr, "{:.0f} s: {} triangles\n", told, done);
+        }
+    }
+    printHeader("shape");
+    std::array<Tally, 2> sums;
+    for (std::size_t shape = 0; shape < kShapeCount; ++shape)
+    {
+        for (std::size_t i = 0; i < kCoverages.size(); ++i)
+        {
+            if (tallies[shape][i].triangles != 0)
+                print(nameOf(static_cast<Shape>(shape)), kCoverages[i], tallies[shape][i]);
+            sums[i].add(tallies[shape][i]);
+        }
+    }
+    for (std::size_t i = 0; i < kCoverages.size(); ++i)
+        print("all", kCoverages[i], sums[i]);
+    fmt::print("{:.0f} s, seed {}\n", secondsSince(start), options.seed);
+    return sums[0].differences + sums[1].differences;
+}
+
+std::uint64_t checkMeshes(vk::HeadlessDevice& device)
+{
+    struct Mesh
+    {
+        const char* file;
+        std::uint32_t depth;
+    };
+    printHeader("mesh");
+    std::uint64_t differences = 0;
+    for (const Mesh& mesh :
+         {Mesh{"bunny.glb", 9}, Mesh{"dragon.glb", 9}, Mesh{"buddha_113k.glb", 9}, Mesh{"sponza.glb", 8}})
+    {
+        const auto path = test::findScene(mesh.file);
+        if (!path)
+        {
+            fmt::print("{:<22} is not there: left out\n", mesh.file);
+            continue;
+        }
+        const Scene scene = loadGltf(*path);
+        const Grid grid = Grid::around(scene.bounds(), mesh.depth);
+        for (const Coverage coverage : kCoverages)
+        {
+            const Tally tally = compareScene(device, scene, grid, coverage);
+            print(fmt::format("{} {}", mesh.file, grid.resolution()), coverage, tally);
+            for (const std::string& finding : tally.findings)
+                fmt::print(stderr, "  {}\n", finding);
+            differences += tally.differences;
+        }
+    }
+    return differences;
+}
+
+int run(const Options& options)
+{
+    vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
+    std::uint64_t differences = checkTriangles(device, options);
+    if (options.meshes)
+        differences += checkMeshes(device);
+    const std::uint32_t messages = test::validationMessageCount();
+    test::destroySharedDevice();
+    fmt::print("{} differences\n", differences);
+    return differences == 0 && messages == 0 ? 0 : 1;
+}
+
+} // namespace
+} // namespace zvo::stress
+
+int main(int argc, char** argv)
+{
+    zvo::stress::Options options;
+    CLI::App app("Coverage of triangles and meshes, device against oracle");
+    app.add_option("--triangles", options.triangles, "how many random triangles of all shapes")->capture_default_str();
+    app.add_option("--seed", options.seed, "another number, other triangles")->capture_default_str();
+    app.add_option("--shape", options.shape, "only this shape");
+    app.add_option("--batch", options.batch, "only this batch of --shape, as a difference names it");
+    app.add_flag("!--no-meshes", options.meshes, "without whole meshes");
+    CLI11_PARSE(app, argc, argv);
+    try
+    {
+        return zvo::stress::run(options);
+    }
+    catch (const std::exception& error)
+    {
+        fmt::print(stderr, "check_coverage: {}\n", error.what());
+        return 2;
+    }
+}
