@@ -85,12 +85,22 @@ bool diamondInsideEdges(const Triangle& triangle, const Vec& normal, const Vec& 
     return true;
 }
 
-/// overlaps() for many boxes: what depends on the triangle alone is computed once.
-class OverlapTest
+/// A box of voxels and where it stands.
+struct VoxelRange
+{
+    glm::uvec3 first;
+    glm::uvec3 last;
+};
+
+/// overlaps() for many boxes of voxels: what depends on the triangle alone is computed once. Int is 64 bits wide where
+/// that suffices; the boxes must touch the triangle's box.
+template <typename Int> class OverlapTest
 {
 public:
     explicit OverlapTest(const Triangle& triangle)
     {
+        for (std::size_t i = 0; i < 3; ++i)
+            m_origin[i] = static_cast<Int>(triangle[0][i]);
         for (const Vec& unit : kUnit)
             add(unit, triangle);
         add(normalOf(triangle), triangle);
@@ -99,12 +109,23 @@ public:
                 add(cross(triangle[(i + 1) % 3] - triangle[i], unit), triangle);
     }
 
-    [[nodiscard]] bool overlaps(const Box& box) const
+    [[nodiscard]] bool overlaps(const VoxelRange& box) const
     {
+        // The box's middle and half its size, both twice.
+        std::array<Int, 3> middle;
+        std::array<Int, 3> size;
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            const Int first = box.first[static_cast<int>(i)];
+            const Int last = box.last[static_cast<int>(i)];
+            middle[i] = (first + last + 1) * kLatticeVoxel - 2 * m_origin[i];
+            size[i] = (last - first + 1) * kLatticeVoxel;
+        }
         for (const Axis& axis : m_axes)
         {
-            const Interval interval = project(box, axis.direction);
-            if (axis.triangle.high < interval.low || interval.high < axis.triangle.low)
+            const Int at = axis.x * middle[0] + axis.y * middle[1] + axis.z * middle[2];
+            const Int reach = axis.size_x * size[0] + axis.size_y * size[1] + axis.size_z * size[2];
+            if (axis.high < at - reach || at + reach < axis.low)
                 return false;
         }
         return true;
@@ -113,23 +134,47 @@ public:
 private:
     struct Axis
     {
-        Vec direction;
-        Interval triangle;
+        Int x, y, z;
+        Int size_x, size_y, size_z; // absolute values
+        Int low, high;              // twice the triangle's interval, from its first corner
     };
 
     void add(const Vec& direction, const Triangle& triangle)
     {
-        m_axes[m_count++] = {direction, project(triangle, direction)};
+        const Interval interval = project(triangle, direction);
+        const Int128 origin = dot(direction, triangle[0]);
+        m_axes[m_count++] = {static_cast<Int>(direction[0]),
+                             static_cast<Int>(direction[1]),
+                             static_cast<Int>(direction[2]),
+                             static_cast<Int>(absolute(direction[0])),
+                             static_cast<Int>(absolute(direction[1])),
+                             static_cast<Int>(absolute(direction[2])),
+                             static_cast<Int>(2 * (interval.low - origin)),
+                             static_cast<Int>(2 * (interval.high - origin))};
     }
 
     std::array<Axis, 13> m_axes{};
     std::size_t m_count = 0;
+    std::array<Int, 3> m_origin{};
 };
 
-struct Walk
+/// Whether 64 bits hold what OverlapTest computes: the normal, below 2^38, times twice the distance of a voxel, below
+/// 2^20, in three terms; and the same for the box's size.
+bool isModest(const Triangle& triangle)
+{
+    for (const Vec& unit : kUnit)
+    {
+        const Interval range = project(triangle, unit);
+        if (range.high - range.low > (1 << 18))
+            return false;
+    }
+    return true;
+}
+
+template <typename Int> struct Walk
 {
     const Triangle& triangle;
-    const OverlapTest& test;
+    const OverlapTest<Int>& test;
     std::uint32_t resolution;
     Coverage coverage;
     const ThinRule& rule;
@@ -137,10 +182,11 @@ struct Walk
 };
 
 /// Halves the box of voxels first to last until it is one voxel or the triangle does not touch it.
-void subdivide(const Walk& walk, const glm::uvec3& first, const glm::uvec3& last)
+template <typename Int> void subdivide(const Walk<Int>& walk, const VoxelRange& box)
 {
-    if (!walk.test.overlaps(voxelBox(first, last))) // thin coverage is a subset, a test checks it
+    if (!walk.test.overlaps(box)) // thin coverage is a subset, a test checks it
         return;
+    const auto& [first, last] = box;
     const glm::uvec3 extent = last - first;
     if (extent == glm::uvec3{0U})
     {
@@ -149,12 +195,12 @@ void subdivide(const Walk& walk, const glm::uvec3& first, const glm::uvec3& last
         return;
     }
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    glm::uvec3 lower_last = last;
-    glm::uvec3 upper_first = first;
-    lower_last[axis] = first[axis] + extent[axis] / 2;
-    upper_first[axis] = lower_last[axis] + 1;
-    subdivide(walk, first, lower_last);
-    subdivide(walk, upper_first, last);
+    VoxelRange lower = box;
+    VoxelRange upper = box;
+    lower.last[axis] = first[axis] + extent[axis] / 2;
+    upper.first[axis] = lower.last[axis] + 1;
+    subdivide(walk, lower);
+    subdivide(walk, upper);
 }
 
 } // namespace
@@ -232,7 +278,11 @@ void forEachCoveredVoxel(const Triangle& triangle, std::uint32_t resolution, Cov
         first[static_cast<int>(i)] = static_cast<std::uint32_t>(std::max(low, Int128{0}));
         last[static_cast<int>(i)] = static_cast<std::uint32_t>(std::min(high, Int128{resolution} - 1));
     }
-    subdivide({triangle, OverlapTest(triangle), resolution, coverage, rule, visit}, first, last);
+    if (isModest(triangle))
+        subdivide<std::int64_t>({triangle, OverlapTest<std::int64_t>(triangle), resolution, coverage, rule, visit},
+                                {first, last});
+    else
+        subdivide<Int128>({triangle, OverlapTest<Int128>(triangle), resolution, coverage, rule, visit}, {first, last});
 }
 
 } // namespace zvo::oracle

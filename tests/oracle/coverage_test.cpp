@@ -153,6 +153,30 @@ TEST(OracleConservative, PruningChangesNothing)
     }
 }
 
+TEST(OracleConservative, PruningChangesNothingForTrianglesOfAllSizes)
+{
+    // Above 2^18 units the arithmetic changes; at 2^29 numbers are as large as they become.
+    test::Random random(6);
+    std::uint32_t count = 0;
+    for (int i = 0; i < 500; ++i)
+    {
+        static constexpr std::array<std::int64_t, 5> kReaches{1 << 10, 1 << 16, (1 << 17) - 1, 1 << 18, 1 << 28};
+        const std::int64_t reach = kReaches[static_cast<std::size_t>(i) % kReaches.size()];
+        const Vec inside = test::pickPoint(random, 0, 8 * kLatticeVoxel);
+        const Vec a = test::pickPoint(random, -reach, reach);
+        const Vec b = i % 3 == 0 ? a - test::pickPoint(random, -9, 9) : test::pickPoint(random, -reach, reach);
+        const Vec c = i % 7 == 0 ? Vec{0, 0, 0} : Vec{-(a[0] + b[0]) / 2, -(a[1] + b[1]) / 2, -(a[2] + b[2]) / 2};
+        const Triangle triangle{inside - a, inside - b, inside - c};
+        Voxels expected;
+        for (const glm::uvec3& voxel : test::allVoxels(8))
+            if (overlaps(triangle, voxelBox(voxel, voxel)))
+                expected.insert(key(voxel));
+        ASSERT_EQ(covered(triangle, 8, Coverage::Conservative), expected) << "case " << i;
+        count += expected.empty() ? 0 : 1;
+    }
+    EXPECT_GT(count, 300U);
+}
+
 TEST(OracleThin, WallBetweenLayersBelongsToTheUpperOne)
 {
     for (Triangle wall : {floorAt(512, 4), Triangle{floorAt(512, 4)[1], floorAt(512, 4)[0], floorAt(512, 4)[2]}})

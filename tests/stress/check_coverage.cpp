@@ -21,7 +21,7 @@ namespace
 constexpr std::array<Coverage, 2> kCoverages{Coverage::Conservative, Coverage::Thin};
 
 /// Shares of all triangles, in percent, by shape.
-constexpr std::array<std::uint64_t, kShapeCount> kShares{18, 16, 16, 18, 16, 5, 5, 4, 2};
+constexpr std::array<std::uint64_t, kShapeCount> kShares{19, 18, 17, 18, 17, 6, 2, 1, 2};
 
 struct Options
 {

@@ -374,7 +374,7 @@ void fillPile(Maker& maker, Batch& batch, std::size_t expected_voxels, std::size
 /// Long needles and slivers beyond the grid on all sides, at high resolution.
 void fillHugeLines(Maker& maker, Batch& batch, std::size_t count_max)
 {
-    const std::size_t count = std::min<std::size_t>(256, std::size_t{1} << (18 - batch.depth));
+    const std::size_t count = std::min<std::size_t>(256, std::size_t{1} << (17 - batch.depth));
     for (std::size_t i = 0; i < std::min(count_max, count); ++i)
         batch.triangles.push_back(maker.huge(1 << batch.depth, true));
 }
@@ -407,13 +407,13 @@ Batch makeBatch(std::uint64_t seed, Shape shape, std::uint64_t number, std::size
         fillPile(maker, batch, std::size_t{1} << (2 * batch.depth), count_max);
         break;
     case Shape::Huge:
-        batch.depth = pile ? pickDepth(maker, 1, 6) : pickDepth(maker, 7, 12);
+        batch.depth = number % 4 == 1 ? pickDepth(maker, 7, 12) : pickDepth(maker, 1, 6);
         if (number % 32 == 31) // many row blocks
         {
             batch.depth = pickDepth(maker, 8, 10);
             batch.triangles.push_back(maker.huge(1 << batch.depth, false));
         }
-        else if (pile)
+        else if (batch.depth <= 6)
             fillPile(maker, batch, std::size_t{2} << (2 * batch.depth), count_max);
         else
             fillHugeLines(maker, batch, count_max);
