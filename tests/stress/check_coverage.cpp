@@ -120,6 +120,29 @@ std::uint64_t checkTriangles(vk::HeadlessDevice& device, const Options& options)
     return sums[0].differences + sums[1].differences;
 }
 
+/// Vertices that do not come on the lattice as they are: one in fifty of the triangles. Differences.
+std::uint64_t checkPlaced(vk::HeadlessDevice& device, const Options& options)
+{
+    std::array<Tally, 2> sums;
+    for (std::uint64_t number = 0; sums[0].triangles < options.triangles / 50; ++number)
+    {
+        const PlacedScene placed = makePlacedScene(options.seed, number);
+        for (std::size_t i = 0; i < kCoverages.size(); ++i)
+        {
+            const Tally tally = compareScene(device, placed.scene, placed.grid, kCoverages[i]);
+            if (tally.differences != 0)
+                fmt::print(stderr, "{} differences: --seed {}, placed scene {}, {}\n", tally.differences, options.seed,
+                           number, nameOf(kCoverages[i]));
+            for (const std::string& finding : tally.findings)
+                fmt::print(stderr, "  {}\n", finding);
+            sums[i].add(tally);
+        }
+    }
+    for (std::size_t i = 0; i < kCoverages.size(); ++i)
+        print("placed at random", kCoverages[i], sums[i]);
+    return sums[0].differences + sums[1].differences;
+}
+
 std::uint64_t checkMeshes(vk::HeadlessDevice& device)
 {
     struct Mesh
@@ -155,7 +178,11 @@ std::uint64_t checkMeshes(vk::HeadlessDevice& device)
 int run(const Options& options)
 {
     vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
-    std::uint64_t differences = checkTriangles(device, options);
+    std::uint64_t differences = 0;
+    if (options.triangles != 0)
+        differences += checkTriangles(device, options);
+    if (options.shape.empty())
+        differences += checkPlaced(device, options);
     if (options.meshes)
         differences += checkMeshes(device);
     const std::uint32_t messages = test::validationMessageCount();

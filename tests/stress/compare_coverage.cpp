@@ -24,7 +24,15 @@ using Color = std::array<std::uint16_t, 3>; // linear, fractions of 65535
 
 constexpr std::size_t kFindingsMax = 8;
 constexpr std::size_t kSuspectsMax = 64;
-constexpr std::uint32_t kTriangleBits = 20; // of a record; the Morton code of depth 12 takes 36
+
+/// A triangle covers a voxel.
+struct Record
+{
+    std::uint64_t code;
+    std::uint32_t triangle;
+
+    auto operator<=>(const Record&) const = default;
+};
 
 Grid unitGrid(std::uint32_t depth)
 {
@@ -113,11 +121,11 @@ struct ExpectedVoxels
     std::uint64_t hidden = 0;
 };
 
-/// Sorted records (code << kTriangleBits | triangle), one a fragment.
-std::vector<std::uint64_t> fragmentRecords(const Batch& batch, Coverage coverage, oracle::Dropped& dropped)
+/// Sorted, one a fragment.
+std::vector<Record> fragmentRecords(const Batch& batch, Coverage coverage, oracle::Dropped& dropped)
 {
     const Grid grid = unitGrid(batch.depth);
-    std::vector<std::vector<std::uint64_t>> lists(oracle::threadCount());
+    std::vector<std::vector<Record>> lists(oracle::threadCount());
     std::vector<oracle::Dropped> drops(oracle::threadCount());
     const auto work = [&](std::uint32_t thread, std::uint64_t first, std::uint64_t last)
     {
@@ -134,13 +142,14 @@ std::vector<std::uint64_t> fragmentRecords(const Batch& batch, Coverage coverage
             }
             oracle::forEachCoveredVoxel(
                 exact(batch.triangles[number]), grid.resolution(), coverage,
-                [&](const glm::uvec3& voxel)
-                { lists[thread].push_back(oracle::mortonEncode(voxel) << kTriangleBits | number); });
+                [&](const glm::uvec3& voxel) {
+                    lists[thread].push_back({oracle::mortonEncode(voxel), static_cast<std::uint32_t>(number)});
+                });
         }
     };
     oracle::forEachChunk(batch.triangles.size(), work);
-    std::vector<std::uint64_t> records;
-    for (const std::vector<std::uint64_t>& list : lists)
+    std::vector<Record> records;
+    for (const std::vector<Record>& list : lists)
         records.insert(records.end(), list.begin(), list.end());
     for (const oracle::Dropped& counts : drops)
         for (const auto& [reason, count] : counts)
@@ -152,16 +161,15 @@ std::vector<std::uint64_t> fragmentRecords(const Batch& batch, Coverage coverage
 ExpectedVoxels expectedVoxels(const Batch& batch, const std::vector<Color>& colors, Coverage coverage)
 {
     ExpectedVoxels expected;
-    const std::vector<std::uint64_t> records = fragmentRecords(batch, coverage, expected.dropped);
+    const std::vector<Record> records = fragmentRecords(batch, coverage, expected.dropped);
     expected.fragments = records.size();
-    const auto colorOf = [&](std::size_t record) -> const Color&
-    { return colors[records[record] & ((1U << kTriangleBits) - 1)]; };
+    const auto colorOf = [&](std::size_t record) -> const Color& { return colors[records[record].triangle]; };
     for (std::size_t first = 0; first < records.size();)
     {
-        const std::uint64_t code = records[first] >> kTriangleBits;
+        const std::uint64_t code = records[first].code;
         std::uint64_t sums[3] = {0, 0, 0};
         std::size_t last = first;
-        for (; last < records.size() && records[last] >> kTriangleBits == code; ++last)
+        for (; last < records.size() && records[last].code == code; ++last)
             for (std::size_t channel = 0; channel < 3; ++channel)
                 sums[channel] += colorOf(last)[channel];
         const std::size_t count = last - first;

@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr int kLatticeMax = 1 << 29;
+constexpr int kDepthMax = Grid::kDepthMax;
 
 /// Where the points of a triangle may lie: low to high in lattice units, on all axes.
 struct Room
@@ -17,6 +18,12 @@ struct Room
     int low = 0;
     int high = 0;
 };
+
+/// The nearest point whose coordinates single precision holds: 24 bits each.
+glm::ivec3 representable(const glm::ivec3& p)
+{
+    return glm::ivec3(glm::vec3(p));
+}
 
 class Maker
 {
@@ -84,21 +91,15 @@ public:
         }
         LatticeTriangle triangle{};
         const glm::dvec3 corners[3] = {inside + a, inside + b, inside - (a + b) * fraction()};
+        constexpr double kEnd = kLatticeMax;
         for (std::size_t i = 0; i < 3; ++i)
-            for (int k = 0; k < 3; ++k)
-                triangle[i][k] = representable(corners[i][k]);
+            triangle[i] = representable(glm::ivec3(glm::clamp(glm::round(corners[i]), -kEnd, kEnd)));
         if (!slim && oneIn(8))
             triangle[0][axis] = oneIn(2) ? kLatticeMax : -kLatticeMax;
         return triangle;
     }
 
 private:
-    static int representable(double value)
-    {
-        const auto rounded = static_cast<float>(std::nearbyint(value));
-        return static_cast<int>(std::clamp(rounded, -static_cast<float>(kLatticeMax), static_cast<float>(kLatticeMax)));
-    }
-
     /// A cube of this size or less in room.
     Room cube(const Room& room, int size, glm::ivec3& corner)
     {
@@ -352,7 +353,7 @@ void fillBlocks(Maker& maker, Batch& batch, int block_log2, std::size_t count_ma
             << (block_log2 + 8);
         LatticeTriangle triangle = maker.triangle(batch.shape, room, 1 << batch.depth);
         for (glm::ivec3& p : triangle)
-            p += corner;
+            p = representable(p + corner);
         batch.triangles.push_back(triangle);
     }
 }
@@ -374,7 +375,7 @@ void fillPile(Maker& maker, Batch& batch, std::size_t expected_voxels, std::size
 /// Long needles and slivers beyond the grid on all sides, at high resolution.
 void fillHugeLines(Maker& maker, Batch& batch, std::size_t count_max)
 {
-    const std::size_t count = std::min<std::size_t>(256, std::size_t{1} << (17 - batch.depth));
+    const std::size_t count = std::clamp<std::size_t>((std::size_t{1} << 17) >> batch.depth, 4, 256);
     for (std::size_t i = 0; i < std::min(count_max, count); ++i)
         batch.triangles.push_back(maker.huge(1 << batch.depth, true));
 }
@@ -407,7 +408,7 @@ Batch makeBatch(std::uint64_t seed, Shape shape, std::uint64_t number, std::size
         fillPile(maker, batch, std::size_t{1} << (2 * batch.depth), count_max);
         break;
     case Shape::Huge:
-        batch.depth = number % 4 == 1 ? pickDepth(maker, 7, 12) : pickDepth(maker, 1, 6);
+        batch.depth = number % 4 == 1 ? pickDepth(maker, 7, kDepthMax) : pickDepth(maker, 1, 6);
         if (number % 32 == 31) // many row blocks
         {
             batch.depth = pickDepth(maker, 8, 10);
@@ -419,7 +420,7 @@ Batch makeBatch(std::uint64_t seed, Shape shape, std::uint64_t number, std::size
             fillHugeLines(maker, batch, count_max);
         break;
     case Shape::Threshold:
-        batch.depth = maker.oneIn(4) ? 12 : pickDepth(maker, 9, 12);
+        batch.depth = maker.oneIn(4) ? kDepthMax : pickDepth(maker, 9, kDepthMax);
         fillBlocks(maker, batch, maker.oneIn(4) ? 9 : 6, std::min<std::size_t>(count_max, 2048));
         break;
     default:
@@ -432,7 +433,7 @@ Batch makeBatch(std::uint64_t seed, Shape shape, std::uint64_t number, std::size
         {
             // Blocks of 8^3 or 16^3 voxels hold small triangles, blocks of 64^3 and more also such that go by rows.
             const int block_log2 = maker.oneIn(12) ? 6 : maker.oneIn(3) ? 4 : 3;
-            batch.depth = pickDepth(maker, std::max(7, block_log2 + 3), 12);
+            batch.depth = pickDepth(maker, std::max(7, block_log2 + 3), kDepthMax);
             fillBlocks(maker, batch, block_log2, std::min<std::size_t>(count_max, block_log2 == 6 ? 1024 : 16384));
         }
         break;
@@ -469,6 +470,46 @@ Scene latticeScene(std::span<const LatticeTriangle> triangles, std::span<const s
     }
     scene.instances.emplace_back();
     return scene;
+}
+
+PlacedScene makePlacedScene(std::uint64_t seed, std::uint64_t number)
+{
+    std::mt19937_64 random(seed * 1'000'003 + number);
+    const auto uniform = [&](float low, float high)
+    { return std::uniform_real_distribution<float>(low, high)(random); };
+    const auto vector = [&](float reach)
+    { return glm::vec3(uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)); };
+
+    PlacedScene placed;
+    placed.grid.depth = 5 + static_cast<std::uint32_t>(random() % 4);
+    placed.grid.voxel_size = std::exp2(uniform(-20.0F, 12.0F));
+    const float edge = placed.grid.voxel_size * static_cast<float>(placed.grid.resolution());
+    placed.grid.origin = vector(edge * std::exp2(uniform(-2.0F, 8.0F)));
+    constexpr std::uint32_t kPlaces = 8;
+    constexpr std::uint32_t kTrianglesPerPlace = 250;
+    for (std::uint32_t place = 0; place < kPlaces; ++place)
+    {
+        std::vector<LatticeTriangle> triangles(kTrianglesPerPlace);
+        std::vector<std::array<std::uint16_t, 3>> colors(kTrianglesPerPlace);
+        for (std::array<std::uint16_t, 3>& color : colors)
+            for (std::uint16_t& channel : color)
+                channel = static_cast<std::uint16_t>(random() & 65535);
+        Scene part = latticeScene(triangles, colors);
+        std::vector<glm::vec3>& points = part.primitives[0].positions;
+        for (std::size_t i = 0; i < points.size(); i += 3)
+        {
+            const glm::vec3 middle = vector(1.0F);
+            const float size = std::exp2(uniform(-9.0F, -2.0F));
+            for (std::size_t k = 0; k < 3; ++k)
+                points[i + k] = middle + vector(size);
+        }
+        glm::mat4& transform = part.instances[0].transform;
+        for (int column = 0; column < 3; ++column)
+            transform[column] = glm::vec4(vector(edge * 0.3F), 0.0F);
+        transform[3] = glm::vec4(placed.grid.origin + 0.5F * edge + vector(0.2F * edge), 1.0F);
+        placed.scene.append(std::move(part));
+    }
+    return placed;
 }
 
 std::string toText(const LatticeTriangle& triangle)

@@ -53,6 +53,15 @@ oracle::Triangle exact(const LatticeTriangle& triangle);
 /// are. colors: of the triangles (all three corners), fractions of 65535, or empty.
 Scene latticeScene(std::span<const LatticeTriangle> triangles, std::span<const std::array<std::uint16_t, 3>> colors);
 
+/// Triangles between the lattice's points: primitives in several places, turned, sheared and mirrored at random, in a
+/// grid of any size anywhere. The same for the same numbers.
+struct PlacedScene
+{
+    Scene scene;
+    Grid grid;
+};
+PlacedScene makePlacedScene(std::uint64_t seed, std::uint64_t number);
+
 /// "(x y z) (x y z) (x y z)".
 std::string toText(const LatticeTriangle& triangle);
 
