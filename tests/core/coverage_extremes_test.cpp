@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Coverage where the numbers become largest.
+#include "core/kernels.h"
+#include "stress/compare_coverage.h"
+#include "support/device.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace zvo
+{
+namespace
+{
+
+constexpr int kEnd = 1 << 29; // of the lattice
+
+/// count triangles whose coordinates are all drawn from values, for a grid of this depth.
+stress::Batch batchOf(std::uint32_t depth, std::size_t count, const std::vector<int>& values, std::mt19937& random)
+{
+    stress::Batch batch{stress::Shape::Huge, depth, false, {}};
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        stress::LatticeTriangle triangle{};
+        for (glm::ivec3& p : triangle)
+        {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                p[axis] = values[random() % values.size()];
+            }
+        }
+        batch.triangles.push_back(triangle);
+    }
+    return batch;
+}
+
+void expectNoDifferences(const stress::Batch& batch, std::uint64_t& fragments)
+{
+    for (const Coverage coverage : {Coverage::Conservative, Coverage::Thin})
+    {
+        const stress::Tally tally = stress::compareBatch(test::sharedDevice(zvoKernels()), batch, coverage);
+        fragments += tally.fragments;
+        EXPECT_EQ(tally.differences, 0U);
+        for (const std::string& finding : tally.findings)
+        {
+            ADD_FAILURE() << finding;
+        }
+    }
+}
+
+TEST(CoverageExtremes, TrianglesBetweenTheEndsOfTheLatticeEqualTheOracle)
+{
+    std::mt19937 random(1);
+    std::uint64_t fragments = 0;
+    for (std::uint32_t i = 0; i < 60; ++i)
+    {
+        const std::uint32_t depth = 1 + i % 6;
+        const int middle = 128 << depth;
+        // Single precision holds multiples of 32 below 2^29.
+        const std::vector<int> values = {-kEnd, -kEnd + 32, middle - 1, middle, middle + 1, kEnd - 32, kEnd};
+        expectNoDifferences(batchOf(depth, 40, values, random), fragments);
+    }
+    EXPECT_GT(fragments, 100000U);
+}
+
+TEST(CoverageExtremes, TrianglesFromTheGridToTheEndsOfTheLatticeEqualTheOracle)
+{
+    std::mt19937 random(2);
+    std::uint64_t fragments = 0;
+    for (std::uint32_t i = 0; i < 60; ++i)
+    {
+        const std::uint32_t depth = 1 + i % 6;
+        const int edge = 256 << depth;
+        std::vector<int> values = {-kEnd, kEnd, 0, edge, edge / 2, 128, edge - 128, -1, edge + 1};
+        for (int k = 0; k < 9; ++k)
+        {
+            values.push_back(static_cast<int>(random() % static_cast<std::uint32_t>(edge)));
+        }
+        expectNoDifferences(batchOf(depth, 40, values, random), fragments);
+    }
+    EXPECT_GT(fragments, 100000U);
+}
+
+} // namespace
+} // namespace zvo
