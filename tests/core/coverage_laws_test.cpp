@@ -50,8 +50,8 @@ std::vector<Sample> randomSamples(std::size_t count_max)
     {
         if (static_cast<Shape>(shape) == Shape::Huge) // mirrored coordinates that single precision does not hold
             continue;
-        // A pile on one grid, and, but for Border, two batches of triangles that have no voxel in common.
-        for (const std::uint64_t number : {0, 1, 2})
+        // A pile on one grid and, but for Border, triangles that have no voxel in common.
+        for (const std::uint64_t number : {0, 1})
         {
             stress::Batch batch = stress::makeBatch(77, static_cast<Shape>(shape), number, count_max);
             samples.push_back({std::string(stress::nameOf(batch.shape)) + std::to_string(number), batch.depth,
@@ -269,7 +269,7 @@ TEST(CoverageLaw, ThinSetHasThe48SymmetriesOfItsTrianglesWhereNoConventionDecide
                                           [&](const glm::ivec3& v) { return symmetry(v, resolution - 1); }));
         }
     }
-    EXPECT_GT(generic_count, 3000U);
+    EXPECT_GT(generic_count, 1000U);
 }
 
 TEST(CoverageLaw, ThinSetOfAnImageIsTheImageUnderTheMirroredRule)
