@@ -1,0 +1,521 @@
+// SPDX-License-Identifier: MIT
+// Millions of rays against two references (oracle/trace.h bit for bit, oracle/ray_bounds.h), out of closed shells, and
+// pictures made in every way. Ends with a checksum of all hits: it must not depend on stack or subgroup size.
+//
+//   zvo_ray_stress [--rays N] [--seed S]    N random rays, N aimed ones, N / 4 out of closed shells
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/sha256.h"
+#include "core/trace.h"
+#include "oracle/morton.h"
+#include "oracle/ray_bounds.h"
+#include "stress/stress_rays.h"
+#include "support/device.h"
+#include "support/scenes.h"
+#include "support/trace_rays.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <charconv>
+#include <cstdlib>
+#include <functional>
+#include <mutex>
+#include <string_view>
+#include <thread>
+
+namespace zvo::stress
+{
+
+namespace
+{
+
+constexpr std::uint64_t kBatch = 1U << 17;
+constexpr std::uint64_t kChunk = 1U << 12;      // rays that a host thread takes at a time
+constexpr std::size_t kVoxelsForFarRays = 5000; // from far away, the first reference looks at almost every voxel
+constexpr std::uint32_t kReportedMax = 20;      // wrong rays that are printed
+constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
+
+struct Options
+{
+    std::uint64_t rays = 300000;
+    std::uint64_t seed = 1;
+};
+
+struct Tree
+{
+    std::string name;
+    test::Codes codes;
+    std::uint32_t depth;
+};
+
+struct Tally
+{
+    std::array<std::atomic<std::uint64_t>, 3> kinds{}; // by oracle::RayClass
+    std::atomic<std::uint64_t> exact{0};               // compared bit for bit
+    std::atomic<std::uint64_t> hits{0};
+    std::atomic<std::uint64_t> invalid{0};
+    std::atomic<std::uint64_t> wrong{0};
+};
+
+std::mutex g_print;
+Tally g_tally;
+
+// Calls work(first, end) for parts of [0, count) on all processors.
+void inParallel(std::uint64_t count, const std::function<void(std::uint64_t, std::uint64_t)>& work)
+{
+    std::atomic<std::uint64_t> next{0};
+    const auto run = [&]
+    {
+        for (std::uint64_t first = next.fetch_add(kChunk); first < count; first = next.fetch_add(kChunk))
+        {
+            work(first, std::min(first + kChunk, count));
+        }
+    };
+    std::vector<std::thread> threads;
+    for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
+    {
+        threads.emplace_back(run);
+    }
+    run();
+    for (std::thread& thread : threads)
+    {
+        thread.join();
+    }
+}
+
+void reportWrong(const std::string& where, const StressRay& ray, const std::string& what)
+{
+    if (g_tally.wrong.fetch_add(1) >= kReportedMax)
+    {
+        return;
+    }
+    const gpu::Ray& r = ray.device;
+    const std::lock_guard lock(g_print);
+    fmt::print("WRONG {}: origin {:a} {:a} {:a} inverse {:a} {:a} {:a} t {:a} to {:a}: {}\n", where, r.origin.x,
+               r.origin.y, r.origin.z, r.inverse_direction.x, r.inverse_direction.y, r.inverse_direction.z, r.t_min,
+               r.t_max, what);
+}
+
+// What both references say about one ray; the device's answer is hit.
+class Judge
+{
+public:
+    explicit Judge(const Tree& tree) : m_tree(tree), m_tracer(tree.codes, tree.depth)
+    {
+        if (tree.depth <= oracle::BitPyramid::kDepthMax)
+        {
+            m_pyramid.emplace(tree.codes, tree.depth);
+        }
+    }
+
+    void check(const StressRay& ray, const std::optional<test::DeviceHit>& hit, std::uint32_t levels) const
+    {
+        g_tally.hits += hit ? 1 : 0;
+        if (ray.invalid)
+        {
+            ++g_tally.invalid;
+            objectIf(hit.has_value(), ray, "hit although it is invalid");
+            return;
+        }
+        if (hit && (hit->index >= m_tree.codes.size() || oracle::mortonEncode(hit->cell) != m_tree.codes[hit->index] ||
+                    hit->level != levels))
+        {
+            objectIf(true, ray, "index, cell and level do not name one voxel");
+            return;
+        }
+        if (m_pyramid)
+        {
+            checkBounds(ray, hit);
+        }
+        if (!ray.far || m_tree.codes.size() <= kVoxelsForFarRays)
+        {
+            checkExactly(ray, hit);
+        }
+    }
+
+private:
+    void objectIf(bool wrong, const StressRay& ray, const std::string& what) const
+    {
+        if (wrong)
+        {
+            reportWrong(m_tree.name, ray, what);
+        }
+    }
+
+    void checkBounds(const StressRay& ray, const std::optional<test::DeviceHit>& hit) const
+    {
+        const oracle::RayBounds bounds = m_pyramid->classify(ray.ray, ray.t_max);
+        ++g_tally.kinds[static_cast<std::size_t>(bounds.kind)];
+        if (hit)
+        {
+            objectIf(bounds.kind == oracle::RayClass::MustMiss, ray, "hit, but must miss");
+            const auto objection = m_pyramid->objection(ray.ray, ray.t_max, hit->cell, hit->t);
+            objectIf(objection.has_value(), ray, objection.value_or(""));
+        }
+        if (bounds.kind == oracle::RayClass::MustHit)
+        {
+            objectIf(!hit, ray, "missed, but must hit");
+            objectIf(hit && static_cast<double>(hit->t) > bounds.latest, ray, "passed through a nearer voxel");
+        }
+    }
+
+    void checkExactly(const StressRay& ray, const std::optional<test::DeviceHit>& hit) const
+    {
+        ++g_tally.exact;
+        std::optional<oracle::Hit> expected = m_tracer.trace(ray.ray);
+        if (expected && expected->t > ray.t_max)
+        {
+            expected.reset();
+        }
+        const bool same = expected.has_value() == hit.has_value() &&
+                          (!hit || (m_tree.codes[hit->index] == expected->code && hit->face == expected->face &&
+                                    std::bit_cast<std::uint32_t>(hit->t) == std::bit_cast<std::uint32_t>(expected->t)));
+        objectIf(!same, ray, "differs from the rule");
+    }
+
+    const Tree& m_tree;
+    oracle::VoxelTracer m_tracer;
+    std::optional<oracle::BitPyramid> m_pyramid;
+};
+
+std::vector<Tree> makeTrees()
+{
+    std::mt19937 random(11);
+    const auto full = [](const glm::uvec3&) { return true; };
+    const auto checkered = [](const glm::uvec3& v) { return ((v.x + v.y + v.z) & 1U) == 0; };
+    const auto planes = [](const glm::uvec3& v) { return v.x == 21 || v.y == 42 || v.z == 10; };
+    const auto rods = [](const glm::uvec3& v) { return v.x % 5 == 0 && v.y % 7 == 0; };
+    std::vector<Tree> trees;
+    trees.push_back({"two voxels of 2", {0, 5}, 1});
+    trees.push_back({"random 4", test::randomCodes(2, 20, random), 2});
+    trees.push_back({"full 8", test::codesWhere(3, full), 3});
+    trees.push_back({"random 8", test::randomCodes(3, 60, random), 3});
+    trees.push_back({"checkered 8", test::codesWhere(3, checkered), 3});
+    trees.push_back({"full 16", test::codesWhere(4, full), 4});
+    trees.push_back({"shell 16", test::sphereShell(4, 7.0), 4});
+    trees.push_back({"random 16", test::randomCodes(4, 900, random), 4});
+    trees.push_back({"one voxel of 32", {12345}, 5});
+    trees.push_back({"dense 32", test::randomCodes(5, 16000, random), 5});
+    trees.push_back({"shell 32", test::sphereShell(5, 14.0), 5});
+    trees.push_back({"rods 32", test::codesWhere(5, rods), 5});
+    trees.push_back({"sponge 64", test::spongeCodes(6), 6});
+    trees.push_back({"planes 64", test::codesWhere(6, planes), 6});
+    trees.push_back({"sparse 64", test::randomCodes(6, 2000, random), 6});
+    trees.push_back({"shell 128", test::sphereShell(7, 60.0), 7});
+    trees.push_back({"sparse 512", test::randomCodes(9, 4000, random), 9});
+    trees.push_back({"sparse 4096", test::randomCodes(12, 4000, random), 12});
+    return trees;
+}
+
+using MakeRay = std::function<StressRay(Random&)>;
+using Check = std::function<void(const StressRay&, const std::optional<test::DeviceHit>&)>;
+
+// Traces count rays through octree, and checks each hit and adds it to sum.
+void traceBatch(vk::HeadlessDevice& device, const Octree& octree, TraceStack stack, std::uint64_t count,
+                std::uint64_t seed, const MakeRay& make_ray, const Check& check, Sha256& sum)
+{
+    std::vector<StressRay> rays(count);
+    std::vector<gpu::Ray> device_rays(count);
+    inParallel(count,
+               [&](std::uint64_t first, std::uint64_t end)
+               {
+                   Random random(seed * 0x9E3779B97F4A7C15U + first);
+                   for (std::uint64_t i = first; i < end; ++i)
+                   {
+                       rays[i] = make_ray(random);
+                       device_rays[i] = rays[i].device;
+                   }
+               });
+    TraceOptions options;
+    options.stack = stack;
+    const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(device_rays));
+    vk::BufferOf<gpu::Hit> hit_buffer(device.device(), "hits", count);
+    vk::BufferOf<gpu::TraceStatus> status(device.device(), "status", 1);
+    device.run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.fill(status, 0);
+            traceRays(graph, octree, ray_buffer, hit_buffer, status, options);
+        });
+    const std::uint32_t capped = device.download(status).at(0).capped_rays;
+    if (capped != 0)
+    {
+        g_tally.wrong += capped;
+        fmt::print("WRONG: {} rays ran into the cap on iterations\n", capped);
+    }
+    std::vector<gpu::Hit> hits = device.download(hit_buffer);
+    inParallel(count,
+               [&](std::uint64_t first, std::uint64_t end)
+               {
+                   for (std::uint64_t i = first; i < end; ++i)
+                   {
+                       check(rays[i], test::unpack(hits[i]));
+                       if (hits[i].index == gpu::kHitMiss)
+                       {
+                           hits[i] = {0.0F, gpu::kHitMiss, gpu::uvec2(0)}; // the rest is undefined
+                       }
+                   }
+               });
+    sum.update(std::as_bytes(std::span(hits)));
+}
+
+// The given number of rays in all, spread over trees and stacks.
+void traceTrees(vk::HeadlessDevice& device, const std::vector<Tree>& trees, const Options& options, bool aimed,
+                Sha256& sum)
+{
+    const std::uint64_t per_tree = (options.rays + trees.size() - 1) / trees.size();
+    for (const Tree& tree : trees)
+    {
+        const Octree octree = test::octreeOf(device, tree.codes, tree.depth);
+        const std::uint32_t resolution = octree.grid.rootResolution();
+        const Judge judge(tree);
+        const MakeRay make_ray = [&](Random& random)
+        { return aimed ? aimedRay(random, resolution, tree.codes) : randomRay(random); };
+        const Check check = [&](const StressRay& ray, const std::optional<test::DeviceHit>& hit)
+        { judge.check(ray, hit, octree.grid.nodeLevels()); };
+        std::uint64_t batch = 0;
+        const std::uint64_t size = std::min(kBatch, (per_tree + kStacks.size() - 1) / kStacks.size());
+        for (std::uint64_t done = 0; done < per_tree; done += size, ++batch)
+        {
+            const std::uint64_t seed =
+                options.seed * 1000003 + (&tree - trees.data()) * 2003 + batch * 2 + (aimed ? 1 : 0);
+            traceBatch(device, octree, kStacks[batch % kStacks.size()], std::min(size, per_tree - done), seed, make_ray,
+                       check, sum);
+        }
+    }
+}
+
+struct Shell
+{
+    std::string name;
+    Scene scene;
+    std::uint32_t depth;
+    glm::vec3 low; // whole voxels that are inside
+    glm::vec3 high;
+};
+
+std::vector<Shell> makeShells()
+{
+    std::vector<Shell> shells;
+    for (const std::uint32_t depth : {4U, 5U, 6U, 7U, 8U, 9U})
+    {
+        const auto edge = static_cast<float>(1U << depth);
+        for (const float shift : {0.0F, 0.37F})
+        {
+            const glm::vec3 low(1.0F + shift);
+            const glm::vec3 high(edge - 2.0F + shift);
+            shells.push_back({fmt::format("cube in {}", edge), test::boxScene(low, high), depth, glm::ceil(low) + 1.0F,
+                              glm::floor(high) - 1.0F});
+        }
+        const glm::vec3 centre(0.5F * edge + 0.13F, 0.5F * edge, 0.5F * edge - 0.31F);
+        const float radius = 0.47F * edge - 0.5F;
+        const float inner = 0.55F * (radius - 2.0F);
+        shells.push_back({fmt::format("sphere in {}", edge), test::sphereScene(centre, radius, 40), depth,
+                          glm::ceil(centre - inner), glm::floor(centre + inner)});
+    }
+    return shells;
+}
+
+// Rays out of closed shells that zvo voxelized, thin: each hits.
+void traceShells(vk::HeadlessDevice& device, const Options& options, Sha256& sum)
+{
+    const std::vector<Shell> shells = makeShells();
+    const std::uint64_t per_shell = (options.rays / 4 + shells.size() - 1) / shells.size();
+    for (const Shell& shell : shells)
+    {
+        const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = shell.depth};
+        const GpuScene gpu_scene = uploadScene(device, shell.scene, false);
+        const Octree octree = buildOctree(device, gpu_scene, grid, {Coverage::Thin, false, {}}).octree;
+        const MakeRay make_ray = [&](Random& random)
+        { return rayFromInside(random, grid.rootResolution(), shell.low, shell.high); };
+        const Check check = [&](const StressRay& ray, const std::optional<test::DeviceHit>& hit)
+        {
+            g_tally.hits += hit ? 1 : 0;
+            if (!hit)
+            {
+                reportWrong(shell.name, ray, "leaks");
+            }
+        };
+        std::uint64_t batch = 0;
+        const std::uint64_t size = std::min(kBatch, (per_shell + kStacks.size() - 1) / kStacks.size());
+        for (std::uint64_t done = 0; done < per_shell; done += size, ++batch)
+        {
+            traceBatch(device, octree, kStacks[batch % kStacks.size()], std::min(size, per_shell - done),
+                       options.seed * 7919 + (&shell - shells.data()) * 4001 + batch, make_ray, check, sum);
+        }
+    }
+}
+
+// Primary hits of a picture as bytes that depend on nothing else, and the most iterations of a ray.
+struct Picture
+{
+    std::vector<gpu::Hit> hits;
+    std::uint32_t iterations_max = 0;
+};
+
+Picture takePicture(vk::HeadlessDevice& device, const Octree& octree, const TraceCamera& camera,
+                    const TraceOptions& options)
+{
+    BeamGrid beam(device.device());
+    TraceBuffers buffers(device.device(), 333, 217);
+    device.run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.fill(buffers.hits, gpu::kHitMiss);
+            graph.fill(buffers.light, 0);
+            buildBeam(graph, octree, beam);
+            tracePrimary(graph, octree, beam, camera, options, buffers);
+        });
+    g_tally.wrong += device.download(buffers.status).at(0).capped_rays;
+    Picture picture{device.download(buffers.hits), 0};
+    for (gpu::Hit& hit : picture.hits)
+    {
+        if (hit.index == gpu::kHitMiss)
+        {
+            hit = {0.0F, gpu::kHitMiss, gpu::uvec2(0)};
+        }
+    }
+    for (const gpu::uint iterations : device.download(buffers.light))
+    {
+        picture.iterations_max = std::max(picture.iterations_max, iterations);
+    }
+    return picture;
+}
+
+bool sameHits(const Picture& a, const Picture& b)
+{
+    return std::equal(a.hits.begin(), a.hits.end(), b.hits.begin(), b.hits.end(),
+                      [](const gpu::Hit& x, const gpu::Hit& y)
+                      { return x.index == y.index && x.t == y.t && x.where == y.where; });
+}
+
+// Pictures with and without the beam, with every stack. Returns how many were taken.
+std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<Tree>& trees, Sha256& sum)
+{
+    std::uint32_t count = 0;
+    for (const Tree& tree : trees)
+    {
+        const Octree octree = test::octreeOf(device, tree.codes, tree.depth);
+        const auto edge = static_cast<double>(octree.grid.resolution());
+        const glm::dvec3 middle(0.5 * edge);
+        for (const ViewCamera& view : {ViewCamera::framing({glm::vec3(0.0F), glm::vec3(static_cast<float>(edge))}, 1.5),
+                                       ViewCamera::lookAt(middle + 0.1, glm::dvec3(0.3 * edge, edge, 0.2 * edge), 1.5),
+                                       ViewCamera::lookAt(edge * glm::dvec3(1.01, 1.02, 0.2), middle, 1.0),
+                                       ViewCamera::lookAt(edge * glm::dvec3(90.0, 40.0, 70.0), middle, 0.012)})
+        {
+            const TraceCamera camera = traceCamera(view, octree.grid, 217);
+            std::optional<Picture> first;
+            for (const TraceStack stack : kStacks)
+            {
+                for (const bool with_beam : {false, true})
+                {
+                    TraceOptions options;
+                    options.stack = stack;
+                    options.beam = with_beam;
+                    options.view = View::Iterations;
+                    Picture picture = takePicture(device, octree, camera, options);
+                    ++count;
+                    // Each cell on the way is left once and entered by at most one descent for each level.
+                    const std::uint32_t bound = (3 * octree.grid.rootResolution() + 1) * (octree.grid.nodeLevels() + 1);
+                    const bool wrong = (first && !sameHits(*first, picture)) || picture.iterations_max > bound;
+                    if (wrong)
+                    {
+                        ++g_tally.wrong;
+                        fmt::print("WRONG: a picture of {} differs, or takes too many steps ({})\n", tree.name,
+                                   picture.iterations_max);
+                    }
+                    if (!first)
+                    {
+                        sum.update(std::as_bytes(std::span(picture.hits)));
+                        first = std::move(picture);
+                    }
+                }
+            }
+        }
+    }
+    return count;
+}
+
+void printTally(const std::string& what)
+{
+    fmt::print("{:<24} {:>10} must hit {:>10} may hit {:>10} must miss {:>9} invalid; {:>10} hit, {:>10} equal the "
+               "rule bit for bit; {} wrong\n",
+               what, g_tally.kinds[0].load(), g_tally.kinds[1].load(), g_tally.kinds[2].load(), g_tally.invalid.load(),
+               g_tally.hits.load(), g_tally.exact.load(), g_tally.wrong.load());
+    std::fflush(stdout);
+    for (auto& kind : g_tally.kinds)
+    {
+        kind = 0;
+    }
+    g_tally.exact = g_tally.hits = g_tally.invalid = 0;
+}
+
+int run(const Options& options)
+{
+    vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
+    const std::vector<Tree> trees = makeTrees();
+    Sha256 sum;
+    traceTrees(device, trees, options, false, sum);
+    printTally(fmt::format("{} random rays", options.rays));
+    traceTrees(device, trees, options, true, sum);
+    printTally(fmt::format("{} aimed rays", options.rays));
+    traceShells(device, options, sum);
+    fmt::print("{} rays out of closed shells; {} wrong\n", g_tally.hits.load(), g_tally.wrong.load());
+    const std::uint32_t pictures = takePictures(device, trees, sum);
+    fmt::print("{} pictures; {} wrong\n", pictures, g_tally.wrong.load());
+    fmt::print("hits {}\n", sum.hexDigest());
+    test::destroySharedDevice();
+    if (test::validationMessageCount() != 0)
+    {
+        fmt::print("the Vulkan validation layers reported something\n");
+        return EXIT_FAILURE;
+    }
+    return g_tally.wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+std::optional<Options> parse(int argc, char** argv)
+{
+    Options options;
+    for (int i = 1; i < argc; ++i)
+    {
+        const std::string_view name = argv[i];
+        const std::string_view value = i + 1 < argc ? argv[i + 1] : "";
+        std::uint64_t* target = name == "--rays" ? &options.rays : name == "--seed" ? &options.seed : nullptr;
+        if (target == nullptr ||
+            std::from_chars(value.data(), value.data() + value.size(), *target).ptr != value.data() + value.size() ||
+            value.empty())
+        {
+            return std::nullopt;
+        }
+        ++i;
+    }
+    return options;
+}
+
+} // namespace
+
+} // namespace zvo::stress
+
+int main(int argc, char** argv)
+{
+    const auto options = zvo::stress::parse(argc, argv);
+    if (!options)
+    {
+        fmt::print("usage: zvo_ray_stress [--rays N] [--seed S]\n");
+        return 2;
+    }
+    try
+    {
+        return zvo::stress::run(*options);
+    }
+    catch (const zvo::Error& error)
+    {
+        fmt::print("{}\n", error.what());
+        return EXIT_FAILURE;
+    }
+}
