@@ -21,6 +21,9 @@
 //   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
 //   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
 //                                      kStackShared
+//   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail or
+//                                      fewer than four levels. Then also, as trace/trace.h describes it:
+//   uvec2 loadPath(uint cell)          the nodes that contain a cell
 //   TRAVERSE_CONSTANT_ID               first of three constant_ids, 0 by default
 
 #ifndef TRAVERSE_CONSTANT_ID
@@ -99,6 +102,36 @@ uint savedNode(uint shift)
     return node;
 }
 
+#ifdef TRAVERSE_PATHS
+// A node that contains the cell which the event behind limits leads to, as low as paths go: that cell is guessed from the
+// ray's position, and counts only if the ray did enter it and did not leave it.
+void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout uvec3 corner, inout uint shift,
+                    inout uint node)
+{
+    const uint size = 1u << (kMantissaBits - kPathCellBits);
+    float below_two = uintBitsToFloat(floatBitsToUint(2.0) - 1u);
+    vec3 guess = clamp(origin + uintBitsToFloat(limits.x - 1u) / inverse, vec3(1.0), vec3(below_two));
+    uvec3 low = floatBitsToUint(guess) & ~(size - 1u);
+    vec3 crossed = uintBitsToFloat(limits);
+    bool inside = all(lessThan(planeTimes(low, origin, inverse), crossed)) &&
+                  all(greaterThanEqual(planeTimes(low + size, origin, inverse), crossed));
+    uvec3 cell = (low >> (kMantissaBits - kPathCellBits)) & (kPathCells - 1u);
+    cell ^= uvec3((mirror & 1u) != 0u ? kPathCells - 1u : 0u, (mirror & 2u) != 0u ? kPathCells - 1u : 0u,
+                  (mirror & 4u) != 0u ? kPathCells - 1u : 0u);
+    uvec2 path = loadPath(cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
+    path = inside ? path : uvec2(0u);
+    uint node1 = path.x & ((1u << kPathLevel2Shift) - 1u);
+    uint node2 = path.x >> kPathLevel2Shift;
+    saveNode(kRootShift, 0u);
+    saveNode(kRootShift - 2u, node1);
+    saveNode(kRootShift - 4u, node2);
+    uint level = path.y != 0u ? 3u : node2 != 0u ? 2u : node1 != 0u ? 1u : 0u;
+    node = path.y != 0u ? path.y : node2 != 0u ? node2 : node1;
+    shift = kRootShift - 2u * level;
+    corner = low & (~0u << (shift + 2u));
+}
+#endif
+
 // The first occupied cell that the ray enters in [t_min, t_max]. With kDetail, nodes count as occupied whose edge is at
 // most max(detail.x * t, detail.y) in unit space. Nothing may be NaN; origin must be finite and inverse as
 // lib/ray.glsl's inverseDirection() makes it. What would be entered at an infinite time is never entered.
@@ -127,6 +160,10 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     bool stopped = false; // by the level of detail
     bool go = limits.x <= limit_max && all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
                                                             uintBitsToFloat(limits)));
+#ifdef TRAVERSE_PATHS
+    if (TRAVERSE_PATHS)
+        beginBelowRoot(origin, inverse, mirror, limits, corner, shift, node);
+#endif
     shift = go ? shift : kMantissaBits;
     for (; go;)
     {

@@ -10,6 +10,7 @@
 
 layout(constant_id = 3) const bool kOrthographic = false;
 layout(constant_id = 4) const bool kCountIterations = false;
+layout(constant_id = 5) const bool kPaths = false; // begin below the root
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -17,7 +18,15 @@ layout(push_constant, scalar) uniform Push
     PrimaryParams params;
 };
 
+uint64_t_ConstPtr g_paths;
+
+uvec2 loadPath(uint cell)
+{
+    return unpackUint2x32(g_paths.data[cell]);
+}
+
 #define TRAVERSE_GROUP kTilePixels
+#define TRAVERSE_PATHS kPaths
 #include "lib/octree_half.glsl"
 #include "lib/traverse.glsl"
 
@@ -33,6 +42,7 @@ void main()
     precise vec3 direction = camera.forward + (kOrthographic ? vec3(0.0) : offset);
     precise vec3 origin = camera.origin + (kOrthographic ? offset : vec3(0.0));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    g_paths = params.paths;
     Traversal result = traverse(origin, inverseDirection(direction), uintBitsToFloat(tile.y), kTraceTimeMax,
                                 params.detail);
     if (any(greaterThanEqual(pixel, size)))

@@ -38,6 +38,17 @@ const uint kBeamRows = 4096u;    // of cells along x
 const uint kBeamMasks = 4160u;   // of level 2, then of level 1
 const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that build it
 
+// Where rays begin: kPathCells^3 cells over the root cube, x in the lowest bits of their number, each with the nodes of
+// levels 1 to 3 that contain it, 0 where there is none:
+//
+//     level 1: 8 bits | level 2: 16 | unused 8 | level 3: 32, from the lowest bit on
+//
+// Nodes are numbered by levels, so those of level 1 are at most 64, those of level 2 at most 4160.
+const uint kPathLevels = 3u;
+const uint kPathCellBits = 6u;
+const uint kPathCells = 64u;
+const uint kPathLevel2Shift = 8u;
+
 // Light that arrives at a hit, for the parts of it: 0 none, 255 all.
 const uint kLightSun = 255u; // mask
 const uint kLightSkyShift = 8u;
@@ -101,6 +112,12 @@ struct BeamRefineParams // push constants of trace/beam_refine: one thread a cel
     GPU_PTR(Node) nodes;
 };
 
+struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell
+{
+    GPU_CONST_PTR(Node) octree;
+    GPU_PTR(uint64_t) paths; // [kPathCells^3]
+};
+
 struct BeamParams // push constants of trace/beam: one thread a tile
 {
     GPU_CONST_PTR(Node) nodes; // of the beam grid
@@ -117,6 +134,7 @@ struct BeamParams // push constants of trace/beam: one thread a tile
 struct PrimaryParams // push constants of trace/primary
 {
     GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uint64_t) paths; // of trace/beam_paths; kPaths only
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
     GPU_PTR(Hit) hits;        // [width * height] row by row, undefined in dead tiles

@@ -16,6 +16,7 @@ namespace
 
 constexpr float kDirectionMin = 1e-20F; // as in lib/ray.glsl
 constexpr std::uint32_t kOcclusionRaysMax = 64;
+constexpr std::uint64_t kPathCellCount = std::uint64_t{gpu::kPathCells} * gpu::kPathCells * gpu::kPathCells;
 constexpr std::uint32_t kBlack = 255U << 24;
 
 struct PictureTiles
@@ -41,6 +42,12 @@ bool isEmpty(const Octree& octree)
 bool hasFineBeam(const Octree& octree)
 {
     return octree.grid.nodeLevels() > gpu::kBeamLevels;
+}
+
+// Whether all nodes that paths name have children which are nodes.
+bool hasPaths(const Octree& octree)
+{
+    return octree.grid.nodeLevels() > gpu::kPathLevels;
 }
 
 bool hasDetail(const TraceOptions& options)
@@ -158,7 +165,8 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
 
 BeamGrid::BeamGrid(vk::Device& device)
     : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
-      masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes)
+      masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes),
+      paths(device, "paths", kPathCellCount)
 {
 }
 
@@ -209,6 +217,12 @@ void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam)
                                               pass.readWrite(beam.nodes)};
         pass.dispatch(gpu::kBeamRows * gpu::kBeamGroup, params);
     }
+    if (hasPaths(octree))
+    {
+        vk::Pass pass = graph.addPass("trace/beam_paths");
+        const gpu::BeamPathsParams params = {pass.read(octree.nodes), pass.write(beam.paths)};
+        pass.dispatch(kPathCellCount, params);
+    }
 }
 
 void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
@@ -216,10 +230,12 @@ void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& b
 {
     traceBeam(graph, octree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
-    vk::Pass pass = graph.addPass(
-        "trace/primary", withFlags(traverseConstants(octree, options), {camera.orthographic, count_iterations}));
+    const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !hasDetail(options);
+    vk::Pass pass = graph.addPass("trace/primary", withFlags(traverseConstants(octree, options),
+                                                             {camera.orthographic, count_iterations, use_paths}));
     gpu::PrimaryParams params{};
     params.nodes = pass.read(octree.nodes);
+    params.paths = use_paths ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
     params.live = pass.read(buffers.live);
     params.status = pass.readWrite(buffers.status);
     params.hits = pass.write(buffers.hits);

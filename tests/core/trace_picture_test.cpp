@@ -151,6 +151,27 @@ TEST(TracePicture, EveryStackGivesTheSamePicture)
     }
 }
 
+TEST(TracePicture, EveryStackSurvivesRaysThatLeaveAndReturn)
+{
+    // Deep enough that rays begin below the root, which they come back to on their way out.
+    std::mt19937 random(8);
+    Octree octree = test::octreeOf(device(), test::randomCodes(9, 4000, random), 9);
+    test::addAttributes(device(), octree);
+    for (const ViewCamera& view : manyCameras(octree.grid))
+    {
+        const TraceCamera camera = traceCamera(view, octree.grid, 70);
+        TraceOptions options;
+        options.beam = false;
+        const Picture first = take(octree, camera, 99, 70, options);
+        options.beam = true;
+        for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
+        {
+            options.stack = stack;
+            expectSameHits(first, take(octree, camera, 99, 70, options));
+        }
+    }
+}
+
 TEST(TracePicture, HitsEqualTheReference)
 {
     constexpr std::uint32_t kDepth = 6;
@@ -330,6 +351,11 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
                 ZVO_EXPECT_OFFSET(PrimaryParams, detail);
                 ++checked;
             }
+            else if (name == "BeamPathsParams")
+            {
+                ZVO_EXPECT_OFFSET(BeamPathsParams, paths);
+                ++checked;
+            }
             else if (name == "BeamParams")
             {
                 ZVO_EXPECT_OFFSET(BeamParams, camera);
@@ -358,7 +384,7 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
             }
         }
     }
-    EXPECT_GE(checked, 6U);
+    EXPECT_GE(checked, 7U);
 }
 
 } // namespace
