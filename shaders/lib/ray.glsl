@@ -1,22 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Making rays for the traversal.
+#include "lib/finite.glsl"
 
 const float kDirectionMin = 1e-20; // smaller components of a direction count as this
-
-bool isFinite(float x)
-{
-    return (floatBitsToUint(x) << 1) < (255u << 24); // the exponent is not all ones
-}
-
-bool isNan(float x)
-{
-    return (floatBitsToUint(x) << 1) > (255u << 24);
-}
-
-bool isFinite(vec3 v)
-{
-    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
-}
 
 // 1 / direction with components that are too small replaced, their sign kept: no component is zero or infinite.
 vec3 inverseDirection(vec3 direction)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From a draw's triangle to the lattice. Every operation here is a single rounded addition or product, so that the
 // result is the same on every device.
+#include "lib/finite.glsl"
 
 // World position of vertex v of a draw.
 vec3 worldPosition(Draw draw, uint v)
@@ -21,13 +22,6 @@ vec3 latticePosition(vec3 world)
     precise vec3 offset = world - params.origin;
     precise vec3 scaled = offset * params.lattice_scale;
     return roundEven(scaled);
-}
-
-bool isFinite(vec3 v)
-{
-    const uint exponent = 255u << 23; // of infinities and NaNs
-    uvec3 bits = floatBitsToUint(v) & exponent;
-    return all(notEqual(bits, uvec3(exponent)));
 }
 
 bool onLattice(vec3 q)

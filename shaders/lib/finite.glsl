@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// What kind of number a float is, from its bits: devices may assume that there is neither NaN nor infinity.
+
+bool isFinite(float x)
+{
+    return (floatBitsToUint(x) << 1) < (255u << 24); // the exponent is not all ones
+}
+
+bool isNan(float x)
+{
+    return (floatBitsToUint(x) << 1) > (255u << 24);
+}
+
+bool isFinite(vec3 v)
+{
+    return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
+}
