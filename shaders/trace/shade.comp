@@ -58,6 +58,8 @@ Surface surfaceAt(Hit hit, vec3 direction)
     return surface;
 }
 
+const float kDepthContrast = 0.9; // what is farthest away is not as black as the background
+
 vec3 lit(Surface surface, uint light)
 {
     float sun = max(dot(surface.normal, params.sun), 0.0) * float(light & kLightSun) / 255.0;
@@ -81,7 +83,7 @@ void main()
     if (kView == kViewIterations)
         color = heatColor(log2(1.0 + float(light)) / 7.0);
     else if (kView == kViewDepth)
-        color = vec3(1.0 / (1.0 + hit.t));
+        color = vec3(1.0 - kDepthContrast * clamp((hit.t - params.sun.x) / (params.sun.y - params.sun.x), 0.0, 1.0));
     else if (kView == kViewLevel)
         color = heatColor(0.25 + 0.7 * float(kNodeLevels - hitLevel(hit)) / float(kNodeLevels));
     else

@@ -58,7 +58,7 @@ const uint kLightAll = 65535u;
 const uint kViewColor = 0u;      // lit
 const uint kViewAlbedo = 1u;     // base colour alone
 const uint kViewNormal = 2u;     // 0.5 + 0.5 * shading normal
-const uint kViewDepth = 3u;      // 1 / (1 + t)
+const uint kViewDepth = 3u;      // from white to a dark grey over the depths of the grid
 const uint kViewLevel = 4u;      // how much coarser than a voxel the hit is
 const uint kViewIterations = 5u; // heat map, logarithmic up to 127
 
@@ -207,7 +207,7 @@ struct ShadeParams // push constants of trace/shade
     vec3 forward;
     vec3 step_x;
     vec3 step_y;
-    vec3 sun; // towards it, as long as it is strong
+    vec3 sun; // towards it, as long as it is strong; kViewDepth: x is the depth that is white, y the one that is dark
     uint width;
     uint height;
     float emission_scale;

@@ -101,6 +101,16 @@ gpu::vec3 sunDirection(const TraceOptions& options)
     return length > 0.0 ? gpu::vec3(options.to_sun / length) : gpu::vec3(0.0F, 1.0F, 0.0F);
 }
 
+// Least and greatest depth of the grid in front of the camera, in unit space.
+gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
+{
+    const float edge = static_cast<float>(grid.resolution()) / static_cast<float>(grid.rootResolution());
+    const gpu::vec3& forward = camera.rays.forward;
+    const float middle = glm::dot(gpu::vec3(1.0F + 0.5F * edge) - camera.rays.origin, forward);
+    const float reach = 0.5F * edge * (std::fabs(forward.x) + std::fabs(forward.y) + std::fabs(forward.z));
+    return {std::max(middle - reach, 0.0F), std::max(middle + reach, 1e-6F)};
+}
+
 // A number near the golden section of count that shares no factor with it.
 std::uint32_t coprimeStride(std::uint32_t count)
 {
@@ -317,7 +327,7 @@ void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camer
     params.forward = camera.rays.forward;
     params.step_x = camera.rays.step_x;
     params.step_y = camera.rays.step_y;
-    params.sun = options.sun * to_sun;
+    params.sun = options.view == View::Depth ? gpu::vec3(depthRange(octree.grid, camera), 0.0F) : options.sun * to_sun;
     params.width = buffers.width;
     params.height = buffers.height;
     params.emission_scale = octree.emission_scale;

@@ -17,7 +17,7 @@ enum class View : std::uint32_t
     Color = gpu::kViewColor,           ///< lit by sun and sky
     Albedo = gpu::kViewAlbedo,         ///< base colour alone
     Normal = gpu::kViewNormal,         ///< shading normal
-    Depth = gpu::kViewDepth,           ///< near is white
+    Depth = gpu::kViewDepth,           ///< near is white, the far end of the grid dark
     Level = gpu::kViewLevel,           ///< brighter is coarser (TraceOptions::detail_pixels)
     Iterations = gpu::kViewIterations, ///< heat map of the traversal's loop
 };
