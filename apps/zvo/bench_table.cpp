@@ -54,10 +54,20 @@ const std::vector<Column>& columns()
         {"trace ms", 23, [](const BenchRow& row) { return text(row.trace_ms); }},
         {"Mvoxels/s", 9, [](const BenchRow& row) { return rate(row.mvoxelsPerSecond()); }},
         {"Mrays/s", 7, [](const BenchRow& row) { return rate(row.mraysPerSecond()); }},
+        {"hits %", 6,
+         [](const BenchRow& row)
+         {
+             const double hits = 100.0 * static_cast<double>(row.hits);
+             return fmt::format("{:.0f}", hits / static_cast<double>(std::max<std::uint64_t>(row.rays, 1)));
+         }},
         {"Embree voxels", 13, [](const BenchRow& row) { return rate(row.embree_user_mrays_per_s); }},
         {"ratio", 5, [](const BenchRow& row) { return ratio(row.mraysPerSecond(), row.embree_user_mrays_per_s); }},
+        {"single", 6, [](const BenchRow& row) { return rate(row.embree_user_single_mrays_per_s); }},
+        {"ratio", 5,
+         [](const BenchRow& row) { return ratio(row.mraysPerSecond(), row.embree_user_single_mrays_per_s); }},
         {"Embree triangles", 16, [](const BenchRow& row) { return rate(row.embree_triangle_mrays_per_s); }},
         {"ratio", 5, [](const BenchRow& row) { return ratio(row.mraysPerSecond(), row.embree_triangle_mrays_per_s); }},
+        {"single", 6, [](const BenchRow& row) { return rate(row.embree_triangle_single_mrays_per_s); }},
         {"peak MiB", 8,
          [](const BenchRow& row) { return fmt::format("{:.0f}", static_cast<double>(row.peak_device_bytes) / kMiB); }},
     };
@@ -141,7 +151,7 @@ std::string tableHead(const BenchHeader& header)
     std::string head =
         fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max) of {} warm {}. "
                     "Rays: primary, {}x{}, million a second; ratio: zvo / Embree "
-                    "(packets of 8 or 16 rays, whichever is faster, on all processors).\n\n|",
+                    "(packets of 8 or 16 rays, whichever is faster, and single rays; on all processors).\n\n|",
                     ZVO_VERSION, header.device.name, header.device.type, header.device.driver, header.run_count,
                     header.run_count == 1 ? "run" : "runs", header.width, header.height);
     for (const Column& column : columns())

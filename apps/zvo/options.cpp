@@ -143,7 +143,7 @@ void addCameraOption(CLI::App& app, std::string& camera)
 {
     addText(app, "--camera", camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
             "a camera of the scene, or eye, target and vertical field of view in degrees, or auto, which frames "
-            "everything (default: the scene's first camera, or else auto)");
+            "everything, or close, which is half as far away (default: the scene's first camera, or else auto)");
 }
 
 CLI::App* addRender(CLI::App& app, RenderOptions& options)
@@ -159,7 +159,7 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
         ->type_name("WxH");
     addCameraOption(*render, options.camera);
     addValue(*render, "--view", options.view, viewOf, "VIEW",
-             "color, albedo, normal, depth, level or iterations (default color)");
+             "color, albedo, normal, depth, level (of --detail) or iterations (default color)");
     addValue(
         *render, "--occlusion", options.occlusion_rays,
         [](std::string_view option, std::string_view text)

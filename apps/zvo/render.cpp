@@ -229,9 +229,11 @@ void render(const RenderOptions& options)
     {
         talk(fmt::format("warning: {} rays took too many steps and were given up", renderer.cappedRays()));
     }
-    talk(fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms, trace {:.1f} ms on {}",
+    talk(fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms, trace {:.1f} ms, light "
+                     "and shade {:.1f} ms on {}",
                      result.octree.voxel_count, grid.resolution(), triangle_count, result.stageMs("voxelize"),
-                     result.stageMs("octree"), times.front().trace_ms, device.device().report().name));
+                     result.stageMs("octree"), times.front().trace_ms, times.front().shade_ms,
+                     device.device().report().name));
 }
 
 } // namespace zvo::cli

@@ -49,8 +49,8 @@ Error noSuchCamera(const std::string& wanted, const Scene& scene)
         names.push_back(fmt::format("\"{}\"", camera.name));
     }
     const std::string has = names.empty() ? "has no cameras" : fmt::format("has {}", fmt::join(names, ", "));
-    return {ErrorCode::Usage, fmt::format("--camera {}: there is no such camera; the scene {}; auto and six finite "
-                                          "numbers ex,ey,ez,tx,ty,tz always work",
+    return {ErrorCode::Usage, fmt::format("--camera {}: there is no such camera; the scene {}; auto, close and six "
+                                          "finite numbers ex,ey,ez,tx,ty,tz always work",
                                           wanted, has)};
 }
 
@@ -76,6 +76,13 @@ ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bou
     if (wanted.empty() || wanted == "auto")
     {
         return ViewCamera::framing(subject, aspect);
+    }
+    if (wanted == "close")
+    {
+        ViewCamera camera = ViewCamera::framing(subject, aspect);
+        const glm::dvec3 centre = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
+        camera.position = 0.5 * (camera.position + centre);
+        return camera;
     }
     if (const auto numbers = tryParseFloats(wanted))
     {

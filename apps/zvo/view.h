@@ -12,8 +12,9 @@ namespace zvo::cli
 /// Part of scene that lies in grid, or all of grid where there is none: what a picture is about.
 Bounds subjectOf(const Scene& scene, const Grid& grid);
 
-/// The camera that wanted names: "ex,ey,ez,tx,ty,tz[,fov]", a camera of scene, or "auto"; empty: the scene's first
-/// camera, or as auto, which fits subject into the picture. Throws Error{Usage} where there is no such camera.
+/// The camera that wanted names: "ex,ey,ez,tx,ty,tz[,fov]", a camera of scene, "auto", which fits subject into the
+/// picture, or "close", which is half as far from its centre; empty: the scene's first camera, or as auto. Throws
+/// Error{Usage} where there is no such camera.
 ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect);
 
 /// The view of that name. Throws Error{Usage} that lists the names.
