@@ -143,7 +143,7 @@ void addCameraOption(CLI::App& app, std::string& camera)
 {
     addText(app, "--camera", camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
             "a camera of the scene, or eye, target and vertical field of view in degrees, or auto, which frames "
-            "everything, or close, which is half as far away (default: the scene's first camera, or else auto)");
+            "everything, or close, where two thirds of the rays hit (default: the scene's first camera, or else auto)");
 }
 
 CLI::App* addRender(CLI::App& app, RenderOptions& options)

@@ -13,8 +13,8 @@ namespace zvo::cli
 Bounds subjectOf(const Scene& scene, const Grid& grid);
 
 /// The camera that wanted names: "ex,ey,ez,tx,ty,tz[,fov]", a camera of scene, "auto", which fits subject into the
-/// picture, or "close", which is half as far from its centre; empty: the scene's first camera, or as auto. Throws
-/// Error{Usage} where there is no such camera.
+/// picture, or "close", which is less than half as far from its centre; empty: the scene's first camera, or as auto.
+/// Throws Error{Usage} where there is no such camera.
 ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect);
 
 /// The view of that name. Throws Error{Usage} that lists the names.

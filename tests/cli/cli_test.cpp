@@ -332,6 +332,17 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
     EXPECT_EQ(report["rows"][1]["voxels"], build(m_grid).octree.voxel_count);
 }
 
+TEST_F(CliRun, CloseCameraHitsMore)
+{
+    run({"bench", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "auto", "--json", "auto.json"});
+    run({"bench", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "close", "--json", "close.json"});
+    const double rays = 1920.0 * 1080.0;
+    const double far_hits = json::parse(file("auto.json"))["rows"][0]["hits"].get<double>() / rays;
+    const double close_hits = json::parse(file("close.json"))["rows"][0]["hits"].get<double>() / rays;
+    EXPECT_LT(far_hits, 0.5);
+    EXPECT_GT(close_hits, 0.6);
+}
+
 TEST_F(CliRun, PipelinesAreKeptInTheCacheFolder)
 {
     const TempDir cache;
