@@ -481,7 +481,7 @@ int run(const Options& options)
 std::optional<Options> parse(int argc, char** argv)
 {
     Options options;
-    for (int i = 1; i < argc; ++i)
+    for (int i = 1; i < argc; i += 2)
     {
         const std::string_view name = argv[i];
         const std::string_view value = i + 1 < argc ? argv[i + 1] : "";
@@ -492,7 +492,6 @@ std::optional<Options> parse(int argc, char** argv)
         {
             return std::nullopt;
         }
-        ++i;
     }
     return options;
 }
