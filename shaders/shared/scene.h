@@ -77,7 +77,7 @@ struct SceneView
     GPU_CONST_PTR(Material) materials;
     GPU_CONST_PTR(TextureInfo) textures;
     GPU_CONST_PTR(TextureLevel) levels;
-    GPU_CONST_PTR(uint) texels;         // sRGB r | g << 8 | b << 16 | alpha << 24
+    GPU_CONST_PTR(uint64_t) texels;     // linear r | g << 16 | b << 32 as 16-bit fractions, 8-bit alpha << 48
     GPU_CONST_PTR(uint) srgb_to_linear; // [256] 8-bit sRGB to linear 16-bit fraction
     GPU_CONST_PTR(uint) linear_to_srgb; // [16384] linear 16-bit fraction to 8-bit sRGB, four a word
 };

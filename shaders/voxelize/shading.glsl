@@ -9,6 +9,7 @@ struct Surface
     uint material;
     ivec3 uv_u; // of the three vertices, 16.16
     ivec3 uv_v;
+    uint64_t_ConstPtr texels; // of the scene
     TextureInfo texture;
     TextureLevel level; // the level of detail that suits the triangle
     bool textured;
@@ -98,16 +99,13 @@ uvec3 texelPair(int64_t coordinate, uint size, uint wrap)
     return uvec3(first, second, (x >> 8) & 255);
 }
 
-uvec4 texelLinear(uint first_texel, uint x, uint y, uint width)
+uvec4 unpackTexel(uint64_t texel)
 {
-    uint texel = params.scene.data[0].texels.data[first_texel + y * width + x];
-    return uvec4(params.scene.data[0].srgb_to_linear.data[texel & 255u],
-                 params.scene.data[0].srgb_to_linear.data[(texel >> 8) & 255u],
-                 params.scene.data[0].srgb_to_linear.data[(texel >> 16) & 255u], texel >> 24);
+    return unpackFractions(unpack32(texel));
 }
 
 // Linear colour and alpha as 16-bit fractions, filtered bilinearly.
-uvec4 sampleTexture(TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v, uvec3 weights)
+uvec4 sampleTexture(uint64_t_ConstPtr texels, TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v, uvec3 weights)
 {
     i64vec3 w = i64vec3(weights);
     i64vec3 by_u = w * i64vec3(uv_u);
@@ -116,10 +114,11 @@ uvec4 sampleTexture(TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v
     uvec3 y = texelPair((by_v.x + by_v.y + by_v.z) >> 16, level.height, info.wrap_v);
     uvec2 wx = uvec2(256u - x.z, x.z);
     uvec2 wy = uvec2(256u - y.z, y.z);
-    uvec4 sum = texelLinear(level.first_texel, x.x, y.x, level.width) * (wx.x * wy.x) +
-                texelLinear(level.first_texel, x.y, y.x, level.width) * (wx.y * wy.x) +
-                texelLinear(level.first_texel, x.x, y.y, level.width) * (wx.x * wy.y) +
-                texelLinear(level.first_texel, x.y, y.y, level.width) * (wx.y * wy.y);
+    uvec2 row = level.first_texel + y.xy * level.width;
+    uvec4 sum = unpackTexel(texels.data[row.x + x.x]) * (wx.x * wy.x) +
+                unpackTexel(texels.data[row.x + x.y]) * (wx.y * wy.x) +
+                unpackTexel(texels.data[row.y + x.x]) * (wx.x * wy.y) +
+                unpackTexel(texels.data[row.y + x.y]) * (wx.y * wy.y);
     return (uvec4(sum.rgb, sum.a * 257u) + 32768u) >> 16;
 }
 
@@ -128,7 +127,7 @@ uvec4 fragmentColor(Surface surface, uvec3 weights)
 {
     uvec4 color = uvec4(kFractionOne);
     if (kClass != kClassPlain && surface.textured)
-        color = sampleTexture(surface.texture, surface.level, surface.uv_u, surface.uv_v, weights);
+        color = sampleTexture(surface.texels, surface.texture, surface.level, surface.uv_u, surface.uv_v, weights);
     color = uvec4(mul16(color.rgb, surface.factor.rgb), mul16(color.a, surface.factor.a));
     if (surface.colored)
     {
@@ -170,7 +169,8 @@ uvec3 fragmentEmission(Surface surface, uvec3 weights)
     uvec3 emission = surface.emission;
     if (kClass != kClassPlain && surface.emission_textured)
     {
-        uvec4 texel = sampleTexture(surface.emission_texture, surface.emission_level, surface.uv_u, surface.uv_v, weights);
+        uvec4 texel = sampleTexture(surface.texels, surface.emission_texture, surface.emission_level, surface.uv_u,
+                                    surface.uv_v, weights);
         emission = mul16(emission, texel.rgb);
     }
     return emission;

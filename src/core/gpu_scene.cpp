@@ -292,7 +292,7 @@ GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attrib
     result.materials = upload(device, "scene/materials", staging.materials);
     result.textures = upload(device, "scene/textures", staging.textures);
     result.levels = upload(device, "scene/texture_levels", staging.pool.levels);
-    result.texels = upload(device, "scene/texels", staging.pool.texels);
+    result.texels = upload(device, "scene/texels", staging.pool.linearTexels());
     const auto& to_linear = srgbToLinearTable();
     result.srgb_to_linear = device.makeBuffer("scene/srgb_to_linear", std::span<const gpu::uint>(to_linear));
     result.linear_to_srgb = upload(device, "scene/linear_to_srgb", packBytes(linearToSrgbTable()));

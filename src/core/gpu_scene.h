@@ -24,7 +24,7 @@ struct GpuScene
     vk::BufferOf<gpu::Material> materials;   // [materials]
     vk::BufferOf<gpu::TextureInfo> textures; // [textures]
     vk::BufferOf<gpu::TextureLevel> levels;  // [levels of all images]
-    vk::BufferOf<gpu::uint> texels;          // [texels of all levels]
+    vk::BufferOf<std::uint64_t> texels;      // [texels of all levels]
     vk::BufferOf<gpu::uint> srgb_to_linear;  // [256]
     vk::BufferOf<gpu::uint> linear_to_srgb;  // [16384]
     vk::BufferOf<gpu::SceneView> view;       // [1]

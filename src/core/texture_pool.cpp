@@ -131,4 +131,19 @@ std::uint32_t TexturePool::add(const Image& image, std::uint32_t& level_count)
     return first_level;
 }
 
+std::vector<std::uint64_t> TexturePool::linearTexels() const
+{
+    const auto& to_linear = srgbToLinearTable();
+    std::vector<std::uint64_t> linear(texels.size());
+    std::transform(texels.begin(), texels.end(), linear.begin(),
+                   [&](std::uint32_t packed)
+                   {
+                       Texel texel;
+                       std::memcpy(texel.data(), &packed, texel.size());
+                       return to_linear[texel[0]] | std::uint64_t{to_linear[texel[1]]} << 16 |
+                              std::uint64_t{to_linear[texel[2]]} << 32 | std::uint64_t{texel[3]} << 48;
+                   });
+    return linear;
+}
+
 } // namespace zvo

@@ -25,6 +25,9 @@ struct TexturePool
 
     /// Adds an image with all its levels. Returns the number of its first level; level_count receives how many.
     std::uint32_t add(const Image& image, std::uint32_t& level_count);
+
+    /// The texels as kernels read them (gpu::SceneView::texels), in the same order.
+    [[nodiscard]] std::vector<std::uint64_t> linearTexels() const;
 };
 
 } // namespace zvo
