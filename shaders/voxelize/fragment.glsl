@@ -70,7 +70,7 @@ void addAttributes(Surface surface, uint voxel, uvec3 weights, uvec3 color)
     atomicAdd(params.sums.data[voxel].normal_y, uint(normal.y >> params.sum_shift));
     atomicAdd(params.sums.data[voxel].normal_z, uint(normal.z >> params.sum_shift));
     atomicAdd(params.sums.data[voxel].fragments, 1u);
-    if (any(notEqual(surface.emission, uvec3(0u))) && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
+    if (kEmits && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
         atomicOr(params.emission_words.data[voxel >> 5].x, 1u << (voxel & 31u));
 }
 

@@ -12,7 +12,7 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
     bool has_uv = kClass != kClassPlain && draw.first_uv != kAbsent;
     surface.texels = params.scene.data[0].texels;
     surface.textured = has_uv && material.base_texture != kAbsent;
-    surface.emission_textured = has_uv && kMode != kModeCoverage && material.emission_texture != kAbsent;
+    surface.emission_textured = kEmits && has_uv && kMode != kModeCoverage && material.emission_texture != kAbsent;
     if (has_uv)
     {
         ivec2 uv0 = params.scene.data[0].uvs.data[draw.first_uv + vertices.x];

@@ -38,6 +38,8 @@ const uint kClassTextured = 1u; // opaque
 const uint kClassAlpha = 2u;    // alpha decides which fragments exist
 const uint kClassCount = 3u;
 
+// Specialization constant 3: whether anything in the scene emits light.
+
 /// Sums over the fragments of a voxel, values shifted right by sum_shift.
 struct VoxelSums
 {

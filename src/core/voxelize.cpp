@@ -63,6 +63,7 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32
 void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
 {
     const std::uint32_t coverage = job.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
+    const std::uint32_t emits = mode != gpu::kModeCoverage && job.scene.emission_scale > 0.0F ? 1 : 0;
     for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
     {
         const std::uint64_t chunk_count = job.scene.chunks[material_class].count();
@@ -71,7 +72,7 @@ void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
             continue;
         }
         VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
-        const vk::Specialization variant = {coverage, mode, material_class};
+        const vk::Specialization variant = {coverage, mode, material_class, emits};
         {
             vk::Pass pass = graph.addPass("voxelize/triangles", variant);
             pass.dispatch(chunk_count * gpu::kChunkTriangles, rasterParams(pass, job, material_class));
