@@ -38,19 +38,19 @@ void moveToBrick(uint key, inout BrickCursor cursor)
     }
 }
 
-void setVoxel(uint entry, uint cell)
+// Sets voxels of a leaf, as the bits of its masks.
+void setVoxels(uint entry, uvec2 masks)
+{
+    if (masks.x != 0u)
+        atomicOr(params.bricks.data[entry].mask_lo, masks.x);
+    if (masks.y != 0u)
+        atomicOr(params.bricks.data[entry].mask_hi, masks.y);
+}
+
+uvec2 cellMasks(uint cell)
 {
     uint bit = 1u << (cell & 31u);
-    if (cell < 32u)
-    {
-        if ((params.bricks.data[entry].mask_lo & bit) == 0u)
-            atomicOr(params.bricks.data[entry].mask_lo, bit);
-    }
-    else
-    {
-        if ((params.bricks.data[entry].mask_hi & bit) == 0u)
-            atomicOr(params.bricks.data[entry].mask_hi, bit);
-    }
+    return cell < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
 }
 
 uint voxelIndex(BrickCursor cursor, uint cell)
@@ -88,31 +88,56 @@ void addEmission(Surface surface, uint voxel, uvec3 weights)
     }
 }
 
+// What a fragment looks like, as far as kMode needs it.
+struct Fragment
+{
+    uvec3 weights;
+    uvec3 color;
+    bool exists;
+};
+
+Fragment shadeFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, uvec3 voxel)
+{
+    Fragment fragment = Fragment(uvec3(0u), uvec3(0u), true);
+    if (kMode != kModeCoverage || kClass == kClassAlpha)
+    {
+        fragment.weights = fixedWeights(corners, triangle.n_w != 0);
+        uvec4 color = fragmentColor(surface, fragment.weights);
+        fragment.color = color.rgb;
+        if (kClass == kClassAlpha)
+            fragment.exists = passesAlpha(surface.material, color.a, voxel);
+    }
+    return fragment;
+}
+
+uint leafKey(uvec3 voxel)
+{
+    return mortonEncode(voxel >> 2) | params.leaf_marker;
+}
+
+// Adds a fragment in the leaf of cursor to the voxel's sums.
+void addFragment(Surface surface, Fragment fragment, BrickCursor cursor, uint cell)
+{
+    if (kMode == kModeAttributes)
+        addAttributes(surface, voxelIndex(cursor, cell), fragment.weights, fragment.color);
+    if (kMode == kModeEmission)
+        addEmission(surface, voxelIndex(cursor, cell), fragment.weights);
+}
+
 // The triangle covers this voxel.
 void emitFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, uvec3 voxel, inout BrickCursor cursor)
 {
-    uvec3 weights = uvec3(0u);
-    uvec4 color = uvec4(0u);
-    bool exists = true;
-    if (kMode != kModeCoverage || kClass == kClassAlpha)
+    Fragment fragment = shadeFragment(triangle, surface, corners, voxel);
+    if (fragment.exists)
     {
-        weights = fixedWeights(corners, triangle.n_w != 0);
-        color = fragmentColor(surface, weights);
-    }
-    if (kClass == kClassAlpha)
-        exists = passesAlpha(surface.material, color.a, voxel);
-    if (exists)
-    {
-        moveToBrick(mortonEncode(voxel >> 2) | params.leaf_marker, cursor);
+        moveToBrick(leafKey(voxel), cursor);
         if (cursor.entry != kNoEntry)
         {
             uint cell = cellInBlock(voxel);
             if (kMode == kModeCoverage)
-                setVoxel(cursor.entry, cell);
-            if (kMode == kModeAttributes)
-                addAttributes(surface, voxelIndex(cursor, cell), weights, color.rgb);
-            if (kMode == kModeEmission)
-                addEmission(surface, voxelIndex(cursor, cell), weights);
+                setVoxels(cursor.entry, cellMasks(cell));
+            else
+                addFragment(surface, fragment, cursor, cell);
         }
     }
 }

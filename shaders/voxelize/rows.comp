@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Rasterizes big triangles, one thread a row of at most kBlockColumns columns, in 64-bit integers. The work follows the
-// rows that the triangle really crosses: columns outside of its outline in the (u, v) projection are left out.
+// Rasterizes big triangles, one thread a row of at most kBlockColumns columns, or tiles of the same block, in 64-bit
+// integers. The work follows the rows that the triangle really crosses: columns outside of its outline in the (u, v)
+// projection are left out.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/constants.glsl"
 #define EDGE_INT int64_t
@@ -15,6 +16,7 @@
 #include "voxelize/vertex.glsl"
 #include "voxelize/surface.glsl"
 #include "voxelize/fragment.glsl"
+#include "voxelize/tile.glsl"
 
 layout(local_size_x = kRowsGroup) in;
 
@@ -66,6 +68,19 @@ void rasterizeRow(RasterTriangle t, Surface surface, ivec2 column, int column_la
     }
 }
 
+// Every fourth tile of a band of four rows, from number strip on: the eight threads of a block share its two bands.
+// column: the band's first one, both coordinates multiples of 4.
+void rasterizeBand(RasterTriangle t, ivec2 column, int column_last, int strip)
+{
+    RasterCell probe = startColumn(t, column);
+    probe.uv += max(EDGE_IVEC3(0), t.du * (EDGE_INT(3) * t.s_w)); // where one of the four rows is inside
+    ivec2 interval = rowInterval(t, probe, column_last - column.x + 1);
+    int last = min(column.x + interval.y, column_last);
+    column.x += (interval.x & ~3) + 4 * strip;
+    for (; column.x <= last; column.x += 16)
+        setTile(t, coverTile(t, column));
+}
+
 void main()
 {
     uint block_count = min(params.counters.data[0].block_count, params.block_capacity);
@@ -95,9 +110,12 @@ void main()
                                      int(params.resolution));
     Surface surface = loadSurface(draw, vertices, vec3(normal), float(t.n_w));
 
-    ivec2 column = t.low.xy + ivec2((block.position >> 16) * kBlockColumns,
-                                    (block.position & 65535u) * kBlockRows + thread % kBlockRows);
-    int column_last = min(column.x + int(kBlockColumns) - 1, t.high.x);
-    if (column.y <= t.high.y)
-        rasterizeRow(t, surface, column, column_last);
+    ivec2 corner = blockOrigin(t.low.xy) + ivec2((block.position >> 16) * kBlockColumns,
+                                                 (block.position & 65535u) * kBlockRows);
+    int column_last = min(corner.x + int(kBlockColumns) - 1, t.high.x);
+    int lane = int(thread % kBlockRows);
+    if (kCoverage == kCoverageThin && kMode == kModeCoverage && kClass != kClassAlpha)
+        rasterizeBand(t, ivec2(corner.x, corner.y + (lane & ~3)), column_last, lane & 3);
+    else if (corner.y + lane >= t.low.y && corner.y + lane <= t.high.y)
+        rasterizeRow(t, surface, ivec2(max(corner.x, t.low.x), corner.y + lane), column_last);
 }

@@ -83,8 +83,10 @@ uvec2 rasterExtent(SnappedTriangle t, uint axis)
     return uvec2(axis == 0u ? extent.yz : (axis == 1u ? extent.zx : extent.xy));
 }
 
-void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uvec2 extent)
+void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uint axis)
 {
+    ivec2 low = axis == 0u ? t.low.yz : (axis == 1u ? t.low.zx : t.low.xy);
+    uvec2 extent = rasterExtent(t, axis) + uvec2(low - blockOrigin(low));
     uvec2 blocks = uvec2((extent.x + kBlockColumns - 1u) / kBlockColumns, (extent.y + kBlockRows - 1u) / kBlockRows);
     uint slot = atomicAdd(params.counters.data[0].big_count, 1u);
     uint first = atomicAdd(params.counters.data[0].block_count, blocks.x * blocks.y);
@@ -184,7 +186,7 @@ void main()
     {
         countDropped(snapped.fate);
         if (kept && !small)
-            listBigTriangle(snapped, chunk.draw, triangle, extent);
+            listBigTriangle(snapped, chunk.draw, triangle, axis);
     }
     RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, ivec3(snapped.normal), axis, snapped.low,
                                      snapped.high, int(params.resolution));
