@@ -1,22 +1,60 @@
 // SPDX-License-Identifier: MIT
-// Lock-free find and insert in the brick table (shared/bricks.h). Linear probing; entries are never removed.
+// Keys, and lock-free find and insert, in the brick table (shared/bricks.h). Linear probing; entries are never removed.
+// The includer defines before:
+//   BRICKS_CONSTANT_ID    constant_id of kWideKeys
+//
+// Why a wide key needs no 64-bit atomic, and why nobody waits. An insert takes an entry's two words one after the other:
+// it puts its lower word where the first is 0, and goes on to the next entry if another one stands there; then the same
+// with the upper words. A word is written at most once, so whatever a thread acts on is final: it passes an entry exactly
+// if the entry's words, in the end, are not its own, and stops at the first whose words are. All threads with the same key
+// therefore stop at the same entry, in any order, and the one that wrote the second word has claimed it. An entry never
+// stays half full: who wrote the first word goes on to the second, which is its own or another's of the same lower word.
+#include "lib/morton.glsl"
 #include "shared/bricks.h"
+
+layout(constant_id = BRICKS_CONSTANT_ID) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
 
 const uint kNoEntry = ~0u;
 
-// First entry to look at. Keys that differ in the lowest bits only stand side by side.
-uint brickHome(uint key, uint mask)
+// The key of a cell among the 4^levels cells of its level. Narrow keys are in x, with y = 0.
+uvec2 brickKey(uvec3 cell, uint levels)
 {
-    uint run = (key >> kBrickRunLog2) * 2654435761u; // Knuth's multiplicative hash
-    run ^= run >> 15;
-    return ((run << kBrickRunLog2) | (key & ((1u << kBrickRunLog2) - 1u))) & mask;
+    uint marker = 6u * levels;
+    if (!kWideKeys)
+        return uvec2(mortonEncode(cell) | (1u << marker), 0u);
+    uvec2 leading = marker < kBrickKeyBits ? uvec2(1u << marker, 0u) : uvec2(0u, 1u << (marker - kBrickKeyBits));
+    return mortonEncodeWide(cell) | leading | kBrickKeyTag;
 }
 
-// The entry of key, claimed when there is none. start: where to begin looking. kNoEntry when the probes ran out.
-// claimed: this call put the key there.
-uint brickFindOrInsert(BrickEntry_Ptr bricks, uint mask, uint key, uint start, out bool claimed)
+uvec2 parentKey(uvec2 key)
 {
-    uint entry = start;
+    if (!kWideKeys)
+        return uvec2(key.x >> 6, 0u);
+    uvec2 code = key & ~kBrickKeyTag;
+    return uvec2((code.x >> 6) | ((code.y << (kBrickKeyBits - 6u)) & ((1u << kBrickKeyBits) - 1u)), code.y >> 6) |
+           kBrickKeyTag;
+}
+
+bool isSameKey(uvec2 a, uvec2 b)
+{
+    return a.x == b.x && (!kWideKeys || a.y == b.y);
+}
+
+// First entry to look at. Keys that differ in the lowest bits only stand side by side.
+uint brickHome(uvec2 key, uint mask)
+{
+    uint run = key.x >> kBrickRunLog2;
+    if (kWideKeys)
+        run += key.y * 2246822519u; // an odd number with as many zeros as ones: any will do
+    run *= 2654435761u;             // Knuth's multiplicative hash
+    run ^= run >> 15;
+    return ((run << kBrickRunLog2) | (key.x & ((1u << kBrickRunLog2) - 1u))) & mask;
+}
+
+// The entry of key, claimed when there is none. kNoEntry when the probes ran out. claimed: this call put the key there.
+uint brickFindOrInsert(BrickEntry_Ptr bricks, uint mask, uvec2 key, out bool claimed)
+{
+    uint entry = brickHome(key, mask);
     uint found = 0u;
     bool searching = true;
     claimed = false;
@@ -25,24 +63,48 @@ uint brickFindOrInsert(BrickEntry_Ptr bricks, uint mask, uint key, uint start, o
         found = bricks.data[entry].key;
         if (found == 0u)
         {
-            found = atomicCompSwap(bricks.data[entry].key, 0u, key);
-            claimed = found == 0u;
+            found = atomicCompSwap(bricks.data[entry].key, 0u, key.x);
+            if (kWideKeys)
+                found = found == 0u ? key.x : found;
+            else
+                claimed = found == 0u;
         }
-        searching = !claimed && found != key;
+        if (kWideKeys && found == key.x)
+        {
+            found = bricks.data[entry].base;
+            if (found == 0u)
+            {
+                found = atomicCompSwap(bricks.data[entry].base, 0u, key.y);
+                claimed = found == 0u;
+            }
+            found = found == key.y ? key.x : 0u;
+        }
+        searching = !claimed && found != key.x;
         entry = searching ? (entry + 1u) & mask : entry;
     }
     return searching ? kNoEntry : entry;
 }
 
 // The entry of a key that an earlier dispatch inserted, or kNoEntry.
-uint brickFind(BrickEntry_ConstPtr bricks, uint mask, uint key)
+uint brickFind(BrickEntry_ConstPtr bricks, uint mask, uvec2 key)
 {
     uint entry = brickHome(key, mask);
-    uint found = bricks.data[entry].key;
-    for (uint probe = 0u; found != key && found != 0u && probe < kBrickProbesMax; ++probe)
+    uvec2 found = uvec2(bricks.data[entry].key, kWideKeys ? bricks.data[entry].base : 0u);
+    for (uint probe = 0u; !isSameKey(found, key) && found.x != 0u && probe < kBrickProbesMax; ++probe)
     {
         entry = (entry + 1u) & mask;
-        found = bricks.data[entry].key;
+        found = uvec2(bricks.data[entry].key, kWideKeys ? bricks.data[entry].base : 0u);
     }
-    return found == key ? entry : kNoEntry;
+    return isSameKey(found, key) ? entry : kNoEntry;
+}
+
+uvec2 keyOf(BrickEntry brick)
+{
+    return uvec2(brick.key, brick.base);
+}
+
+// Index of a node that octree/place has numbered.
+uint nodeOf(BrickEntry brick)
+{
+    return kWideKeys ? brick.mask_lo : brick.base;
 }

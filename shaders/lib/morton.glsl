@@ -28,6 +28,12 @@ uint mortonEncode(uvec3 cell)
     return spreadBits3(cell.x) | (spreadBits3(cell.y) << 1) | (spreadBits3(cell.z) << 2);
 }
 
+// The same for coordinates of at most 20 bits: the lower 30 bits of the code, and the upper 30.
+uvec2 mortonEncodeWide(uvec3 cell)
+{
+    return uvec2(mortonEncode(cell), mortonEncode(cell >> 10));
+}
+
 // Cell of a Morton code of at most 30 bits.
 uvec3 mortonDecode(uint code)
 {

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Gives every node of a level its child bases from the prefix sum of child counts, and tells a leaf's table entry where
-// its voxels start.
+// Gives every node of a level its child bases from the prefix sum of child counts, and tells a leaf's table entry, where
+// it has room for it, where its voxels start.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/dispatch.glsl"
@@ -35,7 +35,7 @@ void main()
         node.base_lo = base;
         node.base_hi = base + bitCount(node.mask_lo);
         params.nodes.data[params.first_node + i] = node;
-        if (params.is_leaf != 0u)
+        if (params.tell_bricks != 0u)
             params.bricks.data[entry].base = base;
         base = node.base_hi + bitCount(node.mask_hi);
     }

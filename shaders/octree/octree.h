@@ -92,7 +92,7 @@ struct AssignParams // push constants of octree/assign
     uint first_node;
     uint node_count;
     uint first_child; // node index of the next level's first node; 0 in a leaf: voxels
-    uint is_leaf;
+    uint tell_bricks; // 1: write the first child to the nodes' entries in the brick table
 };
 
 struct AverageParams // push constants of octree/average

@@ -3,6 +3,7 @@
 // Every node of a level sets its bit in its parent, which the first of its children puts into the table and the list.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+#define BRICKS_CONSTANT_ID 0
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 
@@ -19,18 +20,16 @@ void main()
     if (item >= range.count)
         return;
     item += range.first;
-    uint key = params.bricks.data[params.items.data[item].entry].key;
-    uint parent_key = key >> 6;
+    uvec2 key = keyOf(params.bricks.data[params.items.data[item].entry]);
     bool claimed;
-    uint parent =
-        brickFindOrInsert(params.bricks, params.brick_mask, parent_key, brickHome(parent_key, params.brick_mask), claimed);
+    uint parent = brickFindOrInsert(params.bricks, params.brick_mask, parentKey(key), claimed);
     if (parent == kNoEntry)
     {
         atomicAdd(params.counters.data[0].overflow_count, 1u);
         return;
     }
-    uint bit = 1u << (key & 31u);
-    if ((key & 32u) == 0u)
+    uint bit = 1u << (key.x & 31u);
+    if ((key.x & 32u) == 0u)
         atomicOr(params.bricks.data[parent].mask_lo, bit);
     else
         atomicOr(params.bricks.data[parent].mask_hi, bit);

@@ -4,6 +4,8 @@
 // octree/assign runs, base_hi of the node holds its entry in the brick table.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 
 layout(local_size_x = kNodesGroup) in;
@@ -28,7 +30,10 @@ void main()
     BrickEntry brick = params.bricks.data[item.entry];
     uint node = 0u;
     if (params.is_root == 0u)
-        node = childNode(params.nodes.data[params.bricks.data[item.parent_entry].base], brick.key & 63u);
+        node = childNode(params.nodes.data[nodeOf(params.bricks.data[item.parent_entry])], brick.key & 63u);
     params.nodes.data[node] = Node(brick.mask_lo, 0u, brick.mask_hi, item.entry);
-    params.bricks.data[item.entry].base = node;
+    if (kWideKeys)
+        params.bricks.data[item.entry].mask_lo = node;
+    else
+        params.bricks.data[item.entry].base = node;
 }

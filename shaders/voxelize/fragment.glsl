@@ -4,27 +4,32 @@
 // The leaf that the last fragment of this thread fell into: neighbours mostly share it.
 struct BrickCursor
 {
-    uint key;
+    uvec2 key;
     uint entry;
     uint base;    // first voxel of the leaf
     uvec2 masks;
 };
 
-BrickCursor noBrick()
+// Level of the leaves among the nodes' levels.
+uint leafLevel()
 {
-    return BrickCursor(0u, kNoEntry, 0u, uvec2(0u));
+    return uint(findMSB(params.resolution) - 1) / 2u;
 }
 
-void moveToBrick(uint key, inout BrickCursor cursor)
+BrickCursor noBrick()
 {
-    if (key != cursor.key)
+    return BrickCursor(uvec2(0u), kNoEntry, 0u, uvec2(0u));
+}
+
+void moveToBrick(uvec2 key, inout BrickCursor cursor)
+{
+    if (!isSameKey(key, cursor.key))
     {
         cursor.key = key;
         if (kMode == kModeCoverage)
         {
             bool claimed;
-            cursor.entry =
-                brickFindOrInsert(params.bricks, params.brick_mask, key, brickHome(key, params.brick_mask), claimed);
+            cursor.entry = brickFindOrInsert(params.bricks, params.brick_mask, key, claimed);
             if (cursor.entry == kNoEntry)
                 atomicAdd(params.brick_counters.data[0].overflow_count, 1u);
         }
@@ -34,6 +39,12 @@ void moveToBrick(uint key, inout BrickCursor cursor)
             BrickEntry leaf = params.bricks.data[cursor.entry == kNoEntry ? 0u : cursor.entry];
             cursor.base = leaf.base;
             cursor.masks = uvec2(leaf.mask_lo, leaf.mask_hi);
+            if (kWideKeys)
+            {
+                Node node = params.nodes.data[nodeOf(leaf)];
+                cursor.base = node.base_lo;
+                cursor.masks = uvec2(node.mask_lo, node.mask_hi);
+            }
         }
     }
 }
@@ -110,9 +121,9 @@ Fragment shadeFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corn
     return fragment;
 }
 
-uint leafKey(uvec3 voxel)
+uvec2 leafKey(uvec3 voxel)
 {
-    return mortonEncode(voxel >> 2) | params.leaf_marker;
+    return brickKey(voxel >> 2, leafLevel());
 }
 
 // Adds a fragment in the leaf of cursor to the voxel's sums.

@@ -8,9 +8,9 @@
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
 #define EDGE_WIDE
+#define BRICKS_CONSTANT_ID 4
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/morton.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"

@@ -6,9 +6,9 @@
 #include "voxelize/constants.glsl"
 #define EDGE_INT int
 #define EDGE_IVEC3 ivec3
+#define BRICKS_CONSTANT_ID 4
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/morton.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"

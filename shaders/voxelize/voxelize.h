@@ -111,6 +111,7 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
     GPU_PTR(RowBlock) row_blocks;          // [block_capacity]
     GPU_PTR(RasterCounters) counters;      // [1]
     GPU_PTR(BrickCounters) brick_counters; // [1]
+    GPU_CONST_PTR(Node) nodes;             // not in coverage mode
     GPU_PTR(VoxelSums) sums;               // [voxel_count]
     GPU_PTR(uvec2) emission_words;         // [ceil(voxel_count / 32)]
     GPU_PTR(EmissionSums) emission_sums;   // [emissive voxels]
@@ -121,8 +122,7 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
     uint chunk_count;
     uint big_capacity;
     uint block_capacity;
-    uint sum_shift;   // bits dropped from values before they are added
-    uint leaf_marker; // the leading one bit of a leaf's brick key
+    uint sum_shift; // bits dropped from values before they are added
 };
 
 struct RowArgsParams // push constants of voxelize/row_args

@@ -29,7 +29,7 @@ struct Grid
     float voxel_size = 1.0F; // world units
     std::uint32_t depth = 1; // 1 to kDepthMax
 
-    static constexpr std::uint32_t kDepthMax = 12;
+    static constexpr std::uint32_t kDepthMax = 17;
 
     [[nodiscard]] std::uint32_t resolution() const { return 1U << depth; }
 

@@ -35,7 +35,7 @@ void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuil
     params.first_node = first_node;
     params.node_count = node_count;
     params.first_child = is_leaf ? 0 : first_node + node_count;
-    params.is_leaf = is_leaf ? 1 : 0;
+    params.tell_bricks = is_leaf && !hasWideKeys(octree.grid) ? 1 : 0;
     pass.dispatch(threads, params);
 }
 
@@ -73,7 +73,7 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
         {
             break;
         }
-        vk::Pass pass = graph.addPass("octree/parents");
+        vk::Pass pass = graph.addPass("octree/parents", {hasWideKeys(grid) ? 1U : 0U});
         gpu::ParentsParams params{};
         params.bricks = pass.readWrite(voxelize.bricks);
         params.items = pass.readWrite(work.items);
@@ -92,7 +92,7 @@ void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     {
         const std::uint32_t node_count = octree.levels[level].node_count;
         {
-            vk::Pass pass = graph.addPass("octree/place");
+            vk::Pass pass = graph.addPass("octree/place", {hasWideKeys(octree.grid) ? 1U : 0U});
             gpu::PlaceParams params{};
             params.bricks = pass.readWrite(voxelize.bricks);
             params.items = pass.read(work.items);

@@ -48,9 +48,9 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32
     params.chunk_count = static_cast<std::uint32_t>(chunks.count());
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
-    params.leaf_marker = 1U << (6 * (job.grid.nodeLevels() - 1));
     if (job.attributes != nullptr)
     {
+        params.nodes = pass.read(job.octree->nodes);
         params.sums = pass.readWrite(job.attributes->sums);
         params.emission_words = pass.readWrite(job.octree->emission_words);
         params.emission_sums = pass.readWrite(job.attributes->emission_sums);
@@ -72,7 +72,7 @@ void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
             continue;
         }
         VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
-        const vk::Specialization variant = {coverage, mode, material_class, emits};
+        const vk::Specialization variant = {coverage, mode, material_class, emits, hasWideKeys(job.grid) ? 1U : 0U};
         {
             vk::Pass pass = graph.addPass("voxelize/triangles", variant);
             pass.dispatch(chunk_count * gpu::kChunkTriangles, rasterParams(pass, job, material_class));

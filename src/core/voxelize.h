@@ -13,6 +13,12 @@
 namespace zvo
 {
 
+/// Whether keys of grid's brick table take two words (shaders/shared/bricks.h): from depth 13 on.
+inline bool hasWideKeys(const Grid& grid)
+{
+    return grid.nodeLevels() > gpu::kNarrowLevelsMax;
+}
+
 /// How much a voxelization has room for.
 struct VoxelizeCapacities
 {
