@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// How many workgroups voxelize/rows needs for the row blocks that were listed.
+// How many workgroups the bands and row blocks need that have been listed so far.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 
@@ -10,10 +10,16 @@ layout(push_constant, scalar) uniform Push
     RowArgsParams params;
 };
 
+DispatchArgs argsOf(uint groups)
+{
+    uint rows = (groups + params.max_groups_x - 1u) / params.max_groups_x;
+    return DispatchArgs(rows > 1u ? params.max_groups_x : groups, rows, 1u);
+}
+
 void main()
 {
+    uint bands = min(params.counters.data[0].big_count, params.big_capacity);
     uint blocks = min(params.counters.data[0].block_count, params.block_capacity);
-    uint groups = (blocks * kBlockRows + kRowsGroup - 1u) / kRowsGroup;
-    uint rows = (groups + params.max_groups_x - 1u) / params.max_groups_x;
-    params.args.data[0] = DispatchArgs(rows > 1u ? params.max_groups_x : groups, rows, 1u);
+    params.args.data[0] = argsOf((bands + kBandsGroup - 1u) / kBandsGroup);
+    params.args.data[1] = argsOf((blocks * kBlockRows + kRowsGroup - 1u) / kRowsGroup);
 }

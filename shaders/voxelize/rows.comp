@@ -12,6 +12,7 @@
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 #include "voxelize/raster.glsl"
+#include "voxelize/big_triangle.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"
 #include "voxelize/surface.glsl"
@@ -20,31 +21,10 @@
 
 layout(local_size_x = kRowsGroup) in;
 
-// Columns that can lie inside the outline, as offsets from the cell's column: where each edge function, linear along
-// the row, is not negative. Estimated in floating point and widened by a column; the exact test follows per voxel.
-ivec2 rowInterval(RasterTriangle t, RasterCell cell, int count)
-{
-    vec2 interval = vec2(0.0, float(count - 1));
-    for (int i = 0; i < 3; ++i)
-    {
-        float value = float(cell.uv[i]);
-        float step = -float(t.dv[i] * t.s_w);
-        float crossing = -value / step;
-        if (step > 0.0)
-            interval.x = max(interval.x, crossing - 1.0);
-        if (step < 0.0)
-            interval.y = min(interval.y, crossing + 1.0);
-        if (step == 0.0 && value < 0.0)
-            interval.y = -1.0;
-    }
-    bool empty = !(interval.x <= interval.y);
-    return empty ? ivec2(0, -1) : ivec2(floor(interval.x), ceil(interval.y));
-}
-
 void rasterizeRow(RasterTriangle t, Surface surface, ivec2 column, int column_last)
 {
     RasterCell probe = startColumn(t, column);
-    ivec2 interval = rowInterval(t, probe, column_last - column.x + 1);
+    ivec2 interval = wholeColumns(outlineColumns(t, probe, column_last - column.x + 1, 1));
     int last = min(column.x + interval.y, column_last);
     column.x += interval.x;
     RasterCell first = startColumn(t, column);
@@ -68,15 +48,14 @@ void rasterizeRow(RasterTriangle t, Surface surface, ivec2 column, int column_la
     }
 }
 
-// Every fourth tile of a band of four rows, from number strip on: the eight threads of a block share its two bands.
-// column: the band's first one, both coordinates multiples of 4.
-void rasterizeBand(RasterTriangle t, ivec2 column, int column_last, int strip)
+// Every fourth tile of four rows, from number lane on: the eight threads of a block share its two rows of tiles.
+// column: the first one of these rows in the block, both coordinates multiples of 4.
+void rasterizeTiles(RasterTriangle t, ivec2 column, int column_last, int lane)
 {
     RasterCell probe = startColumn(t, column);
-    probe.uv += max(EDGE_IVEC3(0), t.du * (EDGE_INT(3) * t.s_w)); // where one of the four rows is inside
-    ivec2 interval = rowInterval(t, probe, column_last - column.x + 1);
+    ivec2 interval = wholeColumns(outlineColumns(t, probe, column_last - column.x + 1, 4));
     int last = min(column.x + interval.y, column_last);
-    column.x += (interval.x & ~3) + 4 * strip;
+    column.x += (interval.x & ~3) + 4 * lane;
     for (; column.x <= last; column.x += 16)
         setTile(t, coverTile(t, column));
 }
@@ -93,21 +72,12 @@ void main()
     if (block_number >= block_count)
         return;
     RowBlock block = params.row_blocks.data[block_number];
-    if (block.triangle == kAbsent)
-        return;
-    BigTriangle big = params.big_triangles.data[block.triangle];
+    BigTriangle big = params.big_triangles.data[block.band];
     Draw draw = params.scene.data[0].draws.data[big.draw];
     uvec3 vertices = params.scene.data[0].triangles.data[draw.first_triangle + big.triangle];
 
-    i64vec3 a = i64vec3(big.v1 - big.v0);
-    i64vec3 b = i64vec3(big.v2 - big.v0);
-    i64vec3 normal = a.yzx * b.zxy - a.zxy * b.yzx;
-    ivec3 low = ((min(big.v0, min(big.v1, big.v2)) + (kVoxelLattice - 1)) >> kVoxelLatticeLog2) - 1;
-    ivec3 high = max(big.v0, max(big.v1, big.v2)) >> kVoxelLatticeLog2;
-    low = max(low, ivec3(0));
-    high = min(high, ivec3(int(params.resolution) - 1));
-    RasterTriangle t = setupTriangle(big.v0, big.v1, big.v2, normal, majorAxis(normal, low, high), low, high,
-                                     int(params.resolution));
+    i64vec3 normal;
+    RasterTriangle t = setupBigTriangle(big, normal);
     Surface surface = loadSurface(draw, vertices, vec3(normal), float(t.n_w));
 
     ivec2 corner = blockOrigin(t.low.xy) + ivec2((block.position >> 16) * kBlockColumns,
@@ -115,7 +85,7 @@ void main()
     int column_last = min(corner.x + int(kBlockColumns) - 1, t.high.x);
     int lane = int(thread % kBlockRows);
     if (kCoverage == kCoverageThin && kMode == kModeCoverage && kClass != kClassAlpha)
-        rasterizeBand(t, ivec2(corner.x, corner.y + (lane & ~3)), column_last, lane & 3);
+        rasterizeTiles(t, ivec2(corner.x, corner.y + (lane & ~3)), column_last, lane & 3);
     else if (corner.y + lane >= t.low.y && corner.y + lane <= t.high.y)
         rasterizeRow(t, surface, ivec2(max(corner.x, t.low.x), corner.y + lane), column_last);
 }

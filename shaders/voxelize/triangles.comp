@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Snaps every triangle to the lattice. Small ones are rasterized here, one thread each, in 32-bit integers; big ones are
-// listed with their row blocks for voxelize/rows. (After Schwarz and Seidel 2010; coverage: docs/voxelization.md.)
+// listed in bands of rows for voxelize/bands and voxelize/rows. (After Schwarz and Seidel 2010; coverage: docs/voxelization.md.)
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/constants.glsl"
 #define EDGE_INT int
@@ -86,18 +86,13 @@ uvec2 rasterExtent(SnappedTriangle t, uint axis)
 void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uint axis)
 {
     ivec2 low = axis == 0u ? t.low.yz : (axis == 1u ? t.low.zx : t.low.xy);
-    uvec2 extent = rasterExtent(t, axis) + uvec2(low - blockOrigin(low));
-    uvec2 blocks = uvec2((extent.x + kBlockColumns - 1u) / kBlockColumns, (extent.y + kBlockRows - 1u) / kBlockRows);
-    uint slot = atomicAdd(params.counters.data[0].big_count, 1u);
-    uint first = atomicAdd(params.counters.data[0].block_count, blocks.x * blocks.y);
-    if (first > kRowBlocksMax)
-        atomicMax(params.counters.data[0].blocks_exceeded, 1u);
-    bool fits = slot < params.big_capacity;
-    if (fits)
-        params.big_triangles.data[slot] = BigTriangle(t.v0, t.v1, t.v2, draw, triangle);
-    for (uint i = 0u; i < blocks.x * blocks.y; ++i) // blocks of a triangle that does not fit are marked as nobody's
-        if (first + i < params.block_capacity)
-            params.row_blocks.data[first + i] = RowBlock(fits ? slot : kAbsent, (i / blocks.x) | ((i % blocks.x) << 16));
+    uint row_count = rasterExtent(t, axis).y + uint(low.y - blockOrigin(low).y);
+    const uint band_rows = kBandStrips * kBlockRows;
+    uint count = (row_count + band_rows - 1u) / band_rows;
+    uint first = atomicAdd(params.counters.data[0].big_count, count);
+    for (uint band = 0u; band < count; ++band)
+        if (first + band < params.big_capacity)
+            params.big_triangles.data[first + band] = BigTriangle(t.v0, t.v1, t.v2, draw, triangle, band);
 }
 
 // Thin coverage, at most one voxel a column: first finds the covered columns, then takes these alone. Where branches are

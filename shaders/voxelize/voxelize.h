@@ -12,6 +12,8 @@ GPU_NAMESPACE_BEGIN
 const uint kChunkTriangles = 64u;    // triangles of one draw that one workgroup takes
 const uint kResolveGroup = 64u;      // threads of a workgroup where one thread takes one voxel
 const uint kRowsGroup = 64u;         // threads of a workgroup of voxelize/rows
+const uint kBandsGroup = 32u;        // threads of a workgroup of voxelize/bands
+const uint kBandStrips = 64u;        // strips of kBlockRows rows in a band: bounds a thread's work
 const uint kBlockRows = 8u;          // rows of a row block: one thread each
 const uint kBlockColumns = 256u;     // columns of a row block: bounds a thread's work
 const uint kSmallColumns = 32u;      // a triangle over more columns is rasterized by rows; one bit of a mask each
@@ -70,7 +72,7 @@ struct Chunk
 };
 GPU_BUFFER(Chunk, 4);
 
-/// A triangle that is rasterized by rows, already on the lattice.
+/// A band of kBandStrips * kBlockRows rows of a triangle that is rasterized by rows, already on the lattice.
 struct BigTriangle
 {
     ivec3 v0;
@@ -78,22 +80,23 @@ struct BigTriangle
     ivec3 v2;
     uint draw;
     uint triangle;
+    uint band; // counted from the first row of the triangle inside the grid
 };
 GPU_BUFFER(BigTriangle, 4);
 
 /// kBlockRows rows by kBlockColumns columns of a big triangle.
 struct RowBlock
 {
-    uint triangle; // in the list of big triangles, or kAbsent
-    uint position; // row / kBlockRows | column / kBlockColumns << 16
+    uint band;     // in the list of big triangles
+    uint position; // row / kBlockRows | column / kBlockColumns << 16, counted from the triangle's first inside the grid
 };
 GPU_BUFFER(RowBlock, 4);
 
 /// Counts of one run over the triangles of one material class. Counting goes on past a capacity.
 struct RasterCounters
 {
-    uint big_count;
-    uint block_count;
+    uint big_count;       // bands
+    uint block_count;     // of the bands that found room
     uint blocks_exceeded; // more than kRowBlocksMax: block_count may have wrapped around
     uint nonfinite;
     uint out_of_range;
@@ -128,7 +131,8 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
 struct RowArgsParams // push constants of voxelize/row_args
 {
     GPU_CONST_PTR(RasterCounters) counters;
-    GPU_PTR(DispatchArgs) args;
+    GPU_PTR(DispatchArgs) args; // [2] of voxelize/bands, voxelize/rows
+    uint big_capacity;
     uint block_capacity;
     uint max_groups_x;
 };

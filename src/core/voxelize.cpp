@@ -16,7 +16,16 @@ namespace
 
 constexpr std::uint64_t kBricksMin = 4096;
 constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
+constexpr std::uint64_t kBigTrianglesMax = 1 << 20; // that are reckoned with, whatever their number turns out to be
 constexpr std::uint64_t kRowBlocksMin = 1 << 16;
+constexpr std::uint64_t kRowBlocksMax = 1 << 23;
+constexpr std::uint64_t kBandArgs = 0; // elements of VoxelizeBuffers::RowWork::args
+constexpr std::uint64_t kRowArgs = 1;
+
+std::uint64_t clampedCount(double value, std::uint64_t low, std::uint64_t high)
+{
+    return static_cast<std::uint64_t>(std::clamp(value, static_cast<double>(low), static_cast<double>(high)));
+}
 
 // Everything about a raster pass that does not depend on the mode.
 struct RasterJob
@@ -59,6 +68,19 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32
     return params;
 }
 
+// Workgroups for what has been listed so far.
+void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
+{
+    vk::Pass pass = graph.addPass("voxelize/row_args");
+    gpu::RowArgsParams params{};
+    params.counters = pass.read(rows.counters);
+    params.args = pass.write(rows.args);
+    params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
+    params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
+    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+    pass.dispatch(1, params);
+}
+
 // Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
 void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
 {
@@ -79,16 +101,13 @@ void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
         }
         if (mode == gpu::kModeCoverage)
         {
-            vk::Pass pass = graph.addPass("voxelize/row_args");
-            gpu::RowArgsParams params{};
-            params.counters = pass.read(rows.counters);
-            params.args = pass.write(rows.args);
-            params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
-            params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
-            pass.dispatch(1, params);
+            sizeRowWork(graph, rows);
+            vk::Pass pass = graph.addPass("voxelize/bands", {coverage, mode, material_class});
+            pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, job, material_class));
+            sizeRowWork(graph, rows);
         }
         vk::Pass pass = graph.addPass("voxelize/rows", variant);
-        pass.dispatchIndirect(rows.args, 0, rasterParams(pass, job, material_class));
+        pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, job, material_class));
     }
 }
 
@@ -121,13 +140,17 @@ VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Gri
     // A plane meets about 1.5 leaves per 16 voxels of area, and an inner node stands above every eight leaves or so.
     // The table should be no more than half full.
     const double voxel = grid.voxel_size;
+    const double area = scene.surface_area / (voxel * voxel);
     const double grid_leaves = std::pow(static_cast<double>(grid.resolution()) / 4, 3);
-    const double leaves = std::min(scene.surface_area / (voxel * voxel) * 1.5 / 16, grid_leaves);
-    const auto entries = static_cast<std::uint64_t>(leaves * 1.15 * 2);
+    const double leaves = std::min(area * 1.5 / 16, grid_leaves);
     VoxelizeCapacities result;
-    result.bricks = std::bit_ceil(std::clamp(entries, kBricksMin, kBricksMax));
-    result.big_triangles = std::clamp<std::uint64_t>(scene.triangle_count, 1, kBigTrianglesMin);
-    result.row_blocks = kRowBlocksMin;
+    result.bricks = std::bit_ceil(clampedCount(leaves * 1.15 * 2, kBricksMin, kBricksMax));
+    // A big triangle covers some 16 voxels or more, and has as many rows as a square of its bounding box' area.
+    const double big = std::min(static_cast<double>(scene.triangle_count), area / 16);
+    const double strips = big + std::sqrt(big * 2 * area) / gpu::kBlockRows;
+    const double blocks = strips + 2 * area / (gpu::kBlockRows * gpu::kBlockColumns);
+    result.big_triangles = clampedCount(big * 1.5, kBigTrianglesMin, kBigTrianglesMax);
+    result.row_blocks = clampedCount(blocks * 1.5, kRowBlocksMin, kRowBlocksMax);
     return result;
 }
 
@@ -141,7 +164,7 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
             rows[i].big_triangles = {device, "voxelize/big_triangles", capacities.big_triangles};
             rows[i].row_blocks = {device, "voxelize/row_blocks", capacities.row_blocks};
             rows[i].counters = {device, "voxelize/raster_counters", 1};
-            rows[i].args = {device, "voxelize/row_args", 1};
+            rows[i].args = {device, "voxelize/row_args", 2};
         }
     }
 }

@@ -23,7 +23,7 @@ inline bool hasWideKeys(const Grid& grid)
 struct VoxelizeCapacities
 {
     std::uint64_t bricks = 0;        // entries of the brick table, a power of two
-    std::uint64_t big_triangles = 0; // of each material class
+    std::uint64_t big_triangles = 0; // bands of them, of each material class
     std::uint64_t row_blocks = 0;    // of each material class
 
     /// More entries than this do not fit the 32-bit numbers of the brick table.
@@ -43,7 +43,7 @@ struct VoxelizeBuffers
         vk::BufferOf<gpu::BigTriangle> big_triangles; // [capacities.big_triangles]
         vk::BufferOf<gpu::RowBlock> row_blocks;       // [capacities.row_blocks]
         vk::BufferOf<gpu::RasterCounters> counters;   // [1]
-        vk::BufferOf<gpu::DispatchArgs> args;         // [1]
+        vk::BufferOf<gpu::DispatchArgs> args;         // [2] of voxelize/bands, voxelize/rows
     };
 
     VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene);

@@ -1,0 +1,48 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Lists the row blocks of big triangles, one thread a band of rows. Blocks that the triangle's outline, or its plane
+// inside the grid, does not reach are left out: what is listed is about what is covered, not the bounding box.
+#extension GL_GOOGLE_include_directive : require
+#include "voxelize/constants.glsl"
+#define EDGE_INT int64_t
+#define EDGE_IVEC3 i64vec3
+#include "lib/dispatch.glsl"
+#include "voxelize/raster.glsl"
+#include "voxelize/big_triangle.glsl"
+
+layout(local_size_x = kBandsGroup) in;
+
+void listBlocks(uint band, uint strip, uvec2 blocks)
+{
+    uint count = blocks.y - blocks.x + 1u;
+    uint first = atomicAdd(params.counters.data[0].block_count, count);
+    if (first > kRowBlocksMax)
+        atomicMax(params.counters.data[0].blocks_exceeded, 1u);
+    for (uint i = 0u; i < count; ++i)
+        if (first + i < params.block_capacity)
+            params.row_blocks.data[first + i] = RowBlock(band, strip | ((blocks.x + i) << 16));
+}
+
+void main()
+{
+    uint band = threadIndex();
+    if (band >= min(params.counters.data[0].big_count, params.big_capacity))
+        return;
+    BigTriangle big = params.big_triangles.data[band];
+    i64vec3 normal;
+    RasterTriangle t = setupBigTriangle(big, normal);
+    ivec2 origin = blockOrigin(t.low.xy);
+    int column_count = t.high.x - origin.x + 1;
+    uint first_strip = big.band * kBandStrips;
+    uint strip_count = uint(t.high.y - origin.y) / kBlockRows + 1u;
+    uint last_strip = min(first_strip + kBandStrips, strip_count);
+    for (uint strip = first_strip; strip < last_strip; ++strip)
+    {
+        RasterCell cell = startColumn(t, origin + ivec2(0, int(strip * kBlockRows)));
+        vec2 interval = outlineColumns(t, cell, column_count, int(kBlockRows));
+        ivec2 columns = wholeColumns(layerColumns(t, cell, interval, int(kBlockRows)));
+        columns.y = min(columns.y, column_count - 1);
+        if (columns.x <= columns.y)
+            listBlocks(band, strip, uvec2(columns) / kBlockColumns);
+    }
+}

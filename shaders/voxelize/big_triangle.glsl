@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// What the kernels over big triangles share.
+
+// normal: exact, of the lattice points.
+RasterTriangle setupBigTriangle(BigTriangle big, out i64vec3 normal)
+{
+    i64vec3 a = i64vec3(big.v1 - big.v0);
+    i64vec3 b = i64vec3(big.v2 - big.v0);
+    normal = a.yzx * b.zxy - a.zxy * b.yzx;
+    ivec3 low = ((min(big.v0, min(big.v1, big.v2)) + (kVoxelLattice - 1)) >> kVoxelLatticeLog2) - 1;
+    ivec3 high = max(big.v0, max(big.v1, big.v2)) >> kVoxelLatticeLog2;
+    low = max(low, ivec3(0));
+    high = min(high, ivec3(int(params.resolution) - 1));
+    return setupTriangle(big.v0, big.v1, big.v2, normal, majorAxis(normal, low, high), low, high,
+                         int(params.resolution));
+}
+
+// Shrinks an interval of columns to where value + step * column >= 0, estimated in floating point and widened by a
+// column: numbers of columns are below 2^18, so that the estimate is right to a small part of one.
+void clipColumns(float value, float step, inout vec2 interval)
+{
+    float crossing = -value / step;
+    if (step > 0.0)
+        interval.x = max(interval.x, crossing - 1.0);
+    if (step < 0.0)
+        interval.y = min(interval.y, crossing + 1.0);
+    if (step == 0.0 && value < 0.0)
+        interval.y = -1.0;
+}
+
+// Columns that can lie inside the outline in the (u, v) projection, as offsets from the cell's column, in any of
+// row_count rows from the cell's on: where each edge function, linear in both, is not negative in the row that suits it.
+vec2 outlineColumns(RasterTriangle t, RasterCell cell, int column_count, int row_count)
+{
+    vec2 interval = vec2(0.0, float(column_count - 1));
+    for (int i = 0; i < 3; ++i)
+    {
+        EDGE_INT rise = max(t.du[i] * t.s_w, EDGE_INT(0)) * EDGE_INT(row_count - 1);
+        clipColumns(float(cell.uv[i] + rise), -float(t.dv[i] * t.s_w), interval);
+    }
+    return interval;
+}
+
+// Likewise the columns whose layers can lie inside the grid. The plane rises or falls by at most a layer a column and
+// a row.
+vec2 layerColumns(RasterTriangle t, RasterCell cell, vec2 interval, int row_count)
+{
+    const float margin = 3.0; // layers: a conservative column's range, and rounding
+    float inverse = 1.0 / float(t.n_w);
+    float slope = -float(t.n_u) * inverse;
+    float by_rows = -float(t.n_v) * inverse * float(row_count - 1);
+    float height = float(cell.w);
+    if (t.n_w != 0)
+    {
+        clipColumns(height + max(by_rows, 0.0) - float(t.low.z) + margin, slope, interval);
+        clipColumns(float(t.high.z) - height - min(by_rows, 0.0) + margin, -slope, interval);
+    }
+    return interval;
+}
+
+// First and last column as whole numbers; last < first: none.
+ivec2 wholeColumns(vec2 interval)
+{
+    bool empty = !(interval.x <= interval.y);
+    return empty ? ivec2(0, -1) : ivec2(floor(interval.x), ceil(interval.y));
+}
