@@ -124,7 +124,7 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options)
         ->required()
         ->type_name("FILE");
     addValue(app, "--resolution", options.depth, parseResolution, "N",
-             "voxels per edge of the grid, a power of two from 2 to 4096 (default 512)");
+             "voxels per edge of the grid, a power of two from 2 to 131072 (default 512)");
     addCoverageOptions(app, options.coverage, options.attributes);
     addValue(app, "--bounds", options.bounds, parseBounds, "x0,y0,z0,x1,y1,z1",
              "the grid is the cube from corner 0 on, as long as the box's longest edge");
@@ -213,7 +213,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
         "where the usual scenes are (default scenes)");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
-             "powers of two from 2 to 4096 (default 256,512,1024)");
+             "powers of two from 2 to 131072 (default 256,512,1024)");
     addValue(
         *bench, "--runs", options.run_count,
         [](std::string_view option, std::string_view text)

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr std::uint64_t kBricksMin = 4096;
+constexpr std::uint64_t kBricksGuessMax = 1 << 24; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
 constexpr std::uint64_t kBigTrianglesMax = 1 << 20; // that are reckoned with, whatever their number turns out to be
 constexpr std::uint64_t kRowBlocksMin = 1 << 16;
@@ -144,7 +145,7 @@ VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Gri
     const double grid_leaves = std::pow(static_cast<double>(grid.resolution()) / 4, 3);
     const double leaves = std::min(area * 1.5 / 16, grid_leaves);
     VoxelizeCapacities result;
-    result.bricks = std::bit_ceil(clampedCount(leaves * 1.15 * 2, kBricksMin, kBricksMax));
+    result.bricks = std::bit_ceil(clampedCount(leaves * 1.15 * 2, kBricksMin, kBricksGuessMax));
     // A big triangle covers some 16 voxels or more, and has as many rows as a square of its bounding box' area.
     const double big = std::min(static_cast<double>(scene.triangle_count), area / 16);
     const double strips = big + std::sqrt(big * 2 * area) / gpu::kBlockRows;

@@ -49,10 +49,10 @@ void expectEqualsReference(const test::Codes& codes, std::uint32_t depth, std::u
 TEST(Trace, HitsOfRandomVoxelsEqualTheReferenceAtEveryDepth)
 {
     std::mt19937 random(1);
-    const std::uint32_t counts[] = {3, 20, 100, 400, 2049, 8000, 10201, 10201, 10201, 10201, 10201, 10201};
+    const std::uint32_t counts[] = {3, 20, 100, 400, 2049, 8000};
     for (std::uint32_t depth = 1; depth <= Grid::kDepthMax; ++depth)
     {
-        expectEqualsReference(test::randomCodes(depth, counts[depth - 1], random), depth, 10201);
+        expectEqualsReference(test::randomCodes(depth, depth <= 6 ? counts[depth - 1] : 10201, random), depth, 10201);
     }
 }
 

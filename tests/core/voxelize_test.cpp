@@ -5,13 +5,12 @@
 #include "core/pipeline.h"
 #include "oracle/voxelizer.h"
 #include "support/device.h"
-#include "support/octree_access.h"
 #include "support/scenes.h"
+#include "support/voxel_compare.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace zvo
 {
@@ -25,21 +24,7 @@ vk::HeadlessDevice& device()
 
 void expectEqualsOracle(const Scene& scene, const Grid& grid, Coverage coverage)
 {
-    const GpuScene gpu_scene = uploadScene(device(), scene, false);
-    const BuildResult result = buildOctree(device(), gpu_scene, grid, {coverage, false, {}});
-    const oracle::OracleVoxels expected = oracle::voxelize(scene, grid, coverage);
-    const oracle::OctreeContents contents = test::contentsOf(device(), result.octree);
-    EXPECT_TRUE(contents.violations.empty()) << contents.violations.front();
-    EXPECT_EQ(contents.codes.size(), result.octree.voxel_count);
-    std::vector<std::uint64_t> missing;
-    std::vector<std::uint64_t> extra;
-    std::set_difference(expected.codes.begin(), expected.codes.end(), contents.codes.begin(), contents.codes.end(),
-                        std::back_inserter(missing));
-    std::set_difference(contents.codes.begin(), contents.codes.end(), expected.codes.begin(), expected.codes.end(),
-                        std::back_inserter(extra));
-    EXPECT_EQ(missing.size(), 0U) << "of " << expected.codes.size() << " voxels, first " << missing.front();
-    EXPECT_EQ(extra.size(), 0U) << "beside " << expected.codes.size() << " voxels, first " << extra.front();
-    EXPECT_EQ(result.dropped, expected.dropped);
+    test::expectEqualsOracle(device(), scene, grid, coverage);
 }
 
 class VoxelizeBothCoverages : public testing::TestWithParam<Coverage>

@@ -41,7 +41,7 @@ TEST(OracleOctree, EmptyOctreeIsValid)
 TEST(OracleOctree, ReferenceExpandsToItsVoxels)
 {
     test::Random random(9);
-    for (std::uint32_t depth = 1; depth <= 12; ++depth)
+    for (std::uint32_t depth = 1; depth <= 17; ++depth)
     {
         for (const std::size_t count : {1U, 27U, 2049U, 10201U})
         {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Inserts keys into a brick table, all at once.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "insert_bricks.h"
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
+#include "lib/dispatch.glsl"
+
+layout(constant_id = 1) const bool kFind = false; // look for keys of an earlier dispatch instead
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Params
+{
+    InsertBricksParams params;
+};
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= params.count)
+        return;
+    bool claimed = false;
+    uvec2 key = params.keys.data[i];
+    uint entry = kFind ? brickFind(BrickEntry_ConstPtr(params.bricks), params.brick_mask, key)
+                       : brickFindOrInsert(params.bricks, params.brick_mask, key, claimed);
+    params.results.data[i] = uvec2(entry, claimed ? 1u : 0u);
+}
