@@ -8,16 +8,18 @@
 GPU_NAMESPACE_BEGIN
 
 /// One node: key = Morton code of the node among the nodes of its level, with a leading one bit: the root is 1, and
-/// key >> 6 is the parent's key. A depth of 12, six node levels, takes 31 bits. Deeper grids have wide keys: kBrickKeyBits
-/// of them in the first word and the rest in the last, both with the bit kBrickKeyTag, so that neither word is 0.
+/// key >> 6 is the parent's key. A depth of 12, six node levels, takes 31 bits. Deeper grids have wide keys:
+/// kBrickKeyBits of them in the first word and the rest in the last, both with the bit kBrickKeyTag, so that neither
+/// word is 0.
 ///
 ///     byte 0        4        8        12       16
 ///          | key    | mask_lo| mask_hi| base   |
 ///          | key_lo | mask_lo| mask_hi| key_hi |   wide
 ///
-/// 0 as the first word: the entry is free. Both words of a wide key are there when the dispatch that set them has ended.
-/// The masks are those of Node. base is the node's index while the octree is built; of a leaf, afterwards: its first
-/// voxel. With wide keys the index takes the place of mask_lo once the node has it, as the masks are in the node then.
+/// 0 as the first word: the entry is free. Both words of a wide key are there when the dispatch that set them has
+/// ended. The masks are those of Node. base is the node's index while the octree is built; of a leaf, afterwards: its
+/// first voxel. With wide keys the index takes the place of mask_lo once the node has it, as the masks are in the node
+/// then.
 struct BrickEntry
 {
     uint key;
@@ -27,9 +29,9 @@ struct BrickEntry
 };
 GPU_BUFFER(BrickEntry, 16);
 
-const uint kNarrowLevelsMax = 6u;      // node levels of octrees whose keys fit one word
-const uint kBrickKeyBits = 30u;        // of a wide key in its first word: five levels of octants twice over
-const uint kBrickKeyTag = 1u << 31;    // in both words of a wide key
+const uint kNarrowLevelsMax = 6u;   // node levels of octrees whose keys fit one word
+const uint kBrickKeyBits = 30u;     // of a wide key in its first word: five levels of octants twice over
+const uint kBrickKeyTag = 1u << 31; // in both words of a wide key
 
 const uint kBrickProbesMax = 256u; // entries looked at before the table counts as full
 const uint kBrickRunLog2 = 3u;     // neighbours in Morton order share a run of 1 << kBrickRunLog2 entries

@@ -44,22 +44,24 @@ struct DeterminismCase
 {
     const char* scene;
     const char* resolution;
+    const char* grid = nullptr; // origin and voxel size; otherwise the grid is around the scene
 };
 
 class OctreeBytes : public testing::TestWithParam<std::tuple<DeterminismCase, const char*>>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Scenes, OctreeBytes,
-                         testing::Combine(testing::Values(DeterminismCase{"atrium.glb", "256"},
-                                                          DeterminismCase{"bunny.glb", "256"},
-                                                          DeterminismCase{"sponza.glb", "128"}),
-                                          testing::Values("thin", "conservative")),
-                         [](const auto& test_case)
-                         {
-                             const std::string scene = std::get<0>(test_case.param).scene;
-                             return scene.substr(0, scene.find('.')) + "_" + std::get<1>(test_case.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, OctreeBytes,
+    testing::Combine(testing::Values(DeterminismCase{"atrium.glb", "256"}, DeterminismCase{"bunny.glb", "256"},
+                                     DeterminismCase{"sponza.glb", "128"},
+                                     DeterminismCase{"cornell_box.glb", "131072", "-99.1,-3.3,-0.2,0.002"}),
+                     testing::Values("thin", "conservative")),
+    [](const auto& test_case)
+    {
+        const std::string scene = std::get<0>(test_case.param).scene;
+        return scene.substr(0, scene.find('.')) + "_" + std::get<1>(test_case.param);
+    });
 
 TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
 {
@@ -69,14 +71,19 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
     {
         GTEST_SKIP() << scene.scene << " is not there";
     }
+    std::vector<std::string> arguments = {
+        "voxelize",     path->string(),   "-o",         "x.morton", "-f", "--json", "-",
+        "--resolution", scene.resolution, "--coverage", coverage};
+    if (scene.grid != nullptr)
+    {
+        arguments.push_back(std::string("--grid=") + scene.grid);
+    }
     const TempDir dir;
     std::set<std::string> sums;
     std::set<int> subgroup_sizes;
     for (const Machine& machine : machines())
     {
-        const Outcome outcome = runZvo(dir.path(),
-                                       {"voxelize", path->string(), "-o", "x.morton", "-f", "--json", "-",
-                                        "--resolution", scene.resolution, "--coverage", coverage},
+        const Outcome outcome = runZvo(dir.path(), arguments,
                                        {"LP_NUM_THREADS=" + std::to_string(machine.threads),
                                         "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
