@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// How much work big triangles are, in columns of the row blocks that are listed for them: counted, not timed.
+#include "core/kernels.h"
+#include "core/voxelize.h"
+#include "support/device.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo
+{
+namespace
+{
+
+constexpr std::uint64_t kBlockVoxels = std::uint64_t{gpu::kBlockRows} * gpu::kBlockColumns;
+
+std::uint64_t countBlocks(const std::vector<glm::vec3>& corners, std::uint32_t depth, Coverage coverage)
+{
+    vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
+    const GpuScene scene = uploadScene(device, test::triangleSoup(corners), false);
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
+    VoxelizeBuffers buffers(device.device(), VoxelizeCapacities::estimate(scene, grid), scene);
+    device.run([&](vk::FrameGraph& graph) { voxelizeCoverage(graph, scene, grid, coverage, buffers); });
+    const gpu::RasterCounters counters = device.download(buffers.rows[gpu::kClassPlain].counters).front();
+    EXPECT_GE(counters.big_count, corners.size() / 3);
+    EXPECT_LE(counters.big_count, buffers.rows[gpu::kClassPlain].big_triangles.count());
+    return counters.block_count;
+}
+
+class BalanceBothCoverages : public testing::TestWithParam<Coverage>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Coverages, BalanceBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
+                         [](const auto& test_case)
+                         { return test_case.param == Coverage::Thin ? "Thin" : "Conservative"; });
+
+TEST_P(BalanceBothCoverages, TriangleOfAMillionVoxelsListsBlocksForItsAreaNotForItsBox)
+{
+    // Half of a box of 1448^2 columns: 1024^2 of them.
+    const std::uint64_t blocks = countBlocks({{1, 1, 10}, {1449, 1, 300}, {1, 1449, 200}}, 11, GetParam());
+    EXPECT_GE(blocks * kBlockVoxels, 1024ULL * 1024) << "less than the triangle has";
+    EXPECT_LE(blocks * kBlockVoxels, 1024ULL * 1024 * 5 / 4);
+}
+
+TEST_P(BalanceBothCoverages, SliverListsOneOrTwoBlocksForEightRows)
+{
+    for (const std::uint32_t depth : {10U, 11U, 12U})
+    {
+        const float edge = static_cast<float>(1U << depth);
+        const std::uint64_t bands = (1U << depth) / gpu::kBlockRows;
+        const std::uint64_t blocks = countBlocks({{1, 1, 1}, {edge - 1, edge - 2, 9}, {1, 1.5F, 1}}, depth, GetParam());
+        SCOPED_TRACE(depth);
+        EXPECT_GE(blocks, bands);
+        EXPECT_LE(blocks, bands + (1U << depth) / gpu::kBlockColumns * 2);
+    }
+}
+
+TEST_P(BalanceBothCoverages, TwiceTheResolutionListsFourTimesTheBlocksAtMost)
+{
+    std::uint64_t before = 0;
+    for (std::uint32_t depth = 9; depth <= 12; ++depth)
+    {
+        const float edge = static_cast<float>(1U << depth);
+        const std::uint64_t blocks =
+            countBlocks({{0, 0, 0}, {edge, 0, edge / 3}, {edge / 2, edge, edge / 2}}, depth, GetParam());
+        EXPECT_TRUE(before == 0 || blocks <= before * 9 / 2) << before << " blocks, then " << blocks;
+        before = blocks;
+    }
+}
+
+} // namespace
+} // namespace zvo
