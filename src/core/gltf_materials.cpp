@@ -122,7 +122,6 @@ GltfMaterial GltfMaterials::load(int index)
     material.name = index < 0 ? "default" : source.name;
     material.alpha_mode = toAlphaMode(m_document, source.alphaMode, where);
     material.alpha_cutoff = factor(source.alphaCutoff, ".alphaCutoff");
-    material.double_sided = source.doubleSided;
     for (int i = 0; i < 4; ++i)
     {
         const double value = source.pbrMetallicRoughness.baseColorFactor[i];

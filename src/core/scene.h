@@ -52,7 +52,6 @@ struct Material
     std::optional<std::uint32_t> emission_texture;   // multiplies emission
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5F; // AlphaMode::Mask
-    bool double_sided = false;
 };
 
 /// A triangle list with one material. All vertex arrays are either empty or as long as positions.

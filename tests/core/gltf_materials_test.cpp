@@ -46,7 +46,6 @@ TEST(GltfMaterials, MissingMaterialIsWhiteAndOpaque)
     EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1.0F));
     EXPECT_EQ(scene.materials[0].emission, glm::vec3(0.0F));
     EXPECT_EQ(scene.materials[0].alpha_mode, AlphaMode::Opaque);
-    EXPECT_FALSE(scene.materials[0].double_sided);
     EXPECT_FALSE(scene.materials[0].base_color_texture.has_value());
 }
 
@@ -63,7 +62,6 @@ TEST(GltfMaterials, FactorsAndModesAreRead)
     EXPECT_EQ(material.emission, glm::vec3(0.5F, 0.25F, 1.0F));
     EXPECT_EQ(material.alpha_mode, AlphaMode::Mask);
     EXPECT_EQ(material.alpha_cutoff, 0.75F);
-    EXPECT_TRUE(material.double_sided);
     EXPECT_EQ(materialOf({{"alphaMode", "BLEND"}}).alpha_mode, AlphaMode::Blend);
     EXPECT_EQ(materialOf({{"alphaMode", "MASK"}}).alpha_cutoff, 0.5F);
 }

@@ -119,7 +119,7 @@ TEST(RealScene, SponzaCutsOutThreeMaterials)
     }
     const Scene scene = loadGltf(*path);
     const auto is_cut_out = [](const Material& material)
-    { return material.alpha_mode == AlphaMode::Mask && material.alpha_cutoff == 0.5F && material.double_sided; };
+    { return material.alpha_mode == AlphaMode::Mask && material.alpha_cutoff == 0.5F; };
     EXPECT_EQ(std::count_if(scene.materials.begin(), scene.materials.end(), is_cut_out), 3);
     for (const Material& material : scene.materials)
     {
