@@ -17,7 +17,6 @@ namespace zvo::cli
 namespace
 {
 
-constexpr std::uint32_t kOcclusionRaysMax = 64; // as TraceOptions has it
 constexpr std::size_t kHelpColumn = 34;
 constexpr float kVoxelSizeMin = 1e-35F; // 256 / voxel_size must be a finite number
 
@@ -64,7 +63,7 @@ Examples:
 
 // An option with one argument that read makes a value of.
 template <typename T, typename Read>
-CLI::Option* addValue(CLI::App& app, const char* name, T& target, Read read, const char* type, const char* what)
+CLI::Option* addValue(CLI::App& app, const char* name, T& target, Read read, const char* type, const std::string& what)
 {
     const std::string option = std::string(name).substr(std::string(name).rfind(',') + 1);
     const auto assign = [&target, read, option](const std::string& text) { target = read(option, text); };
@@ -164,7 +163,8 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
         *render, "--occlusion", options.occlusion_rays,
         [](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 0, kOcclusionRaysMax)); },
-        "RAYS", "rays a pixel that find how much of the sky it sees, 0 to 64 (default 0)");
+        "RAYS",
+        fmt::format("rays a pixel that find how much of the sky it sees, 0 to {} (default 0)", kOcclusionRaysMax));
     addValue(*render, "--sun", options.to_sun, parseDirection, "x,y,z",
              "direction to the sun (default -0.6,0.75,0.45)");
     addValue(*render, "--exposure", options.exposure, parsePositive, "FACTOR", "brightness of the picture (default 1)");

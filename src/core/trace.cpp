@@ -15,7 +15,6 @@ namespace
 {
 
 constexpr float kDirectionMin = 1e-20F; // as in lib/ray.glsl
-constexpr std::uint32_t kOcclusionRaysMax = 64;
 constexpr std::uint64_t kPathCellCount = std::uint64_t{gpu::kPathCells} * gpu::kPathCells * gpu::kPathCells;
 constexpr std::uint32_t kBlack = 255U << 24;
 

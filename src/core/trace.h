@@ -30,6 +30,9 @@ enum class TraceStack : std::uint32_t
     Shared = gpu::kStackShared,
 };
 
+/// The most rays that TraceOptions::occlusion_rays asks for.
+inline constexpr std::uint32_t kOcclusionRaysMax = 64;
+
 struct TraceOptions
 {
     View view = View::Color;
@@ -39,9 +42,9 @@ struct TraceOptions
     glm::dvec3 to_sun{-0.6, 0.75, 0.45}; // direction, any length
     float sun = 2.2F;                    // strength
     float exposure = 1.0F;
-    std::uint32_t occlusion_rays = 0; // View::Color: for each hit, to find how much of the sky it sees; at most 64
-    float occlusion_reach = 0.1F;     // of these rays, as a part of the grid's edge
-    float detail_pixels = 0.0F;       // stop at nodes that are at most this many pixels wide; 0: go on to voxels
+    std::uint32_t occlusion_rays = 0;        // View::Color: for each hit, to find how much of the sky it sees
+    float occlusion_reach = 0.1F;            // of these rays, as a part of the grid's edge
+    float detail_pixels = 0.0F;              // stop at nodes that are at most this many pixels wide; 0: go on to voxels
     std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
 };
 
