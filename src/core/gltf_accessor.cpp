@@ -6,7 +6,9 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <limits>
+#include <span>
 #include <type_traits>
+#include <utility>
 
 namespace zvo
 {
@@ -49,6 +51,13 @@ std::uint32_t componentCount(int type)
     default:
         return 0;
     }
+}
+
+bool isIndexType(int component_type)
+{
+    return component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
 template <typename Component> Component load(const std::uint8_t* bytes)
@@ -96,53 +105,148 @@ template <typename Component> std::vector<std::uint32_t> readIndicesAs(const Glt
     return indices;
 }
 
+/// Elements in a buffer view as a document describes them.
+struct ElementPlace
+{
+    int buffer_view = -1;
+    std::size_t offset_bytes = 0; // of the first element in the view
+    std::size_t count = 0;
+    std::size_t element_bytes = 0;
+    std::size_t stride_bytes = 0;
+};
+
+/// The first element. Throws where not all of them lie in the view.
+const std::uint8_t* locate(const GltfDocument& document, const ElementPlace& place, const std::string& where)
+{
+    if (place.stride_bytes < place.element_bytes)
+    {
+        throw document.error(fmt::format("{} has elements of {} bytes, {} apart; {}", where, place.element_bytes,
+                                         place.stride_bytes, kExportAgain));
+    }
+    const std::span<const std::uint8_t> view = document.bufferView(place.buffer_view);
+    // count elements fit when the last one does; written so that nothing overflows.
+    const std::size_t available = view.size() - std::min(place.offset_bytes, view.size());
+    const bool fits = place.count == 0 || (available >= place.element_bytes &&
+                                           place.count - 1 <= (available - place.element_bytes) / place.stride_bytes);
+    if (!fits || place.offset_bytes > view.size())
+    {
+        throw document.error(
+            fmt::format("{} takes {} elements of {} bytes, {} apart, at {} of bufferViews[{}], which has {} bytes; {}",
+                        where, place.count, place.element_bytes, place.stride_bytes, place.offset_bytes,
+                        place.buffer_view, view.size(), kExportAgain));
+    }
+    return view.data() + place.offset_bytes;
+}
+
+/// The accessor's elements one behind the other in its own storage, zeros where it has no buffer view.
+void copyElements(const GltfDocument& document, GltfAccessor& accessor)
+{
+    const std::size_t element_bytes = elementBytes(accessor);
+    if (accessor.count > std::numeric_limits<std::uint32_t>::max())
+    {
+        throw document.error(fmt::format("{} has more than 2^32 elements; split the mesh", accessor.where));
+    }
+    document.countUnpacked(std::uint64_t{accessor.count} * element_bytes, accessor.where);
+    std::vector<std::uint8_t> elements(accessor.count * element_bytes);
+    for (std::size_t i = 0; accessor.data != nullptr && i < accessor.count; ++i)
+    {
+        std::memcpy(&elements[i * element_bytes], accessor.data + i * accessor.stride_bytes, element_bytes);
+    }
+    accessor.storage = std::move(elements);
+    accessor.data = accessor.storage.data();
+    accessor.stride_bytes = element_bytes;
+}
+
+/// Puts the values of a sparse accessor in their places.
+void applySparse(const GltfDocument& document, const tinygltf::Accessor& source, GltfAccessor& accessor)
+{
+    const auto& sparse = source.sparse;
+    const auto count = static_cast<std::size_t>(sparse.count);
+    if (count > accessor.count)
+    {
+        throw document.error(fmt::format("{} has {} sparse values for {} elements; {}", accessor.where, count,
+                                         accessor.count, kExportAgain));
+    }
+    const std::size_t element_bytes = elementBytes(accessor);
+    GltfAccessor indices;
+    indices.where = accessor.where + ".sparse.indices";
+    indices.count = count;
+    indices.component_type = sparse.indices.componentType;
+    indices.component_count = 1;
+    indices.stride_bytes = elementBytes(indices);
+    if (!isIndexType(indices.component_type))
+    {
+        throw document.error(
+            fmt::format("{} has component type {}; {}", indices.where, indices.component_type, kExportAgain));
+    }
+    const auto indices_offset = static_cast<std::size_t>(sparse.indices.byteOffset);
+    const auto values_offset = static_cast<std::size_t>(sparse.values.byteOffset);
+    indices.data =
+        locate(document, {sparse.indices.bufferView, indices_offset, count, indices.stride_bytes, indices.stride_bytes},
+               indices.where);
+    const std::uint8_t* value =
+        locate(document, {sparse.values.bufferView, values_offset, count, element_bytes, element_bytes},
+               accessor.where + ".sparse.values");
+    std::size_t next = 0; // the smallest index that may come
+    for (const std::uint32_t index : readIndices(indices))
+    {
+        if (index < next || index >= accessor.count)
+        {
+            throw document.error(fmt::format("{} contains {}, but they must increase and stay below {}; {}",
+                                             indices.where, index, accessor.count, kExportAgain));
+        }
+        std::memcpy(&accessor.storage[index * element_bytes], value, element_bytes);
+        value += element_bytes;
+        next = std::size_t{index} + 1;
+    }
+}
+
 } // namespace
 
-GltfAccessor openAccessor(const GltfDocument& document, int index, const std::string& use)
+std::size_t elementBytes(const GltfAccessor& accessor)
+{
+    return componentBytes(accessor.component_type) * accessor.component_count;
+}
+
+GltfAccessor describeAccessor(const GltfDocument& document, int index, const std::string& use)
 {
     const tinygltf::Accessor& source = document.model.accessors[index];
     GltfAccessor accessor;
     accessor.where = fmt::format("accessors[{}] ({})", index, use);
-    const auto fail = [&](const std::string& what)
-    { return document.error(fmt::format("{} {}", accessor.where, what)); };
-    if (source.sparse.isSparse)
-    {
-        throw fail("is sparse, which is not supported yet; export it without sparse accessors");
-    }
-    if (source.bufferView < 0)
-    {
-        throw fail(fmt::format("has no buffer view, so no data; {}", kExportAgain));
-    }
-    const std::size_t component_bytes = componentBytes(source.componentType);
-    accessor.component_count = componentCount(source.type);
-    const std::size_t element_bytes = component_bytes * accessor.component_count;
-    if (element_bytes == 0)
-    {
-        throw fail(fmt::format("has component type {} or an element type that no vertex has; {}", source.componentType,
-                               kExportAgain));
-    }
-    const std::span<const std::uint8_t> view = document.bufferView(source.bufferView);
-    const std::size_t stride = document.model.bufferViews[source.bufferView].byteStride;
-    accessor.stride_bytes = stride == 0 ? element_bytes : stride;
-    if (accessor.stride_bytes < element_bytes)
-    {
-        throw fail(fmt::format("has elements of {} bytes, {} apart; {}", element_bytes, stride, kExportAgain));
-    }
-    // count elements fit when the last one does; written so that nothing overflows.
-    const std::size_t available = view.size() - std::min(source.byteOffset, view.size());
-    const bool fits = source.count == 0 || (available >= element_bytes &&
-                                            source.count - 1 <= (available - element_bytes) / accessor.stride_bytes);
-    if (!fits || source.byteOffset > view.size())
-    {
-        throw fail(fmt::format("takes {} elements of {} bytes, {} apart, at {} of bufferViews[{}], which has {} bytes; "
-                               "{}",
-                               source.count, element_bytes, accessor.stride_bytes, source.byteOffset, source.bufferView,
-                               view.size(), kExportAgain));
-    }
-    accessor.data = view.data() + source.byteOffset;
     accessor.count = source.count;
+    accessor.component_count = componentCount(source.type);
     accessor.component_type = source.componentType;
     accessor.normalized = source.normalized;
+    if (elementBytes(accessor) == 0)
+    {
+        throw document.error(fmt::format("{} has component type {} or an element type that no vertex has; {}",
+                                         accessor.where, source.componentType, kExportAgain));
+    }
+    return accessor;
+}
+
+GltfAccessor openAccessor(const GltfDocument& document, int index, const std::string& use)
+{
+    const tinygltf::Accessor& source = document.model.accessors[index];
+    GltfAccessor accessor = describeAccessor(document, index, use);
+    if (source.bufferView >= 0)
+    {
+        const std::size_t element_bytes = elementBytes(accessor);
+        const std::size_t stride = document.model.bufferViews[source.bufferView].byteStride;
+        accessor.stride_bytes = stride == 0 ? element_bytes : stride;
+        accessor.data = locate(
+            document, {source.bufferView, source.byteOffset, accessor.count, element_bytes, accessor.stride_bytes},
+            accessor.where);
+    }
+    else if (!source.sparse.isSparse)
+    {
+        throw document.error(fmt::format("{} has no buffer view, so no data; {}", accessor.where, kExportAgain));
+    }
+    if (source.sparse.isSparse)
+    {
+        copyElements(document, accessor);
+        applySparse(document, source, accessor);
+    }
     return accessor;
 }
 

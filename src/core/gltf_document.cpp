@@ -3,6 +3,7 @@
 
 #include "core/gltf_schema.h"
 #include "core/gltf_uri.h"
+#include "core/input_error.h"
 #include "core/read_file.h"
 
 #include <algorithm>
@@ -26,9 +27,9 @@ using Bytes = std::span<const std::uint8_t>;
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian and is read by copying");
 
-constexpr std::size_t kMessageStartMax = 400; // bytes of a message before and after what is left out of a long one
-constexpr std::size_t kMessageEndMax = 200;
-constexpr int kJsonDepthMax = 256; // nesting that some recursive function still stands
+constexpr std::uint64_t kUnpackedFreeBytes = std::uint64_t{1} << 30U;
+constexpr std::uint64_t kUnpackedBytesPerByte = 128; // twice what a vertex codec reaches on equal vertices
+constexpr int kJsonDepthMax = 256;                   // nesting that some recursive function still stands
 
 // Binary glTF: a header of magic, version, length; then chunks of length, type and data.
 constexpr std::string_view kGlbMagic = "glTF";
@@ -306,20 +307,7 @@ std::vector<GltfImageSource> listImages(const json& images)
 
 Error gltfError(const std::filesystem::path& path, std::string_view text)
 {
-    std::string message;
-    for (const char character : fmt::format("{}: {}", path.string(), text))
-    {
-        const bool control = static_cast<unsigned char>(character) < ' ';
-        if (!control || !message.ends_with(' '))
-        {
-            message += control ? ' ' : character;
-        }
-    }
-    if (message.size() > kMessageStartMax + kMessageEndMax)
-    {
-        message.replace(kMessageStartMax, message.size() - kMessageStartMax - kMessageEndMax, "...");
-    }
-    return {ErrorCode::Input, message};
+    return inputError(path, text);
 }
 
 Bytes GltfDocument::bufferView(int index) const
@@ -332,6 +320,22 @@ Bytes GltfDocument::bufferView(int index) const
                                 view.byteLength, view.byteOffset, view.buffer, buffer.size(), kExportAgain));
     }
     return buffer.subspan(view.byteOffset, view.byteLength);
+}
+
+void GltfDocument::countUnpacked(std::uint64_t bytes, const std::string& where) const
+{
+    std::uint64_t limit = kUnpackedFreeBytes;
+    for (const Bytes buffer : buffers)
+    {
+        limit += std::uint64_t{buffer.size()} * kUnpackedBytesPerByte;
+    }
+    if (bytes > limit - std::min(unpacked_bytes, limit))
+    {
+        throw error(fmt::format("{} needs {} bytes and makes the file unpack to more than {}, out of proportion to its "
+                                "size; export it again, without compression if it is right",
+                                where, bytes, limit));
+    }
+    unpacked_bytes += bytes;
 }
 
 std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const std::string& where) const

@@ -19,7 +19,7 @@ namespace zvo
 /// What to do about a file that breaks the specification.
 inline constexpr std::string_view kExportAgain = "the file is damaged or was written wrongly, export it again";
 
-/// Error{Input}: path and text, folded to one line and shortened where it is very long.
+/// Error{Input}: path and text, on one line (inputError).
 Error gltfError(const std::filesystem::path& path, std::string_view text);
 
 /// An image as the document names it: in a file or data URI, or in a buffer view.
@@ -38,6 +38,7 @@ struct GltfDocument
     std::vector<GltfImageSource> images;
     std::vector<std::span<const std::uint8_t>> buffers; // [buffers], byteLength bytes each
     std::vector<std::vector<std::uint8_t>> storage;     // what the buffers lie in
+    mutable std::uint64_t unpacked_bytes = 0;           // countUnpacked() so far
 
     /// The bytes of a buffer view. Throws Error{Input} where it leaves its buffer.
     [[nodiscard]] std::span<const std::uint8_t> bufferView(int index) const;
@@ -45,6 +46,10 @@ struct GltfDocument
     /// The bytes behind a URI: data, or a file in the document's folder or below. where: the property, for the
     /// Error{Input}.
     [[nodiscard]] std::vector<std::uint8_t> readUri(const std::string& uri, const std::string& where) const;
+
+    /// Counts bytes that are made out of fewer in the file: unpacked, or zeros that the file leaves out. Throws
+    /// Error{Input} where all of them together are out of proportion to the file.
+    void countUnpacked(std::uint64_t bytes, const std::string& where) const;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(path, text); }
     [[nodiscard]] bool uses(std::string_view extension) const;

@@ -57,9 +57,9 @@ constexpr Rule numbers(std::string_view name, std::size_t count)
     return {.name = name, .kind = Kind::Numbers, .count = count};
 }
 
-constexpr Rule object(std::string_view name, std::span<const Rule> members)
+constexpr Rule object(std::string_view name, std::span<const Rule> members, bool required = false)
 {
-    return {.name = name, .kind = Kind::Object, .members = members};
+    return {.name = name, .kind = Kind::Object, .required = required, .members = members};
 }
 
 constexpr Rule objects(std::string_view name, std::span<const Rule> members, bool required = false)
@@ -79,9 +79,17 @@ constexpr Rule kPrimitive[] = {{"attributes", Kind::IndexMap, kRequired, "access
                                index("material", "materials"),
                                {"mode", Kind::Enumerator}};
 constexpr Rule kMesh[] = {objects("primitives", kPrimitive, kRequired)};
+constexpr Rule kSparseIndices[] = {index("bufferView", "bufferViews", kRequired),
+                                   {"byteOffset", Kind::Enumerator},
+                                   {"componentType", Kind::Enumerator, kRequired}};
+constexpr Rule kSparseValues[] = {index("bufferView", "bufferViews", kRequired), {"byteOffset", Kind::Enumerator}};
+constexpr Rule kSparse[] = {{"count", Kind::Enumerator, kRequired},
+                            object("indices", kSparseIndices, kRequired),
+                            object("values", kSparseValues, kRequired)};
 constexpr Rule kAccessor[] = {
     index("bufferView", "bufferViews"), {"byteOffset", Kind::Whole},     {"componentType", Kind::Enumerator, kRequired},
-    {"count", Kind::Whole, kRequired},  {"type", Kind::Text, kRequired}, {"normalized", Kind::Flag}};
+    {"count", Kind::Whole, kRequired},  {"type", Kind::Text, kRequired}, {"normalized", Kind::Flag},
+    object("sparse", kSparse)};
 constexpr Rule kBufferView[] = {index("buffer", "buffers", kRequired),
                                 {"byteOffset", Kind::Whole},
                                 {"byteLength", Kind::Whole, kRequired},
@@ -103,7 +111,6 @@ constexpr Rule kMaterial[] = {object("pbrMetallicRoughness", kPbr),
                               object("emissiveTexture", kTextureInfo),
                               {"alphaMode", Kind::Text},
                               {"alphaCutoff", Kind::Number},
-                              {"doubleSided", Kind::Flag},
                               {"name", Kind::Text},
                               object("extensions", kMaterialExtensions)};
 constexpr Rule kPerspective[] = {{"yfov", Kind::Number, kRequired}};

@@ -54,7 +54,7 @@ TEST(GltfErrors, WhatIsNoGltfIsSaidToBeNone)
     expectBrokenFile("cut.gltf", "{\"asset\": {\n\"version\": \"2.", {"not a glTF file", "line 2"});
     expectBrokenFile("array.gltf", "[]", {"asset.version is missing"});
     expectBrokenFile("object.gltf", "{}", {"asset.version is missing"});
-    expectBrokenFile("utf8.gltf", "{\"asset\": {\"version\": \"\xff\"}}", {"not a glTF file"});
+    expectBrokenFile("utf8.gltf", "{\"asset\": {\"version\": \"\xff\"}}", {"not a glTF file", "\\xff"});
 }
 
 TEST(GltfErrors, OtherVersionsAreRefused)
@@ -183,14 +183,6 @@ TEST(GltfErrors, AccessorsMustLieInsideTheirViewsAndBuffers)
     expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "VEC9"; }, {"VEC9"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = 5124; }, {"component type 5124"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = kU8; }, {"does not allow there"});
-    expectBroken(
-        [&](GltfBuilder& b)
-        {
-            accessor(b)["sparse"] = {{"count", 1},
-                                     {"indices", {{"bufferView", 0}, {"componentType", kU8}}},
-                                     {"values", {{"bufferView", 0}}}};
-        },
-        {"accessors[0]", "sparse", "not supported yet"});
 }
 
 TEST(GltfErrors, AttributesMustFitTheVertices)
