@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/gltf_document.h"
 
+#include "core/gltf_meshopt.h"
 #include "core/gltf_schema.h"
 #include "core/gltf_uri.h"
 #include "core/input_error.h"
@@ -48,8 +49,13 @@ constexpr std::array kModelParts = {
     "accessors", "materials",      "textures",           "bufferViews", "samplers", "cameras"};
 
 /// Extensions whose effect is loaded.
-constexpr std::array<std::string_view, 3> kSupportedExtensions = {"KHR_materials_emissive_strength",
-                                                                  "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr std::array<std::string_view, 7> kSupportedExtensions = {"EXT_meshopt_compression",
+                                                                  "EXT_texture_webp",
+                                                                  "KHR_draco_mesh_compression",
+                                                                  "KHR_materials_emissive_strength",
+                                                                  "KHR_materials_pbrSpecularGlossiness",
+                                                                  "KHR_mesh_quantization",
+                                                                  "KHR_texture_transform"};
 
 /// Extensions without which the same surfaces have the same base colour and emission: how they scatter light, lights
 /// beside the surfaces, alternatives that nobody chose, data about the file.
@@ -243,11 +249,17 @@ tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
     return model;
 }
 
-void loadBuffers(GltfDocument& document, const json& buffers, Bytes bin)
+void loadBuffers(GltfDocument& document, const json& root, Bytes bin)
 {
     std::map<std::string, Bytes> files; // by path: many buffers may lie in one file
+    const json& buffers = arrayOf(root, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i)
     {
+        if (isMeshoptFallback(root, i))
+        {
+            document.buffers.emplace_back();
+            continue;
+        }
         const std::string where = fmt::format("buffers[{}]", i);
         const auto wanted = buffers[i]["byteLength"].get<std::uint64_t>();
         const auto uri = buffers[i].find("uri");
@@ -312,6 +324,11 @@ Error gltfError(const std::filesystem::path& path, std::string_view text)
 
 Bytes GltfDocument::bufferView(int index) const
 {
+    const auto unpacked = unpacked_views.find(index);
+    if (unpacked != unpacked_views.end())
+    {
+        return unpacked->second;
+    }
     const tinygltf::BufferView& view = model.bufferViews[index];
     const Bytes buffer = buffers[view.buffer];
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
@@ -423,7 +440,8 @@ GltfDocument openGltf(const std::filesystem::path& path)
     checkVersion(root, path);
     checkGltfSchema(root, path);
     checkExtensions(root, path);
-    loadBuffers(document, arrayOf(root, "buffers"), container.bin);
+    loadBuffers(document, root, container.bin);
+    unpackMeshoptViews(root, document);
     document.images = listImages(arrayOf(root, "images"));
     document.model = parseModel(root, path);
     return document;

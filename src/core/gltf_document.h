@@ -36,11 +36,12 @@ struct GltfDocument
     std::filesystem::path path;
     tinygltf::Model model; // without buffers and images, which are below
     std::vector<GltfImageSource> images;
-    std::vector<std::span<const std::uint8_t>> buffers; // [buffers], byteLength bytes each
-    std::vector<std::vector<std::uint8_t>> storage;     // what the buffers lie in
-    mutable std::uint64_t unpacked_bytes = 0;           // countUnpacked() so far
+    std::vector<std::span<const std::uint8_t>> buffers;      // [buffers], byteLength bytes each
+    std::vector<std::vector<std::uint8_t>> storage;          // what the buffers lie in
+    std::map<int, std::vector<std::uint8_t>> unpacked_views; // what packed buffer views hold
+    mutable std::uint64_t unpacked_bytes = 0;                // countUnpacked() so far
 
-    /// The bytes of a buffer view. Throws Error{Input} where it leaves its buffer.
+    /// The bytes of a buffer view, unpacked. Throws Error{Input} where it leaves its buffer.
     [[nodiscard]] std::span<const std::uint8_t> bufferView(int index) const;
 
     /// The bytes behind a URI: data, or a file in the document's folder or below. where: the property, for the

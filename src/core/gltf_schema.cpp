@@ -26,6 +26,7 @@ enum class Kind
     Index,      // into the document's array `target`
     Indices,    // array of them
     IndexMap,   // object of them
+    Numbering,  // object of small whole numbers
     Whole,      // whole number from 0 on
     Enumerator, // whole number that fits a signed 32-bit one
     Number,
@@ -74,10 +75,13 @@ constexpr Rule kNode[] = {
     index("mesh", "meshes"), index("camera", "cameras"), {"children", Kind::Indices, false, "nodes"},
     numbers("matrix", 16),   numbers("translation", 3),  numbers("rotation", 4),
     numbers("scale", 3),     {"name", Kind::Text}};
+constexpr Rule kDraco[] = {index("bufferView", "bufferViews", kRequired), {"attributes", Kind::Numbering, kRequired}};
+constexpr Rule kPrimitiveExtensions[] = {object("KHR_draco_mesh_compression", kDraco)};
 constexpr Rule kPrimitive[] = {{"attributes", Kind::IndexMap, kRequired, "accessors"},
                                index("indices", "accessors"),
                                index("material", "materials"),
-                               {"mode", Kind::Enumerator}};
+                               {"mode", Kind::Enumerator},
+                               object("extensions", kPrimitiveExtensions)};
 constexpr Rule kMesh[] = {objects("primitives", kPrimitive, kRequired)};
 constexpr Rule kSparseIndices[] = {index("bufferView", "bufferViews", kRequired),
                                    {"byteOffset", Kind::Enumerator},
@@ -90,14 +94,29 @@ constexpr Rule kAccessor[] = {
     index("bufferView", "bufferViews"), {"byteOffset", Kind::Whole},     {"componentType", Kind::Enumerator, kRequired},
     {"count", Kind::Whole, kRequired},  {"type", Kind::Text, kRequired}, {"normalized", Kind::Flag},
     object("sparse", kSparse)};
+constexpr Rule kMeshoptView[] = {index("buffer", "buffers", kRequired),
+                                 {"byteOffset", Kind::Whole},
+                                 {"byteLength", Kind::Whole, kRequired},
+                                 {"byteStride", Kind::Whole, kRequired},
+                                 {"count", Kind::Whole, kRequired},
+                                 {"mode", Kind::Text, kRequired},
+                                 {"filter", Kind::Text}};
+constexpr Rule kViewExtensions[] = {object("EXT_meshopt_compression", kMeshoptView)};
 constexpr Rule kBufferView[] = {index("buffer", "buffers", kRequired),
                                 {"byteOffset", Kind::Whole},
                                 {"byteLength", Kind::Whole, kRequired},
-                                {"byteStride", Kind::Whole}};
-constexpr Rule kBuffer[] = {{"byteLength", Kind::Whole, kRequired}, {"uri", Kind::Text}};
+                                {"byteStride", Kind::Whole},
+                                object("extensions", kViewExtensions)};
+constexpr Rule kMeshoptBuffer[] = {{"fallback", Kind::Flag}};
+constexpr Rule kBufferExtensions[] = {object("EXT_meshopt_compression", kMeshoptBuffer)};
+constexpr Rule kBuffer[] = {
+    {"byteLength", Kind::Whole, kRequired}, {"uri", Kind::Text}, object("extensions", kBufferExtensions)};
 constexpr Rule kImage[] = {{"uri", Kind::Text}, index("bufferView", "bufferViews"), {"name", Kind::Text}};
 constexpr Rule kSampler[] = {{"wrapS", Kind::Enumerator}, {"wrapT", Kind::Enumerator}};
-constexpr Rule kTexture[] = {index("source", "images"), index("sampler", "samplers")};
+constexpr Rule kTextureSource[] = {index("source", "images")};
+constexpr Rule kImageExtensions[] = {object("EXT_texture_webp", kTextureSource)};
+constexpr Rule kTexture[] = {index("source", "images"), index("sampler", "samplers"),
+                             object("extensions", kImageExtensions)};
 constexpr Rule kTextureTransform[] = {
     numbers("offset", 2), {"rotation", Kind::Number}, numbers("scale", 2), {"texCoord", Kind::Enumerator}};
 constexpr Rule kTextureExtensions[] = {object("KHR_texture_transform", kTextureTransform)};
@@ -105,7 +124,9 @@ constexpr Rule kTextureInfo[] = {
     index("index", "textures", kRequired), {"texCoord", Kind::Enumerator}, object("extensions", kTextureExtensions)};
 constexpr Rule kPbr[] = {numbers("baseColorFactor", 4), object("baseColorTexture", kTextureInfo)};
 constexpr Rule kEmissiveStrength[] = {{"emissiveStrength", Kind::Number}};
-constexpr Rule kMaterialExtensions[] = {object("KHR_materials_emissive_strength", kEmissiveStrength)};
+constexpr Rule kSpecularGlossiness[] = {numbers("diffuseFactor", 4), object("diffuseTexture", kTextureInfo)};
+constexpr Rule kMaterialExtensions[] = {object("KHR_materials_emissive_strength", kEmissiveStrength),
+                                        object("KHR_materials_pbrSpecularGlossiness", kSpecularGlossiness)};
 constexpr Rule kMaterial[] = {object("pbrMetallicRoughness", kPbr),
                               numbers("emissiveFactor", 3),
                               object("emissiveTexture", kTextureInfo),
@@ -172,6 +193,13 @@ private:
             for (const auto& [key, item] : value.items())
             {
                 checkIndex(item, rule, where + '.' + key);
+            }
+            return;
+        case Kind::Numbering:
+            require(value.is_object(), where, "an object");
+            for (const auto& [key, item] : value.items())
+            {
+                checkValue(item, {key, Kind::Enumerator}, where + '.' + key);
             }
             return;
         case Kind::Whole:

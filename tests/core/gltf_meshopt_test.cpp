@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: MIT
+// EXT_meshopt_compression: what meshoptimizer's encoders pack loads as it was, or within what the filter rounds.
+#include "core/gltf_loader.h"
+
+#include "gltf_builder.h"
+
+#include <cmath>
+#include <functional>
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+#include <random>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+constexpr const char* kExtension = "EXT_meshopt_compression";
+
+/// A grid of vertices with a little noise, and its triangles.
+struct Terrain
+{
+    explicit Terrain(std::uint32_t edge)
+    {
+        std::mt19937 random(3); // NOLINT: the same terrain on every run
+        for (std::uint32_t y = 0; y < edge; ++y)
+        {
+            for (std::uint32_t x = 0; x < edge; ++x)
+            {
+                const float height = static_cast<float>(random() % 1000) / 1000.0F;
+                positions.emplace_back(x, height, y);
+                const glm::vec3 normal(static_cast<float>(random() % 200) - 100.0F, 60.0F,
+                                       static_cast<float>(random() % 200) - 100.0F);
+                normals.push_back(glm::normalize(normal));
+            }
+        }
+        for (std::uint32_t y = 0; y + 1 < edge; ++y)
+        {
+            for (std::uint32_t x = 0; x + 1 < edge; ++x)
+            {
+                const std::uint32_t corner = y * edge + x;
+                for (const std::uint32_t offset : {0U, edge, 1U, 1U, edge, edge + 1})
+                {
+                    indices.push_back(corner + offset);
+                }
+            }
+        }
+    }
+
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<std::uint32_t> indices;
+};
+
+std::vector<std::uint8_t> packVertices(const void* vertices, std::size_t count, std::size_t stride)
+{
+    std::vector<std::uint8_t> packed(meshopt_encodeVertexBufferBound(count, stride));
+    packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), vertices, count, stride));
+    return packed;
+}
+
+std::vector<std::uint8_t> packTriangles(const std::vector<std::uint32_t>& indices, std::size_t vertex_count)
+{
+    std::vector<std::uint8_t> packed(meshopt_encodeIndexBufferBound(indices.size(), vertex_count));
+    packed.resize(meshopt_encodeIndexBuffer(packed.data(), packed.size(), indices.data(), indices.size()));
+    return packed;
+}
+
+std::vector<std::uint8_t> packSequence(const std::vector<std::uint32_t>& indices, std::size_t vertex_count)
+{
+    std::vector<std::uint8_t> packed(meshopt_encodeIndexSequenceBound(indices.size(), vertex_count));
+    packed.resize(meshopt_encodeIndexSequence(packed.data(), packed.size(), indices.data(), indices.size()));
+    return packed;
+}
+
+/// A view whose unpacked data lies in buffer 1, which has none; an accessor of all of it.
+std::size_t addPacked(GltfBuilder& builder, const std::vector<std::uint8_t>& packed, std::size_t count,
+                      std::size_t stride, const char* mode, const char* filter, const json& accessor_type)
+{
+    const std::size_t packed_view = builder.addView(packed.data(), packed.size());
+    const json place = builder.document["bufferViews"][packed_view];
+    json extension = {{"buffer", 0},
+                      {"byteOffset", place["byteOffset"]},
+                      {"byteLength", packed.size()},
+                      {"byteStride", stride},
+                      {"count", count},
+                      {"mode", mode}};
+    if (filter != nullptr)
+    {
+        extension["filter"] = filter;
+    }
+    json view = {{"buffer", 1}, {"byteLength", count * stride}, {"extensions", {{kExtension, extension}}}};
+    if (std::string(mode) == "ATTRIBUTES")
+    {
+        view["byteStride"] = stride;
+    }
+    json accessor = accessor_type;
+    accessor["bufferView"] = builder.add("bufferViews", view);
+    accessor["count"] = count;
+    return builder.add("accessors", accessor);
+}
+
+/// Buffer 0 holds what is packed; buffer 1 has no bytes.
+void addBuffers(GltfBuilder& builder)
+{
+    builder.document["extensionsRequired"] = {kExtension, "KHR_mesh_quantization"};
+    builder.document["buffers"] = {{{"byteLength", builder.bin.size()}},
+                                   {{"byteLength", 1'000'000}, {"extensions", {{kExtension, {{"fallback", true}}}}}}};
+}
+
+const json kFloat3 = {{"componentType", kF32}, {"type", "VEC3"}};
+const json kIndex16 = {{"componentType", kU16}, {"type", "SCALAR"}};
+const json kIndex32 = {{"componentType", kU32}, {"type", "SCALAR"}};
+
+GltfBuilder packedTerrain(const Terrain& terrain)
+{
+    const std::size_t count = terrain.positions.size();
+    GltfBuilder builder;
+    const std::size_t positions =
+        addPacked(builder, packVertices(terrain.positions.data(), count, 12), count, 12, "ATTRIBUTES", "NONE", kFloat3);
+    const std::size_t indices = addPacked(builder, packTriangles(terrain.indices, count), terrain.indices.size(), 4,
+                                          "TRIANGLES", nullptr, kIndex32);
+    builder.addMeshNode({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+    addBuffers(builder);
+    return builder;
+}
+
+/// The positions that a loader makes of packed ones.
+std::vector<glm::vec3> unpackPositions(const std::vector<std::uint8_t>& packed, std::size_t count, std::size_t stride,
+                                       const char* filter, const json& type)
+{
+    GltfBuilder builder;
+    builder.addMeshNode(
+        {{"attributes", {{"POSITION", addPacked(builder, packed, count, stride, "ATTRIBUTES", filter, type)}}}});
+    addBuffers(builder);
+    return builder.load().primitives.at(0).positions;
+}
+
+/// The corners of triangles in a canonical order: the codec may rotate a triangle.
+std::vector<glm::uvec3> rotated(const std::vector<std::uint32_t>& indices)
+{
+    std::vector<glm::uvec3> triangles;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+    {
+        glm::uvec3 triangle(indices[i], indices[i + 1], indices[i + 2]);
+        while (triangle.x > triangle.y || triangle.x > triangle.z)
+        {
+            triangle = {triangle.y, triangle.z, triangle.x};
+        }
+        triangles.push_back(triangle);
+    }
+    return triangles;
+}
+
+std::vector<std::uint32_t> indicesOf(const Primitive& primitive)
+{
+    std::vector<std::uint32_t> indices;
+    for (const glm::uvec3& triangle : primitive.triangles)
+    {
+        indices.insert(indices.end(), {triangle.x, triangle.y, triangle.z});
+    }
+    return indices;
+}
+
+TEST(GltfMeshopt, PackedMeshEqualsThePlainOne)
+{
+    for (const std::uint32_t edge : {2U, 3U, 17U, 60U})
+    {
+        const Terrain terrain(edge);
+        const Scene scene = packedTerrain(terrain).load();
+        EXPECT_EQ(scene.primitives.at(0).positions, terrain.positions);
+        EXPECT_EQ(rotated(indicesOf(scene.primitives[0])), rotated(terrain.indices));
+        EXPECT_TRUE(scene.warnings.empty());
+    }
+}
+
+TEST(GltfMeshopt, IndicesMayHaveSixteenBitsAndBeSequences)
+{
+    const Terrain terrain(17);
+    const std::size_t vertex_count = terrain.positions.size();
+    for (const bool sequence : {false, true})
+    {
+        const std::vector<std::uint8_t> packed =
+            sequence ? packSequence(terrain.indices, vertex_count) : packTriangles(terrain.indices, vertex_count);
+        for (const std::size_t stride : {2U, 4U})
+        {
+            GltfBuilder builder;
+            const std::size_t positions = builder.addAccessor(
+                "VEC3", kF32, vertex_count,
+                std::vector<float>(&terrain.positions[0].x, &terrain.positions[0].x + 3 * vertex_count));
+            const std::size_t indices =
+                addPacked(builder, packed, terrain.indices.size(), stride, sequence ? "INDICES" : "TRIANGLES", nullptr,
+                          stride == 2 ? kIndex16 : kIndex32);
+            builder.addMeshNode({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+            addBuffers(builder);
+            const Primitive primitive = builder.load().primitives.at(0);
+            if (sequence)
+            {
+                EXPECT_EQ(indicesOf(primitive), terrain.indices);
+            }
+            EXPECT_EQ(rotated(indicesOf(primitive)), rotated(terrain.indices));
+        }
+    }
+}
+
+TEST(GltfMeshopt, QuantizedVerticesAreExact)
+{
+    const Terrain terrain(17);
+    std::vector<std::int16_t> values;
+    for (const glm::vec3& position : terrain.positions)
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            values.push_back(static_cast<std::int16_t>(position[i] * 1000.0F));
+        }
+        values.push_back(0);
+    }
+    const std::size_t count = terrain.positions.size();
+    const std::vector<glm::vec3> loaded = unpackPositions(packVertices(values.data(), count, 8), count, 8, "NONE",
+                                                          {{"componentType", kI16}, {"type", "VEC3"}});
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        EXPECT_EQ(loaded[i], glm::vec3(values[4 * i], values[4 * i + 1], values[4 * i + 2]));
+    }
+}
+
+TEST(GltfMeshopt, ExponentialFilterKeepsTheMantissa)
+{
+    const Terrain terrain(17);
+    const std::size_t count = terrain.positions.size();
+    constexpr int kBits = 15;
+    std::vector<std::uint32_t> filtered(3 * count);
+    meshopt_encodeFilterExp(filtered.data(), count, 12, kBits, &terrain.positions[0].x);
+    const std::vector<glm::vec3> loaded =
+        unpackPositions(packVertices(filtered.data(), count, 12), count, 12, "EXPONENTIAL", kFloat3);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        // One exponent for a vector: its largest component has the bits, half a step is rounded away.
+        const glm::vec3& wanted = terrain.positions[i];
+        const float largest = std::max({wanted.x, wanted.y, wanted.z, 1e-6F});
+        const float step = std::exp2(std::floor(std::log2(largest)) + 2.0F - kBits);
+        for (int c = 0; c < 3; ++c)
+        {
+            EXPECT_NEAR(loaded[i][c], wanted[c], step) << i;
+            // The extension's formula: mantissa * 2^exponent, 24 and 8 signed bits.
+            const auto word = static_cast<std::int32_t>(filtered[3 * i + c]);
+            const auto mantissa = static_cast<std::int32_t>(static_cast<std::uint32_t>(word) << 8U) >> 8;
+            EXPECT_EQ(loaded[i][c], std::ldexp(static_cast<float>(mantissa), word >> 24)) << i;
+        }
+    }
+}
+
+TEST(GltfMeshopt, OctahedralFilterGivesUnitVectors)
+{
+    const Terrain terrain(17);
+    const std::size_t count = terrain.normals.size();
+    std::vector<glm::vec4> normals;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        const glm::vec3 normal = i % 2 == 0 ? terrain.normals[i] : -terrain.normals[i]; // both halves of the octahedron
+        normals.emplace_back(normal, 0.0F);
+    }
+    for (const std::size_t stride : {4U, 8U})
+    {
+        std::vector<std::uint8_t> filtered(count * stride);
+        meshopt_encodeFilterOct(filtered.data(), count, stride, stride == 4 ? 8 : 12, &normals[0].x);
+        GltfBuilder builder;
+        const json type = {{"componentType", stride == 4 ? kI8 : kI16}, {"type", "VEC3"}, {"normalized", true}};
+        const json attributes = {{"POSITION", builder.addPositions(std::vector<float>(3 * count))},
+                                 {"NORMAL", addPacked(builder, packVertices(filtered.data(), count, stride), count,
+                                                      stride, "ATTRIBUTES", "OCTAHEDRAL", type)}};
+        builder.addMeshNode({{"attributes", attributes}});
+        addBuffers(builder);
+        const Primitive primitive = builder.load().primitives.at(0);
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const float off = glm::distance(primitive.normals[i], glm::vec3(normals[i]));
+            EXPECT_LT(off, stride == 4 ? 0.03F : 0.002F) << i;
+        }
+    }
+}
+
+TEST(GltfMeshopt, QuaternionFilterGivesUnitQuaternions)
+{
+    const std::vector<glm::vec4> quaternions = {
+        {0.0F, 0.0F, 0.0F, 1.0F}, {0.5F, -0.5F, 0.5F, 0.5F}, {0.8F, 0.0F, -0.6F, 0.0F}, {0.1F, 0.7F, 0.1F, 0.7F}};
+    std::vector<std::int16_t> filtered(4 * quaternions.size());
+    meshopt_encodeFilterQuat(filtered.data(), quaternions.size(), 8, 16, &quaternions[0].x);
+    const std::vector<glm::vec3> loaded =
+        unpackPositions(packVertices(filtered.data(), quaternions.size(), 8), quaternions.size(), 8, "QUATERNION",
+                        {{"componentType", kI16}, {"type", "VEC3"}, {"normalized", true}});
+    for (std::size_t i = 0; i < quaternions.size(); ++i)
+    {
+        const glm::vec3 wanted(glm::normalize(quaternions[i]));
+        const float off = std::min(glm::distance(loaded[i], wanted), glm::distance(loaded[i], -wanted));
+        EXPECT_LT(off, 1e-3F) << i; // a quaternion and its negative are the same rotation
+    }
+}
+
+TEST(GltfMeshopt, FallbackDataIsNotNeeded)
+{
+    GltfBuilder builder = packedTerrain(Terrain(3));
+    builder.document["buffers"][1]["uri"] = "absent.bin";
+    EXPECT_EQ(builder.load().triangleCount(), 8U);
+    builder.document["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 4}}); // not packed: it is needed
+    expectInputError([&] { static_cast<void>(builder.load()); }, {"buffers[1].uri", "absent.bin"});
+    builder.document["buffers"][1].erase("uri");
+    builder.document["accessors"][0]["bufferView"] = builder.document["bufferViews"].size() - 1;
+    expectInputError([&] { static_cast<void>(builder.load()); }, {"bufferViews[4] takes 4 bytes", "has 0"});
+}
+
+TEST(GltfMeshopt, WhatContradictsItselfIsRefused)
+{
+    const auto expectBroken =
+        [](std::size_t view, const std::function<void(json&)>& change, std::initializer_list<std::string> parts)
+    {
+        GltfBuilder builder = packedTerrain(Terrain(9));
+        change(builder.document["bufferViews"][view]);
+        expectInputError([&] { static_cast<void>(builder.load()); }, parts);
+    };
+    const auto set = [](const char* member, const json& value)
+    { return [=](json& view) { view["extensions"][kExtension][member] = value; }; };
+    constexpr std::size_t kPositions = 1; // views 0 and 2 are the packed bytes
+    constexpr std::size_t kIndices = 3;
+    expectBroken(kPositions, set("byteLength", 9999), {"bufferViews[1].extensions", "takes 9999 bytes at 0"});
+    expectBroken(kPositions, set("byteOffset", ~0ULL), {"bufferViews[1]", "takes"});
+    expectBroken(kPositions, set("buffer", 2), {"buffer is 2"});
+    expectBroken(kPositions, set("buffer", 1), {"takes", "buffers[1], which has 0"});
+    expectBroken(kPositions, set("count", 82), {"82 elements of 12 bytes, its view 972 bytes"});
+    expectBroken(kPositions, set("count", ~0ULL), {"which no view has"});
+    expectBroken(kPositions, set("byteStride", 0), {"which no view has"});
+    expectBroken(kPositions, set("byteStride", 260), {"which no view has"});
+    expectBroken(kPositions, set("byteStride", "12"), {"not a whole number"});
+    expectBroken(kPositions, set("mode", "POINTS"), {"the mode POINTS"});
+    expectBroken(kPositions, set("mode", "TRIANGLES"), {"indices of 12 bytes"});
+    expectBroken(kPositions, set("filter", "OCTAHEDRAL"), {"the filter OCTAHEDRAL"});
+    expectBroken(kPositions, set("filter", "QUATERNION"), {"the filter QUATERNION"});
+    expectBroken(kPositions, set("filter", "COLOR"), {"the filter COLOR"});
+    expectBroken(kIndices, set("filter", "EXPONENTIAL"), {"the filter EXPONENTIAL"});
+    expectBroken(kPositions, set("byteLength", 40), {"does not decode"});
+    expectBroken(kPositions, set("byteLength", 0), {"too few for any data"});
+    expectBroken(kIndices, set("byteLength", 130), {"does not decode"});
+    expectBroken(kIndices, set("byteLength", 10), {"too few for any data"});
+    expectBroken(kPositions, [](json& view) { view["extensions"][kExtension].erase("mode"); }, {"has no mode"});
+    const auto resized = [](std::size_t count, std::size_t stride)
+    {
+        return [=](json& view)
+        {
+            view["byteLength"] = count * stride;
+            view["extensions"][kExtension]["count"] = count;
+            view["extensions"][kExtension]["byteStride"] = stride;
+        };
+    };
+    expectBroken(kIndices, resized(385, 4), {"385 indices, not whole triangles"});
+    expectBroken(kPositions, resized(2'000'000'000, 12), {"too few for any data"});
+    expectBroken(kPositions, resized(100, 6), {"not a multiple of 4"});
+}
+
+TEST(GltfMeshopt, ManyViewsOfTheSameBytesCannotUnpackToAnySize)
+{
+    GltfBuilder builder;
+    const std::vector<std::uint8_t> equal(256 * 65536);
+    const std::size_t count = equal.size() / 256;
+    addPacked(builder, packVertices(equal.data(), count, 256), count, 256, "ATTRIBUTES", "NONE", kFloat3);
+    builder.document["bufferViews"][1].erase("byteStride");
+    for (int i = 0; i < 300; ++i)
+    {
+        builder.add("bufferViews", json(builder.document["bufferViews"][1]));
+    }
+    addBuffers(builder);
+    expectInputError([&] { static_cast<void>(builder.load()); }, {"bufferViews[", "out of proportion"});
+}
+
+TEST(GltfMeshopt, DamagedBytesGiveASceneOrAnInputError)
+{
+    GltfBuilder builder = packedTerrain(Terrain(12));
+    const TempDir dir;
+    std::mt19937 random(11); // NOLINT: the same damage on every run
+    int loaded = 0;
+    for (int i = 0; i < 1000; ++i)
+    {
+        GltfBuilder damaged = builder;
+        for (std::size_t k = 0; k <= random() % 3; ++k)
+        {
+            damaged.bin[random() % damaged.bin.size()] = static_cast<std::uint8_t>(random());
+        }
+        try
+        {
+            loadGltf(dir.write("damaged.glb", damaged.glb()));
+            ++loaded;
+        }
+        catch (const Error& error)
+        {
+            EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
+        }
+    }
+    EXPECT_GT(loaded, 0);
+}
+
+} // namespace
+
+} // namespace zvo::test
