@@ -222,8 +222,41 @@ void checkExtensions(const json& document, const std::filesystem::path& path)
     }
 }
 
+/// Takes the indices out of all primitives, in their order: tinygltf refuses a document with indices whose accessor has
+/// no buffer view, as sparse and packed ones may.
+std::vector<int> takeIndices(json& document)
+{
+    std::vector<int> taken;
+    json none = json::array();
+    for (json& mesh : document.contains("meshes") ? document["meshes"] : none)
+    {
+        for (json& primitive : mesh["primitives"])
+        {
+            taken.push_back(primitive.value("indices", -1));
+            primitive.erase("indices");
+        }
+    }
+    return taken;
+}
+
+/// Puts them back. False where tinygltf has left out a primitive.
+bool putIndices(tinygltf::Model& model, const std::vector<int>& taken)
+{
+    std::size_t next = 0;
+    for (tinygltf::Mesh& mesh : model.meshes)
+    {
+        for (tinygltf::Primitive& primitive : mesh.primitives)
+        {
+            primitive.indices = next < taken.size() ? taken[next] : -1;
+            ++next;
+        }
+    }
+    return next == taken.size();
+}
+
 tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
 {
+    const std::vector<int> indices = takeIndices(document);
     json parts = json::object();
     for (const char* part : kModelParts)
     {
@@ -242,7 +275,7 @@ tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
     std::string warning;
     const bool parsed = tinygltf::TinyGLTF().LoadASCIIFromString(&model, &failure, &warning, text.c_str(),
                                                                  static_cast<unsigned int>(text.size()), "");
-    if (!parsed || !failure.empty())
+    if (!parsed || !failure.empty() || !putIndices(model, indices))
     {
         throw gltfError(path, fmt::format("{}; {}", failure.empty() ? "not valid glTF" : failure, kExportAgain));
     }

@@ -2,6 +2,7 @@
 #include "core/gltf_geometry.h"
 
 #include "core/gltf_accessor.h"
+#include "core/gltf_draco.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,7 @@ public:
         {
             m_warnings.add("morph targets left out", m_where);
         }
+        m_draco = GltfDracoMesh::unpack(m_document, m_source, m_where);
         Primitive primitive;
         primitive.positions = readPositions();
         m_vertex_count = primitive.positions.size();
@@ -79,7 +81,10 @@ private:
         {
             return std::nullopt;
         }
-        GltfAccessor accessor = openAccessor(m_document, found->second, attribute + " of " + m_where);
+        const std::string use = attribute + " of " + m_where;
+        GltfAccessor accessor = m_draco && m_draco->has(attribute)
+                                    ? m_draco->open(m_document, attribute, found->second, use)
+                                    : openAccessor(m_document, found->second, use);
         checkType(accessor, component_types, component_count_min, component_count_max);
         if (attribute != "POSITION" && accessor.count != m_vertex_count)
         {
@@ -187,6 +192,12 @@ private:
 
     std::vector<std::uint32_t> readVertexOrder() const
     {
+        if (m_draco)
+        {
+            std::vector<std::uint32_t> order = m_draco->indices();
+            checkVertices(order, "indices of " + m_where);
+            return order;
+        }
         if (m_source.indices < 0)
         {
             std::vector<std::uint32_t> order(m_vertex_count);
@@ -196,21 +207,25 @@ private:
         const GltfAccessor accessor = openAccessor(m_document, m_source.indices, "indices of " + m_where);
         checkType(accessor, kIndexTypes, 1, 1);
         std::vector<std::uint32_t> order = readIndices(accessor);
+        checkVertices(order, accessor.where);
+        return order;
+    }
+
+    void checkVertices(const std::vector<std::uint32_t>& order, const std::string& where) const
+    {
         const auto bad = std::find_if(order.begin(), order.end(), [&](auto index) { return index >= m_vertex_count; });
         if (bad != order.end())
         {
             throw m_document.error(fmt::format("element {} of {} is vertex {}, but there are {}; {}",
-                                               bad - order.begin(), accessor.where, *bad, m_vertex_count,
-                                               kExportAgain));
+                                               bad - order.begin(), where, *bad, m_vertex_count, kExportAgain));
         }
-        return order;
     }
 
     std::vector<glm::uvec3> readTriangles() const
     {
         const std::vector<std::uint32_t> order = readVertexOrder();
         std::vector<glm::uvec3> triangles;
-        if (m_source.mode == TINYGLTF_MODE_TRIANGLES)
+        if (m_source.mode == TINYGLTF_MODE_TRIANGLES || m_draco)
         {
             if (order.size() % 3 != 0)
             {
@@ -241,6 +256,7 @@ private:
     const tinygltf::Primitive& m_source;
     std::string m_where; // "meshes[0].primitives[1]"
     GltfWarnings& m_warnings;
+    std::optional<GltfDracoMesh> m_draco; // where the primitive is packed
     std::size_t m_vertex_count = 0;
 };
 
