@@ -15,6 +15,8 @@ namespace zvo
 namespace
 {
 
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
 /// A factor in single precision: from 0 on and finite.
 float toFactor(const GltfDocument& document, double value, const std::string& where)
 {
@@ -69,6 +71,45 @@ double emissiveStrength(const tinygltf::Material& material)
     return extension->second.Get("emissiveStrength").GetNumberAsDouble();
 }
 
+/// The base colour of KHR_materials_pbrSpecularGlossiness, which stands instead of the metallic-roughness one: its
+/// diffuse colour. Metals, whose colour is all specular, become dark.
+void useSpecularGlossiness(tinygltf::Material& material)
+{
+    const auto extension = material.extensions.find(kSpecularGlossiness);
+    if (extension == material.extensions.end())
+    {
+        return;
+    }
+    const tinygltf::Value& source = extension->second;
+    tinygltf::PbrMetallicRoughness diffuse;
+    for (int i = 0; i < 4 && source.Has("diffuseFactor"); ++i)
+    {
+        diffuse.baseColorFactor[i] = source.Get("diffuseFactor").Get(i).GetNumberAsDouble();
+    }
+    if (source.Has("diffuseTexture"))
+    {
+        const tinygltf::Value& texture = source.Get("diffuseTexture");
+        diffuse.baseColorTexture.index = texture.Get("index").GetNumberAsInt();
+        diffuse.baseColorTexture.texCoord = texture.Has("texCoord") ? texture.Get("texCoord").GetNumberAsInt() : 0;
+        if (texture.Has("extensions"))
+        {
+            for (const std::string& name : texture.Get("extensions").Keys())
+            {
+                diffuse.baseColorTexture.extensions[name] = texture.Get("extensions").Get(name);
+            }
+        }
+    }
+    material.pbrMetallicRoughness = diffuse;
+}
+
+/// The image of a texture, -1 where it has none that is read.
+int imageOf(const tinygltf::Texture& texture)
+{
+    const auto extension = texture.extensions.find("EXT_texture_webp");
+    const bool has_webp = extension != texture.extensions.end() && extension->second.Has("source");
+    return has_webp ? extension->second.Get("source").GetNumberAsInt() : texture.source;
+}
+
 glm::dvec2 toVec2(const tinygltf::Value& value, const std::string& name, double missing)
 {
     if (!value.Has(name))
@@ -114,10 +155,14 @@ const GltfMaterial& GltfMaterials::get(int material)
 
 GltfMaterial GltfMaterials::load(int index)
 {
-    static const tinygltf::Material default_material;
-    const tinygltf::Material& source = index < 0 ? default_material : m_document.model.materials[index];
+    tinygltf::Material source = index < 0 ? tinygltf::Material() : m_document.model.materials[index];
+    useSpecularGlossiness(source);
     const std::string where = fmt::format("materials[{}]", index);
-    const auto factor = [&](double value, const char* name) { return toFactor(m_document, value, where + name); };
+    const bool is_diffuse = source.extensions.contains(kSpecularGlossiness);
+    const std::string factor_name = is_diffuse ? ".diffuseFactor" : ".pbrMetallicRoughness.baseColorFactor";
+    const std::string texture_name = is_diffuse ? ".diffuseTexture" : ".pbrMetallicRoughness.baseColorTexture";
+    const auto factor = [&](double value, const std::string& name)
+    { return toFactor(m_document, value, where + name); };
     Material material;
     material.name = index < 0 ? "default" : source.name;
     material.alpha_mode = toAlphaMode(m_document, source.alphaMode, where);
@@ -125,7 +170,7 @@ GltfMaterial GltfMaterials::load(int index)
     for (int i = 0; i < 4; ++i)
     {
         const double value = source.pbrMetallicRoughness.baseColorFactor[i];
-        material.base_color[i] = factor(value, ".pbrMetallicRoughness.baseColorFactor");
+        material.base_color[i] = factor(value, factor_name);
     }
     for (int i = 0; i < 3 && !source.emissiveFactor.empty(); ++i)
     {
@@ -136,7 +181,7 @@ GltfMaterial GltfMaterials::load(int index)
     const tinygltf::TextureInfo& base_color = source.pbrMetallicRoughness.baseColorTexture;
     if (base_color.index >= 0)
     {
-        material.base_color_texture = texture(base_color.index, where + ".pbrMetallicRoughness.baseColorTexture");
+        material.base_color_texture = texture(base_color.index, where + texture_name);
         loaded.uvs = uvSource(base_color);
     }
     if (source.emissiveTexture.index >= 0 && material.emission != glm::vec3(0.0F))
@@ -166,13 +211,14 @@ std::optional<std::uint32_t> GltfMaterials::texture(int index, const std::string
         return known->second;
     }
     const tinygltf::Texture& source = m_document.model.textures[index];
-    if (source.source < 0)
+    const int source_image = imageOf(source);
+    if (source_image < 0)
     {
-        m_warnings.add("texture left out, as it has no PNG or JPEG image", where);
+        m_warnings.add("texture left out, as it has no PNG, JPEG or WebP image", where);
         return std::nullopt;
     }
     Texture texture;
-    texture.image = image(source.source);
+    texture.image = image(source_image);
     if (source.sampler >= 0)
     {
         const tinygltf::Sampler& sampler = m_document.model.samplers[source.sampler];

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <memory>
+#include <webp/decode.h>
 
 namespace
 {
@@ -61,21 +62,76 @@ struct FreePixels
     void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
 };
 
+Error imageError(const std::string& where, const std::string& what)
+{
+    return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
+}
+
+// Throws for a picture that is too large, or takes more than bytes_max bytes decoded.
+void checkSize(int width, int height, std::uint64_t bytes_max, const std::string& where)
+{
+    if (std::max(width, height) > static_cast<int>(kImageEdgeMax))
+    {
+        throw imageError(where, fmt::format("the image has {} x {} pixels, more than {} on an edge; scale it down",
+                                            width, height, kImageEdgeMax));
+    }
+    if (std::uint64_t{static_cast<std::uint32_t>(width)} * static_cast<std::uint32_t>(height) * kChannels > bytes_max)
+    {
+        throw imageError(where, fmt::format("with its {} x {} pixels, the scene's images take more than {} bytes; "
+                                            "scale them down",
+                                            width, height, bytes_max));
+    }
+}
+
+bool isWebp(std::span<const std::uint8_t> encoded)
+{
+    const std::string_view text(reinterpret_cast<const char*>(encoded.data()), encoded.size());
+    return text.starts_with("RIFF") && text.substr(std::min<std::size_t>(text.size(), 8)).starts_with("WEBP");
+}
+
+Image decodeWebp(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
+                 std::uint64_t bytes_max)
+{
+    WebPBitstreamFeatures features;
+    if (WebPGetFeatures(encoded.data(), encoded.size(), &features) != VP8_STATUS_OK)
+    {
+        throw imageError(where, "the WebP image does not decode (no valid header); save it again");
+    }
+    if (features.has_animation != 0)
+    {
+        throw imageError(where, "the WebP image is an animation; save one picture of it");
+    }
+    checkSize(features.width, features.height, bytes_max, where);
+    Image image{.name = name,
+                .width = static_cast<std::uint32_t>(features.width),
+                .height = static_cast<std::uint32_t>(features.height),
+                .rgba = {}};
+    image.rgba.resize(std::size_t{image.width} * image.height * kChannels);
+    if (WebPDecodeRGBAInto(encoded.data(), encoded.size(), image.rgba.data(), image.rgba.size(),
+                           features.width * kChannels) == nullptr)
+    {
+        throw imageError(where, "the WebP image does not decode; save it again");
+    }
+    return image;
+}
+
 } // namespace
 
 Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
                   std::uint64_t bytes_max)
 {
-    const auto fail = [&](const std::string& what) -> Error {
-        return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
-    };
+    const auto fail = [&](const std::string& what) { return imageError(where, what); };
     if (encoded.empty())
     {
-        throw fail("not a PNG or JPEG image (it is empty); save it as one");
+        throw fail("not a PNG, JPEG or WebP image (it is empty); save it as one");
     }
     if (encoded.size() > INT_MAX)
     {
         throw fail("the image file is larger than 2 GiB; make it smaller");
+    }
+    if (isWebp(encoded))
+    {
+        return decodeWebp(encoded, name, where, bytes_max);
     }
     const auto encoded_bytes = static_cast<int>(encoded.size());
     int width = 0;
@@ -88,13 +144,9 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
     }
     if (stbi_info_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels) == 0)
     {
-        throw fail(fmt::format("not a PNG or JPEG image ({}); save it as one", stbi_failure_reason()));
+        throw fail(fmt::format("not a PNG, JPEG or WebP image ({}); save it as one", stbi_failure_reason()));
     }
-    if (std::max(width, height) > static_cast<int>(kImageEdgeMax))
-    {
-        throw fail(fmt::format("the image has {} x {} pixels, more than {} on an edge; scale it down", width, height,
-                               kImageEdgeMax));
-    }
+    checkSize(width, height, bytes_max, where);
     const ImageCost cost =
         estimateImageCost(encoded, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
     if (!cost.plausible)
@@ -103,11 +155,6 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
                                width, height, encoded.size()));
     }
     const std::size_t rgba_bytes = std::size_t{static_cast<std::uint32_t>(width)} * height * kChannels;
-    if (rgba_bytes > bytes_max)
-    {
-        throw fail(fmt::format("with its {} x {} pixels, the scene's images take more than {} bytes; scale them down",
-                               width, height, bytes_max));
-    }
     // Twice: the decoder doubles what turns out too small.
     t_decoder_bytes_max = kDecoderBytesMin + 2 * (encoded.size() + std::max<std::size_t>(cost.raw_bytes, rgba_bytes));
     const std::unique_ptr<stbi_uc, FreePixels> pixels(

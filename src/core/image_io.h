@@ -14,9 +14,9 @@ namespace zvo
 /// The longest edge of a picture that is read or written, in pixels.
 inline constexpr std::uint32_t kImageEdgeMax = 16384;
 
-/// Decodes a PNG or JPEG to 8-bit RGBA; 16-bit channels keep their upper byte, grey and palettes become colours. name
-/// becomes the image's. Throws Error{Input} that begins with where; before it decodes anything, for an image of more
-/// than bytes_max bytes decoded.
+/// Decodes a PNG, JPEG or WebP to 8-bit RGBA; 16-bit channels keep their upper byte, grey and palettes become colours.
+/// name becomes the image's. Throws Error{Input} that begins with where; before it decodes anything, for an image of
+/// more than bytes_max bytes decoded.
 Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
                   std::uint64_t bytes_max = UINT64_MAX);
 

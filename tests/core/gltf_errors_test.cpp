@@ -261,12 +261,12 @@ TEST(GltfErrors, ImagesMustBeThereAndDecode)
         [](GltfBuilder& b) {
             textured(b, {{"uri", "data:image/png;base64,AAAA"}});
         },
-        {"images[0]", "not a PNG or JPEG"});
+        {"images[0]", "not a PNG, JPEG or WebP"});
     expectBroken(
         [](GltfBuilder& b) {
             textured(b, {{"bufferView", 0}, {"mimeType", "image/png"}, {"name", "skin"}});
         },
-        {"images[0]", "not a PNG or JPEG"});
+        {"images[0]", "not a PNG, JPEG or WebP"});
     expectBroken([](GltfBuilder& b) { textured(b, {{"name", "skin"}}); }, {"images[0] has neither"});
     expectBroken(
         [](GltfBuilder& b)

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <numbers>
+#include <webp/encode.h>
 
 namespace zvo::test
 {
@@ -161,6 +162,70 @@ TEST(GltfMaterials, TextureTransformMovesTheCoordinates)
     }
     const json other_set = {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"texCoord", 1}}}}}};
     EXPECT_EQ(texturedTriangle(baseColorTexture(other_set)).load().primitives[0].uvs[0], glm::vec2(5, 5));
+}
+
+TEST(GltfMaterials, DiffuseOfSpecularGlossinessIsTheBaseColour)
+{
+    const json transform = {{"offset", {0.5, 0.25}}};
+    const json texture = {{"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", transform}}}};
+    const json diffuse = {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
+                          {"diffuseTexture", texture},
+                          {"specularFactor", {1, 1, 1}},
+                          {"glossinessFactor", 0.5}};
+    json material = {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", diffuse}}},
+                     {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}};
+    GltfBuilder builder = texturedTriangle(material);
+    builder.document["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness", "KHR_texture_transform"};
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
+    EXPECT_EQ(scene.materials[0].base_color_texture, 0U);
+    EXPECT_EQ(scene.primitives[0].uvs[0], glm::vec2(5.5F, 5.25F));
+    EXPECT_TRUE(scene.warnings.empty());
+    // Without members: white, even where the metallic-roughness colour is another one.
+    material["extensions"]["KHR_materials_pbrSpecularGlossiness"] = json::object();
+    EXPECT_EQ(materialOf(material).base_color, glm::vec4(1.0F));
+    EXPECT_FALSE(materialOf(material).base_color_texture.has_value());
+    material["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {{"diffuseTexture", {{"index", 5}}}};
+    expectInputError([&] { materialOf(material); }, {"diffuseTexture.index is 5"});
+    material["extensions"]["KHR_materials_pbrSpecularGlossiness"] = {{"diffuseFactor", {1, -1, 1, 1}}};
+    expectInputError([&] { materialOf(material); }, {"materials[0].diffuseFactor is -1"});
+}
+
+TEST(GltfMaterials, UnlitIsTheBaseColour)
+{
+    GltfBuilder builder = texturedTriangle({{"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 1}}}},
+                                            {"extensions", {{"KHR_materials_unlit", json::object()}}}});
+    builder.document["extensionsRequired"] = {"KHR_materials_unlit"};
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec4(0.1F, 0.2F, 0.3F, 1.0F));
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0.0F));
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST(GltfMaterials, WebpTextureStandsBeforeItsFallback)
+{
+    const std::vector<std::uint8_t> pixel = {200, 100, 50, 255};
+    std::uint8_t* bytes = nullptr;
+    const std::size_t size = WebPEncodeLosslessRGBA(pixel.data(), 1, 1, 4, &bytes);
+    GltfBuilder builder = texturedTriangle(baseColorTexture({{"index", 0}}));
+    builder.add("images", {{"bufferView", builder.addView(bytes, size)}, {"mimeType", "image/webp"}});
+    WebPFree(bytes);
+    json& texture = builder.document["textures"][0];
+    texture["extensions"]["EXT_texture_webp"]["source"] = 1;
+    for (const bool has_fallback : {true, false})
+    {
+        if (!has_fallback)
+        {
+            texture.erase("source");
+            builder.document["extensionsRequired"] = {"EXT_texture_webp"};
+        }
+        const Scene scene = builder.load();
+        ASSERT_EQ(scene.images.size(), 1U);
+        EXPECT_EQ(scene.images[0].rgba, pixel);
+        EXPECT_TRUE(scene.warnings.empty());
+    }
+    texture["extensions"]["EXT_texture_webp"]["source"] = 2;
+    expectInputError([&] { static_cast<void>(builder.load()); }, {"EXT_texture_webp.source is 2"});
 }
 
 TEST(GltfMaterials, TextureWithoutImageIsLeftOutWithAWarning)

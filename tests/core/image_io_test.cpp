@@ -5,7 +5,9 @@
 #include "gltf_builder.h"
 #include "zvo/error.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <webp/encode.h>
 
 namespace zvo
 {
@@ -60,6 +62,25 @@ constexpr const char* kPalettePng =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAMAAADD/I+4AAAABlBMVEUKFB4oMjzVG7TpAAAAAnRSTlP/gAgPs2oAAAALSURBVHja"
     "Y2BkAAAABQACQsJEnwAAAABJRU5ErkJggg==";
 
+// Grey 7 opaque, 200 at alpha 64; then the same with 16 bits.
+constexpr const char* kGreyAlphaPng =
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAQAAABeK7cBAAAADUlEQVR4nGNg/3/CAQAE7gIP8XIdWQAAAABJRU5ErkJggg==";
+constexpr const char* kGreyAlpha16Png =
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABEAQAAAAOu2tCAAAAEUlEQVR4nGNgT/7PeILJgRkADJ4CeCe57G8AAAAASUVORK5CYII=";
+// Grey 0x0763 and 0xC802.
+constexpr const char* kGrey16Png =
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABEAAAAACB2fwVAAAADUlEQVR4nGNgTz7BBAAC3AE10qFwygAAAABJRU5ErkJggg==";
+// Eight pixels of one bit: 10110001.
+constexpr const char* kOneBitPng =
+    "iVBORw0KGgoAAAANSUhEUgAAAAgAAAABAQAAAADLe9LuAAAACklEQVR4nGPYCAAAswCyIZJRygAAAABJRU5ErkJggg==";
+// Two pixels of four bits: 3 and 15.
+constexpr const char* kFourBitPng =
+    "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABBAAAAAAUuc1XAAAACklEQVR4nGOwBwAAQQBAjW7VEwAAAABJRU5ErkJggg==";
+// Four pixels, two colours: 0110.
+constexpr const char* kOneBitPalettePng =
+    "iVBORw0KGgoAAAANSUhEUgAAAAQAAAABAQMAAADD8p2OAAAABlBMVEUBAgP6+/z9XuajAAAACklEQVR4nGNIAAAAYgBhsZh58gAA"
+    "AABJRU5ErkJggg==";
+
 TEST(ImageIo, SixteenBitChannelsKeepTheirUpperByte)
 {
     const Image image = decodeImage(base64(kSixteenBitPng), "", "here");
@@ -74,6 +95,74 @@ TEST(ImageIo, GreyAndPalettesBecomeColours)
     EXPECT_EQ(palette.rgba, (std::vector<std::uint8_t>{40, 50, 60, 128, 10, 20, 30, 255}));
 }
 
+TEST(ImageIo, GreyMayHaveAnyDepthAndAlpha)
+{
+    const auto pixels = [](const char* png) { return decodeImage(base64(png), "", "here").rgba; };
+    using Pixels = std::vector<std::uint8_t>;
+    EXPECT_EQ(pixels(kGreyAlphaPng), (Pixels{7, 7, 7, 255, 200, 200, 200, 64}));
+    EXPECT_EQ(pixels(kGreyAlpha16Png), (Pixels{7, 7, 7, 255, 200, 200, 200, 64}));
+    EXPECT_EQ(pixels(kGrey16Png), (Pixels{7, 7, 7, 255, 200, 200, 200, 255}));
+    EXPECT_EQ(pixels(kFourBitPng), (Pixels{51, 51, 51, 255, 255, 255, 255, 255}));
+    Pixels bits;
+    for (const std::uint8_t value : Pixels{255, 0, 255, 255, 0, 0, 0, 255})
+    {
+        bits.insert(bits.end(), {value, value, value, 255});
+    }
+    EXPECT_EQ(pixels(kOneBitPng), bits);
+    EXPECT_EQ(pixels(kOneBitPalettePng), (Pixels{1, 2, 3, 255, 250, 251, 252, 255, 250, 251, 252, 255, 1, 2, 3, 255}));
+}
+
+std::vector<std::uint8_t> encodeWebp(const Image& image, bool lossless)
+{
+    std::uint8_t* bytes = nullptr;
+    const auto width = static_cast<int>(image.width);
+    const auto height = static_cast<int>(image.height);
+    const std::size_t size = lossless ? WebPEncodeLosslessRGBA(image.rgba.data(), width, height, 4 * width, &bytes)
+                                      : WebPEncodeRGBA(image.rgba.data(), width, height, 4 * width, 90.0F, &bytes);
+    const std::vector<std::uint8_t> webp(bytes, bytes + size);
+    WebPFree(bytes);
+    return webp;
+}
+
+TEST(ImageIo, LosslessWebpKeepsEveryVisibleByte)
+{
+    Image image = checkerboard(50, 41);
+    for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    {
+        image.rgba[i] = std::max<std::uint8_t>(image.rgba[i], 1); // the encoder changes colours that nobody sees
+    }
+    const Image decoded = decodeImage(encodeWebp(image, true), "name", "here");
+    EXPECT_EQ(decoded.name, "name");
+    EXPECT_EQ(decoded.width, 50U);
+    EXPECT_EQ(decoded.height, 41U);
+    EXPECT_EQ(decoded.rgba, image.rgba);
+}
+
+TEST(ImageIo, LossyWebpIsClose)
+{
+    Image image{.name = "", .width = 64, .height = 32, .rgba = {}};
+    for (std::uint32_t i = 0; i < 64 * 32; ++i)
+    {
+        const auto shade = static_cast<std::uint8_t>(i % 64 * 3);
+        image.rgba.insert(image.rgba.end(), {shade, shade, 128, 255});
+    }
+    const Image decoded = decodeImage(encodeWebp(image, false), "", "here");
+    ASSERT_EQ(decoded.rgba.size(), image.rgba.size());
+    for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    {
+        EXPECT_NEAR(decoded.rgba[i], image.rgba[i], 16) << i;
+    }
+}
+
+TEST(ImageIo, BrokenWebpIsAnInputError)
+{
+    std::vector<std::uint8_t> webp = encodeWebp(checkerboard(64, 64), true);
+    webp.resize(webp.size() / 2);
+    test::expectInputError([&] { decodeImage(webp, "", "here"); }, {"here: ", "WebP image does not decode"});
+    webp.resize(13);
+    test::expectInputError([&] { decodeImage(webp, "", "here"); }, {"here: ", "WebP image does not decode"});
+}
+
 TEST(ImageIo, BrokenImagesAreInputErrors)
 {
     const Image image = checkerboard(64, 64);
@@ -81,8 +170,8 @@ TEST(ImageIo, BrokenImagesAreInputErrors)
     png.resize(png.size() / 2);
     test::expectInputError([&] { decodeImage(png, "", "here"); }, {"here: ", "does not decode"});
     png.resize(3);
-    test::expectInputError([&] { decodeImage(png, "", "here"); }, {"here: ", "not a PNG or JPEG"});
-    test::expectInputError([&] { decodeImage({}, "", "here"); }, {"here: ", "not a PNG or JPEG"});
+    test::expectInputError([&] { decodeImage(png, "", "here"); }, {"here: ", "not a PNG, JPEG or WebP"});
+    test::expectInputError([&] { decodeImage({}, "", "here"); }, {"here: ", "not a PNG, JPEG or WebP"});
 }
 
 TEST(ImageIo, TooLongEdgeIsAnInputError)
