@@ -118,7 +118,7 @@ void checkPresent(const std::vector<fs::path>& paths)
         std::error_code ignored;
         if (!fs::exists(path, ignored))
         {
-            loadWithWarnings(std::span(&path, 1));
+            loadWithWarnings(std::span(&path, 1), {});
         }
     }
 }
@@ -272,7 +272,7 @@ void bench(const BenchOptions& options)
     Progress progress(paths.size() * options.depths.size());
     for (const fs::path& path : paths)
     {
-        const Scene scene = loadWithWarnings(std::span(&path, 1));
+        const Scene scene = loadWithWarnings(std::span(&path, 1), options.load);
         const GpuScene gpu_scene = uploadScene(device, scene, options.attributes);
         for (const std::uint32_t depth : options.depths)
         {

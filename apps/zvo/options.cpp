@@ -44,6 +44,7 @@ with normals and sRGB colours.
 
 Examples:
   zvo voxelize bunny.glb -o bunny.morton --resolution 256 --json -
+  zvo voxelize part.stl -o part.ply --up z --scale 0.001
   zvo voxelize part.glb -o part.ply --bounds=-1,-1,-1,1,1,1
   zvo voxelize part.glb -o - --format morton --attributes none | sha256sum)";
 
@@ -117,11 +118,20 @@ void addCoverageOptions(CLI::App& app, Coverage& coverage, bool& attributes)
              "colour, normal and emission of the voxels, or only their places (default full)");
 }
 
+void addLoadOptions(CLI::App& app, LoadOptions& options)
+{
+    addValue(app, "--up", options.up, parseUpAxis, "AXIS",
+             "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)");
+    addValue(app, "--scale", options.scale, parsePositive, "FACTOR",
+             "multiplies the files' coordinates, after --up (default 1)");
+}
+
 void addVoxelOptions(CLI::App& app, VoxelOptions& options)
 {
-    app.add_option("SCENE", options.scenes, "glTF 2.0 files (.glb, .gltf); several make one scene")
+    app.add_option("SCENE", options.scenes, "glTF 2.0 (.glb, .gltf), OBJ, PLY and STL files; several make one scene")
         ->required()
         ->type_name("FILE");
+    addLoadOptions(app, options.load);
     addValue(app, "--resolution", options.depth, parseResolution, "N",
              "voxels per edge of the grid, a power of two from 2 to 131072 (default 512)");
     addCoverageOptions(app, options.coverage, options.attributes);
@@ -207,7 +217,8 @@ CLI::App* addInfo(CLI::App& app, InfoOptions& options)
 CLI::App* addBench(CLI::App& app, BenchOptions& options)
 {
     CLI::App* bench = app.add_subcommand("bench", "measure voxelization, octree construction and ray tracing");
-    bench->add_option("SCENE", options.scenes, "glTF 2.0 files, each measured on its own")->type_name("FILE");
+    bench->add_option("SCENE", options.scenes, "glTF 2.0, OBJ, PLY and STL files, each measured on its own")
+        ->type_name("FILE");
     addValue(
         *bench, "--scenes", options.scene_folder,
         [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
@@ -219,6 +230,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         [](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1000)); },
         "N", "measured runs of each row (default 5)");
+    addLoadOptions(*bench, options.load);
     addCoverageOptions(*bench, options.coverage, options.attributes);
     addCameraOption(*bench, options.camera);
     bench->add_flag("--passes", options.passes, "also tell the time of each pass");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/coverage.h"
+#include "core/load_scene.h"
 #include "core/scene.h"
 #include "core/trace.h"
 
@@ -36,6 +37,7 @@ struct GridPlace
 struct VoxelOptions
 {
     std::vector<std::filesystem::path> scenes;
+    LoadOptions load;
     std::uint32_t depth = 9;
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
@@ -85,6 +87,7 @@ struct BenchOptions
 {
     std::vector<std::filesystem::path> scenes;         // empty: the usual ones in scene_folder
     std::optional<std::filesystem::path> scene_folder; // not given: scenes
+    LoadOptions load;
     std::vector<std::uint32_t> depths = {8, 9, 10};
     std::uint32_t run_count = 5;
     Coverage coverage = Coverage::Thin;

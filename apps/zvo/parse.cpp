@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -202,6 +203,23 @@ Coverage parseCoverage(std::string_view option, std::string_view text)
         throw valueError(option, text, "thin or conservative");
     }
     return text == "thin" ? Coverage::Thin : Coverage::Conservative;
+}
+
+UpAxis parseUpAxis(std::string_view option, std::string_view text)
+{
+    constexpr std::array<std::pair<std::string_view, UpAxis>, 6> kAxes = {{{"x", UpAxis::X},
+                                                                           {"y", UpAxis::Y},
+                                                                           {"z", UpAxis::Z},
+                                                                           {"-x", UpAxis::MinusX},
+                                                                           {"-y", UpAxis::MinusY},
+                                                                           {"-z", UpAxis::MinusZ}}};
+    const auto axis =
+        std::find_if(kAxes.begin(), kAxes.end(), [text](const auto& entry) { return entry.first == text; });
+    if (axis == kAxes.end())
+    {
+        throw valueError(option, text, "x, y, z, -x, -y or -z");
+    }
+    return axis->second;
 }
 
 bool parseAttributes(std::string_view option, std::string_view text)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/coverage.h"
+#include "core/load_scene.h"
 #include "core/scene.h"
 
 #include <cstdint>
@@ -50,6 +51,9 @@ std::uint64_t parseBytes(std::string_view option, std::string_view text);
 Bounds parseBounds(std::string_view option, std::string_view text);
 
 Coverage parseCoverage(std::string_view option, std::string_view text);
+
+/// An axis with its sign: "z", "-x".
+UpAxis parseUpAxis(std::string_view option, std::string_view text);
 
 /// "full": true, "none": false.
 bool parseAttributes(std::string_view option, std::string_view text);

@@ -187,7 +187,7 @@ void render(const RenderOptions& options)
 
     Progress progress(3 + pictures.count());
     progress.step("loading");
-    Scene scene = loadWithWarnings(options.voxels.scenes);
+    Scene scene = loadWithWarnings(options.voxels.scenes, options.voxels.load);
     const std::uint64_t triangle_count = scene.triangleCount();
     const Grid grid = placeGrid(options.voxels, scene.bounds());
     const Bounds subject = subjectOf(scene, grid);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session.h"
 
-#include "core/gltf_loader.h"
+#include "core/load_scene.h"
 #include "progress.h"
 #include "zvo/error.h"
 
@@ -49,9 +49,9 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
     return headless;
 }
 
-Scene loadWithWarnings(std::span<const std::filesystem::path> paths)
+Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
-    Scene scene = loadScenes(paths);
+    Scene scene = loadScene(paths, options);
     for (const std::string& warning : scene.warnings)
     {
         talk(fmt::format("warning: {}", warning));

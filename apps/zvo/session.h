@@ -18,7 +18,7 @@ namespace zvo::cli
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
 
 /// Loads files as one scene and tells what was left out of it. Throws Error{Input}.
-Scene loadWithWarnings(std::span<const std::filesystem::path> paths);
+Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options);
 
 /// The grid that options ask for, or the one around bounds.
 Grid placeGrid(const VoxelOptions& options, const Bounds& bounds);

@@ -52,7 +52,7 @@ void voxelize(const VoxelizeOptions& options)
 
     Progress progress(4);
     progress.step("loading");
-    Scene scene = loadWithWarnings(options.voxels.scenes);
+    Scene scene = loadWithWarnings(options.voxels.scenes, options.voxels.load);
     const std::uint64_t triangle_count = scene.triangleCount();
     const Grid grid = placeGrid(options.voxels, scene.bounds());
 

@@ -461,11 +461,11 @@ std::vector<std::string> GltfWarnings::lines(const std::filesystem::path& path) 
     return lines;
 }
 
-GltfDocument openGltf(const std::filesystem::path& path)
+GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content)
 {
     GltfDocument document;
     document.path = path;
-    document.storage.push_back(readFile(path));
+    document.storage.push_back(std::move(content));
     const Bytes file = document.storage.front();
     const bool binary = asText(file).starts_with(kGlbMagic);
     const Container container = binary ? splitGlb(file, path) : Container{file, {}};

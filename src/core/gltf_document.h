@@ -77,7 +77,8 @@ private:
     std::map<std::string, std::size_t> m_by_kind; // index into m_entries
 };
 
-/// Reads and parses a .gltf or .glb file, told apart by their content, with all its buffers. Throws Error{Input}.
-GltfDocument openGltf(const std::filesystem::path& path);
+/// Parses a .gltf or .glb file, told apart by their content, and reads all its buffers. content: that of path, beside
+/// which other files lie. Throws Error{Input}.
+GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content);
 
 } // namespace zvo

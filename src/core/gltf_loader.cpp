@@ -6,6 +6,7 @@
 #include "core/gltf_materials.h"
 #include "core/gltf_nodes.h"
 #include "core/gltf_size.h"
+#include "core/read_file.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -127,18 +128,13 @@ private:
 
 Scene loadGltf(const std::filesystem::path& path)
 {
-    const GltfDocument document = openGltf(path);
-    return SceneLoader(document).load();
+    return loadGltf(path, readFile(path));
 }
 
-Scene loadScenes(std::span<const std::filesystem::path> paths)
+Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content)
 {
-    Scene scene;
-    for (const std::filesystem::path& path : paths)
-    {
-        scene.append(loadGltf(path));
-    }
-    return scene;
+    const GltfDocument document = openGltf(path, std::move(content));
+    return SceneLoader(document).load();
 }
 
 } // namespace zvo

@@ -3,8 +3,9 @@
 
 #include "core/scene.h"
 
+#include <cstdint>
 #include <filesystem>
-#include <span>
+#include <vector>
 
 namespace zvo
 {
@@ -16,7 +17,7 @@ namespace zvo
 /// After: Khronos Group, glTF 2.0 Specification, version 2.0.1, 2021.
 Scene loadGltf(const std::filesystem::path& path);
 
-/// Several files as one scene, in the order of the paths.
-Scene loadScenes(std::span<const std::filesystem::path> paths);
+/// The same from content in memory; other files are looked for beside path.
+Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content);
 
 } // namespace zvo

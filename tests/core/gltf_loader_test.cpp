@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/gltf_loader.h"
 
+#include "core/load_scene.h"
 #include "gltf_builder.h"
 
 #include <cmath>
@@ -334,7 +335,7 @@ TEST(GltfLoader, SeveralFilesBecomeOneScene)
     const TempDir dir;
     const std::vector<std::filesystem::path> paths = {dir.write("a.glb", triangleDocument().glb()),
                                                       dir.write("b.glb", triangleDocument().glb())};
-    const Scene scene = loadScenes(paths);
+    const Scene scene = loadScene(paths);
     EXPECT_EQ(scene.triangleCount(), 2U);
     ASSERT_EQ(scene.instances.size(), 2U);
     EXPECT_EQ(scene.instances[1].primitive, 1U);

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+namespace zvo
+{
+
+/// Whether a file lies in folder or below, after all symbolic links. What is not there lies where it would be.
+bool liesBelow(const std::filesystem::path& folder, const std::filesystem::path& file);
+
+} // namespace zvo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace zvo
+{
+
+/// The axis that points up in a file. It becomes y; the others turn with it, so that nothing is mirrored.
+enum class UpAxis : std::uint32_t
+{
+    X,
+    Y,
+    Z,
+    MinusX,
+    MinusY,
+    MinusZ
+};
+
+struct LoadOptions
+{
+    UpAxis up = UpAxis::Y;
+    float scale = 1.0F; // world units of a unit of the file, above 0
+};
+
+/// Several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content where
+/// it is clear, by their extension otherwise. Throws Error{Input}, one line with the path.
+Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
+
+/// Turns and scales a scene with its cameras.
+void place(Scene& scene, const LoadOptions& options);
+
+} // namespace zvo

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: MIT
+#include "core/mesh_import.h"
+
+#include "core/folder_bounds.h"
+#include "core/image_io.h"
+#include "core/input_error.h"
+#include "core/ply_file.h"
+#include "core/read_file.h"
+#include "core/srgb.h"
+#include "core/stl_file.h"
+
+#include <algorithm>
+#include <array>
+#include <assimp/BaseImporter.h>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::string_view kSaveAgain = "the file is damaged or was written wrongly, export it again";
+
+/// The file that a name in another file means. Nothing where it leaves the folder.
+std::optional<std::filesystem::path> fileBeside(const std::filesystem::path& scene, std::string name)
+{
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const std::filesystem::path folder = scene.has_parent_path() ? scene.parent_path() : ".";
+    const std::filesystem::path file = folder / name;
+    return liesBelow(folder, file) ? std::optional(file) : std::nullopt;
+}
+
+bool isFile(const std::filesystem::path& path)
+{
+    std::error_code absent;
+    return std::filesystem::is_regular_file(path, absent);
+}
+
+/// Bytes in memory as assimp reads them.
+class MemoryStream final : public Assimp::IOStream
+{
+public:
+    explicit MemoryStream(std::span<const std::uint8_t> bytes) : m_bytes(bytes) {}
+    explicit MemoryStream(std::vector<std::uint8_t> storage) : m_storage(std::move(storage)), m_bytes(m_storage) {}
+
+    std::size_t Read(void* target, std::size_t size, std::size_t count) override
+    {
+        const std::size_t whole = size == 0 ? 0 : std::min(count, (m_bytes.size() - m_at) / size);
+        if (whole != 0)
+        {
+            std::memcpy(target, m_bytes.data() + m_at, whole * size);
+        }
+        m_at += whole * size;
+        return whole;
+    }
+    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+    aiReturn Seek(std::size_t offset, aiOrigin origin) override
+    {
+        const std::size_t base = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? m_at : m_bytes.size();
+        if (offset > m_bytes.size() - base)
+        {
+            return aiReturn_FAILURE;
+        }
+        m_at = base + offset;
+        return aiReturn_SUCCESS;
+    }
+    [[nodiscard]] std::size_t Tell() const override { return m_at; }
+    [[nodiscard]] std::size_t FileSize() const override { return m_bytes.size(); }
+    void Flush() override {}
+
+private:
+    std::vector<std::uint8_t> m_storage;
+    std::span<const std::uint8_t> m_bytes;
+    std::size_t m_at = 0;
+};
+
+/// The only files that assimp sees: the scene in memory under a plain name, and material files in its folder.
+class SceneFiles final : public Assimp::IOSystem
+{
+public:
+    SceneFiles(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::string name)
+        : m_path(path), m_bytes(bytes), m_name(std::move(name))
+    {
+    }
+
+    bool Exists(const char* file) const override { return file == m_name; }
+    char getOsSeparator() const override { return '/'; }
+    Assimp::IOStream* Open(const char* file, const char* /*mode*/) override
+    {
+        if (file == m_name)
+        {
+            return new MemoryStream(m_bytes);
+        }
+        const std::optional<std::filesystem::path> place = fileBeside(m_path, file);
+        if (!place)
+        {
+            m_outside.push_back(file);
+            return nullptr;
+        }
+        if (!isFile(*place))
+        {
+            m_missing.push_back(file);
+            return nullptr;
+        }
+        ++m_opened_count;
+        return new MemoryStream(readFile(*place));
+    }
+    void Close(Assimp::IOStream* file) override { delete file; }
+
+    /// Names that leave the folder.
+    [[nodiscard]] const std::vector<std::string>& outside() const { return m_outside; }
+
+    /// The first material file that is not there, where none is.
+    [[nodiscard]] std::optional<std::string> missing() const
+    {
+        return m_opened_count == 0 && !m_missing.empty() ? std::optional(m_missing.front()) : std::nullopt;
+    }
+
+private:
+    const std::filesystem::path& m_path;
+    std::span<const std::uint8_t> m_bytes;
+    std::string m_name;
+    std::vector<std::string> m_outside;
+    std::vector<std::string> m_missing;
+    std::size_t m_opened_count = 0;
+};
+
+/// Takes all other formats out of an importer: what a file is has been decided.
+void keepObj(Assimp::Importer& importer)
+{
+    for (std::size_t i = importer.GetImporterCount(); i > 0; --i)
+    {
+        if (importer.GetImporterInfo(i - 1)->mFileExtensions != std::string_view("obj"))
+        {
+            Assimp::BaseImporter* other = importer.GetImporter(i - 1);
+            importer.UnregisterLoader(other);
+            delete other; // it is the caller's now
+        }
+    }
+}
+
+WrapMode toWrapMode(int mode)
+{
+    return mode == aiTextureMapMode_Clamp    ? WrapMode::ClampToEdge
+           : mode == aiTextureMapMode_Mirror ? WrapMode::MirroredRepeat
+                                             : WrapMode::Repeat;
+}
+
+/// Makes a Scene of what assimp has read, every count and index checked.
+class ObjReader
+{
+public:
+    ObjReader(const std::filesystem::path& path, const aiScene& source, bool with_materials)
+        : m_path(path), m_source(source), m_with_materials(with_materials)
+    {
+    }
+
+    Scene read()
+    {
+        for (unsigned int i = 0; i < m_source.mNumMeshes; ++i)
+        {
+            const aiMesh* mesh = m_source.mMeshes[i];
+            if (mesh == nullptr || mesh->mVertices == nullptr || (mesh->mNumFaces > 0 && mesh->mFaces == nullptr))
+            {
+                continue;
+            }
+            Primitive primitive;
+            primitive.triangles = readTriangles(*mesh);
+            if (primitive.triangles.empty())
+            {
+                continue;
+            }
+            readVertices(*mesh, primitive);
+            primitive.material = material(mesh->mMaterialIndex);
+            m_scene.instances.push_back({static_cast<std::uint32_t>(m_scene.primitives.size()), glm::mat4(1.0F)});
+            m_scene.primitives.push_back(std::move(primitive));
+        }
+        return std::move(m_scene);
+    }
+
+    /// Once for each kind.
+    void warn(const std::string& kind)
+    {
+        const std::string line = inputError(m_path, kind).what();
+        if (std::find(m_scene.warnings.begin(), m_scene.warnings.end(), line) == m_scene.warnings.end())
+        {
+            m_scene.warnings.push_back(line);
+        }
+    }
+
+private:
+    std::vector<glm::uvec3> readTriangles(const aiMesh& mesh)
+    {
+        std::vector<glm::uvec3> triangles;
+        triangles.reserve(mesh.mNumFaces);
+        for (unsigned int i = 0; i < mesh.mNumFaces; ++i)
+        {
+            const aiFace& face = mesh.mFaces[i];
+            if (face.mNumIndices != 3 || face.mIndices == nullptr)
+            {
+                warn("points and lines left out, only triangles become voxels");
+                continue;
+            }
+            const glm::uvec3 triangle(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
+            if (std::max({triangle.x, triangle.y, triangle.z}) >= mesh.mNumVertices)
+            {
+                throw inputError(m_path, fmt::format("face {} has vertex {}, but there are {}; {}", i,
+                                                     std::max({triangle.x, triangle.y, triangle.z}), mesh.mNumVertices,
+                                                     kSaveAgain));
+            }
+            triangles.push_back(triangle);
+        }
+        return triangles;
+    }
+
+    void readVertices(const aiMesh& mesh, Primitive& primitive) const
+    {
+        primitive.positions.reserve(mesh.mNumVertices);
+        for (unsigned int i = 0; i < mesh.mNumVertices; ++i)
+        {
+            const aiVector3D& position = mesh.mVertices[i];
+            primitive.positions.emplace_back(position.x, position.y, position.z);
+        }
+        for (unsigned int i = 0; mesh.mNormals != nullptr && i < mesh.mNumVertices; ++i)
+        {
+            const glm::dvec3 normal(mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z);
+            const double length = std::sqrt(glm::dot(normal, normal));
+            primitive.normals.push_back(length > 0.0 && std::isfinite(length) ? glm::vec3(normal / length)
+                                                                              : glm::vec3(0.0F));
+        }
+        for (unsigned int i = 0; mesh.mTextureCoords[0] != nullptr && i < mesh.mNumVertices; ++i)
+        {
+            // v points up in these formats.
+            primitive.uvs.emplace_back(mesh.mTextureCoords[0][i].x, 1.0F - mesh.mTextureCoords[0][i].y);
+        }
+        for (unsigned int i = 0; mesh.mColors[0] != nullptr && i < mesh.mNumVertices; ++i)
+        {
+            const aiColor4D& color = mesh.mColors[0][i];
+            primitive.colors.emplace_back(srgbToLinear(color.r), srgbToLinear(color.g), srgbToLinear(color.b),
+                                          std::clamp(color.a, 0.0F, 1.0F));
+        }
+    }
+
+    /// Index into Scene::materials.
+    std::uint32_t material(unsigned int index)
+    {
+        const bool is_default = !m_with_materials || index >= m_source.mNumMaterials ||
+                                m_source.mMaterials[index] == nullptr ||
+                                m_source.mMaterials[index]->GetName() == aiString(AI_DEFAULT_MATERIAL_NAME);
+        const auto [known, is_new] = m_materials.emplace(is_default ? std::nullopt : std::optional(index), 0U);
+        if (is_new)
+        {
+            known->second = static_cast<std::uint32_t>(m_scene.materials.size());
+            Material loaded;
+            loaded.name = "default";
+            m_scene.materials.push_back(is_default ? loaded : readMaterial(*m_source.mMaterials[index]));
+        }
+        return known->second;
+    }
+
+    Material readMaterial(const aiMaterial& source)
+    {
+        Material material;
+        material.name = source.GetName().C_Str();
+        aiColor3D diffuse(1.0F, 1.0F, 1.0F);
+        aiColor3D emission(0.0F, 0.0F, 0.0F);
+        float opacity = 1.0F;
+        source.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+        source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
+        source.Get(AI_MATKEY_OPACITY, opacity);
+        material.base_color = {factor(diffuse.r), factor(diffuse.g), factor(diffuse.b),
+                               std::min(factor(opacity), 1.0F)};
+        material.emission = {factor(emission.r), factor(emission.g), factor(emission.b)};
+        material.alpha_mode = material.base_color.a < 1.0F ? AlphaMode::Blend : AlphaMode::Opaque;
+        material.base_color_texture = texture(source, aiTextureType_DIFFUSE);
+        if (material.base_color_texture && glm::vec3(material.base_color) == glm::vec3(0.0F))
+        {
+            material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a); // exporters mean the texture
+        }
+        if (material.emission != glm::vec3(0.0F))
+        {
+            material.emission_texture = texture(source, aiTextureType_EMISSIVE);
+        }
+        const std::string cut_out = texturePath(source, aiTextureType_OPACITY);
+        if (!cut_out.empty() && cut_out == texturePath(source, aiTextureType_DIFFUSE))
+        {
+            material.alpha_mode = AlphaMode::Mask; // by the colour texture's own alpha
+        }
+        else if (!cut_out.empty())
+        {
+            warn("textures of transparency (map_d) left out; put them into the alpha of the colour textures");
+        }
+        return material;
+    }
+
+    float factor(float value) const
+    {
+        if (!(value >= 0.0F) || !std::isfinite(value))
+        {
+            throw inputError(m_path, fmt::format("a material has the factor {}, not in the range from 0 to 3.4e38; {}",
+                                                 value, kSaveAgain));
+        }
+        return value;
+    }
+
+    static std::string texturePath(const aiMaterial& source, aiTextureType type)
+    {
+        aiString path;
+        return source.GetTexture(type, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
+    }
+
+    std::optional<std::uint32_t> texture(const aiMaterial& source, aiTextureType type)
+    {
+        const std::string name = texturePath(source, type);
+        const std::optional<std::uint32_t> image = name.empty() ? std::nullopt : readImage(name);
+        if (!image)
+        {
+            return std::nullopt;
+        }
+        int wrap_u = aiTextureMapMode_Wrap;
+        int wrap_v = aiTextureMapMode_Wrap;
+        source.Get(AI_MATKEY_MAPPINGMODE_U(type, 0), wrap_u);
+        source.Get(AI_MATKEY_MAPPINGMODE_V(type, 0), wrap_v);
+        m_scene.textures.push_back({*image, toWrapMode(wrap_u), toWrapMode(wrap_v)});
+        return static_cast<std::uint32_t>(m_scene.textures.size() - 1);
+    }
+
+    /// Index into Scene::images; nothing, with a warning, for what cannot be used.
+    std::optional<std::uint32_t> readImage(const std::string& name)
+    {
+        const auto [known, is_new] = m_images.emplace(name, std::nullopt);
+        if (!is_new)
+        {
+            return known->second;
+        }
+        const std::optional<std::filesystem::path> file = fileBeside(m_path, name);
+        if (!file)
+        {
+            warn(fmt::format("texture {} left out, as it leaves the file's folder", name));
+            return std::nullopt;
+        }
+        if (!isFile(*file))
+        {
+            warn(fmt::format("texture {} left out, as there is no such file", name));
+            return std::nullopt;
+        }
+        try
+        {
+            m_scene.images.push_back(decodeImage(readFile(*file), name, name));
+        }
+        catch (const Error& failure)
+        {
+            warn(fmt::format("texture left out: {}", failure.what()));
+            return std::nullopt;
+        }
+        known->second = static_cast<std::uint32_t>(m_scene.images.size() - 1);
+        return known->second;
+    }
+
+    const std::filesystem::path& m_path;
+    const aiScene& m_source;
+    bool m_with_materials;
+    Scene m_scene;
+    std::map<std::optional<unsigned int>, std::uint32_t> m_materials;
+    std::map<std::string, std::optional<std::uint32_t>> m_images;
+};
+
+Scene importObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+{
+    const std::string name = path.stem().string() + ".obj";
+    Assimp::Importer importer;
+    keepObj(importer);
+    auto* files = new SceneFiles(path, bytes, name); // the importer's from now on
+    importer.SetIOHandler(files);
+    const aiScene* source = importer.ReadFile(name, aiProcess_Triangulate);
+    if (!files->outside().empty())
+    {
+        throw inputError(path, fmt::format("the material file {} leaves the folder; only files in it and below are "
+                                           "read; put it there and name it",
+                                           files->outside().front()));
+    }
+    if (source == nullptr)
+    {
+        throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", importer.GetErrorString(), kSaveAgain));
+    }
+    const std::optional<std::string> missing = files->missing();
+    ObjReader reader(path, *source, !missing);
+    if (missing)
+    {
+        reader.warn(fmt::format("colours left out, as there is no material file {}", *missing));
+    }
+    return reader.read();
+}
+
+} // namespace
+
+Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshFormat format)
+{
+    if (format == MeshFormat::Obj)
+    {
+        return importObj(path, bytes);
+    }
+    std::string note;
+    Scene scene;
+    scene.primitives.push_back(format == MeshFormat::Ply ? readPly(path, bytes, note) : readStl(path, bytes));
+    scene.materials.emplace_back().name = "default";
+    scene.instances.emplace_back();
+    if (!note.empty())
+    {
+        scene.warnings.emplace_back(inputError(path, note).what());
+    }
+    return scene;
+}
+
+} // namespace zvo

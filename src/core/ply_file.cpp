@@ -1,0 +1,497 @@
+// SPDX-License-Identifier: MIT
+#include "core/ply_file.h"
+
+#include "core/input_error.h"
+#include "core/srgb.h"
+#include "core/text_cursor.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::string_view kSaveAgain = "the file is damaged or was written wrongly, export it again";
+
+enum class Encoding
+{
+    Text,
+    LittleEndian,
+    BigEndian
+};
+
+enum class Type
+{
+    Int8,
+    UInt8,
+    Int16,
+    UInt16,
+    Int32,
+    UInt32,
+    Float32,
+    Float64
+};
+
+std::optional<Type> typeOf(std::string_view name)
+{
+    constexpr std::array<std::pair<std::string_view, Type>, 16> kNames = {{{"char", Type::Int8},
+                                                                           {"int8", Type::Int8},
+                                                                           {"uchar", Type::UInt8},
+                                                                           {"uint8", Type::UInt8},
+                                                                           {"short", Type::Int16},
+                                                                           {"int16", Type::Int16},
+                                                                           {"ushort", Type::UInt16},
+                                                                           {"uint16", Type::UInt16},
+                                                                           {"int", Type::Int32},
+                                                                           {"int32", Type::Int32},
+                                                                           {"uint", Type::UInt32},
+                                                                           {"uint32", Type::UInt32},
+                                                                           {"float", Type::Float32},
+                                                                           {"float32", Type::Float32},
+                                                                           {"double", Type::Float64},
+                                                                           {"float64", Type::Float64}}};
+    const auto found =
+        std::find_if(kNames.begin(), kNames.end(), [name](const auto& entry) { return entry.first == name; });
+    return found != kNames.end() ? std::optional(found->second) : std::nullopt;
+}
+
+/// What a colour channel of that type is divided by.
+double channelMax(Type type)
+{
+    return type == Type::UInt8    ? std::numeric_limits<std::uint8_t>::max()
+           : type == Type::UInt16 ? std::numeric_limits<std::uint16_t>::max()
+                                  : 1.0;
+}
+
+/// What a number of a vertex means; an index into VertexValues.
+enum class Use : std::size_t
+{
+    X,
+    Y,
+    Z,
+    NormalX,
+    NormalY,
+    NormalZ,
+    Red,
+    Green,
+    Blue,
+    Alpha,
+    Nothing
+};
+
+constexpr std::size_t kUseCount = static_cast<std::size_t>(Use::Nothing);
+using VertexValues = std::array<double, kUseCount>;
+
+Use useOf(std::string_view name)
+{
+    constexpr std::array<std::pair<std::string_view, Use>, 17> kNames = {{{"x", Use::X},
+                                                                          {"y", Use::Y},
+                                                                          {"z", Use::Z},
+                                                                          {"nx", Use::NormalX},
+                                                                          {"ny", Use::NormalY},
+                                                                          {"nz", Use::NormalZ},
+                                                                          {"red", Use::Red},
+                                                                          {"green", Use::Green},
+                                                                          {"blue", Use::Blue},
+                                                                          {"alpha", Use::Alpha},
+                                                                          {"r", Use::Red},
+                                                                          {"g", Use::Green},
+                                                                          {"b", Use::Blue},
+                                                                          {"a", Use::Alpha},
+                                                                          {"diffuse_red", Use::Red},
+                                                                          {"diffuse_green", Use::Green},
+                                                                          {"diffuse_blue", Use::Blue}}};
+    const auto found =
+        std::find_if(kNames.begin(), kNames.end(), [name](const auto& entry) { return entry.first == name; });
+    return found != kNames.end() ? found->second : Use::Nothing;
+}
+
+struct Property
+{
+    std::string name;
+    Type type = Type::Float32;
+    std::optional<Type> count_type; // of a list
+};
+
+struct Element
+{
+    std::string name;
+    std::uint64_t count = 0;
+    std::vector<Property> properties;
+};
+
+class PlyReader
+{
+public:
+    PlyReader(const std::filesystem::path& path, std::string_view content) : m_path(path), m_cursor(content) {}
+
+    Primitive read(std::string& note)
+    {
+        readHeader();
+        m_data = m_cursor.rest();
+        for (const Element& element : m_elements)
+        {
+            readElement(element);
+        }
+        checkTriangles();
+        if (m_triangles.empty() && !m_primitive.positions.empty())
+        {
+            note = "a cloud of points, without faces; only triangles become voxels";
+        }
+        m_primitive.triangles = std::move(m_triangles);
+        return std::move(m_primitive);
+    }
+
+private:
+    [[nodiscard]] Error fail(const std::string& what) const
+    {
+        return inputError(m_path, fmt::format("not a valid PLY file: {}; {}", what, kSaveAgain));
+    }
+
+    [[nodiscard]] Error cutShort() const
+    {
+        return inputError(m_path, "the PLY file ends before its last element; the file was cut short, copy or download "
+                                  "it again");
+    }
+
+    void readHeader()
+    {
+        if (m_cursor.line() != "ply")
+        {
+            throw fail("its first line is not \"ply\"");
+        }
+        for (auto line = m_cursor.line(); line; line = m_cursor.line())
+        {
+            TextCursor words(*line);
+            const std::string_view keyword = words.word();
+            if (keyword == "end_header")
+            {
+                return;
+            }
+            if (keyword == "format")
+            {
+                m_encoding = encodingOf(words.word());
+            }
+            else if (keyword == "element")
+            {
+                const std::string name(words.word());
+                const auto count = parseNumber<std::uint64_t>(words.word());
+                if (!count)
+                {
+                    throw fail(fmt::format("\"{}\" has no count", *line));
+                }
+                m_elements.push_back({name, *count, {}});
+            }
+            else if (keyword == "property")
+            {
+                addProperty(words, *line);
+            }
+            else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
+            {
+                throw fail(fmt::format("\"{}\" in its header", *line));
+            }
+        }
+        throw fail("its header has no end");
+    }
+
+    Encoding encodingOf(std::string_view name) const
+    {
+        if (name != "ascii" && name != "binary_little_endian" && name != "binary_big_endian")
+        {
+            throw fail(fmt::format("its format is \"{}\"", name));
+        }
+        return name == "ascii"                  ? Encoding::Text
+               : name == "binary_little_endian" ? Encoding::LittleEndian
+                                                : Encoding::BigEndian;
+    }
+
+    void addProperty(TextCursor& words, std::string_view line)
+    {
+        std::string_view type_name = words.word();
+        Property property;
+        if (type_name == "list")
+        {
+            property.count_type = typeOf(words.word());
+            type_name = words.word();
+            if (!property.count_type)
+            {
+                throw fail(fmt::format("\"{}\" has an unknown type", line));
+            }
+        }
+        const std::optional<Type> type = typeOf(type_name);
+        if (!type || m_elements.empty())
+        {
+            throw fail(fmt::format("\"{}\" has an unknown type or no element", line));
+        }
+        property.type = *type;
+        property.name = words.word();
+        m_elements.back().properties.push_back(property);
+    }
+
+    void readElement(const Element& element)
+    {
+        if (element.properties.empty())
+        {
+            return; // has no data, however many there are
+        }
+        if (element.name == "vertex")
+        {
+            readVertices(element);
+            return;
+        }
+        const bool has_faces = element.name == "face" || element.name == "tristrips";
+        for (std::uint64_t i = 0; i < element.count; ++i)
+        {
+            for (const Property& property : element.properties)
+            {
+                const bool is_face = has_faces && property.count_type &&
+                                     (property.name == "vertex_indices" || property.name == "vertex_index");
+                if (!is_face)
+                {
+                    skip(property);
+                }
+                else if (element.name == "face")
+                {
+                    readFace(property);
+                }
+                else
+                {
+                    readStrips(property);
+                }
+            }
+        }
+    }
+
+    void readVertices(const Element& element)
+    {
+        std::array<bool, kUseCount + 1> has{};
+        for (const Property& property : element.properties)
+        {
+            has[static_cast<std::size_t>(useOf(property.name))] |= !property.count_type;
+        }
+        const auto all = [&](Use a, Use b, Use c) {
+            return has[static_cast<std::size_t>(a)] && has[static_cast<std::size_t>(b)] &&
+                   has[static_cast<std::size_t>(c)];
+        };
+        if (!all(Use::X, Use::Y, Use::Z))
+        {
+            throw fail("its vertices have no x, y and z");
+        }
+        const bool has_normals = all(Use::NormalX, Use::NormalY, Use::NormalZ);
+        const bool has_colors = all(Use::Red, Use::Green, Use::Blue);
+        for (std::uint64_t i = 0; i < element.count; ++i)
+        {
+            VertexValues values{};
+            values[static_cast<std::size_t>(Use::Alpha)] = 1.0;
+            for (const Property& property : element.properties)
+            {
+                const Use use = property.count_type ? Use::Nothing : useOf(property.name);
+                if (use == Use::Nothing)
+                {
+                    skip(property);
+                }
+                else
+                {
+                    const double value = number(property.type);
+                    values[static_cast<std::size_t>(use)] = use >= Use::Red ? value / channelMax(property.type) : value;
+                }
+            }
+            addVertex(values, has_normals, has_colors);
+        }
+    }
+
+    void addVertex(const VertexValues& values, bool has_normals, bool has_colors)
+    {
+        const auto vector = [&](Use first)
+        {
+            const auto at = static_cast<std::size_t>(first);
+            return glm::dvec3(values[at], values[at + 1], values[at + 2]);
+        };
+        m_primitive.positions.emplace_back(vector(Use::X));
+        if (has_normals)
+        {
+            const glm::dvec3 normal = vector(Use::NormalX);
+            const double length = std::sqrt(glm::dot(normal, normal));
+            m_primitive.normals.push_back(length > 0.0 && std::isfinite(length) ? glm::vec3(normal / length)
+                                                                                : glm::vec3(0.0F));
+        }
+        if (has_colors)
+        {
+            const glm::dvec3 color = vector(Use::Red);
+            const double alpha = values[static_cast<std::size_t>(Use::Alpha)];
+            m_primitive.colors.emplace_back(srgbToLinear(color.r), srgbToLinear(color.g), srgbToLinear(color.b),
+                                            alpha > 0.0 ? std::min(alpha, 1.0) : 0.0);
+        }
+    }
+
+    void readFace(const Property& property)
+    {
+        const std::uint64_t count = listCount(property);
+        std::uint32_t first = 0;
+        std::uint32_t previous = 0;
+        for (std::uint64_t i = 0; i < count; ++i)
+        {
+            const std::uint32_t vertex = vertexIndex(number(property.type));
+            if (i >= 2)
+            {
+                m_triangles.emplace_back(first, previous, vertex);
+            }
+            first = i == 0 ? vertex : first;
+            previous = vertex;
+        }
+    }
+
+    void readStrips(const Property& property)
+    {
+        const std::uint64_t count = listCount(property);
+        std::array<std::uint32_t, 2> last{}; // the vertex before the previous one, and the previous one
+        std::uint64_t in_strip = 0;
+        for (std::uint64_t i = 0; i < count; ++i)
+        {
+            const double value = number(property.type);
+            if (value == -1.0)
+            {
+                in_strip = 0;
+                continue;
+            }
+            const std::uint32_t vertex = vertexIndex(value);
+            if (in_strip >= 2)
+            {
+                const bool odd = in_strip % 2 == 1;
+                m_triangles.emplace_back(last[odd ? 1 : 0], last[odd ? 0 : 1], vertex);
+            }
+            last = {last[1], vertex};
+            ++in_strip;
+        }
+    }
+
+    std::uint32_t vertexIndex(double value) const
+    {
+        if (!(value >= 0.0) || value >= std::numeric_limits<std::uint32_t>::max() || value != std::floor(value))
+        {
+            throw fail(fmt::format("a face has the vertex {}", value));
+        }
+        return static_cast<std::uint32_t>(value);
+    }
+
+    void checkTriangles() const
+    {
+        const std::size_t vertex_count = m_primitive.positions.size();
+        for (const glm::uvec3& triangle : m_triangles)
+        {
+            const std::uint32_t largest = std::max({triangle.x, triangle.y, triangle.z});
+            if (largest >= vertex_count)
+            {
+                throw fail(fmt::format("a face has the vertex {}, but there are {}", largest, vertex_count));
+            }
+        }
+    }
+
+    std::uint64_t listCount(const Property& property)
+    {
+        const double count = number(*property.count_type);
+        if (!(count >= 0.0) || count != std::floor(count) || count > std::numeric_limits<std::uint32_t>::max())
+        {
+            throw fail(fmt::format("a list {} has {} entries", property.name, count));
+        }
+        return static_cast<std::uint64_t>(count);
+    }
+
+    void skip(const Property& property)
+    {
+        const std::uint64_t count = property.count_type ? listCount(property) : 1;
+        for (std::uint64_t i = 0; i < count; ++i)
+        {
+            number(property.type);
+        }
+    }
+
+    /// The next number of the data. What is read as text in single precision is rounded once.
+    double number(Type type)
+    {
+        if (m_encoding == Encoding::Text)
+        {
+            return textNumber(type);
+        }
+        switch (type)
+        {
+        case Type::Int8:
+            return binaryNumber<std::int8_t>();
+        case Type::UInt8:
+            return binaryNumber<std::uint8_t>();
+        case Type::Int16:
+            return binaryNumber<std::int16_t>();
+        case Type::UInt16:
+            return binaryNumber<std::uint16_t>();
+        case Type::Int32:
+            return binaryNumber<std::int32_t>();
+        case Type::UInt32:
+            return binaryNumber<std::uint32_t>();
+        case Type::Float32:
+            return binaryNumber<float>();
+        default:
+            return binaryNumber<double>();
+        }
+    }
+
+    template <typename T> double binaryNumber()
+    {
+        if (m_data.size() < sizeof(T))
+        {
+            throw cutShort();
+        }
+        std::array<char, sizeof(T)> bytes;
+        std::copy_n(m_data.begin(), sizeof(T), bytes.begin());
+        if ((m_encoding == Encoding::BigEndian) != (std::endian::native == std::endian::big))
+        {
+            std::reverse(bytes.begin(), bytes.end());
+        }
+        m_data.remove_prefix(sizeof(T));
+        return static_cast<double>(std::bit_cast<T>(bytes));
+    }
+
+    double textNumber(Type type)
+    {
+        const std::string_view word = m_cursor.word();
+        if (word.empty())
+        {
+            throw cutShort();
+        }
+        const std::optional<float> single = type == Type::Float32 ? parseNumber<float>(word) : std::nullopt;
+        const std::optional<double> value = single ? std::optional<double>(*single) : parseNumber<double>(word);
+        if (!value)
+        {
+            throw fail(fmt::format("\"{}\" is not a number", word));
+        }
+        return *value;
+    }
+
+    const std::filesystem::path& m_path;
+    TextCursor m_cursor; // in the header, and in the data where it is text
+    std::string_view m_data;
+    Encoding m_encoding = Encoding::Text;
+    std::vector<Element> m_elements;
+    std::vector<glm::uvec3> m_triangles;
+    Primitive m_primitive;
+};
+
+} // namespace
+
+Primitive readPly(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::string& note)
+{
+    return PlyReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}).read(note);
+}
+
+} // namespace zvo

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace zvo
+{
+
+/// A linear fraction of an sRGB encoded one (IEC 61966-2-1), both in [0, 1]; what is no number is 0.
+inline double srgbToLinear(double encoded)
+{
+    const double value = encoded > 0.0 ? std::min(encoded, 1.0) : 0.0;
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+} // namespace zvo

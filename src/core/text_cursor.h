@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace zvo
+{
+
+/// All of word as a number, rounded once to the type, with or without a plus sign; nothing where it is none. Numbers
+/// are written the same in every locale.
+template <typename T> std::optional<T> parseNumber(std::string_view word)
+{
+    if (word.starts_with('+'))
+    {
+        word.remove_prefix(1);
+    }
+    T value{};
+    const char* const end = word.data() + word.size();
+    const auto [stop, failure] = std::from_chars(word.data(), end, value);
+    return failure == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+/// Goes through a text line by line and word by word.
+class TextCursor
+{
+public:
+    explicit TextCursor(std::string_view text) : m_rest(text) {}
+
+    [[nodiscard]] std::string_view rest() const { return m_rest; }
+
+    /// The next line without its end, which is "\n", "\r\n" or "\r"; nothing at the end of the text.
+    std::optional<std::string_view> line()
+    {
+        if (m_rest.empty())
+        {
+            return std::nullopt;
+        }
+        const std::size_t size = m_rest.find_first_of("\r\n");
+        const std::string_view line = m_rest.substr(0, size);
+        m_rest.remove_prefix(line.size());
+        const std::size_t end = m_rest.starts_with("\r\n") ? 2 : m_rest.empty() ? 0 : 1;
+        m_rest.remove_prefix(end);
+        return line;
+    }
+
+    /// The next word, whatever line it is on; empty at the end of the text.
+    std::string_view word()
+    {
+        constexpr std::string_view kSpace = " \t\r\n\v\f";
+        const std::size_t first = m_rest.find_first_not_of(kSpace);
+        m_rest.remove_prefix(first == std::string_view::npos ? m_rest.size() : first);
+        const std::string_view word = m_rest.substr(0, m_rest.find_first_of(kSpace));
+        m_rest.remove_prefix(word.size());
+        return word;
+    }
+
+private:
+    std::string_view m_rest;
+};
+
+} // namespace zvo

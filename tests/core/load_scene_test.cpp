@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "core/load_scene.h"
+
+#include "gltf_builder.h"
+#include "support/mesh_files.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+Scene loadNamed(const std::string& name, const std::string& content)
+{
+    const TempDir dir;
+    const std::filesystem::path path = dir.write(name, content);
+    return loadScene(std::span(&path, 1));
+}
+
+std::string glbText()
+{
+    const std::vector<std::uint8_t> glb = triangleDocument().glb();
+    return {glb.begin(), glb.end()};
+}
+
+TEST(LoadScene, ContentTellsTheFormatWhereTheNameDoesNot)
+{
+    const FileMesh mesh = bentSheet(2);
+    for (const char* name : {"mesh", "mesh.bin"})
+    {
+        EXPECT_EQ(loadNamed(name, glbText()).triangleCount(), 1U);
+        EXPECT_EQ(loadNamed(name, asObj(mesh)).triangleCount(), 8U);
+        EXPECT_EQ(loadNamed(name, asPly(mesh, PlyEncoding::LittleEndian)).triangleCount(), 8U);
+        EXPECT_EQ(loadNamed(name, asTextStl(mesh)).triangleCount(), 8U);
+        EXPECT_EQ(loadNamed(name, asBinaryStl(mesh)).triangleCount(), 8U);
+        EXPECT_EQ(loadNamed(name, " \n{\"asset\": {\"version\": \"2.0\"}}").triangleCount(), 0U);
+        expectInputError([&] { loadNamed(name, "Dear reader"); }, {name, "neither glTF 2.0 nor OBJ"});
+        expectInputError([&] { loadNamed(name, ""); }, {name, "neither"});
+    }
+    // A clear content stands before a wrong name; extensions may be in capitals.
+    EXPECT_EQ(loadNamed("mesh.obj", glbText()).triangleCount(), 1U);
+    EXPECT_EQ(loadNamed("mesh.stl", asPly(mesh, PlyEncoding::Text)).triangleCount(), 8U);
+    EXPECT_EQ(loadNamed("MESH.OBJ", asObj(mesh)).triangleCount(), 8U);
+}
+
+TEST(LoadScene, SeveralFormatsBecomeOneScene)
+{
+    const FileMesh mesh = bentSheet(2);
+    const TempDir dir;
+    const std::vector<std::filesystem::path> paths = {dir.write("a.glb", triangleDocument().glb()),
+                                                      dir.write("b.obj", asObj(mesh)),
+                                                      dir.write("c.stl", asTextStl(mesh))};
+    const Scene scene = loadScene(paths);
+    EXPECT_EQ(scene.triangleCount(), 17U);
+    ASSERT_EQ(scene.instances.size(), 3U);
+    EXPECT_EQ(scene.primitives.at(scene.instances[2].primitive).material, 2U);
+}
+
+TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)
+{
+    const std::vector<std::pair<UpAxis, glm::vec3>> axes = {{UpAxis::X, {1, 0, 0}},       {UpAxis::Y, {0, 1, 0}},
+                                                            {UpAxis::Z, {0, 0, 1}},       {UpAxis::MinusX, {-1, 0, 0}},
+                                                            {UpAxis::MinusY, {0, -1, 0}}, {UpAxis::MinusZ, {0, 0, -1}}};
+    for (const auto& [axis, up] : axes)
+    {
+        Scene scene;
+        scene.instances.push_back({0, glm::mat4(1.0F)});
+        place(scene, {axis, 1.0F});
+        const glm::mat4& turn = scene.instances[0].transform;
+        EXPECT_EQ(transformPoint(turn, up), glm::vec3(0, 1, 0));
+        EXPECT_EQ(glm::determinant(turn), 1.0F);
+        for (int i = 0; i < 3; ++i) // a permutation with signs: nothing is rounded
+        {
+            EXPECT_EQ(glm::length(glm::vec3(turn[i])), 1.0F);
+        }
+    }
+    // The usual one: what lies in front of a z-up model lies in front of a y-up one.
+    Scene scene;
+    scene.instances.push_back({0, glm::mat4(1.0F)});
+    place(scene, {UpAxis::Z, 1.0F});
+    EXPECT_EQ(transformPoint(scene.instances[0].transform, {1, 2, 3}), glm::vec3(1, 3, -2));
+}
+
+TEST(LoadScene, ScaleMovesPointsAndCamerasButNotTheirAxes)
+{
+    Scene scene;
+    scene.instances.push_back({0, glm::mat4(1.0F)});
+    scene.instances[0].transform[3] = glm::vec4(1, 2, 3, 1);
+    Camera camera;
+    camera.orthographic = true;
+    camera.half_height = 3.0F;
+    camera.transform[3] = glm::vec4(4, 5, 6, 1);
+    scene.cameras.push_back(camera);
+    place(scene, {UpAxis::Z, 0.5F});
+    EXPECT_EQ(transformPoint(scene.instances[0].transform, {1, 0, 0}), glm::vec3(1, 1.5F, -1));
+    EXPECT_EQ(scene.cameras[0].half_height, 1.5F);
+    EXPECT_EQ(scene.cameras[0].transform[3], glm::vec4(2, 3, -2.5F, 1));
+    EXPECT_EQ(scene.cameras[0].transform[2], glm::vec4(0, 1, 0, 0)); // looks along what was -z: now down
+    scene.instances[0].transform[3].x = 1e38F;
+    EXPECT_THROW(place(scene, {UpAxis::Y, 100.0F}), Error);
+}
+
+} // namespace
+
+} // namespace zvo::test

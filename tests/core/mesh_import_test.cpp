@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "core/mesh_import.h"
+
+#include "core/image_io.h"
+#include "core/load_scene.h"
+#include "gltf_builder.h"
+#include "support/mesh_files.h"
+
+#include <cmath>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+Scene loadText(const std::string& name, const std::string& content)
+{
+    const TempDir dir;
+    const std::filesystem::path path = dir.write(name, content);
+    return loadScene(std::span(&path, 1));
+}
+
+Scene loadIn(const TempDir& dir, const std::string& name)
+{
+    const std::filesystem::path path = dir.path() / name;
+    return loadScene(std::span(&path, 1));
+}
+
+/// The corners of all triangles, one behind the other.
+std::vector<glm::vec3> cornersOf(const Scene& scene)
+{
+    std::vector<glm::vec3> corners;
+    for (const Instance& instance : scene.instances)
+    {
+        EXPECT_EQ(instance.transform, glm::mat4(1.0F));
+        const Primitive& primitive = scene.primitives[instance.primitive];
+        for (const glm::uvec3& triangle : primitive.triangles)
+        {
+            for (int i = 0; i < 3; ++i)
+            {
+                corners.push_back(primitive.positions[triangle[i]]);
+            }
+        }
+    }
+    return corners;
+}
+
+std::vector<glm::vec3> cornersOf(const FileMesh& mesh)
+{
+    std::vector<glm::vec3> corners;
+    for (const glm::uvec3& triangle : mesh.triangles)
+    {
+        for (int i = 0; i < 3; ++i)
+        {
+            corners.push_back(mesh.positions[triangle[i]]);
+        }
+    }
+    return corners;
+}
+
+constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 0.75\n";
+
+TEST(MeshImport, EveryFormatGivesTheSameTriangles)
+{
+    const FileMesh mesh = bentSheet(9);
+    const std::vector<glm::vec3> wanted = cornersOf(mesh);
+    EXPECT_EQ(cornersOf(loadText("mesh.obj", asObj(mesh))), wanted);
+    EXPECT_EQ(cornersOf(loadText("mesh.ply", asPly(mesh, PlyEncoding::Text))), wanted);
+    EXPECT_EQ(cornersOf(loadText("mesh.ply", asPly(mesh, PlyEncoding::LittleEndian))), wanted);
+    EXPECT_EQ(cornersOf(loadText("mesh.ply", asPly(mesh, PlyEncoding::BigEndian))), wanted);
+    EXPECT_EQ(cornersOf(loadText("mesh.stl", asTextStl(mesh))), wanted);
+    EXPECT_EQ(cornersOf(loadText("mesh.stl", asBinaryStl(mesh))), wanted);
+}
+
+TEST(MeshImport, WithoutColoursAMeshIsWhite)
+{
+    const FileMesh mesh = bentSheet(1);
+    for (const auto& [name, content] :
+         {std::pair("mesh.obj", asObj(mesh)), std::pair("mesh.ply", asPly(mesh, PlyEncoding::Text)),
+          std::pair("mesh.stl", asBinaryStl(mesh))})
+    {
+        const Scene scene = loadText(name, content);
+        ASSERT_EQ(scene.materials.size(), 1U) << name;
+        EXPECT_EQ(scene.materials[0].base_color, glm::vec4(1.0F)) << name;
+        EXPECT_TRUE(scene.primitives.at(0).colors.empty()) << name;
+        EXPECT_TRUE(scene.primitives.at(0).normals.empty()) << name;
+        EXPECT_TRUE(scene.warnings.empty()) << name;
+    }
+}
+
+TEST(MeshImport, PlyColoursAreSrgb)
+{
+    FileMesh mesh = bentSheet(1);
+    mesh.colors = {{0, 255, 128}, {10, 20, 30}, {255, 255, 255}, {64, 0, 200}};
+    const std::vector<glm::vec3> linear = {
+        {0, 1, 0.2158605F}, {0.0030353F, 0.0069954F, 0.0129830F}, {1, 1, 1}, {0.0512695F, 0, 0.5775805F}};
+    for (const PlyEncoding encoding : {PlyEncoding::Text, PlyEncoding::LittleEndian})
+    {
+        const Scene scene = loadText("mesh.ply", asPly(mesh, encoding));
+        ASSERT_EQ(scene.primitives.at(0).colors.size(), 4U);
+        for (std::size_t i = 0; i < 4; ++i)
+        {
+            EXPECT_LT(glm::distance(glm::vec3(scene.primitives[0].colors[i]), linear[i]), 1e-5F) << i;
+            EXPECT_EQ(scene.primitives[0].colors[i].a, 1.0F);
+        }
+    }
+}
+
+TEST(MeshImport, ObjPolygonsBecomeTriangles)
+{
+    const Scene scene =
+        loadText("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 2 0\nf 1 2 3 5 4\nf -5 -4 -3\nl 1 2\n");
+    EXPECT_EQ(scene.triangleCount(), 4U); // a pentagon and a triangle
+    double area = 0;
+    const std::vector<glm::vec3> corners = cornersOf(scene);
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+    {
+        area += 0.5 * glm::length(glm::cross(corners[i + 1] - corners[i], corners[i + 2] - corners[i]));
+    }
+    EXPECT_NEAR(area, 1.5 + 0.5, 1e-6);
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "quad.obj: points and lines left out")) << scene.warnings[0];
+}
+
+TEST(MeshImport, ObjHasTheMaterialsOfItsMtlFile)
+{
+    const TempDir dir;
+    std::filesystem::create_directory(dir.path() / "textures");
+    dir.write("textures/bricks.png", encodePng(1, 1, std::vector<std::uint8_t>{10, 20, 30, 255}));
+    dir.write("thing.mtl", "newmtl red\nKd 0.75 0.25 0.125\nd 0.5\n\nnewmtl bricks\nKd 0 0 0\n"
+                           "map_Kd -clamp on textures\\bricks.png\nnewmtl lamp\nKd 0 0 0\nKe 4 2 1\n"
+                           "newmtl leaf\nKd 1 1 1\nmap_Kd textures/bricks.png\nmap_d textures/bricks.png\n");
+    dir.write("thing.obj", std::string("mtllib thing.mtl\n") + kTriangle +
+                               "vn 0 0 2\nusemtl red\nf 1//1 2//1 3//1\nusemtl bricks\nf 1/1 2/2 3/3\nusemtl lamp\nf 1 "
+                               "2 3\nusemtl leaf\nf 1/1 3/3 2/2\n");
+    const Scene scene = loadIn(dir, "thing.obj");
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.at(0);
+    ASSERT_EQ(scene.primitives.size(), 4U);
+    const auto materialOf = [&](std::size_t primitive)
+    { return scene.materials.at(scene.primitives[primitive].material); };
+    EXPECT_EQ(materialOf(0).name, "red");
+    EXPECT_EQ(materialOf(0).base_color, glm::vec4(0.75F, 0.25F, 0.125F, 0.5F));
+    EXPECT_EQ(materialOf(0).alpha_mode, AlphaMode::Blend);
+    EXPECT_EQ(scene.primitives[0].normals, std::vector<glm::vec3>(3, {0, 0, 1}));
+    EXPECT_EQ(materialOf(1).base_color, glm::vec4(1.0F)); // black under a texture means the texture
+    EXPECT_EQ(materialOf(1).alpha_mode, AlphaMode::Opaque);
+    ASSERT_TRUE(materialOf(1).base_color_texture);
+    const Texture& texture = scene.textures.at(*materialOf(1).base_color_texture);
+    EXPECT_EQ(texture.wrap_u, WrapMode::ClampToEdge);
+    EXPECT_EQ(scene.images.at(texture.image).rgba, (std::vector<std::uint8_t>{10, 20, 30, 255}));
+    EXPECT_EQ(scene.primitives[1].uvs, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0.25F}})); // v = 0 at the top
+    EXPECT_EQ(materialOf(2).emission, glm::vec3(4, 2, 1));
+    EXPECT_EQ(materialOf(3).alpha_mode, AlphaMode::Mask);
+}
+
+TEST(MeshImport, WhatAnMtlFileNamesWronglyIsAWarning)
+{
+    const TempDir dir;
+    const TempDir outside;
+    outside.write("secret.png", encodePng(1, 1, std::vector<std::uint8_t>{1, 2, 3, 4}));
+    dir.write("notes.png", std::string_view("no picture"));
+    std::filesystem::create_symlink(outside.path() / "secret.png", dir.path() / "link.png");
+    dir.write("a.obj", std::string("mtllib a.mtl\n") + kTriangle + "usemtl m\nf 1/1 2/2 3/3\n");
+    const std::string up = "../" + outside.path().filename().string() + "/secret.png";
+    for (const auto& [name, reason] :
+         {std::pair(up, "leaves the file's folder"), std::pair((outside.path() / "secret.png").string(), "leaves"),
+          std::pair(std::string("link.png"), "leaves"), std::pair(std::string("absent.png"), "no such file"),
+          std::pair(std::string("."), "no such file"), std::pair(std::string("notes.png"), "not a PNG, JPEG or WebP")})
+    {
+        dir.write("a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd " + name + "\n");
+        const Scene scene = loadIn(dir, "a.obj");
+        EXPECT_EQ(scene.triangleCount(), 1U);
+        EXPECT_TRUE(scene.images.empty()) << name;
+        EXPECT_FALSE(scene.materials.at(0).base_color_texture) << name;
+        ASSERT_EQ(scene.warnings.size(), 1U) << name;
+        EXPECT_TRUE(contains(scene.warnings[0], "texture")) << scene.warnings[0];
+        EXPECT_TRUE(contains(scene.warnings[0], reason)) << scene.warnings[0];
+    }
+}
+
+TEST(MeshImport, MtlFileMustBeInTheFolder)
+{
+    const TempDir dir;
+    const TempDir outside;
+    outside.write("b.mtl", std::string_view("newmtl m\nKd 1 0 0\n"));
+    const std::string rest = std::string(kTriangle) + "usemtl m\nf 1 2 3\n";
+    for (const std::string& name :
+         {"../" + outside.path().filename().string() + "/b.mtl", (outside.path() / "b.mtl").string(),
+          "..\\" + outside.path().filename().string() + "\\b.mtl"})
+    {
+        dir.write("a.obj", "mtllib " + name + "\n" + rest);
+        expectInputError([&] { loadIn(dir, "a.obj"); }, {"a.obj", "b.mtl", "leaves the folder"});
+    }
+    dir.write("a.obj", "mtllib absent.mtl\n" + rest);
+    const Scene scene = loadIn(dir, "a.obj");
+    EXPECT_EQ(scene.materials.at(0).base_color, glm::vec4(1.0F));
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "absent.mtl")) << scene.warnings[0];
+}
+
+TEST(MeshImport, BrokenFilesAreInputErrors)
+{
+    const auto expectBroken = [](const std::string& name, const std::string& content, const std::string& problem) {
+        expectInputError([&] { loadText(name, content); }, {name, problem, "again"});
+    };
+    const FileMesh mesh = bentSheet(2);
+    const std::string ply = asPly(mesh, PlyEncoding::LittleEndian);
+    expectBroken("empty.obj", "", "not a valid OBJ file");
+    expectBroken("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index out of range");
+    expectBroken("empty.ply", "", "first line");
+    expectBroken("text.ply", "hello", "first line");
+    expectBroken("header.ply", ply.substr(0, 60), "header");
+    expectBroken("cut.ply", ply.substr(0, ply.size() - 1), "cut short");
+    const std::string vertices = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const auto plyOf = [&](const std::string& header, const std::string& data)
+    { return "ply\nformat ascii 1.0\n" + header + data; };
+    const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+    expectBroken("index.ply", plyOf(vertices + faces, points + "3 0 1 3\n"), "vertex 3, but there are 3");
+    expectBroken("negative.ply", plyOf(vertices + faces, points + "3 0 1 -1\n"), "vertex -1");
+    expectBroken("half.ply", plyOf(vertices + faces, points + "3 0 1 0.5\n"), "vertex 0.5");
+    expectBroken("list.ply", plyOf(vertices + faces, points + "-3 0 1 2\n"), "-3 entries");
+    expectBroken("nan.ply", plyOf(vertices + faces, points + "nan 0 1 2\n"), "nan entries");
+    expectBroken("word.ply", plyOf(vertices + faces, "0 0 zero\n"), "\"zero\" is not a number");
+    expectBroken("many.ply", plyOf(vertices + faces, points + "4000000000 0 1 2\n"), "cut short");
+    expectBroken("short.ply", plyOf(vertices + faces, points), "cut short");
+    expectBroken("axis.ply", plyOf("element vertex 1\nproperty float x\nproperty float y\nend_header\n", "0 0\n"),
+                 "no x, y and z");
+    expectBroken("type.ply", plyOf("element vertex 1\nproperty quad x\nend_header\n", ""), "unknown type");
+    expectBroken("count.ply", plyOf("element vertex -1\nend_header\n", ""), "no count");
+    expectBroken("format.ply", "ply\nformat morse 1.0\nend_header\n", "morse");
+    expectBroken("empty.stl", "", "0 bytes");
+    expectBroken("cut.stl", asBinaryStl(mesh).substr(0, 200), "announces 8 facets");
+    expectBroken("text.stl", asTextStl(mesh).substr(0, 300), "in line 12");
+    const std::string facet = "solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n";
+    expectBroken("half.stl", facet, "cut short");
+    expectBroken("two.stl", facet + "endloop\nendfacet\nendsolid\n", "a facet of 2 vertices in line 6");
+    expectBroken("word.stl", facet + "vertex 0 one 0\nendloop\nendfacet\nendsolid\n", "\"one\" in line 6");
+    expectBroken("four.stl", facet + "vertex 0 1 0\nvertex 0 1 1\nendloop\n", "more than 3 vertices");
+}
+
+TEST(MeshImport, PlyStripsStartAnewAndUnknownElementsAreSkipped)
+{
+    const Scene scene =
+        loadText("strips.ply",
+                 "ply\nformat ascii 1.0\ncomment by hand\nobj_info none\nelement camera 1\nproperty float view\n"
+                 "property list uchar short knots\nelement nothing 4000000000\nelement vertex 6\nproperty float x\n"
+                 "property float y\nproperty float quality\nproperty float z\nelement tristrips 1\nproperty list "
+                 "int int vertex_indices\nend_header\n45 2 7 8\n0 0 9 0\n0 1 9 0\n1 0 9 0\n1 1 9 0\n2 0 9 0\n2 1 "
+                 "9 0\n8 0 1 2 3 -1 3 4 5\n");
+    EXPECT_EQ(scene.primitives.at(0).triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {3, 4, 5}}));
+    EXPECT_EQ(scene.primitives[0].positions[5], glm::vec3(2, 1, 0));
+}
+
+TEST(MeshImport, PlyPointsAreAWarning)
+{
+    const Scene scene = loadText("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty double x\nproperty "
+                                              "double y\nproperty double z\nend_header\n+0.5 1e3 -2\n");
+    EXPECT_EQ(scene.primitives.at(0).positions, (std::vector<glm::vec3>{{0.5F, 1000, -2}}));
+    EXPECT_EQ(scene.triangleCount(), 0U);
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "cloud of points")) << scene.warnings[0];
+}
+
+TEST(MeshImport, TextCoordinatesAreRoundedOnce)
+{
+    // Just above the middle between 1 and the next number: through double precision it would be rounded down.
+    const std::string above = "1.000000059604644775390626";
+    const std::string text = "solid a\nfacet normal 0 0 0\nouter loop\nvertex " + above +
+                             " 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    EXPECT_EQ(loadText("a.stl", text).primitives.at(0).positions[0].x, std::nextafter(1.0F, 2.0F));
+    const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
+                            "float z\nend_header\n" +
+                            above + " 0 0\n";
+    EXPECT_EQ(loadText("a.ply", ply).primitives.at(0).positions[0].x, std::nextafter(1.0F, 2.0F));
+}
+
+TEST(MeshImport, DamagedBytesGiveASceneOrAnInputError)
+{
+    FileMesh mesh = bentSheet(3);
+    mesh.colors.assign(mesh.positions.size(), {1, 2, 3});
+    std::mt19937 random(17); // NOLINT: the same damage on every run
+    for (const auto& [name, content] :
+         {std::pair("mesh.obj", asObj(mesh)), std::pair("mesh.ply", asPly(mesh, PlyEncoding::Text)),
+          std::pair("mesh.ply", asPly(mesh, PlyEncoding::LittleEndian)), std::pair("mesh.stl", asTextStl(mesh)),
+          std::pair("mesh.stl", asBinaryStl(mesh))})
+    {
+        const TempDir dir;
+        for (int i = 0; i < 200; ++i)
+        {
+            std::string damaged = content;
+            for (std::size_t k = 0; k <= random() % 3; ++k)
+            {
+                damaged[random() % damaged.size()] = static_cast<char>(random());
+            }
+            damaged.resize(damaged.size() - (random() % 4 == 0 ? random() % damaged.size() : 0));
+            dir.write(name, damaged);
+            try
+            {
+                const Scene scene = loadIn(dir, name);
+                EXPECT_LE(scene.triangleCount(), 10000U);
+            }
+            catch (const Error& error)
+            {
+                EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
+            }
+        }
+    }
+}
+
+} // namespace
+
+} // namespace zvo::test
