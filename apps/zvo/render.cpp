@@ -173,6 +173,25 @@ void addTrace(Json& json, const RenderOptions& options, const Renderer& renderer
     json["picture"] = {{"width", options.width}, {"height", options.height}, {"count", times.size()}};
 }
 
+// Beside the octree the picture has buffers of its own, which a lower resolution does not make smaller.
+Renderer makeRenderer(vk::HeadlessDevice& device, const Octree& octree, const RenderOptions& options)
+{
+    try
+    {
+        return {device, octree, options};
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory)
+        {
+            throw;
+        }
+        throw Error(ErrorCode::Memory, fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or a "
+                                                   "smaller picture",
+                                                   options.width, options.height, error.what()));
+    }
+}
+
 } // namespace
 
 void render(const RenderOptions& options)
@@ -205,7 +224,7 @@ void render(const RenderOptions& options)
     warnOfDropped(result);
     gpu_scene.reset();
 
-    Renderer renderer(device, result.octree, options);
+    Renderer renderer = makeRenderer(device, result.octree, options);
     const glm::dvec3 centre = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
     std::vector<PictureTimes> times(pictures.count());
     for (std::uint32_t i = 0; i < pictures.count(); ++i)

@@ -101,6 +101,11 @@ const std::vector<ErrorCase>& errorCases()
          {"Vulkan"},
          {"VK_ICD_FILENAMES=/absent.json", "VK_DRIVER_FILES=/absent.json"}},
 
+        {"PictureTooLarge",
+         6,
+         {"render", "cube.glb", "-o", "a.png", "--resolution", "8", "--size", "16384x16384", "--memory-limit", "1G"},
+         {"16384 x 16384 pixels (--size)", "a smaller picture"},
+         {}},
         {"MemoryLimitTooLow", 6, {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "64K"}, {"limit"}, {}},
     };
     return cases;
