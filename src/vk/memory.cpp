@@ -18,9 +18,6 @@ namespace zvo::vk
 namespace
 {
 
-// Bigger requests get memory of their own, so that a block never ends half empty because of one of them.
-constexpr std::uint64_t kDedicatedBytes = MemoryAllocator::kBlockBytes / 2;
-
 std::uint64_t alignUp(std::uint64_t value, std::uint64_t alignment)
 {
     return (value + alignment - 1) / alignment * alignment;
@@ -85,8 +82,9 @@ struct MemoryAllocator::Block
     [[nodiscard]] bool unused() const { return free.size() == 1 && free.begin()->second == bytes; }
 };
 
-MemoryAllocator::MemoryAllocator(Device& device, std::uint64_t budget_bytes)
-    : m_device(device), m_budget_bytes(budget_bytes)
+MemoryAllocator::MemoryAllocator(Device& device, std::uint64_t limit_bytes)
+    : m_device(device), m_limit_bytes(limit_bytes),
+      m_block_bytes(limit_bytes == UINT64_MAX ? kBlockBytes : kLimitedBlockBytes)
 {
     device.fn().vkGetPhysicalDeviceMemoryProperties(device.handles().physical_device, &m_properties);
 }
@@ -98,23 +96,38 @@ MemoryAllocator::~MemoryAllocator()
     {
         if (block)
         {
-            freeMemory(block->memory);
+            freeMemory(block->memory, block->bytes);
         }
     }
+}
+
+void MemoryAllocator::require(std::uint64_t bytes, const char* what)
+{
+    if (bytes > roomBytes())
+    {
+        freeUnusedBlocks();
+        if (bytes > roomBytes())
+        {
+            throwOverLimit(bytes, what);
+        }
+    }
+}
+
+std::uint64_t MemoryAllocator::roomBytes() const
+{
+    return m_limit_bytes - m_held_bytes;
+}
+
+void MemoryAllocator::resetPeak()
+{
+    m_peak_bytes = m_used_bytes;
+    m_peak_held_bytes = m_held_bytes;
 }
 
 MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
                                       VkMemoryPropertyFlags preferred, const char* what)
 {
     const std::uint64_t size = requirements.size;
-    if (size > m_budget_bytes - std::min(m_used_bytes, m_budget_bytes))
-    {
-        throw Error(ErrorCode::Memory,
-                    fmt::format("{} needs {} bytes of device memory, but {} of the limit of {} are in use: raise the "
-                                "limit, or use a lower resolution",
-                                what, size, m_used_bytes, m_budget_bytes));
-    }
-
     // Types with the preferred properties first, then those that merely suffice.
     for (const VkMemoryPropertyFlags wanted : {required | preferred, required})
     {
@@ -138,17 +151,30 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
             }
         }
     }
+    if (size > roomBytes())
+    {
+        throwOverLimit(size, what);
+    }
     throw Error(ErrorCode::Memory,
                 fmt::format("the device has no {} bytes of memory left for {} ({} in use by zvo): close other programs "
                             "that use the device, or use a lower resolution",
                             size, what, m_used_bytes));
 }
 
+void MemoryAllocator::throwOverLimit(std::uint64_t bytes, const char* what) const
+{
+    throw Error(ErrorCode::Memory,
+                fmt::format("{} needs {} bytes in all, {} more than are in use, but the limit is {}: raise the limit "
+                            "(--memory-limit), or lower the resolution",
+                            what, bytes > UINT64_MAX - m_held_bytes ? UINT64_MAX : m_held_bytes + bytes, bytes,
+                            m_limit_bytes));
+}
+
 bool MemoryAllocator::allocateFrom(std::uint32_t type, std::uint64_t size, std::uint64_t alignment, MemoryBlock& result)
 {
     result.memory_type = type;
     result.bytes = size;
-    if (size > kDedicatedBytes)
+    if (size > m_block_bytes / 2) // so that a block never ends half empty because of one of these
     {
         return allocateMemory(type, size, result.memory, result.mapped);
     }
@@ -160,8 +186,7 @@ bool MemoryAllocator::allocateFrom(std::uint32_t type, std::uint64_t size, std::
         }
     }
     // A new block; where memory is short, one that just suffices.
-    const std::uint64_t affordable = m_budget_bytes - m_used_bytes;
-    for (const std::uint64_t bytes : {std::clamp(affordable, size, kBlockBytes), size})
+    for (const std::uint64_t bytes : {m_block_bytes, size})
     {
         auto block = std::make_unique<Block>();
         void* mapped = nullptr;
@@ -205,7 +230,11 @@ bool MemoryAllocator::takeFrom(std::uint32_t index, std::uint64_t alignment, Mem
 bool MemoryAllocator::allocateMemory(std::uint32_t type, std::uint64_t size, VkDeviceMemory& memory, void*& mapped)
 {
     const VkMemoryType& memory_type = m_properties.memoryTypes[type];
-    if (size > m_properties.memoryHeaps[memory_type.heapIndex].size)
+    if (size > roomBytes())
+    {
+        freeUnusedBlocks();
+    }
+    if (size > roomBytes() || size > m_properties.memoryHeaps[memory_type.heapIndex].size)
     {
         return false;
     }
@@ -228,6 +257,8 @@ bool MemoryAllocator::allocateMemory(std::uint32_t type, std::uint64_t size, VkD
     {
         throwFailedCall(result, "vkAllocateMemory", __FILE_NAME__, __LINE__);
     }
+    m_held_bytes += size;
+    m_peak_held_bytes = std::max(m_peak_held_bytes, m_held_bytes);
     m_device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory),
                      fmt::format("zvo memory of type {}", type));
     if ((memory_type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0)
@@ -235,16 +266,29 @@ bool MemoryAllocator::allocateMemory(std::uint32_t type, std::uint64_t size, VkD
         const VkResult map_result = fn.vkMapMemory(m_device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         if (map_result != VK_SUCCESS)
         {
-            freeMemory(memory);
+            freeMemory(memory, size);
             throwFailedCall(map_result, "vkMapMemory", __FILE_NAME__, __LINE__);
         }
     }
     return true;
 }
 
-void MemoryAllocator::freeMemory(VkDeviceMemory memory) noexcept
+void MemoryAllocator::freeMemory(VkDeviceMemory memory, std::uint64_t size) noexcept
 {
+    m_held_bytes -= size;
     m_device.fn().vkFreeMemory(m_device.handle(), memory, m_device.allocationCallbacks());
+}
+
+void MemoryAllocator::freeUnusedBlocks() noexcept
+{
+    for (std::unique_ptr<Block>& block : m_blocks)
+    {
+        if (block && block->unused())
+        {
+            freeMemory(block->memory, block->bytes);
+            block.reset();
+        }
+    }
 }
 
 void MemoryAllocator::release(const MemoryBlock& range) noexcept
@@ -256,7 +300,7 @@ void MemoryAllocator::release(const MemoryBlock& range) noexcept
     m_used_bytes -= range.bytes;
     if (range.block == UINT32_MAX)
     {
-        freeMemory(range.memory);
+        freeMemory(range.memory, range.bytes);
         return;
     }
     Block& block = *m_blocks[range.block];
@@ -273,7 +317,7 @@ void MemoryAllocator::release(const MemoryBlock& range) noexcept
                                      });
     if (another)
     {
-        freeMemory(block.memory);
+        freeMemory(block.memory, block.bytes);
         m_blocks[range.block].reset();
     }
 }

@@ -23,28 +23,39 @@ struct MemoryBlock
     std::uint32_t block = UINT32_MAX; // index of the shared block; UINT32_MAX for a dedicated allocation
 };
 
-/// Hands out ranges of device memory: small ones from shared blocks of kBlockBytes (first fit, coalescing), big ones as
-/// allocations of their own. Counts what is handed out against a budget. Not thread safe.
+/// Hands out ranges of device memory: small ones from shared blocks (first fit, coalescing), big ones as allocations of
+/// their own. What it holds of the driver's memory never exceeds the limit, the unused parts of blocks included. Not
+/// thread safe.
 class MemoryAllocator
 {
 public:
-    static constexpr std::uint64_t kBlockBytes = 64ull << 20;
+    static constexpr std::uint64_t kBlockBytes = 64ull << 20;       // of a block, when there is no limit
+    static constexpr std::uint64_t kLimitedBlockBytes = 1ull << 20; // of a block under a limit, whatever the limit
 
-    MemoryAllocator(Device& device, std::uint64_t budget_bytes);
+    /// limit_bytes: UINT64_MAX for none.
+    MemoryAllocator(Device& device, std::uint64_t limit_bytes);
     ~MemoryAllocator();
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
 
     /// A range that meets requirements in memory with required properties, and preferred ones where there are any.
-    /// Throws Error{Memory} naming what when the budget or the device's memory does not suffice.
+    /// Throws Error{Memory} naming what when the limit or the device's memory does not suffice.
     MemoryBlock allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags required,
                          VkMemoryPropertyFlags preferred, const char* what);
     void release(const MemoryBlock& block) noexcept;
 
-    [[nodiscard]] std::uint64_t usedBytes() const { return m_used_bytes; }
-    [[nodiscard]] std::uint64_t peakBytes() const { return m_peak_bytes; }
-    [[nodiscard]] std::uint64_t budgetBytes() const { return m_budget_bytes; }
-    void resetPeak() { m_peak_bytes = m_used_bytes; }
+    /// Throws Error{Memory} naming what when bytes more, in allocations to come, exceed the limit: one message that
+    /// says what all of them need, before the first of them is made.
+    void require(std::uint64_t bytes, const char* what);
+
+    /// What the limit leaves for big allocations.
+    [[nodiscard]] std::uint64_t roomBytes() const;
+
+    [[nodiscard]] std::uint64_t usedBytes() const { return m_used_bytes; } // handed out
+    [[nodiscard]] std::uint64_t peakBytes() const { return m_peak_bytes; } // most of it at once
+    [[nodiscard]] std::uint64_t heldBytes() const { return m_held_bytes; } // of the driver
+    [[nodiscard]] std::uint64_t peakHeldBytes() const { return m_peak_held_bytes; }
+    void resetPeak();
 
 private:
     struct Block;
@@ -53,13 +64,18 @@ private:
     bool allocateFrom(std::uint32_t type, std::uint64_t size, std::uint64_t alignment, MemoryBlock& result);
     bool takeFrom(std::uint32_t index, std::uint64_t alignment, MemoryBlock& result);
     bool allocateMemory(std::uint32_t type, std::uint64_t size, VkDeviceMemory& memory, void*& mapped);
-    void freeMemory(VkDeviceMemory memory) noexcept;
+    void freeMemory(VkDeviceMemory memory, std::uint64_t size) noexcept;
+    void freeUnusedBlocks() noexcept;
+    [[noreturn]] void throwOverLimit(std::uint64_t bytes, const char* what) const;
 
     Device& m_device;
     VkPhysicalDeviceMemoryProperties m_properties{};
-    std::uint64_t m_budget_bytes;
+    std::uint64_t m_limit_bytes;
+    std::uint64_t m_block_bytes;
     std::uint64_t m_used_bytes = 0;
     std::uint64_t m_peak_bytes = 0;
+    std::uint64_t m_held_bytes = 0;
+    std::uint64_t m_peak_held_bytes = 0;
     std::vector<std::unique_ptr<Block>> m_blocks;
 };
 
