@@ -103,6 +103,12 @@ void addDeviceOptions(CLI::App& app, DeviceOptions& options)
     addValue(app, "--memory-limit", options.memory_limit, parseBytes, "BYTES",
              "device memory that may be used, such as 2G or 512M")
         ->group("Device");
+    addValue(
+        app, "--dispatch-ms", options.dispatch_ms,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 0, 100000)); },
+        "MS", "split work so that the device is busy about this long at a time, 0: never (default 400)")
+        ->group("Device");
     app.add_flag("--validation", options.validation,
                  "run with the Vulkan validation layers (core, synchronization); fail if they speak")
         ->group("Device");

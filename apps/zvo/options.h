@@ -24,6 +24,7 @@ struct DeviceOptions
     bool validation = false;
     bool gpu_validation = false;             // also instruments the kernels
     std::uint64_t memory_limit = UINT64_MAX; // bytes
+    std::uint32_t dispatch_ms = 400;         // aimed at for one submission of work; 0: never split
 };
 
 /// A grid's place as a report states it.

@@ -44,6 +44,7 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
     headless.validation = options.validation || options.gpu_validation;
     headless.gpu_assisted_validation = options.gpu_validation;
     headless.memory_budget_bytes = options.memory_limit;
+    headless.slices.submission_ms = options.dispatch_ms;
     const std::filesystem::path folder = cacheFolder();
     headless.pipeline_cache_path = folder.empty() ? "" : (folder / "pipelines.bin").string();
     return headless;

@@ -81,7 +81,7 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
         params.ranges = pass.read(work.ranges);
         params.brick_mask = static_cast<std::uint32_t>(voxelize.bricks.count() - 1);
         params.step = step;
-        pass.dispatchIndirect(work.args, 0, params);
+        pass.dispatchIndirect(work.args, 0, params, divideUp(work.items.count(), gpu::kNodesGroup));
     }
 }
 

@@ -2,6 +2,7 @@
 #include "core/trace.h"
 
 #include "core/divide_up.h"
+#include "vk/device.h"
 
 #include <algorithm>
 #include <bit>
@@ -185,6 +186,7 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
     const PictureTiles tiles(*this);
     const std::uint64_t tile_count = std::uint64_t{tiles.x} * tiles.y;
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
+    device.memory().require(pixel_count * (sizeof(gpu::Hit) + 2 * sizeof(gpu::uint)), "the picture");
     starts = {device, "tile starts", tile_count};
     // Indirect dispatches over more tiles than one row of workgroups fill up their last row.
     const std::uint64_t rows = divideUp(tile_count, gpu::kTilesFold);
@@ -253,7 +255,7 @@ void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& b
     params.width = buffers.width;
     params.height = buffers.height;
     params.detail = detailOf(options, &camera);
-    pass.dispatchIndirect(buffers.args, 0, params);
+    pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
 }
 
 void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
@@ -269,7 +271,7 @@ void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& 
         params.light = pass.write(buffers.light);
         params.to_sun = to_sun;
         params.to_sun_inverse = {inverse(to_sun.x), inverse(to_sun.y), inverse(to_sun.z)};
-        pass.dispatchIndirect(buffers.args, 0, params);
+        pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
     }
     if (options.occlusion_rays != 0)
     {
@@ -280,7 +282,7 @@ void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& 
         params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
         params.radius =
             options.occlusion_reach * static_cast<float>(grid.resolution()) / static_cast<float>(grid.rootResolution());
-        pass.dispatchIndirect(buffers.args, 0, params);
+        pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
     }
 }
 
@@ -331,7 +333,7 @@ void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camer
     params.height = buffers.height;
     params.emission_scale = octree.emission_scale;
     params.exposure = options.exposure;
-    pass.dispatchIndirect(buffers.args, 0, params);
+    pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
 }
 
 void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,

@@ -104,11 +104,13 @@ void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
         {
             sizeRowWork(graph, rows);
             vk::Pass pass = graph.addPass("voxelize/bands", {coverage, mode, material_class});
-            pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, job, material_class));
+            pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, job, material_class),
+                                  divideUp(rows.big_triangles.count(), gpu::kBandsGroup));
             sizeRowWork(graph, rows);
         }
         vk::Pass pass = graph.addPass("voxelize/rows", variant);
-        pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, job, material_class));
+        pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, job, material_class),
+                              divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
     }
 }
 

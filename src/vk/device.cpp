@@ -41,6 +41,7 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
     m_functions.vkGetPhysicalDeviceProperties(handles.physical_device, &properties);
     m_limits = properties.limits;
     useQueueFamily(m_report, m_functions, handles.queue_family, m_limits.timestampPeriod);
+    applyOverrides(handles.overrides, m_report, m_limits);
     if (!m_report.usable())
     {
         throw Error(ErrorCode::Device, fmt::format("zvo cannot use the Vulkan device {}: {}", m_report.name,
@@ -52,7 +53,7 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
 
 Device::~Device() = default;
 
-void Device::setName(VkObjectType type, std::uint64_t object, const std::string& name) const
+void Device::setName(VkObjectType type, std::uint64_t object, const std::string& name) const noexcept
 {
     if (!m_handles.debug_utils || m_functions.vkSetDebugUtilsObjectNameEXT == nullptr)
     {
@@ -63,7 +64,7 @@ void Device::setName(VkObjectType type, std::uint64_t object, const std::string&
     info.objectType = type;
     info.objectHandle = object;
     info.pObjectName = name.c_str();
-    VK_CHECK(m_functions.vkSetDebugUtilsObjectNameEXT(m_handles.device, &info));
+    m_functions.vkSetDebugUtilsObjectNameEXT(m_handles.device, &info);
 }
 
 } // namespace zvo::vk

@@ -4,6 +4,7 @@
 #include "vk/functions.h"
 #include "vk/kernel.h"
 #include "vk/memory.h"
+#include "vk/overrides.h"
 
 #include <cstdint>
 #include <memory>
@@ -23,8 +24,10 @@ struct DeviceReport
     std::string type;        // "discrete", "integrated", "virtual", "cpu" or "other"
     std::string api_version; // "1.3.230"
     std::uint32_t subgroup_size = 0;
-    std::uint64_t memory_bytes = 0;         // largest device-local heap
-    std::uint64_t max_buffer_bytes = 0;     // largest buffer
+    std::uint64_t memory_bytes = 0;      // largest device-local heap
+    std::uint64_t max_buffer_bytes = 0;  // largest buffer, and largest allocation of memory
+    std::uint32_t min_subgroup_size = 0; // of those that a kernel can ask for; 0: none
+    std::uint32_t max_subgroup_size = 0;
     std::uint32_t queue_family = 0;         // the compute queue family that zvo would use
     float timestamp_period_ns = 0;          // 0: no timestamps on that queue family
     std::uint32_t timestamp_valid_bits = 0; // of a timestamp on that queue family
@@ -38,6 +41,9 @@ struct DeviceReport
 /// Examines one physical device. Creates nothing and never throws for a device that will not do.
 DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
                    VkPhysicalDevice physical_device);
+
+/// Lowers what report says and limits allow. What overrides take away and zvo needs becomes a reason.
+void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPhysicalDeviceLimits& limits);
 
 /// The feature structs of Vulkan 1.0 to 1.3, chained.
 struct FeatureChain
@@ -78,6 +84,7 @@ struct DeviceHandles
     const VkAllocationCallbacks* allocation_callbacks = nullptr; // may be null; must outlive the Device
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;             // may be null
     std::uint64_t memory_budget_bytes = UINT64_MAX;              // what zvo may allocate on this device
+    DeviceOverrides overrides;                                   // for tests; subgroup_size: enable subgroupSizeControl
     bool debug_utils = false; // VK_EXT_debug_utils is enabled on the instance: objects and passes get names
 };
 
@@ -102,8 +109,9 @@ public:
     [[nodiscard]] const MemoryAllocator& memory() const { return *m_memory; }
     [[nodiscard]] KernelCache& kernels() { return *m_kernels; }
 
-    /// Names a Vulkan object for debuggers and validation messages; does nothing without VK_EXT_debug_utils.
-    void setName(VkObjectType type, std::uint64_t object, const std::string& name) const;
+    /// Names a Vulkan object for debuggers and validation messages; does nothing without VK_EXT_debug_utils, nor when
+    /// the driver cannot.
+    void setName(VkObjectType type, std::uint64_t object, const std::string& name) const noexcept;
 
 private:
     DeviceHandles m_handles;

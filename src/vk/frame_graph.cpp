@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 
 namespace zvo::vk
@@ -16,6 +17,9 @@ namespace
 {
 
 constexpr std::uint64_t kWordBytes = 4;
+constexpr std::uint64_t kPieceBytes = 64 << 10; // of fills and copies: what a slicer counts as one unit
+constexpr std::uint64_t kFillKey = 1;           // no kernel's address
+constexpr std::uint64_t kCopyKey = 2;
 constexpr std::uint64_t kMaxThreads = std::uint64_t{1} << 32; // kernels number their threads with 32 bits
 
 [[noreturn]] void misuse(const std::string& what)
@@ -135,26 +139,85 @@ void Pass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t by
     {
         misuse(fmt::format("pass {} asks for {} threads, more than one dispatch can have", m_kernel.name, threads));
     }
-    m_graph.beginPass(m_kernel.name, m_accesses,
-                      fmt::format("{} threads in {} x {} groups of {}", threads, x, y, group_threads));
-    bind(params, bytes);
-    m_graph.m_device.fn().vkCmdDispatch(m_graph.m_commands, static_cast<std::uint32_t>(x),
-                                        static_cast<std::uint32_t>(y), 1);
-    m_graph.endPass();
+    m_graph.declarePass(m_kernel.name, m_accesses,
+                        fmt::format("{} threads in {} x {} groups of {}", threads, x, y, group_threads));
+    recordGroups(groups, {x, y}, params, bytes);
 }
 
-void Pass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes)
+void Pass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes,
+                               std::uint64_t max_groups)
 {
     prepare(bytes);
     checkRange(args, offset, sizeof(gpu::DispatchArgs));
-    m_graph.beginPass(m_kernel.name, m_accesses, "indirect");
+    m_graph.declarePass(m_kernel.name, m_accesses, "indirect");
+    Slicer* const slicer = m_graph.m_slicer;
+    if (slicer != nullptr && !slicer->admitUnseen(key(), max_groups))
+    {
+        if (Buffer* const readback = slicer->readback())
+        {
+            const std::uint64_t groups = m_graph.readGroups(args, offset, *readback);
+            slicer->learnCount(key(), max_groups, groups);
+            recordGroups(groups, {0, 0}, params, bytes);
+            return;
+        }
+    }
+    m_graph.openPiece(m_kernel.name);
     bind(params, bytes);
     m_graph.m_device.fn().vkCmdDispatchIndirect(m_graph.m_commands, args.handle(), offset);
-    m_graph.endPass();
+    m_graph.closePiece();
 }
 
-FrameGraph::FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers)
-    : m_device(device), m_commands(commands), m_timers(timers)
+// whole: workgroups along x and y when all of them go into one piece; 0: exactly groups of them.
+void Pass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params, std::size_t bytes)
+{
+    // Ranges smaller than this could start where no base reaches.
+    const std::uint64_t least = groups / m_graph.m_device.limits().maxComputeWorkGroupCount[1] + 1;
+    m_graph.recordPieces(m_kernel.name, key(), groups, least,
+                         [&](std::uint64_t first, std::uint64_t count)
+                         {
+                             bind(params, bytes);
+                             if (count == groups && whole[0] != 0)
+                             {
+                                 m_graph.m_device.fn().vkCmdDispatch(m_graph.m_commands,
+                                                                     static_cast<std::uint32_t>(whole[0]),
+                                                                     static_cast<std::uint32_t>(whole[1]), 1);
+                             }
+                             else
+                             {
+                                 recordGroupRange(first, count);
+                             }
+                         });
+}
+
+// One row of workgroups after the other, each at a base such that row * row length + column, which is how kernels
+// number their workgroups, is the number in the whole pass.
+void Pass::recordGroupRange(std::uint64_t first, std::uint64_t count)
+{
+    const VkPhysicalDeviceLimits& limits = m_graph.m_device.limits();
+    const std::uint64_t max_x = limits.maxComputeWorkGroupCount[0];
+    const Functions& fn = m_graph.m_device.fn();
+    const std::uint64_t longest = std::max<std::uint64_t>(1, max_x / 2);
+    while (count != 0)
+    {
+        const std::uint64_t rows = (count + longest - 1) / longest;
+        const std::uint64_t x = (count + rows - 1) / rows; // about equal: no base reaches a short row far behind
+        const std::uint64_t base_x = std::min(first, first % x + (max_x - x - first % x) / x * x);
+        const std::uint64_t base_y = (first - base_x) / x;
+        if (base_y >= limits.maxComputeWorkGroupCount[1])
+        {
+            misuse(fmt::format("pass {} has no base for workgroup {} in a row of {}", m_kernel.name, first, x));
+        }
+        fn.vkCmdDispatchBase(m_graph.m_commands, static_cast<std::uint32_t>(base_x), static_cast<std::uint32_t>(base_y),
+                             0, static_cast<std::uint32_t>(x), 1, 1);
+        first += x;
+        count -= x;
+    }
+    // Nothing at base 0: lavapipe (of Mesa 22.3, for one) keeps the last base for later dispatches without one.
+    fn.vkCmdDispatchBase(m_graph.m_commands, 0, 0, 0, 0, 0, 0);
+}
+
+FrameGraph::FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers, Slicer* slicer)
+    : m_device(device), m_commands(commands), m_timers(timers), m_slicer(slicer)
 {
 }
 
@@ -177,9 +240,16 @@ void FrameGraph::fill(Buffer& buffer, std::uint32_t value, std::uint64_t first, 
         return;
     }
     const BufferAccess access = accessOf(buffer, Access::CopyWrite);
-    beginPass("fill " + buffer.name(), {&access, 1}, fmt::format("{} bytes", count * kWordBytes));
-    m_device.fn().vkCmdFillBuffer(m_commands, buffer.handle(), first * kWordBytes, count * kWordBytes, value);
-    endPass();
+    const std::string name = "fill " + buffer.name();
+    const std::uint64_t bytes = count * kWordBytes;
+    declarePass(name, {&access, 1}, fmt::format("{} bytes", bytes));
+    recordPieces(name, kFillKey, (bytes + kPieceBytes - 1) / kPieceBytes, 1,
+                 [&](std::uint64_t piece, std::uint64_t pieces)
+                 {
+                     const std::uint64_t offset = piece * kPieceBytes;
+                     m_device.fn().vkCmdFillBuffer(m_commands, buffer.handle(), first * kWordBytes + offset,
+                                                   std::min(pieces * kPieceBytes, bytes - offset), value);
+                 });
 }
 
 void FrameGraph::copy(const Buffer& from, std::uint64_t from_offset, Buffer& to, std::uint64_t to_offset,
@@ -196,10 +266,16 @@ void FrameGraph::copy(const Buffer& from, std::uint64_t from_offset, Buffer& to,
         misuse(fmt::format("a copy within buffer {} overlaps itself", from.name()));
     }
     const BufferAccess accesses[] = {accessOf(from, Access::CopyRead), accessOf(to, Access::CopyWrite)};
-    beginPass("copy " + from.name() + " to " + to.name(), accesses, fmt::format("{} bytes", bytes));
-    const VkBufferCopy region{from_offset, to_offset, bytes};
-    m_device.fn().vkCmdCopyBuffer(m_commands, from.handle(), to.handle(), 1, &region);
-    endPass();
+    const std::string name = "copy " + from.name() + " to " + to.name();
+    declarePass(name, accesses, fmt::format("{} bytes", bytes));
+    recordPieces(name, kCopyKey, (bytes + kPieceBytes - 1) / kPieceBytes, 1,
+                 [&](std::uint64_t piece, std::uint64_t pieces)
+                 {
+                     const std::uint64_t offset = piece * kPieceBytes;
+                     const VkBufferCopy region{from_offset + offset, to_offset + offset,
+                                               std::min(pieces * kPieceBytes, bytes - offset)};
+                     m_device.fn().vkCmdCopyBuffer(m_commands, from.handle(), to.handle(), 1, &region);
+                 });
 }
 
 void FrameGraph::releaseToHost()
@@ -207,7 +283,7 @@ void FrameGraph::releaseToHost()
     recordBarrier(m_hazards.releaseToHost());
 }
 
-void FrameGraph::beginPass(const std::string& name, std::span<const BufferAccess> accesses, const std::string& work)
+void FrameGraph::declarePass(const std::string& name, std::span<const BufferAccess> accesses, const std::string& work)
 {
     recordBarrier(m_hazards.next(accesses));
     auto out = std::back_inserter(m_dump);
@@ -217,7 +293,46 @@ void FrameGraph::beginPass(const std::string& name, std::span<const BufferAccess
         fmt::format_to(out, "; {} {}", accessText(access.access), access.name);
     }
     m_dump += '\n';
+}
 
+// Calls record for the pieces of a pass, in order and without a barrier between them: what they write, no other one
+// reads.
+void FrameGraph::recordPieces(const std::string& name, std::uint64_t key, std::uint64_t units, std::uint64_t least,
+                              const std::function<void(std::uint64_t first, std::uint64_t count)>& record)
+{
+    for (std::uint64_t first = 0; first < units;)
+    {
+        std::uint64_t count = m_slicer != nullptr ? m_slicer->admit(key, units - first) : units;
+        if (count == 0)
+        {
+            m_commands = m_slicer->next();
+            continue;
+        }
+        count = std::max(count, least);
+        count = units - first < count + least ? units - first : count;
+        openPiece(name);
+        record(first, count);
+        closePiece();
+        first += count;
+    }
+}
+
+// Workgroups of an indirect dispatch that is about to be recorded.
+std::uint64_t FrameGraph::readGroups(const Buffer& args, std::uint64_t offset, Buffer& readback)
+{
+    const BufferAccess accesses[] = {accessOf(args, Access::CopyRead), accessOf(readback, Access::CopyWrite)};
+    recordBarrier(m_hazards.next(accesses));
+    const VkBufferCopy region{offset, 0, sizeof(gpu::DispatchArgs)};
+    m_device.fn().vkCmdCopyBuffer(m_commands, args.handle(), readback.handle(), 1, &region);
+    releaseToHost();
+    m_commands = m_slicer->next();
+    gpu::DispatchArgs groups{};
+    std::memcpy(&groups, readback.mapped(), sizeof(groups));
+    return std::uint64_t{groups.x} * groups.y * groups.z;
+}
+
+void FrameGraph::openPiece(const std::string& name)
+{
     const Functions& fn = m_device.fn();
     if (m_device.handles().debug_utils && fn.vkCmdBeginDebugUtilsLabelEXT != nullptr)
     {
@@ -232,7 +347,7 @@ void FrameGraph::beginPass(const std::string& name, std::span<const BufferAccess
     }
 }
 
-void FrameGraph::endPass()
+void FrameGraph::closePiece()
 {
     if (m_timers != nullptr)
     {

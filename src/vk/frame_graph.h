@@ -5,10 +5,12 @@
 #include "vk/buffer.h"
 #include "vk/hazard_tracker.h"
 #include "vk/kernel.h"
+#include "vk/slicer.h"
 #include "vk/timer.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -60,13 +62,15 @@ public:
         dispatchRaw(threads, &params, sizeof(Params));
     }
 
-    /// Runs the kernel on args.data[index] workgroups, which an earlier pass wrote.
+    /// Runs the kernel on args.data[index] workgroups, which an earlier pass wrote: no more than max_groups, by which a
+    /// slicer judges how long that may take (by default, it finds out).
     template <typename Params>
-    void dispatchIndirect(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const Params& params)
+    void dispatchIndirect(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const Params& params,
+                          std::uint64_t max_groups = UINT64_MAX)
     {
         static_assert(std::is_trivially_copyable_v<Params>);
         declare(args, Access::IndirectRead);
-        dispatchIndirectRaw(args, index * sizeof(gpu::DispatchArgs), &params, sizeof(Params));
+        dispatchIndirectRaw(args, index * sizeof(gpu::DispatchArgs), &params, sizeof(Params), max_groups);
     }
 
 private:
@@ -77,7 +81,11 @@ private:
     void prepare(std::size_t params_bytes);
     void bind(const void* params, std::size_t bytes);
     void dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes);
-    void dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes);
+    void dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes,
+                             std::uint64_t max_groups);
+    void recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params, std::size_t bytes);
+    void recordGroupRange(std::uint64_t first, std::uint64_t count);
+    [[nodiscard]] std::uint64_t key() const { return reinterpret_cast<std::uint64_t>(&m_kernel); }
 
     FrameGraph& m_graph;
     const Kernel& m_kernel;
@@ -86,12 +94,13 @@ private:
 };
 
 /// Records passes into a command buffer in the order in which they are declared, with one global memory barrier before
-/// a pass that has a hazard. Records only: it never submits and never waits. The command buffer may be a host's.
+/// a pass that has a hazard. Records only: it never submits and never waits. The command buffer may be a host's. With a
+/// slicer, passes and pieces of passes go into as many command buffers as that asks for; the results are the same.
 class FrameGraph
 {
 public:
     /// Records into commands (in the recording state, outside a render pass). With timers, every pass is timed.
-    FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers = nullptr);
+    FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers = nullptr, Slicer* slicer = nullptr);
 
     /// Opens a pass. The kernel's name is the pass's debug label and timer name.
     Pass addPass(std::string_view kernel, const Specialization& specialization = {});
@@ -110,15 +119,23 @@ public:
 
     [[nodiscard]] Device& device() { return m_device; }
 
+    /// The command buffer that is recorded to: with a slicer, the one of the moment.
+    [[nodiscard]] VkCommandBuffer commands() const { return m_commands; }
+
 private:
     friend class Pass;
-    void beginPass(const std::string& name, std::span<const BufferAccess> accesses, const std::string& work);
-    void endPass();
+    void declarePass(const std::string& name, std::span<const BufferAccess> accesses, const std::string& work);
+    void openPiece(const std::string& name);
+    void closePiece();
+    void recordPieces(const std::string& name, std::uint64_t key, std::uint64_t units, std::uint64_t least,
+                      const std::function<void(std::uint64_t first, std::uint64_t count)>& record);
+    std::uint64_t readGroups(const Buffer& args, std::uint64_t offset, Buffer& readback);
     void recordBarrier(const Barrier& barrier);
 
     Device& m_device;
     VkCommandBuffer m_commands;
     TimerPool* m_timers;
+    Slicer* m_slicer;
     HazardTracker m_hazards;
     std::string m_dump;
 };

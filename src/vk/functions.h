@@ -31,6 +31,7 @@ namespace zvo::vk
     X(vkCmdBindPipeline)                         \
     X(vkCmdCopyBuffer)                           \
     X(vkCmdDispatch)                             \
+    X(vkCmdDispatchBase)                         \
     X(vkCmdDispatchIndirect)                     \
     X(vkCmdFillBuffer)                           \
     X(vkCmdPipelineBarrier2)                     \

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 
 namespace zvo::vk
@@ -20,14 +21,17 @@ namespace
 // Of one transfer between host and device; longer ones go in turns. Bigger gains nothing: a turn costs tens of
 // microseconds.
 constexpr std::uint64_t kStagingBytes = 16ull << 20;
+constexpr std::uint64_t kStagingBytesMin = 64ull << 10; // where memory is short
 
 // A logical device with one compute queue.
 class LogicalDevice
 {
 public:
-    LogicalDevice(const Instance& instance, const DeviceReport& report, bool gpu_assisted_validation)
+    LogicalDevice(const Instance& instance, const DeviceReport& report, bool gpu_assisted_validation,
+                  bool subgroup_size_control)
     {
         RequiredFeatures features;
+        features.chain().vulkan13.subgroupSizeControl = subgroup_size_control ? VK_TRUE : VK_FALSE;
         if (gpu_assisted_validation)
         {
             enableForInstrumentation(features.chain(), instance, report);
@@ -44,7 +48,15 @@ public:
         info.queueCreateInfoCount = 1;
         info.pQueueCreateInfos = &queue;
         VK_CHECK(instance.fn().vkCreateDevice(report.physical_device, &info, nullptr, &m_handle));
-        m_functions = Functions::ofDevice(instance.fn().vkGetInstanceProcAddr, instance.handle(), m_handle);
+        try
+        {
+            m_functions = Functions::ofDevice(instance.fn().vkGetInstanceProcAddr, instance.handle(), m_handle);
+        }
+        catch (...)
+        {
+            destroyBare(instance, m_handle);
+            throw;
+        }
         m_functions.vkGetDeviceQueue(m_handle, report.queue_family, 0, &m_queue);
     }
 
@@ -62,6 +74,14 @@ public:
     [[nodiscard]] const Functions& fn() const { return m_functions; }
 
 private:
+    // A device whose functions are not all there.
+    static void destroyBare(const Instance& instance, VkDevice device)
+    {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDevice>(
+            instance.fn().vkGetInstanceProcAddr(instance.handle(), "vkDestroyDevice"));
+        destroy(device, nullptr);
+    }
+
     // What the validation layer's own code in the kernels needs.
     static void enableForInstrumentation(FeatureChain& chain, const Instance& instance, const DeviceReport& report)
     {
@@ -103,6 +123,7 @@ public:
     {
         const Functions& fn = m_device.fn();
         VK_CHECK(fn.vkResetCommandPool(m_device.handle(), m_pool, 0));
+        VK_CHECK(fn.vkResetFences(m_device.handle(), 1, &m_fence)); // here: a submission may have failed after all else
         VkCommandBufferBeginInfo info{};
         info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
         info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -135,8 +156,12 @@ public:
         submit.commandBufferInfoCount = 1;
         submit.pCommandBufferInfos = &commands;
         VK_CHECK(fn.vkQueueSubmit2(m_queue, 1, &submit, m_fence));
-        VK_CHECK(fn.vkWaitForFences(m_device.handle(), 1, &m_fence, VK_TRUE, UINT64_MAX));
-        VK_CHECK(fn.vkResetFences(m_device.handle(), 1, &m_fence));
+        const VkResult result = fn.vkWaitForFences(m_device.handle(), 1, &m_fence, VK_TRUE, UINT64_MAX);
+        if (result < 0)
+        {
+            fn.vkDeviceWaitIdle(m_device.handle()); // what the work uses is about to be destroyed
+            throwFailedCall(result, "vkWaitForFences", __FILE_NAME__, __LINE__);
+        }
     }
 
 private:
@@ -176,6 +201,76 @@ private:
     VkFence m_fence = VK_NULL_HANDLE;
 };
 
+// Spreads a run over submissions that are waited for one by one, and measures them.
+class RunSlicer : public Slicer
+{
+public:
+    RunSlicer(CommandContext& commands, SlicePlanner& planner, TimerPool& timers, Buffer& readback)
+        : m_commands(commands), m_planner(planner), m_timers(timers), m_readback(readback)
+    {
+        m_planner.beginRun();
+    }
+
+    std::uint64_t admit(std::uint64_t key, std::uint64_t units) override { return m_planner.admit(key, units); }
+    bool admitUnseen(std::uint64_t key, std::uint64_t bound) override { return m_planner.admitUnseen(key, bound); }
+    void learnCount(std::uint64_t key, std::uint64_t bound, std::uint64_t units) override
+    {
+        m_planner.learnCount(key, bound, units);
+    }
+    Buffer* readback() override { return &m_readback; }
+
+    VkCommandBuffer begin()
+    {
+        m_timers.reset();
+        return m_commands.begin();
+    }
+
+    VkCommandBuffer next() override
+    {
+        submit();
+        return begin();
+    }
+
+    void submit()
+    {
+        const auto start = std::chrono::steady_clock::now();
+        m_commands.submitAndWait();
+        const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+        ++m_submission_count;
+        std::vector<PassTime> times = m_timers.collect();
+        std::vector<double> pass_ms;
+        for (const PassTime& time : times)
+        {
+            pass_ms.push_back(time.ms);
+        }
+        m_planner.endSubmission(pass_ms, wall.count());
+        append(std::move(times));
+    }
+
+    [[nodiscard]] std::vector<PassTime> takeTimes() { return std::move(m_times); }
+    [[nodiscard]] std::uint32_t submissionCount() const { return m_submission_count; }
+
+private:
+    // A pass that goes on in the next submission is still one pass.
+    void append(std::vector<PassTime>&& times)
+    {
+        auto first = times.begin();
+        if (first != times.end() && !m_times.empty() && m_times.back().name == first->name)
+        {
+            m_times.back().ms += first->ms;
+            ++first;
+        }
+        m_times.insert(m_times.end(), std::make_move_iterator(first), std::make_move_iterator(times.end()));
+    }
+
+    CommandContext& m_commands;
+    SlicePlanner& m_planner;
+    TimerPool& m_timers;
+    Buffer& m_readback;
+    std::vector<PassTime> m_times;
+    std::uint32_t m_submission_count = 0;
+};
+
 void checkRange(const Buffer& buffer, std::uint64_t offset, std::uint64_t bytes)
 {
     if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)
@@ -186,12 +281,25 @@ void checkRange(const Buffer& buffer, std::uint64_t offset, std::uint64_t bytes)
     }
 }
 
+// For kernels in subgroups of a chosen size. Where the device cannot, Device says so.
+bool choosesSubgroupSize(const HeadlessOptions& options, const DeviceReport& report)
+{
+    return options.overrides.subgroup_size != 0 && report.min_subgroup_size != 0;
+}
+
+// Of a transfer of bytes, with room for what the transfer is about.
+std::uint64_t stagingBytes(const Device& device, std::uint64_t bytes)
+{
+    return std::min(bytes, std::clamp(device.memory().roomBytes() / 2, kStagingBytesMin, kStagingBytes));
+}
+
 InstanceOptions instanceOptions(const HeadlessOptions& options)
 {
     return {.validation = options.validation,
             .gpu_assisted_validation = options.gpu_assisted_validation,
             .extensions = {},
-            .message_counter = options.message_counter};
+            .message_counter = options.message_counter,
+            .get_instance_proc_addr = options.get_instance_proc_addr};
 }
 
 } // namespace
@@ -200,9 +308,11 @@ struct HeadlessDevice::Impl
 {
     Impl(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels)
         : instance(instanceOptions(options)), reports(instance.queryAll()),
-          chosen(chooseDevice(reports, options.device)), logical(instance, chosen, options.gpu_assisted_validation),
+          chosen(chooseDevice(reports, options.device)),
+          logical(instance, chosen, options.gpu_assisted_validation, choosesSubgroupSize(options, chosen)),
           cache(logical.fn(), chosen.physical_device, logical.handle(), options.pipeline_cache_path),
-          device(handles(options), kernels), commands(device, logical.queue()), timers(device, options.timer_capacity)
+          device(handles(options), kernels), commands(device, logical.queue()), timers(device, options.timer_capacity),
+          readback(device, "slice readback", sizeof(gpu::DispatchArgs), MemoryKind::Readback), planner(options.slices)
     {
         device.setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<std::uint64_t>(logical.queue()), "headless queue");
     }
@@ -216,6 +326,7 @@ struct HeadlessDevice::Impl
                 .queue_family = chosen.queue_family,
                 .pipeline_cache = cache.handle(),
                 .memory_budget_bytes = options.memory_budget_bytes,
+                .overrides = options.overrides,
                 .debug_utils = instance.hasDebugUtils()};
     }
 
@@ -234,6 +345,9 @@ struct HeadlessDevice::Impl
     Device device;
     CommandContext commands;
     TimerPool timers;
+    Buffer readback; // arguments of an indirect dispatch
+    SlicePlanner planner;
+    std::uint32_t submission_count = 0; // of the last run
 };
 
 std::vector<DeviceReport> queryAllDevices()
@@ -255,11 +369,17 @@ Device& HeadlessDevice::device()
 
 std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>& record)
 {
-    m_impl->timers.reset();
-    FrameGraph graph(m_impl->device, m_impl->commands.begin(), &m_impl->timers);
+    RunSlicer slicer(m_impl->commands, m_impl->planner, m_impl->timers, m_impl->readback);
+    FrameGraph graph(m_impl->device, slicer.begin(), &m_impl->timers, &slicer);
     record(graph);
-    m_impl->commands.submitAndWait();
-    return m_impl->timers.collect();
+    slicer.submit();
+    m_impl->submission_count = slicer.submissionCount();
+    return slicer.takeTimes();
+}
+
+std::uint32_t HeadlessDevice::submissionCount() const
+{
+    return m_impl->submission_count;
 }
 
 std::uint32_t HeadlessDevice::validationMessageCount() const
@@ -274,10 +394,10 @@ void HeadlessDevice::uploadBytes(Buffer& buffer, std::uint64_t offset, const voi
     {
         return;
     }
-    Buffer staging(m_impl->device, "upload staging", std::min(bytes, kStagingBytes), MemoryKind::Upload);
+    Buffer staging(m_impl->device, "upload staging", stagingBytes(m_impl->device, bytes), MemoryKind::Upload);
     for (std::uint64_t done = 0; done < bytes;)
     {
-        const std::uint64_t chunk = std::min(bytes - done, kStagingBytes);
+        const std::uint64_t chunk = std::min(bytes - done, staging.bytes());
         std::memcpy(staging.mapped(), static_cast<const std::byte*>(data) + done, chunk);
         m_impl->transfer([&](FrameGraph& graph) { graph.copy(staging, 0, buffer, offset + done, chunk); });
         done += chunk;
@@ -291,10 +411,10 @@ void HeadlessDevice::downloadBytes(const Buffer& buffer, std::uint64_t offset, v
     {
         return;
     }
-    Buffer staging(m_impl->device, "download staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
+    Buffer staging(m_impl->device, "download staging", stagingBytes(m_impl->device, bytes), MemoryKind::Readback);
     for (std::uint64_t done = 0; done < bytes;)
     {
-        const std::uint64_t chunk = std::min(bytes - done, kStagingBytes);
+        const std::uint64_t chunk = std::min(bytes - done, staging.bytes());
         m_impl->transfer(
             [&](FrameGraph& graph)
             {

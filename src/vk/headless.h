@@ -3,6 +3,7 @@
 
 #include "vk/device.h"
 #include "vk/frame_graph.h"
+#include "vk/slice_planner.h"
 
 #include <algorithm>
 #include <atomic>
@@ -23,9 +24,12 @@ struct HeadlessOptions
     bool validation = false;              // core and synchronization validation
     bool gpu_assisted_validation = false; // instruments the kernels; implies validation
     std::uint64_t memory_budget_bytes = UINT64_MAX;
-    std::string pipeline_cache_path;                       // empty: pipelines are not kept on disk
-    std::uint32_t timer_capacity = 4096;                   // passes of one run that are timed; 0: none
-    std::atomic<std::uint32_t>* message_counter = nullptr; // also counts validation messages, to the very end
+    SliceOptions slices;                                        // how long submissions of run() may take
+    std::string pipeline_cache_path;                            // empty: pipelines are not kept on disk
+    std::uint32_t timer_capacity = 4096;                        // passes of one run that are timed; 0: none
+    std::atomic<std::uint32_t>* message_counter = nullptr;      // also counts validation messages, to the very end
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: of the machine's loader. For tests
+    DeviceOverrides overrides;                                  // likewise
 };
 
 /// Reports of all physical devices, usable or not, in the loader's order; the index is their number for `device`.
@@ -44,8 +48,13 @@ public:
 
     [[nodiscard]] Device& device();
 
-    /// Records with record, submits and waits. Returns the GPU time of each pass. Throws Error{Other} on a lost device.
+    /// Records with record, submits and waits; in several submissions where one would take too long
+    /// (HeadlessOptions::slices), which the results do not depend on. Returns the GPU time of each pass, in order.
+    /// Throws Error{Other} on a lost device.
     std::vector<PassTime> run(const std::function<void(FrameGraph&)>& record);
+
+    /// Submissions of the last run().
+    [[nodiscard]] std::uint32_t submissionCount() const;
 
     /// Copies values to buffer from element first on (through a staging buffer) and waits. Throws Error{Other} when
     /// they do not fit.

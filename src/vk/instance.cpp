@@ -113,7 +113,8 @@ PFN_vkGetInstanceProcAddr loadVulkan()
 
 Instance::Instance(const InstanceOptions& options) : m_message_counter(options.message_counter)
 {
-    const PFN_vkGetInstanceProcAddr get = loadVulkan();
+    const PFN_vkGetInstanceProcAddr get =
+        options.get_instance_proc_addr != nullptr ? options.get_instance_proc_addr : loadVulkan();
     const bool validation = options.validation || options.gpu_assisted_validation;
     if (validation && !hasLayer(get, kValidationLayer))
     {
@@ -167,6 +168,10 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
     info.ppEnabledExtensionNames = extensions.data();
     const auto create = globalFunction<PFN_vkCreateInstance>(get, "vkCreateInstance");
     const VkResult result = create(&info, nullptr, &m_handle);
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+    {
+        throwFailedCall(result, "vkCreateInstance", __FILE_NAME__, __LINE__);
+    }
     if (result != VK_SUCCESS)
     {
         throw Error(ErrorCode::Device, fmt::format("vkCreateInstance failed with {}: install a Vulkan 1.3 driver, such "

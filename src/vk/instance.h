@@ -20,9 +20,10 @@ PFN_vkGetInstanceProcAddr loadVulkan();
 struct InstanceOptions
 {
     bool validation = false;
-    bool gpu_assisted_validation = false;                  // implies validation
-    std::vector<const char*> extensions;                   // such as those of a window
-    std::atomic<std::uint32_t>* message_counter = nullptr; // also counts messages, to the very end; may be null
+    bool gpu_assisted_validation = false;                       // implies validation
+    std::vector<const char*> extensions;                        // such as those of a window
+    std::atomic<std::uint32_t>* message_counter = nullptr;      // also counts messages, to the very end; may be null
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: the machine's loader
 };
 
 /// A Vulkan 1.3 instance of the project's own, with validation layers if asked for. Stays where it is made: the layers

@@ -156,8 +156,13 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& s
     VkShaderModule module = VK_NULL_HANDLE;
     VK_CHECK(fn.vkCreateShaderModule(m_device.handle(), &module_info, m_device.allocationCallbacks(), &module));
 
+    VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroup{};
+    subgroup.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO;
+    subgroup.requiredSubgroupSize = m_device.handles().overrides.subgroup_size;
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
+    info.stage.pNext = subgroup.requiredSubgroupSize != 0 ? &subgroup : nullptr;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
     info.stage.module = module;

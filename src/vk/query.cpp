@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 
 namespace zvo::vk
 {
@@ -159,7 +161,12 @@ void queryProperties(DeviceReport& report, const Functions& fn)
 
     report.driver = fmt::format("{} {}", properties12.driverName, properties12.driverInfo);
     report.subgroup_size = properties11.subgroupSize;
-    report.max_buffer_bytes = properties13.maxBufferSize;
+    report.max_buffer_bytes = std::min(properties13.maxBufferSize, properties11.maxMemoryAllocationSize);
+    if ((properties13.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0)
+    {
+        report.min_subgroup_size = properties13.minSubgroupSize;
+        report.max_subgroup_size = properties13.maxSubgroupSize;
+    }
     const bool in_compute = (properties11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
     for (const SubgroupOperation& operation : kSubgroupOperations)
     {
@@ -192,6 +199,43 @@ RequiredFeatures::RequiredFeatures()
     {
         feature.get(m_chain) = feature.required ? VK_TRUE : VK_FALSE;
     }
+}
+
+void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPhysicalDeviceLimits& limits)
+{
+    report.max_buffer_bytes =
+        std::min({report.max_buffer_bytes, overrides.max_buffer_bytes, overrides.max_allocation_bytes});
+    for (std::size_t axis = 0; axis < overrides.max_group_counts.size(); ++axis)
+    {
+        std::uint32_t& most = limits.maxComputeWorkGroupCount[axis];
+        most = std::min(most, overrides.max_group_counts[axis]);
+    }
+    for (const std::string& name : overrides.features)
+    {
+        const auto present = std::find(report.present.begin(), report.present.end(), name);
+        const auto feature = std::find_if(std::begin(kFeatures), std::end(kFeatures),
+                                          [&](const Feature& candidate) { return candidate.name == name; });
+        if (present != report.present.end())
+        {
+            report.present.erase(present);
+            note(report, name, false, feature == std::end(kFeatures) || feature->required);
+        }
+    }
+    const std::uint32_t subgroup = overrides.subgroup_size;
+    if (subgroup == 0)
+    {
+        return;
+    }
+    const bool can_choose =
+        std::find(report.present.begin(), report.present.end(), "subgroupSizeControl") != report.present.end();
+    if (!can_choose || subgroup < report.min_subgroup_size || subgroup > report.max_subgroup_size ||
+        !std::has_single_bit(subgroup))
+    {
+        report.reasons.push_back(fmt::format("cannot run kernels in subgroups of {}, only of {} to {}", subgroup,
+                                             report.min_subgroup_size, report.max_subgroup_size));
+        return;
+    }
+    report.subgroup_size = subgroup;
 }
 
 DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace zvo::vk
+{
+
+/// Makes a device look smaller than it is, so that tests meet the limits of others. Never raises anything.
+struct DeviceOverrides
+{
+    std::uint64_t max_buffer_bytes = UINT64_MAX;                                       // maxBufferSize
+    std::uint64_t max_allocation_bytes = UINT64_MAX;                                   // maxMemoryAllocationSize
+    std::array<std::uint32_t, 3> max_group_counts{UINT32_MAX, UINT32_MAX, UINT32_MAX}; // maxComputeWorkGroupCount
+    std::uint32_t subgroup_size = 0;   // of all kernels, where the device can choose; 0: the driver's choice
+    std::vector<std::string> features; // treated as missing, by their names in DeviceReport
+};
+
+} // namespace zvo::vk

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace zvo::vk
+{
+
+/// How long a submission may take.
+struct SliceOptions
+{
+    double submission_ms = 400;   // aimed at; desktop systems stop a GPU after about 2,000; 0: never split anything
+    std::uint64_t most_units = 0; // of one submission, whatever they cost; 0: no such bound. For tests
+};
+
+/// Decides how much work goes into one submission from what earlier work has cost. A unit is a workgroup of a kernel,
+/// or some bytes of a fill. Knows nothing of Vulkan, and its decisions never change results.
+///
+/// Work whose cost is not known starts with kFirstUnits. In every run, the first piece of some work should cost at most
+/// 1 / kCaution of the target, because the same kernel may cost more on other data; after a measurement, the next piece
+/// may have kCaution times as many units.
+class SlicePlanner
+{
+public:
+    static constexpr std::uint64_t kFirstUnits = 256;
+    static constexpr std::uint64_t kCaution = 8;
+
+    /// What kind of work it is: any number, such as a kernel's address.
+    using Key = std::uint64_t;
+
+    explicit SlicePlanner(const SliceOptions& options) : m_options(options) {}
+
+    void beginRun();
+
+    /// How many of units may go into the current submission; 0: submit first. Never 0 in an empty submission.
+    std::uint64_t admit(Key key, std::uint64_t units);
+
+    /// Whether work of at most bound units, whose number only the device knows, may go into the current submission
+    /// without looking. When it may not, the caller learns the number and tells it by learnCount().
+    bool admitUnseen(Key key, std::uint64_t bound);
+    void learnCount(Key key, std::uint64_t bound, std::uint64_t units);
+
+    /// The submission is complete. pass_ms: of each admitted piece in order, or empty where nobody measured them: then
+    /// all of them together took total_ms.
+    void endSubmission(std::span<const double> pass_ms, double total_ms);
+
+    [[nodiscard]] bool submissionEmpty() const { return m_pieces.empty(); }
+
+private:
+    struct Rate
+    {
+        double ms_per_unit = 0;     // 0: not known
+        double part_of_bound = 1;   // of work whose number of units only the device knows
+        bool part_known = false;    // part_of_bound has been seen
+        std::uint64_t trusted = 0;  // units of the largest piece measured in this run
+        std::uint64_t admitted = 0; // units in the current submission
+    };
+    struct Piece
+    {
+        Key key;
+        double units;
+        double estimate_ms;
+    };
+
+    [[nodiscard]] double unitCost(const Rate& rate) const;
+    [[nodiscard]] std::uint64_t cautious(const Rate& rate) const;
+    void add(Key key, double units);
+
+    SliceOptions m_options;
+    std::map<Key, Rate> m_rates;
+    std::vector<Piece> m_pieces; // of the current submission
+    double m_planned_ms = 0;     // of the current submission
+    std::uint64_t m_units = 0;   // of the current submission
+};
+
+} // namespace zvo::vk
