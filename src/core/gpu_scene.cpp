@@ -240,6 +240,11 @@ template <typename T> vk::BufferOf<T> upload(vk::HeadlessDevice& device, const c
     return device.makeBuffer(name, std::span<const T>(values));
 }
 
+template <typename... T> std::uint64_t bytesOf(const std::vector<T>&... values)
+{
+    return (std::uint64_t{0} + ... + std::as_bytes(std::span(values)).size());
+}
+
 std::vector<std::uint32_t> packBytes(const std::vector<std::uint8_t>& bytes)
 {
     std::vector<std::uint32_t> words(bytes.size() / 4);
@@ -283,6 +288,12 @@ GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attrib
         result.surface_area += triangleArea(primitive, glm::dmat3(instance.transform));
     }
 
+    device.device().memory().require(bytesOf(staging.draws, staging.triangles, staging.positions, staging.normals,
+                                             staging.uvs, staging.colors, staging.materials, staging.textures,
+                                             staging.pool.levels, staging.pool.texels, staging.chunks[0],
+                                             staging.chunks[1], staging.chunks[2]),
+                                     "the scene");
+    static_assert(gpu::kClassCount == 3);
     result.draws = upload(device, "scene/draws", staging.draws);
     result.triangles = upload(device, "scene/triangles", staging.triangles);
     result.positions = upload(device, "scene/positions", staging.positions);

@@ -19,7 +19,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kRetriesMax = 16;
+constexpr std::uint32_t kRetriesMax = 32; // a table of one brick grows to the largest in half of them
 
 void append(std::vector<vk::PassTime>& passes, std::vector<vk::PassTime>&& more)
 {
@@ -34,6 +34,29 @@ void append(std::vector<vk::PassTime>& passes, std::vector<vk::PassTime>&& more)
                             what));
 }
 
+// Bytes of everything that coverVoxels allocates.
+std::uint64_t coverageBytes(const VoxelizeCapacities& capacities, const GpuScene& scene)
+{
+    std::uint64_t bytes = capacities.bricks * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) +
+                          divideUp(capacities.bricks, gpu::kScanBlock) * sizeof(gpu::uint);
+    for (const vk::BufferOf<gpu::Chunk>& chunks : scene.chunks)
+    {
+        if (chunks.count() != 0)
+        {
+            bytes +=
+                capacities.big_triangles * sizeof(gpu::BigTriangle) + capacities.row_blocks * sizeof(gpu::RowBlock);
+        }
+    }
+    return bytes;
+}
+
+// Whatever was asked for, a table of a power of two.
+VoxelizeCapacities usable(VoxelizeCapacities capacities)
+{
+    capacities.bricks = std::bit_ceil(std::clamp<std::uint64_t>(capacities.bricks, 1, VoxelizeCapacities::kBricksMax));
+    return capacities;
+}
+
 // Grows what was too small. False when everything sufficed.
 bool grow(VoxelizeCapacities& capacities, const gpu::BrickCounters& bricks,
           const std::vector<gpu::RasterCounters>& rasters)
@@ -45,7 +68,7 @@ bool grow(VoxelizeCapacities& capacities, const gpu::BrickCounters& bricks,
         {
             throwTooBig("octree nodes");
         }
-        capacities.bricks = std::min(capacities.bricks * 4, VoxelizeCapacities::kBricksMax);
+        capacities.bricks *= 2;
         grown = true;
     }
     for (const gpu::RasterCounters& raster : rasters)
@@ -82,7 +105,7 @@ std::map<std::string, std::uint64_t> droppedTriangles(const std::vector<gpu::Ras
     return dropped;
 }
 
-// The brick table with its node list, and how it got there.
+// The brick table with its node list.
 struct Coverings
 {
     VoxelizeBuffers voxelize;
@@ -90,36 +113,56 @@ struct Coverings
     gpu::BrickCounters counters{};
 };
 
+// Nothing when something was too small: result.capacities have grown.
+std::optional<Coverings> tryToCover(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
+                                    Coverage coverage, BuildResult& result)
+{
+    device.device().memory().require(coverageBytes(result.capacities, scene), "voxelization");
+    Coverings coverings{{device.device(), result.capacities, scene}, {device.device(), result.capacities.bricks}};
+    std::vector<vk::PassTime> passes = device.run(
+        [&](vk::FrameGraph& graph)
+        {
+            voxelizeCoverage(graph, scene, grid, coverage, coverings.voxelize);
+            listNodes(graph, grid, coverings.voxelize, coverings.work);
+        });
+    coverings.counters = device.download(coverings.voxelize.counters).front();
+    std::vector<gpu::RasterCounters> rasters;
+    for (const VoxelizeBuffers::RowWork& rows : coverings.voxelize.rows)
+    {
+        if (rows.counters.count() != 0)
+        {
+            rasters.push_back(device.download(rows.counters).front());
+        }
+    }
+    if (grow(result.capacities, coverings.counters, rasters))
+    {
+        return std::nullopt;
+    }
+    if (coverings.counters.voxel_carry != 0)
+    {
+        throwTooBig("voxels");
+    }
+    result.dropped = droppedTriangles(rasters);
+    append(result.passes, std::move(passes));
+    return coverings;
+}
+
 Coverings coverVoxels(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, Coverage coverage,
                       BuildResult& result)
 {
     for (; result.retry_count < kRetriesMax; ++result.retry_count)
     {
-        Coverings coverings{{device.device(), result.capacities, scene}, {device.device(), result.capacities.bricks}};
-        std::vector<vk::PassTime> passes = device.run(
-            [&](vk::FrameGraph& graph)
-            {
-                voxelizeCoverage(graph, scene, grid, coverage, coverings.voxelize);
-                listNodes(graph, grid, coverings.voxelize, coverings.work);
-            });
-        coverings.counters = device.download(coverings.voxelize.counters).front();
-        std::vector<gpu::RasterCounters> rasters;
-        for (const VoxelizeBuffers::RowWork& rows : coverings.voxelize.rows)
+        const std::uint64_t tried_bricks = result.capacities.bricks;
+        if (std::optional<Coverings> coverings = tryToCover(device, scene, grid, coverage, result))
         {
-            if (rows.counters.count() != 0)
-            {
-                rasters.push_back(device.download(rows.counters).front());
-            }
+            return std::move(*coverings);
         }
-        if (!grow(result.capacities, coverings.counters, rasters))
+        VoxelizeCapacities larger = result.capacities; // twice as large again: fewer runs, where memory allows it
+        larger.bricks = std::min(2 * larger.bricks, VoxelizeCapacities::kBricksMax);
+        if (result.capacities.bricks != tried_bricks &&
+            coverageBytes(larger, scene) <= device.device().memory().roomBytes())
         {
-            if (coverings.counters.voxel_carry != 0)
-            {
-                throwTooBig("voxels");
-            }
-            result.dropped = droppedTriangles(rasters);
-            append(result.passes, std::move(passes));
-            return coverings;
+            result.capacities = larger;
         }
     }
     throw Error(ErrorCode::Memory,
@@ -165,26 +208,24 @@ void makeEmission(vk::HeadlessDevice& device, const GpuScene& scene, Coverage co
                                      { voxelizeEmission(graph, scene, coverage, voxelize, attributes, octree); }));
 }
 
-void makeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& voxelize,
-                    BuildResult& result)
+// Voxel attributes, and emission; voxelize is used up. The sums are many times larger than what becomes of them: they
+// and the brick table go before the attributes of inner nodes come.
+void makeVoxelAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Coverage coverage,
+                         VoxelizeBuffers& voxelize, BuildResult& result)
 {
     Octree& octree = result.octree;
     const bool emission = scene.emission_scale > 0.0F;
+    const std::uint64_t word_count = emission ? divideUp(octree.voxel_count, 32) : 0;
+    device.device().memory().require(octree.voxel_count * (sizeof(gpu::Attribute) + sizeof(gpu::VoxelSums)) +
+                                         word_count * sizeof(gpu::uvec2),
+                                     "averaging the attributes");
     octree.voxel_attributes = {device.device(), "octree/voxel_attributes", octree.voxel_count};
-    octree.node_attributes = {device.device(), "octree/node_attributes", octree.node_count};
-    if (emission)
-    {
-        octree.emission_words = {device.device(), "octree/emission_words", divideUp(octree.voxel_count, 32)};
-    }
+    octree.emission_words = {device.device(), "octree/emission_words", word_count};
     AttributeBuffers attributes(device.device(), octree.voxel_count, emission);
     for (bool too_many = true; too_many;)
     {
         std::vector<vk::PassTime> passes = device.run(
-            [&](vk::FrameGraph& graph)
-            {
-                voxelizeAttributes(graph, scene, coverage, voxelize, attributes, octree);
-                averageNodes(graph, scene, octree);
-            });
+            [&](vk::FrameGraph& graph) { voxelizeAttributes(graph, scene, coverage, voxelize, attributes, octree); });
         const std::uint32_t fragments = device.download(attributes.max_fragments).front();
         too_many = fragments != 0;
         if (too_many) // drop as many value bits as the largest sum has too many
@@ -201,6 +242,15 @@ void makeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Coverage 
     {
         makeEmission(device, scene, coverage, voxelize, attributes, result);
     }
+    voxelize.bricks = {};
+    voxelize.rows = {};
+}
+
+void makeNodeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, BuildResult& result)
+{
+    Octree& octree = result.octree;
+    octree.node_attributes = {device.device(), "octree/node_attributes", octree.node_count};
+    append(result.passes, device.run([&](vk::FrameGraph& graph) { averageNodes(graph, scene, octree); }));
 }
 
 template <typename T> void hashBuffer(vk::HeadlessDevice& device, Sha256& sha, const vk::BufferOf<T>& buffer)
@@ -243,8 +293,12 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const
     }
     BuildResult result;
     result.octree.grid = grid;
-    result.capacities = options.capacities.value_or(VoxelizeCapacities::estimate(scene, grid));
+    result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene, grid)));
     Coverings coverings = coverVoxels(device, scene, grid, options.coverage, result);
+    if (!options.attributes)
+    {
+        coverings.voxelize.rows = {};
+    }
     allocateNodes(device, coverings, result.octree);
     if (result.octree.node_count == 0)
     {
@@ -253,9 +307,11 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const
     append(result.passes, device.run([&](vk::FrameGraph& graph)
                                      { numberNodes(graph, coverings.voxelize, coverings.work, result.octree); }));
     coverings.work.items = {};
+    coverings.work.partials = {};
     if (options.attributes)
     {
-        makeAttributes(device, scene, options.coverage, coverings.voxelize, result);
+        makeVoxelAttributes(device, scene, options.coverage, coverings.voxelize, result);
+        makeNodeAttributes(device, scene, result);
     }
     return result;
 }
