@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// Every Vulkan call of a small run is made to fail once: an error that says so, and nothing left behind.
+#include "core/camera.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/trace.h"
+#include "support/device.h"
+#include "support/failing_vulkan.h"
+#include "support/materials_scene.h"
+#include "support/scenes.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+
+namespace zvo
+{
+namespace
+{
+
+/// What a run works on: everything that zvo does, or little, which is soon done on a new device.
+struct Job
+{
+    Scene scene;
+    bool attributes;
+    VoxelizeCapacities capacities;
+};
+
+Job smallJob()
+{
+    return {test::sphereScene(glm::vec3(0.0F), 1.0F, 6), false, {1 << 8, 1, 16}};
+}
+
+Job wholeJob()
+{
+    return {test::materialsScene(10.0F), true, {64, 1, 1 << 10}}; // grows once
+}
+
+/// Uploads, builds, traces and downloads; returns the octree's sum and the picture.
+std::string work(vk::HeadlessDevice& device, const Job& job)
+{
+    constexpr std::uint32_t kEdge = 24;
+    const std::uint64_t used_before = device.device().memory().usedBytes();
+    std::string result;
+    try
+    {
+        const GpuScene gpu_scene = uploadScene(device, job.scene, job.attributes);
+        const Grid grid = Grid::around(job.scene.bounds(), 4);
+        const Octree octree =
+            buildOctree(device, gpu_scene, grid, {Coverage::Thin, job.attributes, job.capacities}).octree;
+        BeamGrid beam(device.device());
+        TraceBuffers buffers(device.device(), kEdge, kEdge);
+        TraceOptions options;
+        options.shadows = job.attributes;
+        const TraceCamera camera = traceCamera(ViewCamera::framing(job.scene, 1.0), grid, kEdge);
+        device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                buildBeam(graph, octree, beam);
+                trace(graph, octree, beam, camera, options, buffers);
+            });
+        result = octreeSha256(device, octree);
+        for (const gpu::uint pixel : device.download(buffers.image))
+        {
+            result += fmt::format(" {:x}", pixel);
+        }
+    }
+    catch (...)
+    {
+        EXPECT_EQ(device.device().memory().usedBytes(), used_before) << "after " << test::failedFunction();
+        throw;
+    }
+    EXPECT_EQ(device.device().memory().usedBytes(), used_before);
+    return result;
+}
+
+vk::HeadlessOptions options()
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.get_instance_proc_addr = test::failingVulkan();
+    return options;
+}
+
+std::string workOnANewDevice()
+{
+    vk::HeadlessDevice device(options(), zvoKernels());
+    return work(device, smallJob());
+}
+
+/// What a run in which nothing fails makes, and how many calls can fail in it.
+class FailingCalls : public testing::Test
+{
+protected:
+    static void SetUpTestSuite()
+    {
+        test::failCall(UINT64_MAX);
+        s_expected = workOnANewDevice();
+        s_call_count = test::fallibleCallCount();
+    }
+
+    // Nothing for a run that went through.
+    static std::optional<ErrorCode> errorOf(const std::function<std::string()>& run, const std::string& expected)
+    {
+        try
+        {
+            EXPECT_EQ(run(), expected) << "in spite of " << test::failedFunction();
+        }
+        catch (const Error& error)
+        {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            return error.code();
+        }
+        return std::nullopt;
+    }
+
+    static void expectCode(const std::optional<ErrorCode>& code, VkResult result)
+    {
+        const std::string function = test::failedFunction();
+        if (!code)
+        {
+            // Names and one of two messengers are no part of the work, and memory may come from another type.
+            EXPECT_TRUE(function == "vkSetDebugUtilsObjectNameEXT" || function == "vkCreateDebugUtilsMessengerEXT" ||
+                        function == "vkGetPipelineCacheData" || function == "vkAllocateMemory" ||
+                        function == "vkDeviceWaitIdle")
+                << function << " failed and nobody noticed";
+            return;
+        }
+        const bool memory = result != VK_ERROR_DEVICE_LOST;
+        const ErrorCode other = function == "vkCreateInstance" ? ErrorCode::Device : ErrorCode::Other;
+        EXPECT_EQ(*code, memory ? ErrorCode::Memory : other) << function;
+    }
+
+    static inline std::string s_expected;
+    static inline std::uint64_t s_call_count = 0;
+};
+
+TEST_F(FailingCalls, TheRunHasManyCallsAndLeavesNothing)
+{
+    EXPECT_GT(s_call_count, 150U);
+    EXPECT_TRUE(test::liveObjects().empty()) << test::liveObjects().front();
+}
+
+TEST_F(FailingCalls, EveryCallOutOfDeviceMemoryIsAnErrorAndLeavesNothing)
+{
+    std::uint64_t error_count = 0;
+    for (std::uint64_t number = 0; number < s_call_count; ++number)
+    {
+        test::failCall(number, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        const std::optional<ErrorCode> code = errorOf(workOnANewDevice, s_expected);
+        ASSERT_NE(test::failedFunction(), "") << "call " << number << " never came";
+        expectCode(code, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+        error_count += code ? 1 : 0;
+        ASSERT_TRUE(test::liveObjects().empty())
+            << test::liveObjects().front() << " leaked after " << test::failedFunction() << ", call " << number;
+    }
+    EXPECT_GT(error_count, s_call_count / 2);
+    test::failCall(UINT64_MAX);
+    EXPECT_EQ(workOnANewDevice(), s_expected);
+}
+
+TEST_F(FailingCalls, OtherResultsAndEverythingAfterThemToo)
+{
+    for (std::uint64_t number = 0; number < s_call_count; number += 11)
+    {
+        for (const VkResult result : {VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_DEVICE_LOST})
+        {
+            test::failCall(number, result);
+            expectCode(errorOf(workOnANewDevice, s_expected), result);
+            ASSERT_TRUE(test::liveObjects().empty()) << test::liveObjects().front() << " after call " << number;
+        }
+        test::failAllFrom(number, VK_ERROR_DEVICE_LOST);
+        EXPECT_TRUE(errorOf(workOnANewDevice, s_expected).has_value()) << number;
+        ASSERT_TRUE(test::liveObjects().empty()) << test::liveObjects().front() << " after call " << number;
+    }
+}
+
+TEST_F(FailingCalls, ADeviceGoesOnAfterEveryOneOfThem)
+{
+    test::failCall(UINT64_MAX);
+    vk::HeadlessDevice device(options(), zvoKernels());
+    const Job job = wholeJob();
+    const std::string expected = work(device, job); // kernels are made
+    test::failCall(UINT64_MAX);
+    EXPECT_EQ(work(device, job), expected);
+    const std::uint64_t call_count = test::fallibleCallCount();
+    ASSERT_GT(call_count, 200U);
+    for (std::uint64_t number = 0; number < call_count; ++number)
+    {
+        test::failCall(number, VK_ERROR_OUT_OF_HOST_MEMORY);
+        expectCode(errorOf([&] { return work(device, job); }, expected), VK_ERROR_OUT_OF_HOST_MEMORY);
+        if (number % 16 == 0)
+        {
+            test::failCall(UINT64_MAX);
+            ASSERT_EQ(work(device, job), expected) << "after call " << number;
+        }
+    }
+    test::failCall(UINT64_MAX);
+    EXPECT_EQ(work(device, job), expected);
+}
+
+} // namespace
+} // namespace zvo
