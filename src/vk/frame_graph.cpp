@@ -212,7 +212,7 @@ void Pass::recordGroupRange(std::uint64_t first, std::uint64_t count)
         first += x;
         count -= x;
     }
-    // Nothing at base 0: lavapipe (of Mesa 22.3, for one) keeps the last base for later dispatches without one.
+    // Nothing at base 0: lavapipe (of Mesa 22.3, for one) keeps the last base for later indirect dispatches.
     fn.vkCmdDispatchBase(m_graph.m_commands, 0, 0, 0, 0, 0, 0);
 }
 
