@@ -167,13 +167,15 @@ TEST(Slicer, PiecesInOneCommandBufferNeverMoveLaterDispatches)
     const auto record = [&](vk::FrameGraph& graph)
     {
         graph.fill(indirect, 7);
-        iota(graph, values); // pieces at bases 0, 3, 6 and 9
-        iota(graph, small);  // one piece, whole
+        graph.fill(small, 7);
         {
             vk::Pass pass = graph.addPass("test/write_args");
             const gpu::WriteArgsParams params = {.args = pass.write(args), .groups = 4};
             pass.dispatch(1, params);
         }
+        iota(graph, values); // pieces at bases 0, 3, 6 and 9
+        iota(graph, small);  // one piece, whole
+        iota(graph, values);
         vk::Pass pass = graph.addPass("test/iota");
         const gpu::FillParams params = {.values = pass.write(indirect), .count = 64 * 4};
         pass.dispatchIndirect(args, 0, params, 4);
