@@ -12,7 +12,7 @@ namespace
 
 constexpr std::uint32_t kCount = 1U << 18; // long enough that all threads of the device take part
 
-// For scripts/check-races.
+// For scripts/check-valgrind.
 TEST(Control, DISABLED_WorkgroupsRaceForAWord)
 {
     vk::BufferOf<gpu::uint> values(test::device().device(), "values", kCount);
@@ -26,7 +26,7 @@ TEST(Control, DISABLED_WorkgroupsRaceForAWord)
     EXPECT_LT(test::device().download(values, 0, 1).front(), kCount);
 }
 
-// For scripts/check-memcheck.
+// For scripts/check-valgrind.
 TEST(Control, DISABLED_KernelBranchesOnFreshMemory)
 {
     const vk::BufferOf<gpu::uint> fresh(test::device().device(), "fresh", kCount);
