@@ -108,12 +108,29 @@ double primaryMs(const std::vector<vk::PassTime>& passes)
     return ms;
 }
 
+TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& options)
+{
+    try
+    {
+        return {device.device(), options.width, options.height};
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory)
+        {
+            throw;
+        }
+        throw Error(ErrorCode::Memory, fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or a "
+                                                   "smaller picture",
+                                                   options.width, options.height, error.what()));
+    }
+}
+
 class Renderer
 {
 public:
     Renderer(vk::HeadlessDevice& device, const Octree& octree, const RenderOptions& options)
-        : m_device(device), m_octree(octree), m_beam(device.device()),
-          m_buffers(device.device(), options.width, options.height)
+        : m_device(device), m_octree(octree), m_beam(device.device()), m_buffers(makeBuffers(device, options))
     {
         m_options.view = options.view;
         m_options.detail_pixels = options.detail_pixels;
@@ -174,24 +191,6 @@ void addTrace(Json& json, const RenderOptions& options, const Renderer& renderer
 }
 
 // Beside the octree the picture has buffers of its own, which a lower resolution does not make smaller.
-Renderer makeRenderer(vk::HeadlessDevice& device, const Octree& octree, const RenderOptions& options)
-{
-    try
-    {
-        return {device, octree, options};
-    }
-    catch (const Error& error)
-    {
-        if (error.code() != ErrorCode::Memory)
-        {
-            throw;
-        }
-        throw Error(ErrorCode::Memory, fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or a "
-                                                   "smaller picture",
-                                                   options.width, options.height, error.what()));
-    }
-}
-
 } // namespace
 
 void render(const RenderOptions& options)
@@ -224,7 +223,7 @@ void render(const RenderOptions& options)
     warnOfDropped(result);
     gpu_scene.reset();
 
-    Renderer renderer = makeRenderer(device, result.octree, options);
+    Renderer renderer(device, result.octree, options);
     const glm::dvec3 centre = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
     std::vector<PictureTimes> times(pictures.count());
     for (std::uint32_t i = 0; i < pictures.count(); ++i)

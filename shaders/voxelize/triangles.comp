@@ -90,6 +90,8 @@ void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uint axis)
     const uint band_rows = kBandStrips * kBlockRows;
     uint count = (row_count + band_rows - 1u) / band_rows;
     uint first = atomicAdd(params.counters.data[0].big_count, count);
+    if (first > kRowBlocksMax) // a band has a row block or more
+        atomicMax(params.counters.data[0].blocks_exceeded, 1u);
     for (uint band = 0u; band < count; ++band)
         if (first + band < params.big_capacity)
             params.big_triangles.data[first + band] = BigTriangle(t.v0, t.v1, t.v2, draw, triangle, band);

@@ -97,7 +97,7 @@ struct RasterCounters
 {
     uint big_count;       // bands
     uint block_count;     // of the bands that found room
-    uint blocks_exceeded; // more than kRowBlocksMax: block_count may have wrapped around
+    uint blocks_exceeded; // more than kRowBlocksMax: a count may have wrapped around
     uint nonfinite;
     uint out_of_range;
     uint outside;

@@ -288,10 +288,15 @@ GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attrib
         result.surface_area += triangleArea(primitive, glm::dmat3(instance.transform));
     }
 
+    const std::vector<std::uint64_t> texels = staging.pool.linearTexels();
+    staging.pool.texels = {};
+    const auto& to_linear = srgbToLinearTable();
+    const std::vector<std::uint32_t> to_srgb = packBytes(linearToSrgbTable());
     device.device().memory().require(bytesOf(staging.draws, staging.triangles, staging.positions, staging.normals,
                                              staging.uvs, staging.colors, staging.materials, staging.textures,
-                                             staging.pool.levels, staging.pool.texels, staging.chunks[0],
-                                             staging.chunks[1], staging.chunks[2]),
+                                             staging.pool.levels, texels, to_srgb, staging.chunks[0], staging.chunks[1],
+                                             staging.chunks[2]) +
+                                         sizeof(to_linear) + sizeof(gpu::SceneView),
                                      "the scene");
     static_assert(gpu::kClassCount == 3);
     result.draws = upload(device, "scene/draws", staging.draws);
@@ -303,10 +308,9 @@ GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attrib
     result.materials = upload(device, "scene/materials", staging.materials);
     result.textures = upload(device, "scene/textures", staging.textures);
     result.levels = upload(device, "scene/texture_levels", staging.pool.levels);
-    result.texels = upload(device, "scene/texels", staging.pool.linearTexels());
-    const auto& to_linear = srgbToLinearTable();
+    result.texels = upload(device, "scene/texels", texels);
     result.srgb_to_linear = device.makeBuffer("scene/srgb_to_linear", std::span<const gpu::uint>(to_linear));
-    result.linear_to_srgb = upload(device, "scene/linear_to_srgb", packBytes(linearToSrgbTable()));
+    result.linear_to_srgb = upload(device, "scene/linear_to_srgb", to_srgb);
     for (std::size_t i = 0; i < result.chunks.size(); ++i)
     {
         result.chunks[i] = upload(device, "scene/chunks", staging.chunks[i]);

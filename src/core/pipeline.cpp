@@ -53,7 +53,10 @@ std::uint64_t coverageBytes(const VoxelizeCapacities& capacities, const GpuScene
 // Whatever was asked for, a table of a power of two.
 VoxelizeCapacities usable(VoxelizeCapacities capacities)
 {
+    constexpr std::uint64_t kListMax = UINT32_MAX; // kernels count in 32 bits
     capacities.bricks = std::bit_ceil(std::clamp<std::uint64_t>(capacities.bricks, 1, VoxelizeCapacities::kBricksMax));
+    capacities.big_triangles = std::min(capacities.big_triangles, kListMax);
+    capacities.row_blocks = std::min(capacities.row_blocks, kListMax);
     return capacities;
 }
 

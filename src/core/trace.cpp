@@ -186,11 +186,14 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
     const PictureTiles tiles(*this);
     const std::uint64_t tile_count = std::uint64_t{tiles.x} * tiles.y;
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
-    device.memory().require(pixel_count * (sizeof(gpu::Hit) + 2 * sizeof(gpu::uint)), "the picture");
-    starts = {device, "tile starts", tile_count};
     // Indirect dispatches over more tiles than one row of workgroups fill up their last row.
     const std::uint64_t rows = divideUp(tile_count, gpu::kTilesFold);
-    live = {device, "live tiles", rows > 1 ? rows * gpu::kTilesFold : tile_count};
+    const std::uint64_t live_capacity = rows > 1 ? rows * gpu::kTilesFold : tile_count;
+    device.memory().require(pixel_count * (sizeof(gpu::Hit) + 2 * sizeof(gpu::uint)) + tile_count * sizeof(float) +
+                                live_capacity * sizeof(gpu::uvec2),
+                            "the picture");
+    starts = {device, "tile starts", tile_count};
+    live = {device, "live tiles", live_capacity};
     hits = {device, "hits", pixel_count};
     light = {device, "light", pixel_count};
     image = {device, "image", pixel_count};

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace zvo
 {
@@ -17,9 +18,10 @@ namespace
 constexpr std::uint64_t kBricksMin = 4096;
 constexpr std::uint64_t kBricksGuessMax = 1 << 24; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
-constexpr std::uint64_t kBigTrianglesMax = 1 << 20; // that are reckoned with, whatever their number turns out to be
+constexpr std::uint64_t kBigTrianglesGuessMax = 1
+                                                << 20; // that are reckoned with, whatever their number turns out to be
 constexpr std::uint64_t kRowBlocksMin = 1 << 16;
-constexpr std::uint64_t kRowBlocksMax = 1 << 23;
+constexpr std::uint64_t kRowBlocksGuessMax = 1 << 23;
 constexpr std::uint64_t kBandArgs = 0; // elements of VoxelizeBuffers::RowWork::args
 constexpr std::uint64_t kRowArgs = 1;
 
@@ -152,8 +154,8 @@ VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Gri
     const double big = std::min(static_cast<double>(scene.triangle_count), area / 16);
     const double strips = big + std::sqrt(big * 2 * area) / gpu::kBlockRows;
     const double blocks = strips + 2 * area / (gpu::kBlockRows * gpu::kBlockColumns);
-    result.big_triangles = clampedCount(big * 1.5, kBigTrianglesMin, kBigTrianglesMax);
-    result.row_blocks = clampedCount(blocks * 1.5, kRowBlocksMin, kRowBlocksMax);
+    result.big_triangles = clampedCount(big * 1.5, kBigTrianglesMin, kBigTrianglesGuessMax);
+    result.row_blocks = clampedCount(blocks * 1.5, kRowBlocksMin, kRowBlocksGuessMax);
     return result;
 }
 

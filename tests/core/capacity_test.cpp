@@ -218,8 +218,9 @@ TEST(MemoryLimit, RaisedToTheSizeNeededGetsThroughInAFewSteps)
         limit = needed;
     }
     EXPECT_LT(steps, 12U) << last;
-    // The sizes were not exaggerated: the last limit is no more than what an unlimited run holds.
-    EXPECT_LE(limit, runUnder(std::uint64_t{1} << 40, scene, 8, true).peak_bytes);
+    // The sizes were not exaggerated: the last limit is what an unlimited run holds, but for part of a block of memory.
+    constexpr std::uint64_t kBlockBytes = 1 << 20;
+    EXPECT_LE(limit, runUnder(std::uint64_t{1} << 40, scene, 8, true).peak_bytes + kBlockBytes);
 }
 
 } // namespace

@@ -107,17 +107,24 @@ TEST(EveryKernel, RunsOnASmallScene)
     const Scene scene = smallScene();
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
     Names names;
-    for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
+    struct Case
     {
-        for (const std::uint32_t depth : {3U, 7U}) // the beam has finer cells from depth 7 on
-        {
-            const float voxel_size = 16.0F / static_cast<float>(1U << depth);
-            const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = voxel_size, .depth = depth};
-            const BuildResult built = buildOctree(device(), gpu_scene, grid, {coverage, true, {}});
-            EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, coverage).codes);
-            addNames(names, built.passes);
-            names.merge(tracePictures(built.octree));
-        }
+        Coverage coverage;
+        std::uint32_t depth;
+        float voxel_size;
+    };
+    // The beam has finer cells from depth 7 on, keys have two words from depth 13 on.
+    const Case cases[] = {{Coverage::Thin, 3, 2.0F},
+                          {Coverage::Conservative, 3, 2.0F},
+                          {Coverage::Thin, 7, 0.125F},
+                          {Coverage::Thin, 13, 1.0F}};
+    for (const Case& c : cases)
+    {
+        const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = c.voxel_size, .depth = c.depth};
+        const BuildResult built = buildOctree(device(), gpu_scene, grid, {c.coverage, true, {}});
+        EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, c.coverage).codes);
+        addNames(names, built.passes);
+        names.merge(tracePictures(built.octree));
     }
     for (const vk::EmbeddedKernel& kernel : zvoKernels())
     {

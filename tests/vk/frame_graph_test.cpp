@@ -109,7 +109,7 @@ TEST(FrameGraph, DumpShowsPassesResourcesAndBarriers)
             iota(graph, empty);
             vk::Pass pass = graph.addPass("test/iota");
             const gpu::FillParams params = {.values = pass.readWrite(a), .count = 64};
-            pass.dispatchIndirect(args, 1, params);
+            pass.dispatchIndirect(args, 1, params, 1);
             graph.copy(a, 0, b, 0, 8);
             graph.releaseToHost();
             dump = graph.dump();
