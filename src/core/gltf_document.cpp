@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/gltf_document.h"
 
+#include "core/folder_bounds.h"
 #include "core/gltf_meshopt.h"
 #include "core/gltf_schema.h"
 #include "core/gltf_uri.h"
 #include "core/input_error.h"
 #include "core/read_file.h"
+#include "core/scene_size.h"
 
 #include <algorithm>
 #include <array>
@@ -40,8 +42,6 @@ constexpr std::uint32_t kGlbVersion = 2;
 constexpr std::size_t kGlbHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 
-constexpr std::string_view kCutShort = "the file was cut short, copy or download it again";
-
 /// The parts of the document that tinygltf sees. Buffers and images, whose sizes and files it does not check well
 /// enough, are read here; extras, animations and skins are not needed.
 constexpr std::array kModelParts = {
@@ -65,13 +65,6 @@ constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
     "KHR_materials_iridescence",  "KHR_materials_sheen",      "KHR_materials_specular",
     "KHR_materials_transmission", "KHR_materials_unlit",      "KHR_materials_variants",
     "KHR_materials_volume",       "KHR_xmp_json_ld"};
-
-const json& arrayOf(const json& document, const char* name)
-{
-    static const json empty = json::array();
-    const auto array = document.find(name);
-    return array != document.end() ? *array : empty;
-}
 
 template <typename List, typename Item> bool contains(const List& list, const Item& item)
 {
@@ -211,7 +204,7 @@ void checkVersion(const json& document, const std::filesystem::path& path)
 
 void checkExtensions(const json& document, const std::filesystem::path& path)
 {
-    for (const json& item : arrayOf(document, "extensionsRequired"))
+    for (const json& item : gltfItems(document, "extensionsRequired"))
     {
         const auto name = item.get<std::string>();
         if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name))
@@ -285,7 +278,7 @@ tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
 void loadBuffers(GltfDocument& document, const json& root, Bytes bin)
 {
     std::map<std::string, Bytes> files; // by path: many buffers may lie in one file
-    const json& buffers = arrayOf(root, "buffers");
+    const json& buffers = gltfItems(root, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i)
     {
         if (isMeshoptFallback(root, i))
@@ -321,20 +314,6 @@ void loadBuffers(GltfDocument& document, const json& root, Bytes bin)
         }
         document.buffers.push_back(bytes.first(wanted));
     }
-}
-
-/// Whether a file lies in folder or below, after all symbolic links. What is not there lies where it would be.
-bool liesBelow(const std::filesystem::path& folder, const std::filesystem::path& file)
-{
-    std::error_code failure;
-    const std::filesystem::path real_folder = std::filesystem::weakly_canonical(folder, failure);
-    const std::filesystem::path real_file = std::filesystem::weakly_canonical(file, failure);
-    if (failure)
-    {
-        return false;
-    }
-    return std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end()).first ==
-           real_folder.end();
 }
 
 std::vector<GltfImageSource> listImages(const json& images)
@@ -379,10 +358,11 @@ void GltfDocument::countUnpacked(std::uint64_t bytes, const std::string& where) 
     {
         limit += std::uint64_t{buffer.size()} * kUnpackedBytesPerByte;
     }
+    limit = std::min(limit, sceneBytesMax());
     if (bytes > limit - std::min(unpacked_bytes, limit))
     {
         throw error(fmt::format("{} needs {} bytes and makes the file unpack to more than {}, out of proportion to its "
-                                "size; export it again, without compression if it is right",
+                                "size or to this machine; export it again, without compression if it is right",
                                 where, bytes, limit));
     }
     unpacked_bytes += bytes;
@@ -475,7 +455,7 @@ GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_
     checkExtensions(root, path);
     loadBuffers(document, root, container.bin);
     unpackMeshoptViews(root, document);
-    document.images = listImages(arrayOf(root, "images"));
+    document.images = listImages(gltfItems(root, "images"));
     document.model = parseModel(root, path);
     return document;
 }

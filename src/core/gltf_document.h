@@ -2,6 +2,7 @@
 // What the glTF loader's parts share; gltf_loader.h is its face.
 #pragma once
 
+#include "core/input_error.h"
 #include "core/third_party_tinygltf.h"
 #include "zvo/error.h"
 
@@ -15,9 +16,6 @@
 
 namespace zvo
 {
-
-/// What to do about a file that breaks the specification.
-inline constexpr std::string_view kExportAgain = "the file is damaged or was written wrongly, export it again";
 
 /// Error{Input}: path and text, on one line (inputError).
 Error gltfError(const std::filesystem::path& path, std::string_view text);
@@ -48,8 +46,10 @@ struct GltfDocument
     /// Error{Input}.
     [[nodiscard]] std::vector<std::uint8_t> readUri(const std::string& uri, const std::string& where) const;
 
-    /// Counts bytes that are made out of fewer in the file: unpacked, or zeros that the file leaves out. Throws
-    /// Error{Input} where all of them together are out of proportion to the file.
+    /// Counts bytes that are made out of fewer in the file, on the way to the scene: what decoders allocate, unpacked
+    /// views, zeros that the file leaves out. checkGltfSize() bounds the scene by the counts that accessors announce;
+    /// these come on top, and packed data announces counts of its own. Throws Error{Input} where all of them together
+    /// are out of proportion to the file, or more than sceneBytesMax().
     void countUnpacked(std::uint64_t bytes, const std::string& where) const;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(path, text); }

@@ -188,13 +188,19 @@ std::optional<GltfDracoMesh> GltfDracoMesh::unpack(const GltfDocument& document,
     {
         unpacked.m_attribute_ids[attribute] = static_cast<std::uint32_t>(attributes.Get(attribute).GetNumberAsInt());
     }
-    const std::size_t index_count = std::size_t{unpacked.m_mesh->num_faces()} * 3;
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && primitive.indices >= 0 &&
-        document.model.accessors[primitive.indices].count != index_count)
+    if (primitive.indices < 0)
     {
-        throw document.error(fmt::format("{} has {} indices, accessors[{}] {}; {}", place, index_count,
-                                         primitive.indices, document.model.accessors[primitive.indices].count,
-                                         kExportAgain));
+        throw document.error(
+            fmt::format("{} stands for indices, but {}.indices is missing; {}", place, where, kExportAgain));
+    }
+    // A list has all of them; a strip may have lost triangles without area, and gltf_size counts one for each index.
+    const std::size_t face_count = unpacked.m_mesh->num_faces();
+    const std::size_t index_count = document.model.accessors[primitive.indices].count;
+    const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (is_list ? index_count != 3 * face_count : index_count < face_count)
+    {
+        throw document.error(fmt::format("{} has {} triangles, accessors[{}] {} indices; {}", place, face_count,
+                                         primitive.indices, index_count, kExportAgain));
     }
     return unpacked;
 }

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -112,12 +111,7 @@ private:
 
     std::vector<glm::vec3> readPositions() const
     {
-        const GltfAccessor accessor = *open("POSITION", quantized() ? kFloatOrShort : kFloat, 3, 3);
-        if (accessor.count > std::numeric_limits<std::uint32_t>::max())
-        {
-            throw m_document.error(fmt::format("{} has more than 2^32 vertices; split the mesh", accessor.where));
-        }
-        return readVectors<3>(accessor);
+        return readVectors<3>(*open("POSITION", quantized() ? kFloatOrShort : kFloat, 3, 3));
     }
 
     /// Normals of unit length; one that has no direction becomes zero.

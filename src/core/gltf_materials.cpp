@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/gltf_materials.h"
 
-#include "core/gltf_size.h"
 #include "core/image_io.h"
+#include "core/scene_size.h"
 
 #include <cmath>
 #include <fmt/format.h>

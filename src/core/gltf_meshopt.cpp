@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/gltf_meshopt.h"
 
+#include "core/gltf_schema.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -40,13 +42,6 @@ const json* extensionOf(const json& item)
     }
     const auto extension = extensions->find(kMeshoptExtension);
     return extension != extensions->end() ? &*extension : nullptr;
-}
-
-const json& itemsOf(const json& root, const char* name)
-{
-    static const json empty = json::array();
-    const auto array = root.find(name);
-    return array != root.end() ? *array : empty;
 }
 
 void require(bool condition, const GltfDocument& document, const PackedView& view, std::string_view problem)
@@ -150,13 +145,13 @@ std::vector<std::uint8_t> unpack(const json& source, const json& extension, cons
 
 bool isMeshoptFallback(const json& root, std::size_t buffer)
 {
-    const json& source = itemsOf(root, "buffers")[buffer];
+    const json& source = gltfItems(root, "buffers")[buffer];
     const json* extension = extensionOf(source);
     if (extension == nullptr || !extension->value("fallback", false))
     {
         return false;
     }
-    const json& views = itemsOf(root, "bufferViews");
+    const json& views = gltfItems(root, "bufferViews");
     return !source.contains("uri") ||
            std::all_of(views.begin(), views.end(),
                        [buffer](const json& view)
@@ -165,7 +160,7 @@ bool isMeshoptFallback(const json& root, std::size_t buffer)
 
 void unpackMeshoptViews(const json& root, GltfDocument& document)
 {
-    const json& views = itemsOf(root, "bufferViews");
+    const json& views = gltfItems(root, "bufferViews");
     for (std::size_t i = 0; i < views.size(); ++i)
     {
         if (const json* extension = extensionOf(views[i]))

@@ -275,4 +275,11 @@ void checkGltfSchema(const json& document, const std::filesystem::path& path)
     Checker(document, path).checkObject(document, kDocument, "");
 }
 
+const json& gltfItems(const json& document, const char* array)
+{
+    static const json none = json::array();
+    const auto items = document.find(array);
+    return items != document.end() ? *items : none;
+}
+
 } // namespace zvo

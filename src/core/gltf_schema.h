@@ -11,4 +11,7 @@ namespace zvo
 /// and that every index is in range. Throws Error{Input} that names the first property that does not.
 void checkGltfSchema(const nlohmann::json& document, const std::filesystem::path& path);
 
+/// The items of one of the document's arrays; none where it is missing.
+const nlohmann::json& gltfItems(const nlohmann::json& document, const char* array);
+
 } // namespace zvo

@@ -2,26 +2,17 @@
 #include "core/gltf_size.h"
 
 #include "core/scene.h"
+#include "core/scene_size.h"
 
 #include <algorithm>
-#include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <string>
-#include <unistd.h>
 
 namespace zvo
 {
 
 namespace
 {
-
-// What a mesh comes down to. Floating point, as a file may announce any 64-bit number.
-struct MeshSize
-{
-    double bytes = 0;
-    double triangle_count = 0;
-};
 
 /// Elements of an accessor; 0 where it is not given, or its buffer view cannot hold that many, which is refused later.
 double elementCount(const tinygltf::Model& model, int index)
@@ -35,9 +26,10 @@ double elementCount(const tinygltf::Model& model, int index)
     return fits ? static_cast<double>(accessor.count) : 0;
 }
 
-MeshSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
+SceneSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
 {
-    MeshSize size;
+    SceneSize size;
+    size.instance_count = static_cast<double>(mesh.primitives.size());
     for (const tinygltf::Primitive& primitive : mesh.primitives)
     {
         const auto attribute_bytes = [&](const std::string& name, std::size_t element_bytes)
@@ -50,6 +42,7 @@ MeshSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
         const double corner_count = primitive.indices < 0 ? vertex_count : elementCount(model, primitive.indices);
         const bool is_list = primitive.mode <= TINYGLTF_MODE_TRIANGLES;
         const double triangle_count = is_list ? corner_count / 3 : corner_count;
+        size.vertex_count = std::max(size.vertex_count, vertex_count);
         size.triangle_count += triangle_count;
         size.bytes += vertex_count * sizeof(glm::vec3) + triangle_count * sizeof(glm::uvec3) +
                       attribute_bytes("NORMAL", sizeof(glm::vec3)) + attribute_bytes("TEXCOORD_0", sizeof(glm::vec2)) +
@@ -60,20 +53,11 @@ MeshSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
 
 } // namespace
 
-std::uint64_t sceneBytesMax()
-{
-    const auto page_count = static_cast<std::uint64_t>(std::max(sysconf(_SC_PHYS_PAGES), 0L));
-    const auto page_bytes = static_cast<std::uint64_t>(std::max(sysconf(_SC_PAGESIZE), 0L));
-    return page_count * page_bytes / 2;
-}
-
 void checkGltfSize(const GltfDocument& document, std::span<const GltfPlacedNode> nodes)
 {
     const tinygltf::Model& model = document.model;
-    std::map<int, MeshSize> meshes;
-    std::uint64_t instance_count = 0;
-    double triangle_count = 0;
-    double bytes = 0;
+    std::map<int, SceneSize> meshes;
+    SceneSize total;
     for (const GltfPlacedNode& placed : nodes)
     {
         const int mesh = model.nodes[placed.node].mesh;
@@ -81,33 +65,17 @@ void checkGltfSize(const GltfDocument& document, std::span<const GltfPlacedNode>
         {
             continue;
         }
-        const auto [known, is_new] = meshes.emplace(mesh, MeshSize{});
+        const auto [known, is_new] = meshes.emplace(mesh, SceneSize{});
         if (is_new)
         {
             known->second = measureMesh(model, model.meshes[mesh]);
-            bytes += known->second.bytes;
+            total.vertex_count = std::max(total.vertex_count, known->second.vertex_count);
+            total.bytes += known->second.bytes;
         }
-        instance_count += model.meshes[mesh].primitives.size();
-        triangle_count += known->second.triangle_count;
+        total.instance_count += known->second.instance_count;
+        total.triangle_count += known->second.triangle_count;
     }
-    if (instance_count > kGltfInstancesMax)
-    {
-        throw document.error(fmt::format("its nodes show {} primitives, more than {}; join the meshes, or split the "
-                                         "file",
-                                         instance_count, kGltfInstancesMax));
-    }
-    if (triangle_count > std::numeric_limits<std::uint32_t>::max())
-    {
-        throw document.error(fmt::format("its nodes show {:.3g} triangles, more than 32-bit numbers count; split the "
-                                         "file",
-                                         triangle_count));
-    }
-    if (const std::uint64_t bytes_max = sceneBytesMax(); bytes > static_cast<double>(bytes_max))
-    {
-        throw document.error(fmt::format("its meshes take {:.3g} bytes, more than the {} that half of this machine's "
-                                         "memory has; let them share less data, or split the file",
-                                         bytes, bytes_max));
-    }
+    checkSceneSize(document.path, total);
 }
 
 } // namespace zvo

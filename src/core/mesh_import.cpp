@@ -6,6 +6,7 @@
 #include "core/input_error.h"
 #include "core/ply_file.h"
 #include "core/read_file.h"
+#include "core/scene_size.h"
 #include "core/srgb.h"
 #include "core/stl_file.h"
 
@@ -22,6 +23,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,8 +33,6 @@ namespace zvo
 
 namespace
 {
-
-constexpr std::string_view kSaveAgain = "the file is damaged or was written wrongly, export it again";
 
 /// The file that a name in another file means. Nothing where it leaves the folder.
 std::optional<std::filesystem::path> fileBeside(const std::filesystem::path& scene, std::string name)
@@ -115,8 +115,11 @@ public:
             m_missing.push_back(file);
             return nullptr;
         }
-        ++m_opened_count;
-        return new MemoryStream(readFile(*place));
+        if (!m_opened.insert(*place).second)
+        {
+            return new MemoryStream(padded({})); // its materials are known; a scene may name it any number of times
+        }
+        return new MemoryStream(padded(readFile(*place)));
     }
     void Close(Assimp::IOStream* file) override { delete file; }
 
@@ -126,16 +129,24 @@ public:
     /// The first material file that is not there, where none is.
     [[nodiscard]] std::optional<std::string> missing() const
     {
-        return m_opened_count == 0 && !m_missing.empty() ? std::optional(m_missing.front()) : std::nullopt;
+        return m_opened.empty() && !m_missing.empty() ? std::optional(m_missing.front()) : std::nullopt;
     }
 
 private:
+    /// A material file as assimp takes it: one of very few bytes is an error to it.
+    static std::vector<std::uint8_t> padded(std::vector<std::uint8_t> material_file)
+    {
+        constexpr std::size_t kBytesMin = 16;
+        material_file.resize(std::max(material_file.size(), kBytesMin), '\n');
+        return material_file;
+    }
+
     const std::filesystem::path& m_path;
     std::span<const std::uint8_t> m_bytes;
     std::string m_name;
     std::vector<std::string> m_outside;
     std::vector<std::string> m_missing;
-    std::size_t m_opened_count = 0;
+    std::set<std::filesystem::path> m_opened;
 };
 
 /// Takes all other formats out of an importer: what a file is has been decided.
@@ -170,6 +181,7 @@ public:
 
     Scene read()
     {
+        checkSize();
         for (unsigned int i = 0; i < m_source.mNumMeshes; ++i)
         {
             const aiMesh* mesh = m_source.mMeshes[i];
@@ -202,6 +214,28 @@ public:
     }
 
 private:
+    /// Adds up what read() will make, before it makes anything.
+    void checkSize() const
+    {
+        SceneSize size;
+        for (unsigned int i = 0; i < m_source.mNumMeshes; ++i)
+        {
+            if (const aiMesh* mesh = m_source.mMeshes[i])
+            {
+                const std::size_t vertex_bytes = sizeof(glm::vec3) +
+                                                 (mesh->mNormals != nullptr ? sizeof(glm::vec3) : 0) +
+                                                 (mesh->mTextureCoords[0] != nullptr ? sizeof(glm::vec2) : 0) +
+                                                 (mesh->mColors[0] != nullptr ? sizeof(glm::vec4) : 0);
+                ++size.instance_count;
+                size.triangle_count += mesh->mNumFaces;
+                size.vertex_count = std::max(size.vertex_count, static_cast<double>(mesh->mNumVertices));
+                size.bytes += static_cast<double>(mesh->mNumVertices * vertex_bytes +
+                                                  std::size_t{mesh->mNumFaces} * sizeof(glm::uvec3));
+            }
+        }
+        checkSceneSize(m_path, size);
+    }
+
     std::vector<glm::uvec3> readTriangles(const aiMesh& mesh)
     {
         std::vector<glm::uvec3> triangles;
@@ -219,7 +253,7 @@ private:
             {
                 throw inputError(m_path, fmt::format("face {} has vertex {}, but there are {}; {}", i,
                                                      std::max({triangle.x, triangle.y, triangle.z}), mesh.mNumVertices,
-                                                     kSaveAgain));
+                                                     kExportAgain));
             }
             triangles.push_back(triangle);
         }
@@ -311,7 +345,7 @@ private:
         if (!(value >= 0.0F) || !std::isfinite(value))
         {
             throw inputError(m_path, fmt::format("a material has the factor {}, not in the range from 0 to 3.4e38; {}",
-                                                 value, kSaveAgain));
+                                                 value, kExportAgain));
         }
         return value;
     }
@@ -359,7 +393,8 @@ private:
         }
         try
         {
-            m_scene.images.push_back(decodeImage(readFile(*file), name, name));
+            m_scene.images.push_back(decodeImage(readFile(*file), name, name, m_image_bytes_left));
+            m_image_bytes_left -= m_scene.images.back().rgba.size();
         }
         catch (const Error& failure)
         {
@@ -373,6 +408,7 @@ private:
     const std::filesystem::path& m_path;
     const aiScene& m_source;
     bool m_with_materials;
+    std::uint64_t m_image_bytes_left = sceneBytesMax();
     Scene m_scene;
     std::map<std::optional<unsigned int>, std::uint32_t> m_materials;
     std::map<std::string, std::optional<std::uint32_t>> m_images;
@@ -394,7 +430,7 @@ Scene importObj(const std::filesystem::path& path, std::span<const std::uint8_t>
     }
     if (source == nullptr)
     {
-        throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", importer.GetErrorString(), kSaveAgain));
+        throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", importer.GetErrorString(), kExportAgain));
     }
     const std::optional<std::string> missing = files->missing();
     ObjReader reader(path, *source, !missing);
@@ -416,6 +452,10 @@ Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t
     std::string note;
     Scene scene;
     scene.primitives.push_back(format == MeshFormat::Ply ? readPly(path, bytes, note) : readStl(path, bytes));
+    const Primitive& primitive = scene.primitives.front();
+    checkSceneSize(path, {.instance_count = 1,
+                          .triangle_count = static_cast<double>(primitive.triangles.size()),
+                          .vertex_count = static_cast<double>(primitive.positions.size())});
     scene.materials.emplace_back().name = "default";
     scene.instances.emplace_back();
     if (!note.empty())

@@ -2,6 +2,7 @@
 #include "core/ply_file.h"
 
 #include "core/input_error.h"
+#include "core/scene_size.h"
 #include "core/srgb.h"
 #include "core/text_cursor.h"
 
@@ -22,8 +23,6 @@ namespace zvo
 
 namespace
 {
-
-constexpr std::string_view kSaveAgain = "the file is damaged or was written wrongly, export it again";
 
 enum class Encoding
 {
@@ -135,7 +134,10 @@ struct Element
 class PlyReader
 {
 public:
-    PlyReader(const std::filesystem::path& path, std::string_view content) : m_path(path), m_cursor(content) {}
+    PlyReader(const std::filesystem::path& path, std::string_view content)
+        : m_path(path), m_cursor(content), m_bytes_left(path)
+    {
+    }
 
     Primitive read(std::string& note)
     {
@@ -157,13 +159,12 @@ public:
 private:
     [[nodiscard]] Error fail(const std::string& what) const
     {
-        return inputError(m_path, fmt::format("not a valid PLY file: {}; {}", what, kSaveAgain));
+        return inputError(m_path, fmt::format("not a valid PLY file: {}; {}", what, kExportAgain));
     }
 
     [[nodiscard]] Error cutShort() const
     {
-        return inputError(m_path, "the PLY file ends before its last element; the file was cut short, copy or download "
-                                  "it again");
+        return inputError(m_path, fmt::format("the PLY file ends before its last element; {}", kCutShort));
     }
 
     void readHeader()
@@ -291,8 +292,11 @@ private:
         }
         const bool has_normals = all(Use::NormalX, Use::NormalY, Use::NormalZ);
         const bool has_colors = all(Use::Red, Use::Green, Use::Blue);
+        const std::uint64_t vertex_bytes =
+            sizeof(glm::vec3) + (has_normals ? sizeof(glm::vec3) : 0) + (has_colors ? sizeof(glm::vec4) : 0);
         for (std::uint64_t i = 0; i < element.count; ++i)
         {
+            m_bytes_left.take(vertex_bytes);
             VertexValues values{};
             values[static_cast<std::size_t>(Use::Alpha)] = 1.0;
             for (const Property& property : element.properties)
@@ -346,7 +350,7 @@ private:
             const std::uint32_t vertex = vertexIndex(number(property.type));
             if (i >= 2)
             {
-                m_triangles.emplace_back(first, previous, vertex);
+                addTriangle({first, previous, vertex});
             }
             first = i == 0 ? vertex : first;
             previous = vertex;
@@ -370,11 +374,17 @@ private:
             if (in_strip >= 2)
             {
                 const bool odd = in_strip % 2 == 1;
-                m_triangles.emplace_back(last[odd ? 1 : 0], last[odd ? 0 : 1], vertex);
+                addTriangle({last[odd ? 1 : 0], last[odd ? 0 : 1], vertex});
             }
             last = {last[1], vertex};
             ++in_strip;
         }
+    }
+
+    void addTriangle(const glm::uvec3& triangle)
+    {
+        m_bytes_left.take(sizeof(triangle));
+        m_triangles.push_back(triangle);
     }
 
     std::uint32_t vertexIndex(double value) const
@@ -482,6 +492,7 @@ private:
     TextCursor m_cursor; // in the header, and in the data where it is text
     std::string_view m_data;
     Encoding m_encoding = Encoding::Text;
+    SceneBytesLeft m_bytes_left;
     std::vector<Element> m_elements;
     std::vector<glm::uvec3> m_triangles;
     Primitive m_primitive;

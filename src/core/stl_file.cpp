@@ -2,6 +2,7 @@
 #include "core/stl_file.h"
 
 #include "core/input_error.h"
+#include "core/scene_size.h"
 #include "core/text_cursor.h"
 
 #include <array>
@@ -24,10 +25,9 @@ constexpr std::size_t kFacetsOffset = kHeaderBytes + sizeof(std::uint32_t);
 constexpr std::size_t kNormalBytes = 3 * sizeof(float);
 constexpr std::size_t kFacetBytes = 50; // normal, three corners, 16 bits
 
-constexpr std::string_view kSaveAgain = "the file is damaged or was written wrongly, export it again";
-constexpr std::string_view kCutShort = "the file was cut short, copy or download it again";
+/// A facet becomes a triangle of three new vertices.
+constexpr std::uint64_t kTriangleBytes = 3 * sizeof(glm::vec3) + sizeof(glm::uvec3);
 
-/// Adds triangles of three new vertices each.
 void addVertices(Primitive& primitive, const std::array<glm::vec3, 3>& corners)
 {
     const auto first = static_cast<std::uint32_t>(primitive.positions.size());
@@ -48,7 +48,7 @@ Primitive readBinary(const std::filesystem::path& path, std::span<const std::uin
     {
         throw inputError(path, fmt::format("not a valid STL file: {} bytes, without the head of a binary one and not "
                                            "starting with \"solid\"; {}",
-                                           bytes.size(), kSaveAgain));
+                                           bytes.size(), kExportAgain));
     }
     const std::uint32_t facet_count = facetCount(bytes);
     if (facet_count > (bytes.size() - kFacetsOffset) / kFacetBytes)
@@ -56,6 +56,7 @@ Primitive readBinary(const std::filesystem::path& path, std::span<const std::uin
         throw inputError(path, fmt::format("announces {} facets of {} bytes, the STL file has {} bytes for them; {}",
                                            facet_count, kFacetBytes, bytes.size() - kFacetsOffset, kCutShort));
     }
+    SceneBytesLeft(path).take(facet_count * kTriangleBytes);
     Primitive primitive;
     primitive.positions.reserve(3 * std::size_t{facet_count});
     primitive.triangles.reserve(facet_count);
@@ -72,7 +73,10 @@ Primitive readBinary(const std::filesystem::path& path, std::span<const std::uin
 class TextReader
 {
 public:
-    TextReader(const std::filesystem::path& path, std::string_view content) : m_path(path), m_lines(content) {}
+    TextReader(const std::filesystem::path& path, std::string_view content)
+        : m_path(path), m_lines(content), m_bytes_left(path)
+    {
+    }
 
     Primitive read()
     {
@@ -96,6 +100,7 @@ public:
                 }
                 if (keyword == "endloop")
                 {
+                    m_bytes_left.take(kTriangleBytes);
                     addVertices(m_primitive, m_corners);
                 }
                 m_corner_count = 0;
@@ -117,7 +122,7 @@ private:
     [[nodiscard]] Error fail(const std::string& what) const
     {
         return inputError(m_path,
-                          fmt::format("not a valid STL file: {} in line {}; {}", what, m_line_number, kSaveAgain));
+                          fmt::format("not a valid STL file: {} in line {}; {}", what, m_line_number, kExportAgain));
     }
 
     void readVertex(TextCursor& words)
@@ -144,6 +149,7 @@ private:
     std::size_t m_line_number = 0;
     std::array<glm::vec3, 3> m_corners{};
     std::size_t m_corner_count = 0; // of the facet so far
+    SceneBytesLeft m_bytes_left;
     Primitive m_primitive;
 };
 

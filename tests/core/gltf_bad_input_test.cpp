@@ -3,9 +3,9 @@
 // gltf_errors_test.cpp has the mistakes that happen.
 #include "core/gltf_document.h"
 #include "core/gltf_loader.h"
-#include "core/gltf_size.h"
 #include "core/image_io.h"
 #include "core/read_file.h"
+#include "core/scene_size.h"
 #include "gltf_builder.h"
 
 #include <gtest/gtest.h>
@@ -208,7 +208,7 @@ TEST(GltfBadInput, InstancesAreCountedBeforeTheyAreMade)
     GltfBuilder builder = triangleDocument();
     json& primitives = builder.document["meshes"][0]["primitives"];
     constexpr std::size_t kEach = 4097; // squared, just beyond the limit
-    static_assert(kEach * kEach > kGltfInstancesMax && (kEach - 1) * (kEach - 1) <= kGltfInstancesMax);
+    static_assert(kEach * kEach > kInstancesMax && (kEach - 1) * (kEach - 1) <= kInstancesMax);
     primitives = std::vector<json>(kEach, primitives[0]);
     builder.document["nodes"] = std::vector<json>(kEach, json{{"mesh", 0}});
     expectInputError([&] { static_cast<void>(builder.load()); }, {"16785409 primitives", "split the file"});

@@ -282,7 +282,16 @@ TEST(GltfDraco, WhatDoesNotGoTogetherIsRefused)
     expectBroken([&](GltfBuilder& b) { extension(b)["attributes"]["NORMAL"] = packed.attribute_ids["TEXCOORD_0"]; },
                  {"NORMAL", "of 3 components, its Draco data"});
     expectBroken([&](GltfBuilder& b) { accessor(b, 0)["count"] = packed.point_count + 1; }, {"POSITION", "elements"});
-    expectBroken([&](GltfBuilder& b) { accessor(b, 4)["count"] = 3; }, {place, "96 indices, accessors[4] 3"});
+    expectBroken([&](GltfBuilder& b) { accessor(b, 4)["count"] = 3; }, {place, "32 triangles, accessors[4] 3 indices"});
+    expectBroken(
+        [&](GltfBuilder& b)
+        {
+            b.document["meshes"][0]["primitives"][0]["mode"] = kStrip;
+            accessor(b, 4)["count"] = 31;
+        },
+        {place, "32 triangles, accessors[4] 31 indices"});
+    expectBroken([&](GltfBuilder& b) { b.document["meshes"][0]["primitives"][0].erase("indices"); },
+                 {place, "indices is missing"});
     expectBroken(
         [&](GltfBuilder& b)
         {

@@ -7,6 +7,7 @@
 #include "support/mesh_files.h"
 
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <random>
@@ -180,6 +181,24 @@ TEST(MeshImport, WhatAnMtlFileNamesWronglyIsAWarning)
         EXPECT_TRUE(contains(scene.warnings[0], "texture")) << scene.warnings[0];
         EXPECT_TRUE(contains(scene.warnings[0], reason)) << scene.warnings[0];
     }
+}
+
+TEST(MeshImport, MtlFileIsReadOnceHoweverOftenItIsNamed)
+{
+    const TempDir dir;
+    std::string lines;
+    for (int i = 0; i < 20000; ++i)
+    {
+        lines += "mtllib a.mtl\n";
+    }
+    dir.write("a.mtl", "newmtl m\nKd 0.5 0.25 1\n" + std::string(1U << 20U, '#') + "\n");
+    dir.write("b.mtl", std::string_view("newmtl m\nKd 0 0 0\n")); // that of the scene's name, which nobody asked for
+    dir.write("b.obj", lines + kTriangle + "usemtl m\nf 1 2 3\n");
+    const std::clock_t start = std::clock();
+    const Scene scene = loadIn(dir, "b.obj");
+    EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, 5); // 20 GB otherwise
+    EXPECT_EQ(scene.materials.at(scene.primitives.at(0).material).base_color, glm::vec4(0.5F, 0.25F, 1.0F, 1.0F));
+    EXPECT_TRUE(scene.warnings.empty());
 }
 
 TEST(MeshImport, MtlFileMustBeInTheFolder)
