@@ -57,7 +57,23 @@ constexpr auto kTexts = std::to_array<std::string_view>({"SCALAR",
                                                          "2.0",
                                                          "KHR_texture_transform",
                                                          "KHR_mesh_quantization",
-                                                         "KHR_materials_emissive_strength"});
+                                                         "KHR_materials_emissive_strength",
+                                                         "KHR_materials_pbrSpecularGlossiness",
+                                                         "KHR_draco_mesh_compression",
+                                                         "EXT_meshopt_compression",
+                                                         "EXT_texture_webp",
+                                                         "image/webp",
+                                                         "sparse",
+                                                         "fallback",
+                                                         "byteStride",
+                                                         "filter",
+                                                         "ATTRIBUTES",
+                                                         "TRIANGLES",
+                                                         "INDICES",
+                                                         "NONE",
+                                                         "OCTAHEDRAL",
+                                                         "QUATERNION",
+                                                         "EXPONENTIAL"});
 
 /// Single precision numbers as bits, and indices.
 const auto kWords = std::to_array<std::uint32_t>(

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A libFuzzer target: the bytes of a .glb or .gltf file are loaded, checked and voxelized at 16^3. A file that the
-// loader refuses must give an Error{Input} of one line; everything else must hold what Scene promises and voxelize.
-#include "core/gltf_loader.h"
+// A libFuzzer target: the bytes of a scene file (what it is its content tells) are loaded, checked and voxelized at
+// 16^3. A file that the loader refuses must give an Error{Input} of one line; everything else must hold what Scene
+// promises and voxelize.
 #include "core/image_io.h"
 #include "core/kernels.h"
+#include "core/load_scene.h"
 #include "core/pipeline.h"
 #include "fuzz/gltf_mutator.h"
+#include "fuzz/mesh_mutator.h"
 #include "support/temp_dir.h"
 #include "zvo/error.h"
 
@@ -49,6 +51,8 @@ public:
     Folder()
     {
         m_dir.write("side.bin", std::string(64, '\1'));
+        m_dir.write("side.mtl", std::string("newmtl a\nKd 1 0 0\nmap_Kd side.png\nmap_d side.png\nnewmtl b\nKe 1 2 3\n"
+                                            "map_Ke -clamp on side.png\nd 0.5\n"));
         m_dir.write("side.png", encodePng(2, 2, std::vector<std::uint8_t>(16, 200)));
     }
 
@@ -71,7 +75,8 @@ std::optional<Scene> loadInput(std::span<const std::uint8_t> input)
 {
     try
     {
-        return loadGltf(g_session->folder.write(input));
+        const std::filesystem::path path = g_session->folder.write(input);
+        return loadScene(std::span(&path, 1));
     }
     catch (const Error& error)
     {
@@ -221,13 +226,18 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
         return LLVMFuzzerMutate(data, size, size_max); // also breaks headers
     }
     GltfParts parts = GltfParts::split({data, size});
+    const bool is_mesh = !parts.binary && !parts.text.starts_with('{');
     const auto mutateBytes = [&](auto& bytes)
     {
         const std::size_t byte_count = bytes.size();
         bytes.resize(byte_count + byte_count / 4 + 16);
         bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), byte_count, bytes.size()));
     };
-    if (choice < 3)
+    if (is_mesh && choice >= 3)
+    {
+        mutateMesh(parts.text, random);
+    }
+    else if (choice < 3)
     {
         mutateBytes(parts.text);
     }
@@ -263,7 +273,11 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
     std::mt19937 random(seed);
     GltfParts parts = GltfParts::split({data1, size1});
     GltfParts other = GltfParts::split({data2, size2});
-    if (random() % 4 == 0)
+    if (!parts.binary && !parts.text.starts_with('{'))
+    {
+        crossMesh(parts.text, other.text, random);
+    }
+    else if (random() % 4 == 0)
     {
         parts.bin = std::move(other.bin);
     }

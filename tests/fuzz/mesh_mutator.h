@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Changes OBJ, PLY and STL files so that most of them still get past the parsers.
+#pragma once
+
+#include <random>
+#include <string>
+
+namespace zvo::test
+{
+
+/// Changes, adds, repeats or takes out words and lines, or changes a number of a binary file.
+void mutateMesh(std::string& content, std::mt19937& random);
+
+/// Puts lines of another file into content.
+void crossMesh(std::string& content, const std::string& other, std::mt19937& random);
+
+} // namespace zvo::test
