@@ -12,6 +12,7 @@
 #include <bit>
 #include <span>
 #include <utility>
+#include <variant>
 
 namespace zvo
 {
@@ -60,18 +61,39 @@ VoxelizeCapacities usable(VoxelizeCapacities capacities)
     return capacities;
 }
 
-// Grows what was too small. False when everything sufficed.
-bool grow(VoxelizeCapacities& capacities, const gpu::BrickCounters& bricks,
-          const std::vector<gpu::RasterCounters>& rasters)
+// What a run showed to be too small.
+struct Growth
 {
+    VoxelizeCapacities needed; // what is known to be: maybe still too little
+    VoxelizeCapacities likely; // what will suffice, as far as the run tells
+};
+
+// Row blocks of all bands, if those that found no room have as many each as the others, and an eighth more.
+std::uint64_t likelyRowBlocks(const gpu::RasterCounters& raster, std::uint64_t band_capacity)
+{
+    const std::uint64_t blocks = raster.block_count;
+    if (raster.big_count <= band_capacity || band_capacity == 0)
+    {
+        return blocks;
+    }
+    const double scaled = static_cast<double>(blocks) * raster.big_count / static_cast<double>(band_capacity);
+    return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(scaled * 1.125), blocks, gpu::kRowBlocksMax);
+}
+
+// Nothing when everything sufficed.
+std::optional<Growth> growthOf(const VoxelizeCapacities& tried, const gpu::BrickCounters& bricks,
+                               const std::vector<gpu::RasterCounters>& rasters)
+{
+    Growth growth = {tried, tried};
     bool grown = false;
     if (bricks.overflow_count != 0)
     {
-        if (capacities.bricks >= VoxelizeCapacities::kBricksMax)
+        if (tried.bricks >= VoxelizeCapacities::kBricksMax)
         {
             throwTooBig("octree nodes");
         }
-        capacities.bricks *= 2;
+        growth.needed.bricks = 2 * tried.bricks;
+        growth.likely.bricks = std::min(4 * tried.bricks, VoxelizeCapacities::kBricksMax);
         grown = true;
     }
     for (const gpu::RasterCounters& raster : rasters)
@@ -80,18 +102,15 @@ bool grow(VoxelizeCapacities& capacities, const gpu::BrickCounters& bricks,
         {
             throwTooBig("pieces of large triangles");
         }
-        if (raster.big_count > capacities.big_triangles)
+        grown = grown || raster.big_count > tried.big_triangles || raster.block_count > tried.row_blocks;
+        for (VoxelizeCapacities* capacities : {&growth.needed, &growth.likely})
         {
-            capacities.big_triangles = raster.big_count;
-            grown = true;
+            capacities->big_triangles = std::max<std::uint64_t>(capacities->big_triangles, raster.big_count);
+            capacities->row_blocks = std::max<std::uint64_t>(capacities->row_blocks, raster.block_count);
         }
-        if (raster.block_count > capacities.row_blocks)
-        {
-            capacities.row_blocks = raster.block_count;
-            grown = true;
-        }
+        growth.likely.row_blocks = std::max(growth.likely.row_blocks, likelyRowBlocks(raster, tried.big_triangles));
     }
-    return grown;
+    return grown ? std::optional(growth) : std::nullopt;
 }
 
 std::map<std::string, std::uint64_t> droppedTriangles(const std::vector<gpu::RasterCounters>& rasters)
@@ -116,9 +135,9 @@ struct Coverings
     gpu::BrickCounters counters{};
 };
 
-// Nothing when something was too small: result.capacities have grown.
-std::optional<Coverings> tryToCover(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
-                                    Coverage coverage, BuildResult& result)
+// The coverings, with what result tells of them, or what was too small.
+std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
+                                           Coverage coverage, BuildResult& result)
 {
     device.device().memory().require(coverageBytes(result.capacities, scene), "voxelization");
     Coverings coverings{{device.device(), result.capacities, scene}, {device.device(), result.capacities.bricks}};
@@ -137,9 +156,9 @@ std::optional<Coverings> tryToCover(vk::HeadlessDevice& device, const GpuScene& 
             rasters.push_back(device.download(rows.counters).front());
         }
     }
-    if (grow(result.capacities, coverings.counters, rasters))
+    if (const std::optional<Growth> growth = growthOf(result.capacities, coverings.counters, rasters))
     {
-        return std::nullopt;
+        return *growth;
     }
     if (coverings.counters.voxel_carry != 0)
     {
@@ -155,18 +174,14 @@ Coverings coverVoxels(vk::HeadlessDevice& device, const GpuScene& scene, const G
 {
     for (; result.retry_count < kRetriesMax; ++result.retry_count)
     {
-        const std::uint64_t tried_bricks = result.capacities.bricks;
-        if (std::optional<Coverings> coverings = tryToCover(device, scene, grid, coverage, result))
+        std::variant<Coverings, Growth> outcome = tryToCover(device, scene, grid, coverage, result);
+        if (auto* coverings = std::get_if<Coverings>(&outcome))
         {
             return std::move(*coverings);
         }
-        VoxelizeCapacities larger = result.capacities; // twice as large again: fewer runs, where memory allows it
-        larger.bricks = std::min(2 * larger.bricks, VoxelizeCapacities::kBricksMax);
-        if (result.capacities.bricks != tried_bricks &&
-            coverageBytes(larger, scene) <= device.device().memory().roomBytes())
-        {
-            result.capacities = larger;
-        }
+        const Growth& growth = std::get<Growth>(outcome); // the likely one: fewer runs, where memory allows it
+        const bool fits = coverageBytes(growth.likely, scene) <= device.device().memory().roomBytes();
+        result.capacities = fits ? growth.likely : growth.needed;
     }
     throw Error(ErrorCode::Memory,
                 fmt::format("voxelization found no room in {} attempts (last: a table of {} bricks); "

@@ -99,6 +99,45 @@ TEST(Capacity, EachListGrowsOnItsOwn)
     }
 }
 
+/// count slivers of the same shape from one side of a grid of edge voxels to the other: each has several bands, and
+/// many row blocks in each.
+Scene slivers(std::uint32_t count, float edge)
+{
+    std::vector<glm::vec3> corners;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        const float z = (static_cast<float>(i) + 0.5F) * edge / static_cast<float>(count);
+        corners.insert(corners.end(), {{0, 0, z}, {edge, edge, z}, {0, 2, z}});
+    }
+    return test::triangleSoup(corners);
+}
+
+TEST(Capacity, RowBlocksOfTrianglesThatFoundNoRoomAreForeseen)
+{
+    const Scene scene = slivers(100, 1024.0F);
+    const Built roomy = build(scene, 10, {Coverage::Thin, false, VoxelizeCapacities{1 << 18, 1 << 12, 1 << 16}});
+    ASSERT_EQ(roomy.result.retry_count, 0U);
+    for (const std::uint64_t bands : {16U, 50U, 199U})
+    {
+        const Built grown = build(scene, 10, {Coverage::Thin, false, VoxelizeCapacities{1 << 18, bands, 1}});
+        EXPECT_EQ(grown.sha, roomy.sha);
+        EXPECT_EQ(grown.result.retry_count, 1U) << bands << " bands";
+        EXPECT_LT(grown.result.capacities.row_blocks, 64U << 10) << "no more than what the guess is worth";
+    }
+}
+
+TEST(Capacity, ListsOfOneEntryTakeTwoMoreRunsAtMost)
+{
+    for (const char* name : {"atrium.glb", "cornell_box.glb"})
+    {
+        SCOPED_TRACE(name);
+        const Built grown =
+            build(loadGltf(test::ownScene(name)), 8, {Coverage::Thin, false, VoxelizeCapacities{1 << 20, 1, 1}});
+        EXPECT_GE(grown.result.retry_count, 1U);
+        EXPECT_LE(grown.result.retry_count, 2U);
+    }
+}
+
 TEST(Capacity, SumsThatOverflowWithCapacitiesOfOneStillGiveTheSameBytes)
 {
     std::vector<glm::vec3> corners;
