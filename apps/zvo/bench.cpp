@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "bench.h"
 
+#include "bench_balance.h"
+#include "bench_runs.h"
+#include "bench_scenes.h"
 #include "bench_table.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
@@ -10,7 +13,6 @@
 #include "progress.h"
 #include "session.h"
 #include "view.h"
-#include "zvo/error.h"
 
 #ifdef ZVO_EMBREE
 #include "bench_embree.h"
@@ -18,10 +20,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <optional>
-#include <system_error>
+#include <utility>
 
 namespace zvo::cli
 {
@@ -33,107 +33,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kWidth = 1920;
 constexpr std::uint32_t kHeight = 1080;
-constexpr std::array kUsualScenes = {"bunny_low.glb", "dragon.glb", "sponza.glb"};
-
-// The project's own scenes: beside the working directory's or the program's source tree.
-std::vector<fs::path> ownScenes()
-{
-    std::error_code ignored;
-    std::vector<fs::path> folders = {"scenes"};
-    for (fs::path folder = fs::read_symlink("/proc/self/exe", ignored); folder.has_relative_path();)
-    {
-        folder = folder.parent_path();
-        folders.push_back(folder / "scenes");
-    }
-    for (const fs::path& folder : folders)
-    {
-        std::vector<fs::path> scenes;
-        for (const char* name : {"cornell_box.glb", "knot.glb", "atrium.glb"})
-        {
-            if (fs::exists(folder / name, ignored))
-            {
-                scenes.push_back(folder / name);
-            }
-        }
-        if (!scenes.empty())
-        {
-            return scenes;
-        }
-    }
-    return {};
-}
-
-std::vector<fs::path> scenesOf(const BenchOptions& options)
-{
-    if (!options.scenes.empty())
-    {
-        return options.scenes;
-    }
-    std::error_code missing;
-    if (options.scene_folder && !fs::is_directory(*options.scene_folder, missing))
-    {
-        throw Error(ErrorCode::Input, fmt::format("--scenes {} is not a folder", options.scene_folder->string()));
-    }
-    const fs::path folder = options.scene_folder.value_or("scenes");
-    std::vector<fs::path> scenes;
-    std::vector<std::string> absent;
-    for (const char* name : kUsualScenes)
-    {
-        std::error_code ignored;
-        const fs::path path = folder / name;
-        if (fs::exists(path, ignored))
-        {
-            scenes.push_back(path);
-        }
-        else
-        {
-            absent.emplace_back(name);
-        }
-    }
-    if (!scenes.empty())
-    {
-        if (!absent.empty())
-        {
-            talk(fmt::format("warning: {} has no {}", folder.string(), fmt::join(absent, ", ")));
-        }
-        return scenes;
-    }
-    scenes = ownScenes();
-    if (scenes.empty())
-    {
-        throw Error(ErrorCode::Input, fmt::format("{} has none of {}; name scenes to measure, or their folder by "
-                                                  "--scenes",
-                                                  folder.string(), fmt::join(kUsualScenes, ", ")));
-    }
-    talk(fmt::format("{} has none of {}: measuring the project's own scenes", folder.string(),
-                     fmt::join(kUsualScenes, ", ")));
-    return scenes;
-}
-
-// Finds out now what would otherwise show after an hour. Throws the loader's error for a file that is missing.
-void checkPresent(const std::vector<fs::path>& paths)
-{
-    for (const fs::path& path : paths)
-    {
-        std::error_code ignored;
-        if (!fs::exists(path, ignored))
-        {
-            loadWithWarnings(std::span(&path, 1), {});
-        }
-    }
-}
-
-// Adds run times of passes to sums of the same names; both in order of occurrence.
-void addPasses(std::vector<vk::PassTime>& sums, std::vector<vk::PassTime> passes, std::uint32_t run_count)
-{
-    for (vk::PassTime& pass : passes)
-    {
-        pass.ms /= run_count;
-        sums.push_back(std::move(pass));
-    }
-    sums = sumByName(sums);
-}
-
 class Bench
 {
 public:
@@ -149,45 +48,28 @@ public:
         row.attributes = m_options.attributes;
         row.triangles = scene.triangleCount();
         const Grid grid = Grid::around(scene.bounds(), depth);
-        const BuildResult built = measureBuild(gpu_scene, grid, row);
+        BuildRuns runs = measureBuild(m_device, gpu_scene, grid, {m_options.coverage, m_options.attributes, {}},
+                                      m_options.run_count);
+        row.voxelize_ms = runs.voxelize_ms;
+        row.build_ms = runs.build_ms;
+        row.passes = std::move(runs.passes);
+        const Octree& octree = runs.last.octree;
         const Bounds subject = subjectOf(scene, grid);
         const ViewCamera view = chooseCamera(m_options.camera, scene, subject, double{kWidth} / kHeight);
         const TraceCamera camera = traceCamera(view, grid, kHeight);
-        measureTrace(built.octree, camera, row);
-        row.voxels = built.octree.voxel_count;
-        row.nodes = built.octree.node_count;
-        row.geometry_bytes = built.octree.geometryBytes();
-        row.attribute_bytes = built.octree.attributeBytes();
+        measureTrace(octree, camera, row);
+        row.voxels = octree.voxel_count;
+        row.nodes = octree.node_count;
+        row.geometry_bytes = octree.geometryBytes();
+        row.attribute_bytes = octree.attributeBytes();
         row.peak_device_bytes = m_device.device().memory().peakBytes();
 #ifdef ZVO_EMBREE
-        measureEmbree(scene, built.octree, camera, row);
+        measureEmbree(scene, octree, camera, row);
 #endif
         return row;
     }
 
 private:
-    // Voxelize and build, after a warm-up that also finds out how much room they need.
-    BuildResult measureBuild(const GpuScene& gpu_scene, const Grid& grid, BenchRow& row)
-    {
-        BuildOptions build = {m_options.coverage, m_options.attributes, {}};
-        build.capacities = buildOctree(m_device, gpu_scene, grid, build).capacities;
-        std::vector<double> voxelize_ms;
-        std::vector<double> build_ms;
-        for (std::uint32_t run = 1;; ++run)
-        {
-            BuildResult result = buildOctree(m_device, gpu_scene, grid, build);
-            voxelize_ms.push_back(result.stageMs("voxelize"));
-            build_ms.push_back(result.stageMs("octree"));
-            addPasses(row.passes, result.passes, m_options.run_count);
-            if (run == m_options.run_count)
-            {
-                row.voxelize_ms = Spread::of(voxelize_ms);
-                row.build_ms = Spread::of(build_ms);
-                return result;
-            }
-        }
-    }
-
     // Primary rays, after a warm-up.
     void measureTrace(const Octree& octree, const TraceCamera& camera, BenchRow& row)
     {
@@ -252,8 +134,13 @@ private:
 
 void bench(const BenchOptions& options)
 {
-    const std::vector<fs::path> paths = scenesOf(options);
-    checkPresent(paths);
+    if (options.balance)
+    {
+        benchBalance(options);
+        return;
+    }
+    const std::vector<fs::path> paths = benchScenes(options);
+    const std::vector<std::uint32_t> depths = options.depths.value_or(std::vector{8U, 9U, 10U});
     std::optional<Output> report;
     if (!options.output.json.empty())
     {
@@ -269,12 +156,12 @@ void bench(const BenchOptions& options)
     }
     Bench measurements(options, device);
     std::vector<BenchRow> rows;
-    Progress progress(paths.size() * options.depths.size());
+    Progress progress(paths.size() * depths.size());
     for (const fs::path& path : paths)
     {
         const Scene scene = loadWithWarnings(std::span(&path, 1), options.load);
         const GpuScene gpu_scene = uploadScene(device, scene, options.attributes);
-        for (const std::uint32_t depth : options.depths)
+        for (const std::uint32_t depth : depths)
         {
             progress.step(fmt::format("{} at {}", path.stem().string(), 1U << depth));
             rows.push_back(measurements.measure(path.stem().string(), scene, gpu_scene, depth));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "bench_table.h"
 
+#include "table.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 
 namespace zvo::cli
 {
@@ -13,11 +14,6 @@ namespace
 {
 
 constexpr double kMiB = 1 << 20;
-
-std::string text(const Spread& spread)
-{
-    return fmt::format("{:.2f} ({:.2f}-{:.2f})", spread.median, spread.min, spread.max);
-}
 
 std::string rate(const std::optional<double>& value)
 {
@@ -29,16 +25,9 @@ std::string ratio(double ours, const std::optional<double>& theirs)
     return theirs && *theirs > 0 ? fmt::format("{:.2f}", ours / *theirs) : "-";
 }
 
-struct Column
+const Columns<BenchRow>& columns()
 {
-    const char* name;
-    int width; // of what is mostly in it
-    std::function<std::string(const BenchRow&)> value;
-};
-
-const std::vector<Column>& columns()
-{
-    static const std::vector<Column> all = {
+    static const Columns<BenchRow> all = {
         {"scene", 12, [](const BenchRow& row) { return row.scene; }},
         {"resolution", 10, [](const BenchRow& row) { return fmt::format("{}", row.resolution); }},
         {"coverage", 8, [](const BenchRow& row) { return std::string(coverageName(row.coverage)); }},
@@ -49,9 +38,9 @@ const std::vector<Column>& columns()
          [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.geometry_bytes)); }},
         {"attributes B/voxel", 18,
          [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.attribute_bytes)); }},
-        {"voxelize ms", 23, [](const BenchRow& row) { return text(row.voxelize_ms); }},
-        {"build ms", 23, [](const BenchRow& row) { return text(row.build_ms); }},
-        {"trace ms", 23, [](const BenchRow& row) { return text(row.trace_ms); }},
+        {"voxelize ms", 23, [](const BenchRow& row) { return spreadText(row.voxelize_ms); }},
+        {"build ms", 23, [](const BenchRow& row) { return spreadText(row.build_ms); }},
+        {"trace ms", 23, [](const BenchRow& row) { return spreadText(row.trace_ms); }},
         {"Mvoxels/s", 9, [](const BenchRow& row) { return rate(row.mvoxelsPerSecond()); }},
         {"Mrays/s", 7, [](const BenchRow& row) { return rate(row.mraysPerSecond()); }},
         {"hits %", 6,
@@ -72,18 +61,6 @@ const std::vector<Column>& columns()
          [](const BenchRow& row) { return fmt::format("{:.0f}", static_cast<double>(row.peak_device_bytes) / kMiB); }},
     };
     return all;
-}
-
-// Names to the left, numbers to the right.
-std::string cell(const Column& column, const std::string& value)
-{
-    const bool is_name = &column == &columns().front();
-    return is_name ? fmt::format(" {:<{}} |", value, column.width) : fmt::format(" {:>{}} |", value, column.width);
-}
-
-Json spreadJson(const Spread& spread)
-{
-    return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
 }
 
 template <typename T> Json orNull(const std::optional<T>& value)
@@ -130,6 +107,16 @@ Spread Spread::of(std::vector<double> values)
     return {median, values.front(), values.back()};
 }
 
+std::string spreadText(const Spread& spread)
+{
+    return fmt::format("{:.2f} ({:.2f}-{:.2f})", spread.median, spread.min, spread.max);
+}
+
+Json spreadJson(const Spread& spread)
+{
+    return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};
+}
+
 double BenchRow::perVoxel(std::uint64_t bytes) const
 {
     return voxels == 0 ? 0.0 : static_cast<double>(bytes) / static_cast<double>(voxels);
@@ -148,33 +135,17 @@ double BenchRow::mraysPerSecond() const
 
 std::string tableHead(const BenchHeader& header)
 {
-    std::string head =
-        fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max) of {} warm {}. "
-                    "Rays: primary, {}x{}, million a second; ratio: zvo / Embree "
-                    "(packets of 8 or 16 rays, whichever is faster, and single rays; on all processors).\n\n|",
-                    ZVO_VERSION, header.device.name, header.device.type, header.device.driver, header.run_count,
-                    header.run_count == 1 ? "run" : "runs", header.width, header.height);
-    for (const Column& column : columns())
-    {
-        head += cell(column, column.name);
-    }
-    head += "\n|";
-    for (const Column& column : columns())
-    {
-        const bool is_name = &column == &columns().front();
-        head += fmt::format("{:-<{}}{}|", "", column.width + 1, is_name ? "-" : ":");
-    }
-    return head + "\n";
+    return fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max) of {} warm {}. "
+                       "Rays: primary, {}x{}, million a second; ratio: zvo / Embree "
+                       "(packets of 8 or 16 rays, whichever is faster, and single rays; on all processors).\n\n",
+                       ZVO_VERSION, header.device.name, header.device.type, header.device.driver, header.run_count,
+                       header.run_count == 1 ? "run" : "runs", header.width, header.height) +
+           columnNames(columns());
 }
 
 std::string tableLine(const BenchRow& row)
 {
-    std::string line = "|";
-    for (const Column& column : columns())
-    {
-        line += cell(column, column.value(row));
-    }
-    return line + "\n";
+    return columnValues(columns(), row);
 }
 
 std::string passTable(const BenchRow& row)

@@ -24,6 +24,11 @@ struct Spread
     static Spread of(std::vector<double> values);
 };
 
+/// "median (min-max)" with two digits after the point.
+std::string spreadText(const Spread& spread);
+
+Json spreadJson(const Spread& spread);
+
 /// One scene at one resolution.
 struct BenchRow
 {

@@ -57,10 +57,12 @@ constexpr const char* kBenchFooter = R"(
 Each row is one scene at one resolution: a warm-up, then N runs on the device's timers. Where zvo was built with
 Embree, the same rays are also traced by Embree on all processors, through the same voxels and through the triangles.
 Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
+--balance: each row is voxelization and octree construction alone; ratios of them follow the table.
 
 Examples:
   zvo bench scenes/knot.glb --resolutions 256 --runs 3
-  zvo bench --scenes ../models --json bench.json --passes)";
+  zvo bench --scenes ../models --json bench.json --passes
+  zvo bench --balance scenes/knot.glb scenes/atrium.glb)";
 
 // An option with one argument that read makes a value of.
 template <typename T, typename Read>
@@ -230,7 +232,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
         "where the usual scenes are (default scenes)");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
-             "powers of two from 2 to 131072 (default 256,512,1024)");
+             "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048)");
     addValue(
         *bench, "--runs", options.run_count,
         [](std::string_view option, std::string_view text)
@@ -240,6 +242,12 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
     addCoverageOptions(*bench, options.coverage, options.attributes);
     addCameraOption(*bench, options.camera);
     bench->add_flag("--passes", options.passes, "also tell the time of each pass");
+    bench
+        ->add_flag("--balance", options.balance,
+                   "measure instead how the time of a voxel depends on the triangles: one large triangle, a patch of "
+                   "small ones, slivers, crowds, and the scenes that were named")
+        ->excludes("--passes")
+        ->excludes("--camera");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");

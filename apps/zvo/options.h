@@ -89,12 +89,13 @@ struct BenchOptions
     std::vector<std::filesystem::path> scenes;         // empty: the usual ones in scene_folder
     std::optional<std::filesystem::path> scene_folder; // not given: scenes
     LoadOptions load;
-    std::vector<std::uint32_t> depths = {8, 9, 10};
+    std::optional<std::vector<std::uint32_t>> depths; // not given: 8, 9, 10, or with balance 9, 10, 11
     std::uint32_t run_count = 5;
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
     std::string camera; // as in RenderOptions
     bool passes = false;
+    bool balance = false; // balance of load on generated scenes, and on scenes if any were named
     DeviceOptions device;
     OutputOptions output; // path: unused
 };

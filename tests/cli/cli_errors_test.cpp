@@ -43,6 +43,7 @@ const std::vector<ErrorCase>& errorCases()
          {"500", "power of two"},
          {}},
         {"ResolutionTooHigh", 2, {"bench", "cube.glb", "--resolutions", "64,262144"}, {"262144", "131072"}, {}},
+        {"BalanceOfPasses", 2, {"bench", "--balance", "--passes"}, {"--balance", "--passes"}, {}},
         {"FlagTwice",
          2,
          {"voxelize", "cube.glb", "-o", "a.ply", "--resolution", "8", "--resolution", "16"},

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <map>
 
 namespace zvo::test
 {
@@ -330,6 +331,61 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
     }
     EXPECT_EQ(report["rows"][1]["resolution"], 32);
     EXPECT_EQ(report["rows"][1]["voxels"], build(m_grid).octree.voxel_count);
+}
+
+TEST_F(CliRun, BenchOfBalanceTellsEverySceneAndItsRatios)
+{
+    const Outcome outcome =
+        run({"bench", "--balance", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "balance.json"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    EXPECT_TRUE(contains(outcome.out, "\n| triangle / patch "));
+    const json report = json::parse(file("balance.json"));
+    expectFields(report, {"schema string", "device.name string", "coverage string", "runs number"});
+    std::map<std::string, json> fine; // rows at a resolution of 32
+    for (const json& row : report["rows"])
+    {
+        expectFields(row, {"scene string", "generated boolean", "resolution number", "triangles number",
+                           "voxels number", "geometry_ms.median number", "geometry_ns_per_voxel number",
+                           "attributes_ms.median number", "attributes_ns_per_voxel number"});
+        EXPECT_GT(row["attributes_ms"]["median"], 0);
+        if (row["resolution"] == 32)
+        {
+            fine[row["scene"]] = row;
+        }
+    }
+    EXPECT_EQ(report["rows"].size(), 12U);
+    ASSERT_EQ(fine.size(), 6U);
+    EXPECT_EQ(fine["cube"]["voxels"], build(m_grid).octree.voxel_count);
+    EXPECT_EQ(fine["triangle"]["triangles"], 1);
+    EXPECT_GE(fine["triangle"]["voxels"], 16 * 16);
+    EXPECT_LE(fine["triangle"]["voxels"], 16 * 16 + 78) << "its area and its outline";
+    EXPECT_NEAR(fine["patch"]["voxels"].get<double>(), fine["triangle"]["voxels"].get<double>(), 32);
+    EXPECT_EQ(fine["slivers"]["triangles"], 400);
+    EXPECT_EQ(fine["crowded"]["voxels"], 1);
+    EXPECT_EQ(fine["crowded"]["triangles"], fine["spread"]["triangles"]);
+    EXPECT_EQ(fine["spread"]["voxels"], fine["spread"]["triangles"]);
+    std::map<std::string, int> ratio_counts;
+    for (const json& ratio : report["ratios"])
+    {
+        expectFields(ratio, {"scenes string", "resolution number", "geometry number", "attributes number"});
+        EXPECT_GT(ratio["geometry"], 0);
+        ++ratio_counts[ratio["name"]];
+    }
+    EXPECT_EQ(ratio_counts, (std::map<std::string, int>{{"triangle / patch", 2},
+                                                        {"sliver / patch", 2},
+                                                        {"crowded / spread", 2},
+                                                        {"doubling", 3},
+                                                        {"largest doubling", 1}}));
+}
+
+TEST_F(CliRun, BenchOfBalanceNeedsNoAttributesAndNoFiles)
+{
+    const json report = json::parse(
+        run({"bench", "--balance", "--resolutions", "16", "--runs", "1", "--attributes", "none", "--json", "-"}).out);
+    EXPECT_EQ(report["rows"].size(), 5U);
+    EXPECT_EQ(report["ratios"].size(), 3U);
+    EXPECT_TRUE(report["rows"][0]["attributes_ms"].is_null());
+    EXPECT_TRUE(report["ratios"][0]["attributes"].is_null());
 }
 
 TEST_F(CliRun, CloseCameraHitsMore)

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "bench_scenes.h"
+
+#include "progress.h"
+#include "session.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <system_error>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::array kUsualScenes = {"bunny_low.glb", "dragon.glb", "sponza.glb"};
+
+// The project's own scenes: beside the working directory's or the program's source tree.
+std::vector<fs::path> ownScenes()
+{
+    std::error_code ignored;
+    std::vector<fs::path> folders = {"scenes"};
+    for (fs::path folder = fs::read_symlink("/proc/self/exe", ignored); folder.has_relative_path();)
+    {
+        folder = folder.parent_path();
+        folders.push_back(folder / "scenes");
+    }
+    for (const fs::path& folder : folders)
+    {
+        std::vector<fs::path> scenes;
+        for (const char* name : {"cornell_box.glb", "knot.glb", "atrium.glb"})
+        {
+            if (fs::exists(folder / name, ignored))
+            {
+                scenes.push_back(folder / name);
+            }
+        }
+        if (!scenes.empty())
+        {
+            return scenes;
+        }
+    }
+    return {};
+}
+
+std::vector<fs::path> scenesOf(const BenchOptions& options)
+{
+    if (!options.scenes.empty())
+    {
+        return options.scenes;
+    }
+    std::error_code missing;
+    if (options.scene_folder && !fs::is_directory(*options.scene_folder, missing))
+    {
+        throw Error(ErrorCode::Input, fmt::format("--scenes {} is not a folder", options.scene_folder->string()));
+    }
+    const fs::path folder = options.scene_folder.value_or("scenes");
+    std::vector<fs::path> scenes;
+    std::vector<std::string> absent;
+    for (const char* name : kUsualScenes)
+    {
+        std::error_code ignored;
+        const fs::path path = folder / name;
+        if (fs::exists(path, ignored))
+        {
+            scenes.push_back(path);
+        }
+        else
+        {
+            absent.emplace_back(name);
+        }
+    }
+    if (!scenes.empty())
+    {
+        if (!absent.empty())
+        {
+            talk(fmt::format("warning: {} has no {}", folder.string(), fmt::join(absent, ", ")));
+        }
+        return scenes;
+    }
+    scenes = ownScenes();
+    if (scenes.empty())
+    {
+        throw Error(ErrorCode::Input, fmt::format("{} has none of {}; name scenes to measure, or their folder by "
+                                                  "--scenes",
+                                                  folder.string(), fmt::join(kUsualScenes, ", ")));
+    }
+    talk(fmt::format("{} has none of {}: measuring the project's own scenes", folder.string(),
+                     fmt::join(kUsualScenes, ", ")));
+    return scenes;
+}
+
+// Finds out now what would otherwise show after an hour. Throws the loader's error for a file that is missing.
+void checkPresent(const std::vector<fs::path>& paths)
+{
+    for (const fs::path& path : paths)
+    {
+        std::error_code ignored;
+        if (!fs::exists(path, ignored))
+        {
+            loadWithWarnings(std::span(&path, 1), {});
+        }
+    }
+}
+
+} // namespace
+
+std::vector<fs::path> benchScenes(const BenchOptions& options)
+{
+    std::vector<fs::path> paths = scenesOf(options);
+    checkPresent(paths);
+    return paths;
+}
+
+} // namespace zvo::cli
