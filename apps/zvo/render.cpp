@@ -93,19 +93,20 @@ struct PictureTimes
     double shade_ms = 0; // shadow and occlusion rays, and colour
 };
 
-// The time of the passes up to the primary rays: what comes after them is light and colour.
+// The time of the passes up to the last primary rays: what comes after them is light and colour.
 double primaryMs(const std::vector<vk::PassTime>& passes)
 {
     double ms = 0;
+    double ms_until_primary = 0;
     for (const vk::PassTime& pass : passes)
     {
         ms += pass.ms;
         if (pass.name == "trace/primary")
         {
-            break;
+            ms_until_primary = ms;
         }
     }
-    return ms;
+    return ms_until_primary;
 }
 
 TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& options)

@@ -24,7 +24,7 @@
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail or
 //                                      fewer than four levels. Then also, as trace/trace.h describes it:
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
-//   TRAVERSE_CONSTANT_ID               first of three constant_ids, 0 by default
+//   TRAVERSE_CONSTANT_ID               first of four constant_ids, 0 by default
 
 #ifndef TRAVERSE_CONSTANT_ID
 #define TRAVERSE_CONSTANT_ID 0
@@ -33,6 +33,7 @@
 layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of the octree
 layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const uint kStack = kStackRegisters;
 layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const bool kDetail = false; // stop at small nodes
+layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kStepsMax = kTraceStepsMax;
 
 const uint kMantissaBits = 23u;
 const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
@@ -42,11 +43,11 @@ const uint kSavedMax = 8u; // levels of nodes above a leaf
 struct Traversal
 {
     bool hit;
-    bool capped;     // gave up after kTraceStepsMax iterations
+    bool unfinished; // gave up after its last iteration: (t, face) is the last event, from which it can go on
     uint iterations; // loop bodies
-    float t;         // of a hit: of the entry, or t_min
+    float t;         // of a hit: of the entry, or t_min; of the last event otherwise
     uint index;      // of a hit: attribute index of the voxel; node where a level of detail stopped
-    uint face;       // of a hit: axis of the face, or kFaceInside
+    uint face;       // axis of the face, or kFaceInside
     uint level;      // of a hit: of nodes; kNodeLevels for a voxel
     uvec3 cell;      // of a hit: coordinates among the cells of that level
 };
@@ -132,10 +133,17 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
 }
 #endif
 
-// The first occupied cell that the ray enters in [t_min, t_max]. With kDetail, nodes count as occupied whose edge is at
+// The state after the event (t, axis); axis 2 for the start, too.
+uvec3 limitsAfter(float t, uint axis)
+{
+    return floatBitsToUint(t) + uvec3(1u, axis >= 1u ? 1u : 0u, axis >= 2u ? 1u : 0u);
+}
+
+// The first occupied cell that the ray enters in [t_min, t_max], found in at most steps_max iterations (at least one). A
+// ray that was left unfinished goes on from the state `from`; 0 for a new one. With kDetail, nodes count as occupied whose edge is at
 // most max(detail.x * t, detail.y) in unit space. Nothing may be NaN; origin must be finite and inverse as
 // lib/ray.glsl's inverseDirection() makes it. What would be entered at an infinite time is never entered.
-Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail)
+Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail, uvec3 from, uint steps_max)
 {
     const uint one = floatBitsToUint(1.0);
     bvec3 mirrored = lessThan(ray_inverse, vec3(0.0));
@@ -151,6 +159,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     bool z_in = t == t_min || t == t_in.z;
     bool y_in = z_in || t == t_in.y;
     uvec3 limits = floatBitsToUint(t) + uvec3(1u, y_in ? 1u : 0u, z_in ? 1u : 0u); // bits of floats
+    limits = max(limits, from);
     uint limit_max = floatBitsToUint(clamp(t_max, 0.0, kTraceTimeMax)) + 1u;
 
     uvec3 corner = uvec3(one);
@@ -225,14 +234,14 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         corner = occupied ? mix(cell, quarter, odd) : around;
         node = occupied ? child : around_node;
         shift = occupied ? shift - 2u : around_shift;
-        go = shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max && iterations < kTraceStepsMax;
+        go = shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max && iterations < steps_max;
         if (kDetail)
             go = go && !stopped;
     }
 
     Traversal result;
     result.hit = stopped || shift == kLeafShift - 2u;
-    result.capped = !result.hit && iterations >= kTraceStepsMax;
+    result.unfinished = !result.hit && shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max;
     result.iterations = iterations;
     result.t = uintBitsToFloat(limits.x - 1u);
     result.index = node;
@@ -240,4 +249,10 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     result.level = (kRootShift - shift) >> 1;
     result.cell = ((corner - one) >> (shift + 2u)) ^ mix(uvec3(0u), uvec3((1u << (2u * result.level)) - 1u), mirrored);
     return result;
+}
+
+// A new ray with all the iterations that an invocation has.
+Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail)
+{
+    return traverse(ray_origin, ray_inverse, t_min, t_max, detail, uvec3(0u), kStepsMax);
 }

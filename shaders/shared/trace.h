@@ -35,11 +35,12 @@ GPU_BUFFER(Hit, 8);
 struct TraceStatus
 {
     uint live_tiles;  // in the list that the beam pass made
-    uint capped_rays; // rays that gave up after kTraceStepsMax iterations: 0, or the octree is broken
+    uint capped_rays; // rays without an answer: after the last round, or the last of an occlusion's iterations
 };
 GPU_BUFFER(TraceStatus, 4);
 
-const uint kHitMiss = ~0u; // Hit::index of a ray that met nothing
+const uint kHitMiss = ~0u;            // Hit::index of a ray that met nothing
+const uint kHitUnfinished = ~0u - 1u; // between two rounds: t and face are the ray's last event
 
 const uint kHitCoordinateBits = 18u;
 const uint kHitLevelShift = 54u; // in Hit::where
@@ -49,7 +50,9 @@ const uint kFaceInside = 3u; // Hit's face when the ray started inside the cell
 const float kTraceTimeMin = 1.17549435e-38f; // smallest normal float: below it, devices may flush to zero
 const float kTraceTimeMax = 3.40282347e+38f; // largest float
 
-const uint kTraceStepsMax = 40000u; // iterations of one ray; lavapipe ends every loop after 65,535
+// Iterations of an invocation; lavapipe ends every loop after 65,535. Rays that need more go on in another round.
+const uint kTraceStepsMax = 40000u;
+const uint kTraceRoundsMax = 16u; // of rays through one octree; depth 17 needs 14
 
 // Where a ray keeps the nodes above the current one: specialization constant of all kernels that trace.
 const uint kStackRegisters = 0u; // selects; on lavapipe faster by half than shared memory

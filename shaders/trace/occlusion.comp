@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // How much of the sky light arrives at hits: a few short rays, spread over the hemisphere by the cosine in the same fixed
-// pattern for every pixel (a Fibonacci lattice). One workgroup a live tile.
+// pattern for every pixel (a Fibonacci lattice). One workgroup a live tile. The rays of a pixel share the iterations that
+// an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute.glsl"
@@ -11,9 +12,9 @@
 #include "lib/ray.glsl"
 #include "lib/surface_normal.glsl"
 
-layout(constant_id = 3) const bool kOrthographic = false;
-layout(constant_id = 4) const bool kAttributes = true;
-layout(constant_id = 5) const bool kShadows = true; // trace/shadow has run
+layout(constant_id = 4) const bool kOrthographic = false;
+layout(constant_id = 5) const bool kAttributes = true;
+layout(constant_id = 6) const bool kShadows = true; // trace/shadow has run
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -59,20 +60,23 @@ void main()
     float end = isMiss(hit) ? 0.0 : params.radius;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     float open = 0.0;
-    bool capped = false;
+    uint steps_left = kStepsMax;
+    uint unfinished_count = 0u;
     for (uint k = 0u; k < params.ray_count; ++k)
     {
         float u = (float(k) + 0.5) / float(params.ray_count);
         float angle = kGoldenAngle * float(k);
         vec3 toward = frame * vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));
-        Traversal ray = traverse(point.origin, inverseDirection(toward), kTraceTimeMin, end, vec2(0.0));
+        Traversal ray = traverse(point.origin, inverseDirection(toward), kTraceTimeMin, end, vec2(0.0), uvec3(0u),
+                                 max(steps_left, 1u));
         float way = ray.face == kFaceInside ? kInsideShare : ray.t / max(end, kTraceTimeMin);
         float reached = ray.hit ? way : 1.0;
         open += reached;
-        capped = capped || ray.capped;
+        steps_left -= min(ray.iterations, steps_left);
+        unfinished_count += ray.unfinished ? 1u : 0u;
     }
-    if (capped)
-        atomicAdd(params.status.data[0].capped_rays, 1u);
+    if (unfinished_count != 0u)
+        atomicAdd(params.status.data[0].capped_rays, unfinished_count);
     uint arriving = uint(255.0 * open / float(params.ray_count) + 0.5);
     params.light.data[i] = (kShadows ? params.light.data[i] & kLightSun : kLightSun) | (arriving << kLightSkyShift);
 }

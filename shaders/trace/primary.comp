@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Traces the rays of all pixels in live tiles, one workgroup a tile.
+// Traces the rays of all pixels in live tiles, one workgroup a tile. Rays that use up their iterations go on in another
+// round.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/camera.glsl"
@@ -8,9 +9,11 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 3) const bool kOrthographic = false;
-layout(constant_id = 4) const bool kCountIterations = false;
-layout(constant_id = 5) const bool kPaths = false; // begin below the root
+layout(constant_id = 4) const bool kOrthographic = false;
+layout(constant_id = 5) const bool kCountIterations = false;
+layout(constant_id = 6) const bool kPaths = false; // begin below the root
+layout(constant_id = 7) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 8) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -29,6 +32,7 @@ uvec2 loadPath(uint cell)
 #define TRAVERSE_PATHS kPaths
 #include "lib/octree_half.glsl"
 #include "lib/traverse.glsl"
+#include "lib/rounds.glsl"
 
 void main()
 {
@@ -43,14 +47,25 @@ void main()
     precise vec3 origin = camera.origin + (kOrthographic ? offset : vec3(0.0));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     g_paths = params.paths;
+    uint i = pixel.y * size.x + pixel.x;
+    uvec3 from = uvec3(0u);
+    if (kContinue)
+    {
+        if (any(greaterThanEqual(pixel, size)))
+            return;
+        Hit last = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
+        if (last.index != kHitUnfinished)
+            return;
+        from = limitsAfter(last.t, hitFace(last));
+    }
     Traversal result = traverse(origin, inverseDirection(direction), uintBitsToFloat(tile.y), kTraceTimeMax,
-                                params.detail);
+                                params.detail, from, kStepsMax);
     if (any(greaterThanEqual(pixel, size)))
         return;
-    if (result.capped)
-        atomicAdd(params.status.data[0].capped_rays, 1u);
-    uint i = pixel.y * size.x + pixel.x;
-    storeHit(params.hits, i, result.t, result.hit ? result.index : kHitMiss, result.cell, result.level, result.face);
+    if (result.unfinished)
+        endUnfinished(kMore, params.rounds, params.round, params.status.data[0].live_tiles, params.status);
+    uint miss = kMore && result.unfinished ? kHitUnfinished : kHitMiss;
+    storeHit(params.hits, i, result.t, result.hit ? result.index : miss, result.cell, result.level, result.face);
     if (kCountIterations)
-        params.iterations.data[i] = result.iterations;
+        params.iterations.data[i] = result.iterations + (kContinue ? params.iterations.data[i] : 0u);
 }

@@ -1,11 +1,14 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Traces a list of rays.
+// Traces a list of rays. Those that use up their iterations go on in another round.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
+
+layout(constant_id = 4) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 5) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kRaysGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -16,12 +19,21 @@ layout(push_constant, scalar) uniform Push
 #define TRAVERSE_GROUP kRaysGroup
 #include "lib/octree_half.glsl"
 #include "lib/traverse.glsl"
+#include "lib/rounds.glsl"
 
 void main()
 {
     uint i = threadIndex();
     if (i >= params.ray_count)
         return;
+    uvec3 from = uvec3(0u);
+    if (kContinue)
+    {
+        Hit last = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
+        if (last.index != kHitUnfinished)
+            return;
+        from = limitsAfter(last.t, hitFace(last));
+    }
     Ray ray; // by members: GPU-assisted validation takes the struct for larger than it is
     ray.origin = params.rays.data[i].origin;
     ray.t_min = params.rays.data[i].t_min;
@@ -31,8 +43,9 @@ void main()
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     // An invalid ray goes through as one that ends before it starts.
     Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0),
-                                valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail);
-    if (result.capped)
-        atomicAdd(params.status.data[0].capped_rays, 1u);
-    storeHit(params.hits, i, result.t, result.hit ? result.index : kHitMiss, result.cell, result.level, result.face);
+                                valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail, from, kStepsMax);
+    if (result.unfinished)
+        endUnfinished(kMore, params.rounds, params.round, (params.ray_count - 1u) / kRaysGroup + 1u, params.status);
+    uint miss = kMore && result.unfinished ? kHitUnfinished : kHitMiss;
+    storeHit(params.hits, i, result.t, result.hit ? result.index : miss, result.cell, result.level, result.face);
 }

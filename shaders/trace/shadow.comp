@@ -1,16 +1,20 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Which hits the sun reaches, one workgroup a live tile.
+// Which hits the sun reaches, one workgroup a live tile. Rays that use up their iterations go on in another round: until
+// then, light holds the time of the last event, a float greater than all light.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
+#include "lib/ray.glsl"
 #include "lib/surface_normal.glsl"
 
-layout(constant_id = 3) const bool kOrthographic = false;
-layout(constant_id = 4) const bool kAttributes = true;
+layout(constant_id = 4) const bool kOrthographic = false;
+layout(constant_id = 5) const bool kAttributes = true;
+layout(constant_id = 6) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 7) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -22,6 +26,7 @@ layout(push_constant, scalar) uniform Push
 #include "lib/octree_half.glsl"
 #include "lib/traverse.glsl"
 #include "lib/lit_point.glsl"
+#include "lib/rounds.glsl"
 
 const float kLiftSun = 1.0; // voxels
 
@@ -35,6 +40,14 @@ void main()
     if (any(greaterThanEqual(pixel, size)))
         return;
     uint i = pixel.y * size.x + pixel.x;
+    uvec3 from = uvec3(0u);
+    if (kContinue)
+    {
+        // From before the event, whose axis is not known. Few events share a time: the sun's direction has length 1.
+        from = uvec3(params.light.data[i]);
+        if (from.x <= kLightAll)
+            return;
+    }
     Hit hit = loadHit(params.hits, i);
     vec3 direction = params.forward;
     if (!kOrthographic)
@@ -43,9 +56,10 @@ void main()
     vec3 origin = point.origin + kLiftSun * point.edge * params.to_sun;
     bool faces_sun = !isMiss(hit) && dot(point.normal, params.to_sun) > 0.0;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
-    Traversal shadow = traverse(origin, params.to_sun_inverse, kTraceTimeMin, faces_sun ? kTraceTimeMax : 0.0,
-                                vec2(0.0));
-    if (shadow.capped)
-        atomicAdd(params.status.data[0].capped_rays, 1u);
-    params.light.data[i] = kLightAll - (faces_sun && !shadow.hit ? 0u : kLightSun);
+    Traversal shadow = traverse(origin, inverseDirection(params.to_sun), kTraceTimeMin, faces_sun ? kTraceTimeMax : 0.0,
+                                vec2(0.0), from, kStepsMax);
+    if (shadow.unfinished)
+        endUnfinished(kMore, params.rounds, params.round, params.status.data[0].live_tiles, params.status);
+    uint light = kLightAll - (faces_sun && !shadow.hit ? 0u : kLightSun);
+    params.light.data[i] = kMore && shadow.unfinished ? floatBitsToUint(shadow.t) : light;
 }

@@ -19,7 +19,7 @@ const uint kTileEdge = 8u;             // pixels
 const uint kTilePixels = 64u;          // and threads of the workgroup
 const uint kBlockEdge = 8u;            // tiles: a workgroup of trace/beam takes a square block of them
 const uint kBlockTiles = 64u;          // and threads of the workgroup
-const uint kTilesFold = 32768u;        // workgroups along x of an indirect dispatch over live tiles
+const uint kTilesFold = 32768u;        // workgroups along x of an indirect dispatch
 const uint kNoTile = ~0u;              // in the list of live tiles, after the last one
 const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the tile can hit anything
 
@@ -79,8 +79,10 @@ struct RaysParams // push constants of trace/rays
     GPU_CONST_PTR(Ray) rays; // [ray_count]
     GPU_PTR(Hit) hits;       // [ray_count]
     GPU_PTR(TraceStatus) status;
+    GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
     vec2 detail; // as traverse()
     uint ray_count;
+    uint round; // that unfinished rays wait for
 };
 
 struct BeamMarkParams // push constants of trace/beam_mark: one thread a row
@@ -137,12 +139,14 @@ struct PrimaryParams // push constants of trace/primary
     GPU_CONST_PTR(uint64_t) paths; // of trace/beam_paths; kPaths only
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
+    GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
     GPU_PTR(Hit) hits;        // [width * height] row by row, undefined in dead tiles
     GPU_PTR(uint) iterations; // [width * height] likewise; kCountIterations only
     CameraRays camera;
     uint width;
     uint height;
     vec2 detail;
+    uint round;
 };
 
 struct ShadowParams // push constants of trace/shadow
@@ -153,14 +157,15 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Attribute) attributes;      // of voxels; kAttributes only
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
     GPU_PTR(TraceStatus) status;
+    GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
     GPU_PTR(uint) light; // [width * height] light that arrives; undefined in dead tiles
     vec3 forward;        // of the camera
     vec3 step_x;
     vec3 step_y;
     vec3 to_sun; // length 1
-    vec3 to_sun_inverse;
     uint width;
     uint height;
+    uint round;
 };
 
 struct OcclusionParams // push constants of trace/occlusion

@@ -15,7 +15,6 @@ namespace zvo
 namespace
 {
 
-constexpr float kDirectionMin = 1e-20F; // as in lib/ray.glsl
 constexpr std::uint64_t kPathCellCount = std::uint64_t{gpu::kPathCells} * gpu::kPathCells * gpu::kPathCells;
 constexpr std::uint32_t kBlack = 255U << 24;
 
@@ -64,13 +63,53 @@ bool usesAttributes(const Octree& octree, const TraceOptions& options)
 // The constants that every kernel with lib/traverse.glsl begins with.
 vk::Specialization traverseConstants(const Octree& octree, const TraceOptions& options)
 {
-    return {octree.grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), hasDetail(options) ? 1U : 0U};
+    return {octree.grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), hasDetail(options) ? 1U : 0U,
+            options.steps_max};
 }
 
 vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more)
 {
     constants.insert(constants.end(), more.begin(), more.end());
     return constants;
+}
+
+// How many rounds answer every ray: for a grid of n voxels per edge it crosses at most 3 n planes and goes down into at
+// most n nodes, and once from the root in each round.
+std::uint32_t roundsFor(const Octree& octree, const TraceOptions& options)
+{
+    const std::uint64_t steps = std::uint64_t{4} * octree.grid.resolution() + gpu::kTraceRoundsMax * 16;
+    return static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(divideUp(steps, options.steps_max), gpu::kTraceRoundsMax));
+}
+
+// Records a pass for each round that rays may need: declare() returns what its kernel takes. The first goes as
+// dispatch_first says, the others over as many workgroups as the round before asks for (max_groups at most): none, once
+// all rays are answered.
+template <typename Params, typename Declare, typename Dispatch>
+void addRounds(vk::FrameGraph& graph, const char* kernel, const vk::Specialization& constants,
+               std::uint32_t round_count, vk::BufferOf<gpu::DispatchArgs>& rounds, std::uint64_t max_groups,
+               const Declare& declare, const Dispatch& dispatch_first)
+{
+    if (round_count > 1)
+    {
+        graph.fill(rounds, 0);
+    }
+    for (std::uint32_t round = 0; round < round_count; ++round)
+    {
+        const bool more = round + 1 < round_count;
+        vk::Pass pass = graph.addPass(kernel, withFlags(constants, {round != 0, more}));
+        Params params = declare(pass);
+        params.rounds = more ? pass.readWrite(rounds) : gpu::Ptr<gpu::DispatchArgs>{};
+        params.round = round + 1;
+        if (round == 0)
+        {
+            dispatch_first(pass, params);
+        }
+        else
+        {
+            pass.dispatchIndirect(rounds, round, params, max_groups);
+        }
+    }
 }
 
 // Nodes whose edge is at most max(x * t, y) stop a ray.
@@ -88,11 +127,6 @@ gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera)
         part = std::max(part, width);
     }
     return detail;
-}
-
-float inverse(float direction)
-{
-    return 1.0F / (std::fabs(direction) < kDirectionMin ? std::copysign(kDirectionMin, direction) : direction);
 }
 
 gpu::vec3 sunDirection(const TraceOptions& options)
@@ -127,6 +161,13 @@ bool needsLight(const TraceOptions& options)
     return options.view == View::Color && (options.shadows || options.occlusion_rays != 0);
 }
 
+// The first round of the rays of live tiles.
+auto dispatchLive(const TraceBuffers& buffers)
+{
+    return [&](vk::Pass& pass, const auto& params)
+    { pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count()); };
+}
+
 // What the passes have in common that trace rays from hits.
 template <typename Params>
 Params lightParams(vk::Pass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
@@ -155,7 +196,8 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
     const PictureTiles tiles(buffers);
     const bool fine = hasFineBeam(octree);
     const vk::Specialization constants =
-        withFlags({gpu::kBeamLevels + (fine ? 1 : 0), static_cast<std::uint32_t>(options.stack), fine ? 1U : 0U},
+        withFlags({gpu::kBeamLevels + (fine ? 1 : 0), static_cast<std::uint32_t>(options.stack), fine ? 1U : 0U,
+                   gpu::kTraceStepsMax},
                   {camera.orthographic, options.beam, isEmpty(octree)});
     vk::Pass pass = graph.addPass("trace/beam", constants);
     gpu::BeamParams params{};
@@ -181,7 +223,8 @@ BeamGrid::BeamGrid(vk::Device& device)
 }
 
 TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
-    : width(picture_width), height(picture_height), args(device, "trace args", 1), status(device, "trace status", 1)
+    : width(picture_width), height(picture_height), args(device, "trace args", 1),
+      rounds(device, "trace rounds", gpu::kTraceRoundsMax), status(device, "trace status", 1)
 {
     const PictureTiles tiles(*this);
     const std::uint64_t tile_count = std::uint64_t{tiles.x} * tiles.y;
@@ -245,20 +288,25 @@ void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& b
     traceBeam(graph, octree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
     const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !hasDetail(options);
-    vk::Pass pass = graph.addPass("trace/primary", withFlags(traverseConstants(octree, options),
-                                                             {camera.orthographic, count_iterations, use_paths}));
-    gpu::PrimaryParams params{};
-    params.nodes = pass.read(octree.nodes);
-    params.paths = use_paths ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
-    params.live = pass.read(buffers.live);
-    params.status = pass.readWrite(buffers.status);
-    params.hits = pass.write(buffers.hits);
-    params.iterations = count_iterations ? pass.write(buffers.light) : gpu::Ptr<gpu::uint>{};
-    params.camera = camera.rays;
-    params.width = buffers.width;
-    params.height = buffers.height;
-    params.detail = detailOf(options, &camera);
-    pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
+    const vk::Specialization constants =
+        withFlags(traverseConstants(octree, options), {camera.orthographic, count_iterations, use_paths});
+    const auto declare = [&](vk::Pass& pass)
+    {
+        gpu::PrimaryParams params{};
+        params.nodes = pass.read(octree.nodes);
+        params.paths = use_paths ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
+        params.live = pass.read(buffers.live);
+        params.status = pass.readWrite(buffers.status);
+        params.hits = pass.readWrite(buffers.hits);
+        params.iterations = count_iterations ? pass.readWrite(buffers.light) : gpu::Ptr<gpu::uint>{};
+        params.camera = camera.rays;
+        params.width = buffers.width;
+        params.height = buffers.height;
+        params.detail = detailOf(options, &camera);
+        return params;
+    };
+    addRounds<gpu::PrimaryParams>(graph, "trace/primary", constants, roundsFor(octree, options), buffers.rounds,
+                                  buffers.live.count(), declare, dispatchLive(buffers));
 }
 
 void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
@@ -269,12 +317,15 @@ void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& 
     if (options.shadows)
     {
         const gpu::vec3 to_sun = sunDirection(options);
-        vk::Pass pass = graph.addPass("trace/shadow", constants);
-        auto params = lightParams<gpu::ShadowParams>(pass, octree, camera, buffers);
-        params.light = pass.write(buffers.light);
-        params.to_sun = to_sun;
-        params.to_sun_inverse = {inverse(to_sun.x), inverse(to_sun.y), inverse(to_sun.z)};
-        pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
+        const auto declare = [&](vk::Pass& pass)
+        {
+            auto params = lightParams<gpu::ShadowParams>(pass, octree, camera, buffers);
+            params.light = pass.readWrite(buffers.light);
+            params.to_sun = to_sun;
+            return params;
+        };
+        addRounds<gpu::ShadowParams>(graph, "trace/shadow", constants, roundsFor(octree, options), buffers.rounds,
+                                     buffers.live.count(), declare, dispatchLive(buffers));
     }
     if (options.occlusion_rays != 0)
     {
@@ -351,22 +402,30 @@ void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, co
 }
 
 void traceRays(vk::FrameGraph& graph, const Octree& octree, const vk::BufferOf<gpu::Ray>& rays,
-               vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options)
+               vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
+               vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options)
 {
     if (isEmpty(octree))
     {
         graph.fill(hits, gpu::kHitMiss);
         return;
     }
-    vk::Pass pass = graph.addPass("trace/rays", traverseConstants(octree, options));
-    gpu::RaysParams params{};
-    params.nodes = pass.read(octree.nodes);
-    params.rays = pass.read(rays);
-    params.hits = pass.write(hits);
-    params.status = pass.readWrite(status);
-    params.detail = detailOf(options, nullptr);
-    params.ray_count = static_cast<std::uint32_t>(rays.count());
-    pass.dispatch(rays.count(), params);
+    const auto declare = [&](vk::Pass& pass)
+    {
+        gpu::RaysParams params{};
+        params.nodes = pass.read(octree.nodes);
+        params.rays = pass.read(rays);
+        params.hits = pass.readWrite(hits);
+        params.status = pass.readWrite(status);
+        params.detail = detailOf(options, nullptr);
+        params.ray_count = static_cast<std::uint32_t>(rays.count());
+        return params;
+    };
+    const std::uint64_t groups = divideUp(rays.count(), gpu::kRaysGroup);
+    addRounds<gpu::RaysParams>(graph, "trace/rays", traverseConstants(octree, options), roundsFor(octree, options),
+                               rounds, divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
+                               [&](vk::Pass& pass, const gpu::RaysParams& params)
+                               { pass.dispatch(rays.count(), params); });
 }
 
 } // namespace zvo

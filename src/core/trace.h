@@ -46,6 +46,7 @@ struct TraceOptions
     float occlusion_reach = 0.1F;            // of these rays, as a part of the grid's edge
     float detail_pixels = 0.0F;              // stop at nodes that are at most this many pixels wide; 0: go on to voxels
     std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
+    std::uint32_t steps_max = gpu::kTraceStepsMax; // iterations of an invocation: fewer only to test what comes then
 };
 
 /// A coarse octree over a dilated octree (trace/trace.h), by which the beam pass finds out what rays can skip.
@@ -67,13 +68,14 @@ struct TraceBuffers
 
     std::uint32_t width;
     std::uint32_t height;
-    vk::BufferOf<float> starts;            // [tiles] of kTileEdge^2 pixels, row by row: kTileDead where nothing is hit
-    vk::BufferOf<gpu::uvec2> live;         // [tiles] the others, in any order, then kNoTile
-    vk::BufferOf<gpu::DispatchArgs> args;  // [1] one workgroup for each of them
-    vk::BufferOf<gpu::TraceStatus> status; // [1]
-    vk::BufferOf<gpu::Hit> hits;           // [width * height]; undefined in dead tiles
-    vk::BufferOf<gpu::uint> light;         // [width * height]; undefined in dead tiles. View::Iterations: those
-    vk::BufferOf<gpu::uint> image;         // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
+    vk::BufferOf<float> starts;             // [tiles] of kTileEdge^2 pixels, row by row: kTileDead where nothing is hit
+    vk::BufferOf<gpu::uvec2> live;          // [tiles] the others, in any order, then kNoTile
+    vk::BufferOf<gpu::DispatchArgs> args;   // [1] one workgroup for each of them
+    vk::BufferOf<gpu::DispatchArgs> rounds; // [kTraceRoundsMax] the same for later rounds
+    vk::BufferOf<gpu::TraceStatus> status;  // [1]
+    vk::BufferOf<gpu::Hit> hits;            // [width * height]; undefined in dead tiles
+    vk::BufferOf<gpu::uint> light;          // [width * height]; undefined in dead tiles. View::Iterations: those
+    vk::BufferOf<gpu::uint> image;          // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
 };
 
 /// Records the passes that make the beam grid of octree: once for each octree. Cost: constant, and the cells
@@ -99,9 +101,10 @@ void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, co
 
 /// Records the pass that traces a list of rays in octree's unit space: hits[i] is what rays[i] hits first. hits has
 /// room for as many. Rays with components that are NaN, infinite or (inverse directions) too small to be normal hit
-/// nothing. Adds to status[0].capped_rays.
+/// nothing. rounds has kTraceRoundsMax elements, for rays that need more than one round. Adds to status[0].capped_rays.
 void traceRays(vk::FrameGraph& graph, const Octree& octree, const vk::BufferOf<gpu::Ray>& rays,
-               vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options);
+               vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
+               vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options);
 
 /// Rays of a picture that tracePrimary has to answer: what Mrays/s counts.
 inline std::uint64_t primaryRayCount(const TraceBuffers& buffers)

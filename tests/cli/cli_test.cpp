@@ -255,8 +255,9 @@ TEST_F(CliRun, RenderWritesAPictureAndItsNumbers)
          "front.json"});
     const json report = json::parse(file("front.json"));
     expectFields(report, kOctreeFields);
-    expectFields(report, {"trace_ms number"});
+    expectFields(report, {"trace_ms number", "capped_rays number"});
     EXPECT_EQ(report["schema"], "zvo.render/1");
+    EXPECT_EQ(report["capped_rays"], 0);
     EXPECT_EQ(report["octree_sha256"], octreeSha256(device(), build(m_grid).octree));
     EXPECT_GT(report["trace_ms"], 0.0);
 

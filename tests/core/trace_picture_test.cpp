@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <random>
 
@@ -26,12 +27,14 @@ vk::HeadlessDevice& device()
 struct Picture
 {
     std::vector<gpu::uint> image;
-    std::vector<gpu::Hit> hits; // misses in dead tiles, too
+    std::vector<gpu::Hit> hits;   // misses in dead tiles, too
+    std::vector<gpu::uint> light; // 0 in dead tiles
     std::uint32_t live_tiles = 0;
+    std::uint32_t capped_rays = 0;
 };
 
-Picture take(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
-             const TraceOptions& options)
+Picture takeAny(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
+                const TraceOptions& options)
 {
     BeamGrid beam(device().device());
     TraceBuffers buffers(device().device(), width, height);
@@ -39,12 +42,22 @@ Picture take(const Octree& octree, const TraceCamera& camera, std::uint32_t widt
         [&](vk::FrameGraph& graph)
         {
             graph.fill(buffers.hits, gpu::kHitMiss);
+            graph.fill(buffers.light, 0);
             buildBeam(graph, octree, beam);
             trace(graph, octree, beam, camera, options, buffers);
         });
     const gpu::TraceStatus status = device().download(buffers.status).at(0);
-    EXPECT_EQ(status.capped_rays, 0U);
-    return {device().download(buffers.image), device().download(buffers.hits), status.live_tiles};
+    return {device().download(buffers.image), device().download(buffers.hits), device().download(buffers.light),
+            status.live_tiles, status.capped_rays};
+}
+
+/// A picture all of whose rays got an answer.
+Picture take(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
+             const TraceOptions& options)
+{
+    Picture picture = takeAny(octree, camera, width, height, options);
+    EXPECT_EQ(picture.capped_rays, 0U);
+    return picture;
 }
 
 std::uint32_t hitCount(const Picture& picture)
@@ -311,6 +324,52 @@ TEST(TracePicture, OcclusionDarkensCorners)
     EXPECT_LT(red(0) + 15, open.image.at(32) & 255U);
 }
 
+TEST(TracePicture, RoundsDoNotChangeThePicture)
+{
+    constexpr std::uint32_t kStepsMax = 9;
+    constexpr std::uint32_t kDepth = 6;
+    Octree octree = test::octreeOf(device(), test::spongeCodes(kDepth), kDepth);
+    test::addAttributes(device(), octree);
+    std::uint32_t iterations_max = 0;
+    std::size_t number = 0;
+    for (const ViewCamera& camera : manyCameras(octree.grid))
+    {
+        SCOPED_TRACE("camera " + std::to_string(number++));
+        const TraceCamera rays = traceCamera(camera, octree.grid, 47);
+        TraceOptions options;
+        const Picture at_once = take(octree, rays, 61, 47, options);
+        options.steps_max = kStepsMax;
+        const Picture in_rounds = take(octree, rays, 61, 47, options);
+        expectSameHits(at_once, in_rounds);
+        EXPECT_EQ(at_once.light, in_rounds.light);
+        options.view = View::Iterations;
+        const Picture counted = take(octree, rays, 61, 47, options);
+        iterations_max = std::max(iterations_max, *std::max_element(counted.light.begin(), counted.light.end()));
+    }
+    EXPECT_GT(iterations_max, 2 * kStepsMax);
+}
+
+TEST(TracePicture, OcclusionRaysOfAPixelShareItsIterations)
+{
+    constexpr std::uint32_t kDepth = 6;
+    const Octree octree = test::octreeOf(device(), test::spongeCodes(kDepth), kDepth);
+    const TraceCamera camera =
+        traceCamera(ViewCamera::framing({glm::vec3(0.0F), glm::vec3(64.0F)}, 1.0), octree.grid, 64);
+    TraceOptions options;
+    options.shadows = false;
+    options.occlusion_reach = 1.0F;
+    options.occlusion_rays = 1;
+    options.steps_max = 100; // enough for any ray, not for all of a pixel
+    const Picture one = take(octree, camera, 64, 64, options);
+    options.occlusion_rays = 64;
+    const Picture capped = takeAny(octree, camera, 64, 64, options);
+    options.steps_max = gpu::kTraceStepsMax;
+    const Picture whole = take(octree, camera, 64, 64, options);
+    EXPECT_GT(capped.capped_rays, hitCount(one));
+    EXPECT_LT(capped.capped_rays, 64 * hitCount(one));
+    EXPECT_NE(capped.light, whole.light);
+}
+
 TEST(TracePicture, DetailShowsCoarserNodesFartherAway)
 {
     Octree octree = test::octreeOf(device(), test::codesWhere(7, [](const glm::uvec3& v) { return v.y == 3; }), 7);
@@ -350,6 +409,7 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
                 ZVO_EXPECT_OFFSET(PrimaryParams, iterations);
                 ZVO_EXPECT_OFFSET(PrimaryParams, camera);
                 ZVO_EXPECT_OFFSET(PrimaryParams, detail);
+                ZVO_EXPECT_OFFSET(PrimaryParams, round);
                 ++checked;
             }
             else if (name == "BeamPathsParams")
@@ -366,14 +426,15 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
             else if (name == "ShadowParams")
             {
                 ZVO_EXPECT_OFFSET(ShadowParams, light);
-                ZVO_EXPECT_OFFSET(ShadowParams, to_sun_inverse);
-                ZVO_EXPECT_OFFSET(ShadowParams, height);
+                ZVO_EXPECT_OFFSET(ShadowParams, to_sun);
+                ZVO_EXPECT_OFFSET(ShadowParams, round);
                 ++checked;
             }
             else if (name == "RaysParams")
             {
                 ZVO_EXPECT_OFFSET(RaysParams, detail);
                 ZVO_EXPECT_OFFSET(RaysParams, ray_count);
+                ZVO_EXPECT_OFFSET(RaysParams, round);
                 ++checked;
             }
             else if (name == "Ray")

@@ -103,6 +103,74 @@ TEST(Trace, EveryStackGivesTheSameHits)
     }
 }
 
+TEST(Trace, RaysThatUseUpTheirIterationsGoOnToTheSameHits)
+{
+    std::mt19937 random(6);
+    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
+    {
+        TraceOptions options;
+        options.stack = stack;
+        options.steps_max = 14;
+        expectEqualsReference(test::spongeCodes(6), 6, 2049, options);
+        expectEqualsReference(test::sphereShell(6, 29.0), 6, 2049, options);
+        expectEqualsReference(test::randomCodes(7, 4000, random), 7, 2049, options);
+        expectEqualsReference(test::randomCodes(11, 4000, random), 11, 2049, options);
+    }
+}
+
+TEST(Trace, RaysWithoutAnAnswerAreCounted)
+{
+    // A floor along x: rays just above it look into every cell, up to a wall at the end.
+    constexpr std::uint32_t kDepth = 7;
+    const test::Codes codes = test::codesWhere(kDepth, [](const glm::uvec3& v) { return v.y == 64 || v.x == 127; });
+    const Octree octree = test::octreeOf(device(), codes, kDepth);
+    const float edge = 1.0F / static_cast<float>(octree.grid.rootResolution());
+    std::vector<gpu::Ray> rays;
+    for (std::uint32_t i = 0; i < 100; ++i) // all but every tenth begin far from the wall
+    {
+        const glm::vec3 origin =
+            1.0F + edge * glm::vec3(i % 10 == 0 ? 120.5F : 0.5F, 65.5F, 0.5F + static_cast<float>(i));
+        rays.push_back(deviceRay(oracle::makeRay(origin, {1.0F, 0.0F, 0.0F}, gpu::kTraceTimeMin)));
+    }
+    TraceOptions options;
+    const std::vector<gpu::Hit> expected = traceOnDevice(octree, rays, options);
+    options.steps_max = 16; // more than a sixteenth of what they need
+    const std::vector<gpu::Hit> in_rounds = traceOnDevice(octree, rays, options);
+    options.steps_max = 10; // less
+    const std::vector<gpu::Hit> hits = test::traceOnDevice(device(), octree, rays, options, 90);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+    {
+        EXPECT_NE(expected[i].index, gpu::kHitMiss) << i;
+        EXPECT_EQ(in_rounds[i].index, expected[i].index) << i;
+        EXPECT_EQ(hits[i].index, i % 10 == 0 ? expected[i].index : gpu::kHitMiss) << i;
+    }
+}
+
+TEST(Trace, RaysAlongTheDeepestGridAreAnswered)
+{
+    // As above, but of single voxels: more than four times as many iterations as an invocation has.
+    constexpr std::uint32_t kLast = (1U << Grid::kDepthMax) - 1;
+    test::Codes codes;
+    for (std::uint32_t x = 0; x <= kLast; ++x)
+    {
+        codes.push_back(oracle::mortonEncode({x, 6, 9}));
+    }
+    codes.push_back(oracle::mortonEncode({kLast, 7, 9}));
+    std::sort(codes.begin(), codes.end());
+    const Octree octree = test::octreeOf(device(), codes, Grid::kDepthMax);
+    const float edge = 1.0F / static_cast<float>(octree.grid.rootResolution());
+    const glm::vec3 origin = 1.0F + edge * glm::vec3(0.5F, 7.5F, 9.5F);
+    const std::vector<gpu::Hit> hits =
+        traceOnDevice(octree, {deviceRay(oracle::makeRay(origin, {1.0F, 0.0F, 0.0F}, gpu::kTraceTimeMin)),
+                               deviceRay(oracle::makeRay(origin, {-1.0F, 0.0F, 0.0F}, gpu::kTraceTimeMin))});
+    const std::optional<DeviceHit> wall = unpack(hits[0]);
+    ASSERT_TRUE(wall.has_value());
+    EXPECT_EQ(wall->cell, glm::uvec3(kLast, 7, 9));
+    EXPECT_EQ(wall->face, 0U);
+    EXPECT_EQ(wall->t, edge * (static_cast<float>(kLast) - 0.5F));
+    EXPECT_FALSE(unpack(hits[1]).has_value());
+}
+
 TEST(Trace, RayCountsThatDoNotFillAWorkgroup)
 {
     std::mt19937 random(3);

@@ -92,12 +92,13 @@ Names tracePictures(const Octree& octree)
     const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
     const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
     vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
+    vk::BufferOf<gpu::DispatchArgs> rounds(device().device(), "rounds", gpu::kTraceRoundsMax);
     vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
     addNames(names, device().run(
                         [&](vk::FrameGraph& graph)
                         {
                             graph.fill(status, 0);
-                            traceRays(graph, octree, rays, hits, status, {});
+                            traceRays(graph, octree, rays, hits, rounds, status, {});
                         }));
     return names;
 }

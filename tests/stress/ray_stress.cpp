@@ -235,12 +235,13 @@ void traceBatch(vk::HeadlessDevice& device, const Octree& octree, TraceStack sta
     options.stack = stack;
     const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(device_rays));
     vk::BufferOf<gpu::Hit> hit_buffer(device.device(), "hits", count);
+    vk::BufferOf<gpu::DispatchArgs> rounds(device.device(), "rounds", gpu::kTraceRoundsMax);
     vk::BufferOf<gpu::TraceStatus> status(device.device(), "status", 1);
     device.run(
         [&](vk::FrameGraph& graph)
         {
             graph.fill(status, 0);
-            traceRays(graph, octree, ray_buffer, hit_buffer, status, options);
+            traceRays(graph, octree, ray_buffer, hit_buffer, rounds, status, options);
         });
     const std::uint32_t capped = device.download(status).at(0).capped_rays;
     if (capped != 0)

@@ -36,18 +36,19 @@ gpu::Ray deviceRay(const oracle::Ray& ray, float t_max)
 }
 
 std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const Octree& octree, const std::vector<gpu::Ray>& rays,
-                                    const TraceOptions& options)
+                                    const TraceOptions& options, std::uint32_t capped_count)
 {
     const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(rays));
     vk::BufferOf<gpu::Hit> hits(device.device(), "hits", rays.size());
+    vk::BufferOf<gpu::DispatchArgs> rounds(device.device(), "rounds", gpu::kTraceRoundsMax);
     vk::BufferOf<gpu::TraceStatus> status(device.device(), "status", 1);
     device.run(
         [&](vk::FrameGraph& graph)
         {
             graph.fill(status, 0);
-            traceRays(graph, octree, ray_buffer, hits, status, options);
+            traceRays(graph, octree, ray_buffer, hits, rounds, status, options);
         });
-    EXPECT_EQ(device.download(status).at(0).capped_rays, 0U);
+    EXPECT_EQ(device.download(status).at(0).capped_rays, capped_count);
     return device.download(hits);
 }
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Rays that used up the iterations of an invocation. The includer includes trace/trace.h before.
+
+// Has the next round, number `round`, run over all the workgroups (lib/dispatch.glsl tells them their numbers), or counts
+// the ray as given up if there is none.
+void endUnfinished(bool more, DispatchArgs_Ptr rounds, uint round, uint groups, TraceStatus_Ptr status)
+{
+    if (!more)
+    {
+        atomicAdd(status.data[0].capped_rays, 1u);
+        return;
+    }
+    atomicMax(rounds.data[round].x, min(groups, kTilesFold));
+    atomicMax(rounds.data[round].y, (groups - 1u) / kTilesFold + 1u);
+    atomicMax(rounds.data[round].z, 1u);
+}
