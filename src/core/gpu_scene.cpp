@@ -5,6 +5,7 @@
 #include "zvo/error.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <span>
 #include <string>
@@ -101,8 +102,16 @@ struct PrimitivePlace
     std::uint32_t first_color;
 };
 
+// Whether an array of a primitive is absent or as long as its positions.
+template <typename T> [[maybe_unused]] bool isWhole(const std::vector<T>& values, const Primitive& primitive)
+{
+    return values.empty() || values.size() == primitive.positions.size();
+}
+
 PrimitivePlace addPrimitive(Staging& staging, const Primitive& primitive)
 {
+    assert(isWhole(primitive.normals, primitive) && isWhole(primitive.uvs, primitive) &&
+           isWhole(primitive.colors, primitive));
     PrimitivePlace place{};
     place.first_triangle = checkedCount(staging.triangles.size(), "triangles");
     place.first_vertex = checkedCount(staging.positions.size(), "vertices");

@@ -138,24 +138,29 @@ void place(Scene& scene, const LoadOptions& options)
     const glm::mat4 rotation = rotationTo(options.up);
     glm::mat4 to_world = options.scale * rotation;
     to_world[3][3] = 1.0F;
-    for (Instance& instance : scene.instances)
+    const auto checkFinite = [&](const glm::mat4& transform)
     {
-        instance.transform = to_world * instance.transform;
         for (int i = 0; i < 16; ++i)
         {
-            if (!std::isfinite(instance.transform[i / 4][i % 4]))
+            if (!std::isfinite(transform[i / 4][i % 4]))
             {
                 throw Error(ErrorCode::Usage,
                             fmt::format("scaled by {} the scene is larger than single precision holds; scale it less",
                                         options.scale));
             }
         }
+    };
+    for (Instance& instance : scene.instances)
+    {
+        instance.transform = to_world * instance.transform;
+        checkFinite(instance.transform);
     }
     for (Camera& camera : scene.cameras)
     {
         camera.transform = rotation * camera.transform;
         camera.transform[3] = glm::vec4(options.scale * glm::vec3(camera.transform[3]), 1.0F);
         camera.half_height *= options.scale;
+        checkFinite(camera.transform);
     }
 }
 

@@ -28,10 +28,10 @@ struct LoadOptions
 };
 
 /// Several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content where
-/// it is clear, by their extension otherwise. Throws Error{Input}, one line with the path.
+/// it is clear, by their extension otherwise. Throws Error{Input}, one line with the path, and as place() does.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
 
-/// Turns and scales a scene with its cameras.
+/// Turns and scales a scene with its cameras. Throws Error{Usage} if it becomes larger than single precision holds.
 void place(Scene& scene, const LoadOptions& options);
 
 } // namespace zvo

@@ -249,6 +249,10 @@ private:
         }
         if (element.name == "vertex")
         {
+            if (!m_primitive.positions.empty())
+            {
+                throw fail("it has several lists of vertices");
+            }
             readVertices(element);
             return;
         }
@@ -479,8 +483,7 @@ private:
         {
             throw cutShort();
         }
-        const std::optional<float> single = type == Type::Float32 ? parseNumber<float>(word) : std::nullopt;
-        const std::optional<double> value = single ? std::optional<double>(*single) : parseNumber<double>(word);
+        const std::optional<double> value = type == Type::Float32 ? parseSingle(word) : parseNumber<double>(word);
         if (!value)
         {
             throw fail(fmt::format("\"{}\" is not a number", word));

@@ -134,7 +134,7 @@ private:
         for (int axis = 0; axis < 3; ++axis)
         {
             const std::string_view word = words.word();
-            const std::optional<float> value = parseNumber<float>(word);
+            const std::optional<float> value = parseSingle(word);
             if (!value)
             {
                 throw fail(fmt::format("the coordinate \"{}\"", word));

@@ -24,6 +24,18 @@ template <typename T> std::optional<T> parseNumber(std::string_view word)
     return failure == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
+/// All of word as a number in single precision: rounded once where that holds it, and otherwise what converting it from
+/// double makes of it (0, or infinity); nothing where it is none.
+inline std::optional<float> parseSingle(std::string_view word)
+{
+    if (const std::optional<float> value = parseNumber<float>(word))
+    {
+        return value;
+    }
+    const std::optional<double> value = parseNumber<double>(word);
+    return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+}
+
 /// Goes through a text line by line and word by word.
 class TextCursor
 {

@@ -247,6 +247,10 @@ TEST(MeshImport, BrokenFilesAreInputErrors)
     expectBroken("word.ply", plyOf(vertices + faces, "0 0 zero\n"), "\"zero\" is not a number");
     expectBroken("many.ply", plyOf(vertices + faces, points + "4000000000 0 1 2\n"), "cut short");
     expectBroken("short.ply", plyOf(vertices + faces, points), "cut short");
+    const std::string more = "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                             "property float nx\nproperty float ny\nproperty float nz\n";
+    expectBroken("twice.ply", plyOf(vertices + more + faces, points + "0 0 1 0 0 1\n3 0 1 2\n"), "several lists");
+    expectBroken("twice.ply", plyOf(more + vertices + faces, "0 0 1 0 0 1\n" + points + "3 0 1 2\n"), "several lists");
     expectBroken("axis.ply", plyOf("element vertex 1\nproperty float x\nproperty float y\nend_header\n", "0 0\n"),
                  "no x, y and z");
     expectBroken("type.ply", plyOf("element vertex 1\nproperty quad x\nend_header\n", ""), "unknown type");
@@ -296,6 +300,13 @@ TEST(MeshImport, TextCoordinatesAreRoundedOnce)
                             "float z\nend_header\n" +
                             above + " 0 0\n";
     EXPECT_EQ(loadText("a.ply", ply).primitives.at(0).positions[0].x, std::nextafter(1.0F, 2.0F));
+}
+
+TEST(MeshImport, TextCoordinatesBeyondSinglePrecisionAreZeroOrInfinite)
+{
+    const Scene scene = loadText("a.stl", "solid a\nfacet normal 0 0 0\nouter loop\nvertex 1e-60 -1e60 0\n"
+                                          "vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+    EXPECT_EQ(scene.primitives.at(0).positions[0], glm::vec3(0, -INFINITY, 0));
 }
 
 TEST(MeshImport, DamagedBytesGiveASceneOrAnInputError)
