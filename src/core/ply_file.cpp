@@ -483,7 +483,8 @@ private:
         {
             throw cutShort();
         }
-        const std::optional<double> value = type == Type::Float32 ? parseSingle(word) : parseNumber<double>(word);
+        const std::optional<double> value =
+            type == Type::Float32 ? std::optional<double>(parseSingle(word)) : parseNumber<double>(word);
         if (!value)
         {
             throw fail(fmt::format("\"{}\" is not a number", word));
