@@ -22,6 +22,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -102,7 +103,7 @@ public:
     {
         if (file == m_name)
         {
-            return new MemoryStream(m_bytes);
+            return keep(std::make_unique<MemoryStream>(m_bytes));
         }
         const std::optional<std::filesystem::path> place = fileBeside(m_path, file);
         if (!place)
@@ -115,13 +116,14 @@ public:
             m_missing.push_back(file);
             return nullptr;
         }
-        if (!m_opened.insert(*place).second)
-        {
-            return new MemoryStream(padded({})); // its materials are known; a scene may name it any number of times
-        }
-        return new MemoryStream(padded(readFile(*place)));
+        // A scene may name it any number of times; its materials are known after the first.
+        const bool is_new = m_material_files.insert(*place).second;
+        return keep(std::make_unique<MemoryStream>(padded(is_new ? readFile(*place) : std::vector<std::uint8_t>())));
     }
-    void Close(Assimp::IOStream* file) override { delete file; }
+    void Close(Assimp::IOStream* file) override
+    {
+        std::erase_if(m_streams, [file](const auto& stream) { return stream.get() == file; });
+    }
 
     /// Names that leave the folder.
     [[nodiscard]] const std::vector<std::string>& outside() const { return m_outside; }
@@ -129,10 +131,17 @@ public:
     /// The first material file that is not there, where none is.
     [[nodiscard]] std::optional<std::string> missing() const
     {
-        return m_opened.empty() && !m_missing.empty() ? std::optional(m_missing.front()) : std::nullopt;
+        return m_material_files.empty() && !m_missing.empty() ? std::optional(m_missing.front()) : std::nullopt;
     }
 
 private:
+    /// Assimp does not close what it fails to read.
+    Assimp::IOStream* keep(std::unique_ptr<Assimp::IOStream> file)
+    {
+        m_streams.push_back(std::move(file));
+        return m_streams.back().get();
+    }
+
     /// A material file as assimp takes it: one of very few bytes is an error to it.
     static std::vector<std::uint8_t> padded(std::vector<std::uint8_t> material_file)
     {
@@ -146,7 +155,8 @@ private:
     std::string m_name;
     std::vector<std::string> m_outside;
     std::vector<std::string> m_missing;
-    std::set<std::filesystem::path> m_opened;
+    std::set<std::filesystem::path> m_material_files;
+    std::vector<std::unique_ptr<Assimp::IOStream>> m_streams;
 };
 
 /// Takes all other formats out of an importer: what a file is has been decided.

@@ -25,9 +25,9 @@ constexpr std::size_t kFacetsOffset = kHeaderBytes + sizeof(std::uint32_t);
 constexpr std::size_t kNormalBytes = 3 * sizeof(float);
 constexpr std::size_t kFacetBytes = 50; // normal, three corners, 16 bits
 
-/// A facet becomes a triangle of three new vertices.
 constexpr std::uint64_t kTriangleBytes = 3 * sizeof(glm::vec3) + sizeof(glm::uvec3);
 
+/// Adds a triangle of three new vertices.
 void addVertices(Primitive& primitive, const std::array<glm::vec3, 3>& corners)
 {
     const auto first = static_cast<std::uint32_t>(primitive.positions.size());
