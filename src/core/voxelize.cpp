@@ -41,18 +41,25 @@ struct RasterJob
     Octree* octree;               // null in coverage mode
 };
 
-gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32_t material_class)
+// The kernels of all modes share their parameters: those that only read a buffer get a writable address, too.
+template <typename T> gpu::Ptr<T> access(vk::Pass& pass, vk::BufferOf<T>& buffer, bool writes)
 {
+    return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
+}
+
+gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32_t material_class, std::uint32_t mode)
+{
+    const bool covers = mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
     VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
     const vk::BufferOf<gpu::Chunk>& chunks = job.scene.chunks[material_class];
     gpu::RasterParams params{};
     params.scene = pass.read(job.scene.view);
     params.chunks = pass.read(chunks);
-    params.bricks = pass.readWrite(job.buffers.bricks);
-    params.big_triangles = pass.readWrite(rows.big_triangles);
-    params.row_blocks = pass.readWrite(rows.row_blocks);
-    params.counters = pass.readWrite(rows.counters);
-    params.brick_counters = pass.readWrite(job.buffers.counters);
+    params.bricks = access(pass, job.buffers.bricks, covers);
+    params.big_triangles = access(pass, rows.big_triangles, covers);
+    params.row_blocks = access(pass, rows.row_blocks, covers);
+    params.counters = access(pass, rows.counters, covers);
+    params.brick_counters = access(pass, job.buffers.counters, covers);
     params.origin = job.grid.origin;
     params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(job.grid.voxel_size));
     params.resolution = job.grid.resolution();
@@ -60,12 +67,13 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32
     params.chunk_count = static_cast<std::uint32_t>(chunks.count());
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
-    if (job.attributes != nullptr)
+    if (!covers)
     {
+        const bool emits = mode == gpu::kModeEmission;
         params.nodes = pass.read(job.octree->nodes);
-        params.sums = pass.readWrite(job.attributes->sums);
-        params.emission_words = pass.readWrite(job.octree->emission_words);
-        params.emission_sums = pass.readWrite(job.attributes->emission_sums);
+        params.sums = access(pass, job.attributes->sums, !emits);
+        params.emission_words = access(pass, job.octree->emission_words, !emits);
+        params.emission_sums = access(pass, job.attributes->emission_sums, emits);
         params.sum_shift = job.attributes->sum_shift;
     }
     return params;
@@ -100,18 +108,18 @@ void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
         const vk::Specialization variant = {coverage, mode, material_class, emits, hasWideKeys(job.grid) ? 1U : 0U};
         {
             vk::Pass pass = graph.addPass("voxelize/triangles", variant);
-            pass.dispatch(chunk_count * gpu::kChunkTriangles, rasterParams(pass, job, material_class));
+            pass.dispatch(chunk_count * gpu::kChunkTriangles, rasterParams(pass, job, material_class, mode));
         }
         if (mode == gpu::kModeCoverage)
         {
             sizeRowWork(graph, rows);
             vk::Pass pass = graph.addPass("voxelize/bands", {coverage, mode, material_class});
-            pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, job, material_class),
+            pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, job, material_class, mode),
                                   divideUp(rows.big_triangles.count(), gpu::kBandsGroup));
             sizeRowWork(graph, rows);
         }
         vk::Pass pass = graph.addPass("voxelize/rows", variant);
-        pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, job, material_class),
+        pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, job, material_class, mode),
                               divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
     }
 }
