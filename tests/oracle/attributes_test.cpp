@@ -5,6 +5,7 @@
 #include "oracle/morton.h"
 #include "oracle/test_scenes.h"
 #include "oracle/voxelizer.h"
+#include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -25,14 +26,14 @@ TEST(OracleColors, EmptySceneHasNone)
 
 TEST(OracleColors, FactorIsTheColorOfEachFragment)
 {
-    Scene scene = test::sceneOf(kSmallTriangle);
+    Scene scene = zvo::test::triangleSoup(kSmallTriangle);
     scene.materials[0].base_color = glm::vec4(0.25F, 0.5F, 1.0F, 0.0F);
     EXPECT_EQ(voxelColors(scene, kUnitGrid, Coverage::Thin), (std::vector<VoxelColor>{{0, 16384, 32768, 65535, 1}}));
 }
 
 TEST(OracleColors, FragmentsOfOneVoxelAddUp)
 {
-    Scene scene = test::sceneOf(kSmallTriangle);
+    Scene scene = zvo::test::triangleSoup(kSmallTriangle);
     scene.materials.push_back(test::materialOf(AlphaMode::Opaque, glm::vec4(1.0F, 0.0F, 0.25F, 1.0F)));
     scene.primitives.push_back(scene.primitives[0]);
     scene.primitives[1].material = 1;
@@ -44,7 +45,7 @@ TEST(OracleColors, FragmentsOfOneVoxelAddUp)
 
 TEST(OracleColors, FragmentsThatDoNotExistDoNotCount)
 {
-    Scene scene = test::sceneOf(kSmallTriangle);
+    Scene scene = zvo::test::triangleSoup(kSmallTriangle);
     scene.materials.push_back(test::materialOf(AlphaMode::Mask, glm::vec4(1.0F, 1.0F, 1.0F, 0.4F)));
     scene.materials[0].base_color = glm::vec4(0.0F);
     scene.primitives.push_back(scene.primitives[0]);
@@ -55,7 +56,7 @@ TEST(OracleColors, FragmentsThatDoNotExistDoNotCount)
 
 TEST(OracleColors, VertexColorsAreInterpolatedAndMultiplied)
 {
-    Scene scene = test::sceneOf({{0.0F, 0.0F, 0.5F}, {2.0F, 0.0F, 0.5F}, {0.0F, 2.0F, 0.5F}});
+    Scene scene = zvo::test::triangleSoup({{0.0F, 0.0F, 0.5F}, {2.0F, 0.0F, 0.5F}, {0.0F, 2.0F, 0.5F}});
     scene.primitives[0].colors = {glm::vec4(1.0F, 0.0F, 0.0F, 1.0F), glm::vec4(0.0F, 1.0F, 0.0F, 1.0F),
                                   glm::vec4(0.0F, 0.0F, 1.0F, 1.0F)};
     scene.materials[0].base_color = glm::vec4(1.0F, 1.0F, 0.5F, 1.0F);
@@ -66,7 +67,7 @@ TEST(OracleColors, VertexColorsAreInterpolatedAndMultiplied)
 
 TEST(OracleColors, TextureIsReadInLinearLight)
 {
-    Scene scene = test::sceneOf({{0.0F, 0.0F, 0.5F}, {2.0F, 0.0F, 0.5F}, {0.0F, 2.0F, 0.5F}});
+    Scene scene = zvo::test::triangleSoup({{0.0F, 0.0F, 0.5F}, {2.0F, 0.0F, 0.5F}, {0.0F, 2.0F, 0.5F}});
     scene.images.push_back({{}, 1, 1, {188, 55, 255, 255}});
     scene.textures.push_back({});
     scene.materials[0].base_color_texture = 0;
@@ -84,7 +85,7 @@ TEST(OracleColors, HasTheVoxelizersVoxelsInMortonOrder)
     for (int i = 0; i < 4500; ++i)
         corners.emplace_back(test::pick(random, 0, 1000), test::pick(random, 0, 1000), test::pick(random, 0, 1000));
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 50.0F, .depth = 5};
-    const Scene scene = test::sceneOf(corners);
+    const Scene scene = zvo::test::triangleSoup(corners);
     const std::vector<VoxelColor> colors = voxelColors(scene, grid, Coverage::Conservative);
     std::vector<std::uint64_t> codes;
     for (const VoxelColor& voxel : colors)

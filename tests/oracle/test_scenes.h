@@ -28,19 +28,6 @@ inline Triangle pickTriangle(Random& random, std::int64_t low, std::int64_t high
     return {pickPoint(random, low, high), pickPoint(random, low, high), pickPoint(random, low, high)};
 }
 
-/// One instance of the triangles, three corners each, with one default material.
-inline Scene sceneOf(const std::vector<glm::vec3>& corners)
-{
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.primitives.emplace_back();
-    scene.primitives[0].positions = corners;
-    for (std::uint32_t i = 0; i < corners.size(); i += 3)
-        scene.primitives[0].triangles.emplace_back(i, i + 1, i + 2);
-    scene.instances.emplace_back();
-    return scene;
-}
-
 inline Material materialOf(AlphaMode mode, const glm::vec4& base_color = glm::vec4(1.0F), float cutoff = 0.5F)
 {
     Material material;

@@ -3,6 +3,7 @@
 
 #include "oracle/morton.h"
 #include "oracle/test_scenes.h"
+#include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ const Grid kUnitGrid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 2};
 Scene floorScene(float height)
 {
     const glm::vec3 corners[4] = {{0, 0, height}, {4, 0, height}, {4, 4, height}, {0, 4, height}};
-    Scene scene = test::sceneOf({corners[0], corners[1], corners[2], corners[0], corners[2], corners[3]});
+    Scene scene = zvo::test::triangleSoup({corners[0], corners[1], corners[2], corners[0], corners[2], corners[3]});
     for (const glm::vec3& position : scene.primitives[0].positions)
         scene.primitives[0].uvs.emplace_back(position.x / 4, position.y / 4);
     return scene;
@@ -69,8 +70,9 @@ TEST(OracleVoxelizer, InstancesAreUnited)
 TEST(OracleVoxelizer, CountsDroppedTrianglesByReason)
 {
     const glm::vec3 o(0.0F);
-    const Scene scene = test::sceneOf({o, o, glm::vec3(NAN), o, o, glm::vec3(1e30F), o, o, o, -glm::vec3(1.0F),
-                                       -glm::vec3(1.0F), -glm::vec3(2.0F), o, o, glm::vec3(4.0F)});
+    const Scene scene =
+        zvo::test::triangleSoup({o, o, glm::vec3(NAN), o, o, glm::vec3(1e30F), o, o, o, -glm::vec3(1.0F),
+                                 -glm::vec3(1.0F), -glm::vec3(2.0F), o, o, glm::vec3(4.0F)});
     using Dropped = std::map<std::string, std::uint64_t>;
     EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).dropped,
               (Dropped{{"nonfinite", 1}, {"out_of_range", 1}, {"outside", 1}, {"zero_area", 2}}));
@@ -132,7 +134,7 @@ TEST(OracleVoxelizer, CodesAreSortedAndUniqueAndThinIsASubset)
     for (std::size_t i = 0; i < corners.size(); i += 3) // small triangles
         for (std::size_t k = 1; k < 3; ++k)
             corners[i + k] = corners[i] + (corners[i + k] - corners[i]) * 0.1F;
-    const Scene scene = test::sceneOf(corners);
+    const Scene scene = zvo::test::triangleSoup(corners);
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
     const OracleVoxels thin = voxelize(scene, grid, Coverage::Thin);
     const OracleVoxels all = voxelize(scene, grid, Coverage::Conservative);
