@@ -20,7 +20,6 @@ namespace zvo::gpu
 using uint = std::uint32_t;
 using glm::ivec2;
 using glm::ivec3;
-using glm::ivec4;
 using glm::mat3;
 using glm::mat4x3;
 using glm::uvec2;
@@ -28,7 +27,6 @@ using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
-using glm::vec4;
 
 /// Address of a T[] in device memory that a kernel may only read.
 template <typename T> struct ConstPtr
@@ -83,9 +81,7 @@ GPU_BUFFER(ivec2, 4);
 GPU_BUFFER(uvec2, 4);
 GPU_BUFFER(uvec3, 4);
 GPU_BUFFER(uvec4, 4);
-GPU_BUFFER(vec2, 4);
 GPU_BUFFER(vec3, 4);
-GPU_BUFFER(vec4, 4);
 GPU_BUFFER(uint64_t, 8);
 
 /// Arguments of one indirect dispatch, laid out as VkDispatchIndirectCommand.
