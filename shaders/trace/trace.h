@@ -80,7 +80,7 @@ struct RaysParams // push constants of trace/rays
     GPU_PTR(Hit) hits;       // [ray_count]
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
-    vec2 detail; // as traverse()
+    vec2 detail;                  // as traverse()
     uint ray_count;
     uint round; // that unfinished rays wait for
 };
@@ -140,8 +140,8 @@ struct PrimaryParams // push constants of trace/primary
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
-    GPU_PTR(Hit) hits;        // [width * height] row by row, undefined in dead tiles
-    GPU_PTR(uint) iterations; // [width * height] likewise; kCountIterations only
+    GPU_PTR(Hit) hits;            // [width * height] row by row, undefined in dead tiles
+    GPU_PTR(uint) iterations;     // [width * height] likewise; kCountIterations only
     CameraRays camera;
     uint width;
     uint height;
@@ -158,8 +158,8 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
-    GPU_PTR(uint) light; // [width * height] light that arrives; undefined in dead tiles
-    vec3 forward;        // of the camera
+    GPU_PTR(uint) light;          // [width * height] light that arrives; undefined in dead tiles
+    vec3 forward;                 // of the camera
     vec3 step_x;
     vec3 step_y;
     vec3 to_sun; // length 1
