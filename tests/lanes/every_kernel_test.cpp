@@ -113,19 +113,21 @@ TEST(EveryKernel, RunsOnASmallScene)
         Coverage coverage;
         std::uint32_t depth;
         float voxel_size;
+        bool pictures;
     };
     // The beam has finer cells from depth 7 on, keys have two words from depth 13 on.
-    const Case cases[] = {{Coverage::Thin, 3, 2.0F},
-                          {Coverage::Conservative, 3, 2.0F},
-                          {Coverage::Thin, 7, 0.125F},
-                          {Coverage::Thin, 13, 1.0F}};
+    const Case cases[] = {
+        {Coverage::Conservative, 3, 2.0F, false}, {Coverage::Thin, 7, 0.25F, true}, {Coverage::Thin, 13, 1.0F, false}};
     for (const Case& c : cases)
     {
         const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = c.voxel_size, .depth = c.depth};
         const BuildResult built = buildOctree(device(), gpu_scene, grid, {c.coverage, true, {}});
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, c.coverage).codes);
         addNames(names, built.passes);
-        names.merge(tracePictures(built.octree));
+        if (c.pictures)
+        {
+            names.merge(tracePictures(built.octree));
+        }
     }
     for (const vk::EmbeddedKernel& kernel : zvoKernels())
     {
