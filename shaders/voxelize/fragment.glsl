@@ -39,7 +39,7 @@ void moveToBrick(uvec2 key, inout BrickCursor cursor)
             BrickEntry leaf = params.bricks.data[cursor.entry == kNoEntry ? 0u : cursor.entry];
             cursor.base = leaf.base;
             cursor.masks = uvec2(leaf.mask_lo, leaf.mask_hi);
-            if (kWideKeys)
+            if (kWideKeys && cursor.entry != kNoEntry)
             {
                 Node node = params.nodes.data[nodeOf(leaf)];
                 cursor.base = node.base_lo;
