@@ -6,12 +6,14 @@
 #include "support/temp_dir.h"
 #include "zvo/error.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -183,6 +185,45 @@ template <typename Load> void expectInputError(const Load& load, std::initialize
             EXPECT_TRUE(contains(message, part)) << '"' << part << "\" is not in: " << message;
         }
     }
+}
+
+/// Loads builder's file count times, each time with up to three bytes of its binary chunk damaged. Each gives a scene
+/// whose arrays are whole, or an input error. Returns how many gave a scene.
+inline int loadDamaged(const GltfBuilder& builder, int count, std::uint32_t seed)
+{
+    const TempDir dir;
+    std::mt19937 random(seed);
+    int loaded_count = 0;
+    for (int i = 0; i < count; ++i)
+    {
+        GltfBuilder damaged = builder;
+        const std::size_t damage_count = 1 + random() % 3;
+        for (std::size_t k = 0; k < damage_count; ++k)
+        {
+            damaged.bin[random() % damaged.bin.size()] = static_cast<std::uint8_t>(random());
+        }
+        try
+        {
+            const Scene scene = loadGltf(dir.write("damaged.glb", damaged.glb()));
+            ++loaded_count;
+            for (const Primitive& primitive : scene.primitives)
+            {
+                const std::size_t vertex_count = primitive.positions.size();
+                EXPECT_TRUE(primitive.normals.empty() || primitive.normals.size() == vertex_count);
+                EXPECT_TRUE(primitive.uvs.empty() || primitive.uvs.size() == vertex_count);
+                EXPECT_TRUE(primitive.colors.empty() || primitive.colors.size() == vertex_count);
+                for (const glm::uvec3& triangle : primitive.triangles)
+                {
+                    EXPECT_LT(std::max({triangle.x, triangle.y, triangle.z}), vertex_count);
+                }
+            }
+        }
+        catch (const Error& error)
+        {
+            EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
+        }
+    }
+    return loaded_count;
 }
 
 } // namespace zvo::test

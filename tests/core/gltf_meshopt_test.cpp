@@ -374,28 +374,7 @@ TEST(GltfMeshopt, ManyViewsOfTheSameBytesCannotUnpackToAnySize)
 
 TEST(GltfMeshopt, DamagedBytesGiveASceneOrAnInputError)
 {
-    GltfBuilder builder = packedTerrain(Terrain(12));
-    const TempDir dir;
-    std::mt19937 random(11); // NOLINT: the same damage on every run
-    int loaded = 0;
-    for (int i = 0; i < 400; ++i)
-    {
-        GltfBuilder damaged = builder;
-        for (std::size_t k = 0; k <= random() % 3; ++k)
-        {
-            damaged.bin[random() % damaged.bin.size()] = static_cast<std::uint8_t>(random());
-        }
-        try
-        {
-            loadGltf(dir.write("damaged.glb", damaged.glb()));
-            ++loaded;
-        }
-        catch (const Error& error)
-        {
-            EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
-        }
-    }
-    EXPECT_GT(loaded, 0);
+    EXPECT_GT(loadDamaged(packedTerrain(Terrain(12)), 400, 11), 0);
 }
 
 } // namespace
