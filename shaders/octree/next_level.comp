@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     NextLevelParams params;
@@ -12,6 +12,8 @@ layout(push_constant, scalar) uniform Push
 
 void main()
 {
+    if (gl_LocalInvocationIndex != 0u)
+        return;
     uint first = 0u;
     if (params.step != 0u)
         first = params.ranges.data[params.step - 1u].first + params.ranges.data[params.step - 1u].count;

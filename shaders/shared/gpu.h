@@ -93,6 +93,10 @@ struct DispatchArgs
 };
 GPU_BUFFER(DispatchArgs, 4);
 
+/// Invocations of a workgroup of which one writes DispatchArgs. On lavapipe, the validation layers look addresses up
+/// wrongly in a workgroup of one.
+const uint kArgsGroup = 8u;
+
 GPU_NAMESPACE_END
 
 #endif

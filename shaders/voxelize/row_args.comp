@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 
-layout(local_size_x = 1) in;
+layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     RowArgsParams params;
@@ -18,6 +18,8 @@ DispatchArgs argsOf(uint groups)
 
 void main()
 {
+    if (gl_LocalInvocationIndex != 0u)
+        return;
     uint bands = min(params.counters.data[0].big_count, params.big_capacity);
     uint blocks = min(params.counters.data[0].block_count, params.block_capacity);
     params.args.data[0] = argsOf((bands + kBandsGroup - 1u) / kBandsGroup);

@@ -46,7 +46,7 @@ Buffer::Buffer(Device& device, std::string name, std::uint64_t bytes, MemoryKind
     }
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-    info.size = bytes;
+    info.size = bytes + device.handles().overrides.buffer_slack;
     info.usage = kUsage;
     const Functions& fn = device.fn();
     VK_CHECK(fn.vkCreateBuffer(device.handle(), &info, device.allocationCallbacks(), &m_handle));

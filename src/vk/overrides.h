@@ -9,7 +9,7 @@
 namespace zvo::vk
 {
 
-/// Makes a device look smaller than it is, so that tests meet the limits of others. Never raises anything.
+/// Makes a device look smaller than it is, so that tests meet the limits of others. Never raises a limit.
 struct DeviceOverrides
 {
     std::uint64_t max_buffer_bytes = UINT64_MAX;                                       // maxBufferSize
@@ -17,6 +17,7 @@ struct DeviceOverrides
     std::array<std::uint32_t, 3> max_group_counts{UINT32_MAX, UINT32_MAX, UINT32_MAX}; // maxComputeWorkGroupCount
     std::uint32_t subgroup_size = 0;   // of all kernels, where the device can choose; 0: the driver's choice
     std::vector<std::string> features; // treated as missing, by their names in DeviceReport
+    std::uint64_t buffer_slack = 0;    // bytes that every VkBuffer has behind what was asked for
 };
 
 } // namespace zvo::vk

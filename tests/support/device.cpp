@@ -28,6 +28,11 @@ vk::HeadlessOptions deviceOptions()
     options.validation = validation == "1" || validation == "2";
     options.gpu_assisted_validation = validation == "2";
     options.message_counter = &g_message_count;
+    if (options.gpu_assisted_validation)
+    {
+        // The instrumentation takes a vec3, and each column of a matrix, for as long as a vec4, also at a buffer's end.
+        options.overrides.buffer_slack = 64;
+    }
     return options;
 }
 

@@ -67,6 +67,7 @@ TEST(Buffer, MoreThanTheBudgetIsAMemoryErrorThatNamesTheBuffer)
 {
     vk::HeadlessOptions options = test::deviceOptions();
     options.memory_budget_bytes = 1 << 20;
+    options.overrides.buffer_slack = 0; // to the byte
     vk::HeadlessDevice small(options, testKernels());
     const vk::Buffer half(small.device(), "half", 1 << 19);
     try
