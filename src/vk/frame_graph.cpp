@@ -17,9 +17,11 @@ namespace
 {
 
 constexpr std::uint64_t kWordBytes = 4;
-constexpr std::uint64_t kPieceBytes = 64 << 10; // of fills and copies: what a slicer counts as one unit
-constexpr std::uint64_t kFillKey = 1;           // no kernel's address
+// Of fills and copies: what a slicer counts as one unit. Of updates: all that one command takes.
+constexpr std::uint64_t kPieceBytes = 64 << 10;
+constexpr std::uint64_t kFillKey = 1; // no kernel's address
 constexpr std::uint64_t kCopyKey = 2;
+constexpr std::uint64_t kUpdateKey = 3;
 constexpr std::uint64_t kMaxThreads = std::uint64_t{1} << 32; // kernels number their threads with 32 bits
 
 [[noreturn]] void misuse(const std::string& what)
@@ -275,6 +277,34 @@ void FrameGraph::copy(const Buffer& from, std::uint64_t from_offset, Buffer& to,
                      const VkBufferCopy region{from_offset + offset, to_offset + offset,
                                                std::min(pieces * kPieceBytes, bytes - offset)};
                      m_device.fn().vkCmdCopyBuffer(m_commands, from.handle(), to.handle(), 1, &region);
+                 });
+}
+
+void FrameGraph::update(Buffer& buffer, std::uint64_t offset, std::span<const std::byte> data)
+{
+    checkRange(buffer, offset, data.size());
+    if (offset % kWordBytes != 0 || data.size() % kWordBytes != 0)
+    {
+        misuse(fmt::format("an update of {} bytes from byte {} of buffer {} on is not of whole words", data.size(),
+                           offset, buffer.name()));
+    }
+    if (data.empty())
+    {
+        return;
+    }
+    const BufferAccess access = accessOf(buffer, Access::CopyWrite);
+    const std::string name = "update " + buffer.name();
+    declarePass(name, {&access, 1}, fmt::format("{} bytes", data.size()));
+    recordPieces(name, kUpdateKey, (data.size() + kPieceBytes - 1) / kPieceBytes, 1,
+                 [&](std::uint64_t piece, std::uint64_t pieces)
+                 {
+                     for (std::uint64_t i = piece; i < piece + pieces; ++i)
+                     {
+                         const std::uint64_t first = i * kPieceBytes;
+                         m_device.fn().vkCmdUpdateBuffer(m_commands, buffer.handle(), offset + first,
+                                                         std::min(kPieceBytes, data.size() - first),
+                                                         data.data() + first);
+                     }
                  });
 }
 

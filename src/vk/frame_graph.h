@@ -9,6 +9,7 @@
 #include "vk/timer.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -110,6 +111,18 @@ public:
 
     /// Copies bytes between two buffers, or between two ranges of one buffer that do not overlap.
     void copy(const Buffer& from, std::uint64_t from_offset, Buffer& to, std::uint64_t to_offset, std::uint64_t bytes);
+
+    /// Writes data to buffer from byte offset on; both lengths are multiples of 4. The bytes travel inside the command
+    /// buffer: data may go on return, and nothing waits. For small things that change every frame: pieces of 64 KiB,
+    /// one command each.
+    void update(Buffer& buffer, std::uint64_t offset, std::span<const std::byte> data);
+
+    /// The same for whole elements, from element first on.
+    template <typename T>
+    void update(BufferOf<T>& buffer, std::uint64_t first, std::span<const std::type_identity_t<T>> values)
+    {
+        update(static_cast<Buffer&>(buffer), first * sizeof(T), std::as_bytes(values));
+    }
 
     /// Makes everything written so far visible to the host once the work is complete.
     void releaseToHost();

@@ -36,6 +36,7 @@ namespace zvo::vk
     X(vkCmdFillBuffer)                           \
     X(vkCmdPipelineBarrier2)                     \
     X(vkCmdPushConstants)                        \
+    X(vkCmdUpdateBuffer)                         \
     X(vkCmdWriteTimestamp2)                      \
     X(vkCreateBuffer)                            \
     X(vkCreateCommandPool)                       \

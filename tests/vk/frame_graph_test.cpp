@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace
 {
 
@@ -184,6 +186,91 @@ TEST(FrameGraph, RangesOutsideABufferAreRefused)
             const gpu::FillParams params = {.values = pass.write(a), .count = 100};
             EXPECT_THROW(pass.dispatchIndirect(args, 1, params), Error);
             EXPECT_THROW(graph.addPass("test/iota").dispatch(std::uint64_t{1} << 33, params), Error);
+        });
+}
+
+TEST(FrameGraph, UpdatesWriteWhatTheHostHadWhenTheyWereRecorded)
+{
+    for (const std::uint64_t count : {1, 27, 64, 2049, 16384, 16385, 231917})
+    {
+        Words a(device().device(), "a", count + 2);
+        Words b(device().device(), "b", count + 2);
+        std::vector<gpu::uint> values(count);
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            values[i] = static_cast<gpu::uint>(i * 2654435761u);
+        }
+        const std::vector<gpu::uint> expected = values;
+        device().run(
+            [&](vk::FrameGraph& graph)
+            {
+                graph.fill(a, 7);
+                graph.update(a, 1, values);
+                std::fill(values.begin(), values.end(), 0);
+                scale(graph, a, b, 3);
+                graph.update(a, 0, std::span<const gpu::uint>());
+            });
+        const std::vector<gpu::uint> written = device().download(a);
+        const std::vector<gpu::uint> seen = device().download(b);
+        ASSERT_EQ(written.front(), 7u) << count;
+        ASSERT_EQ(written.back(), 7u) << count;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            ASSERT_EQ(written[i + 1], expected[i]) << count << " " << i;
+            ASSERT_EQ(seen[i + 1], 3 * expected[i]) << count << " " << i;
+        }
+    }
+}
+
+TEST(FrameGraph, UpdatesAreTransferWritesToHazards)
+{
+    Words a(device().device(), "a", 100);
+    Words b(device().device(), "b", 100);
+    const std::vector<gpu::uint> values(64, 5);
+    std::string dump;
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            iota(graph, a);
+            graph.update(a, 2, values);
+            graph.update(b, 40, std::as_bytes(std::span(values)));
+            scale(graph, a, b, 2);
+            dump = graph.dump();
+        });
+    EXPECT_EQ(dump, "pass test/iota: 100 threads in 2 x 1 groups of 64; writes a\n"
+                    "barrier compute -> transfer\n"
+                    "pass update a: 256 bytes; copies to a\n"
+                    "pass update b: 256 bytes; copies to b\n"
+                    "barrier transfer -> compute\n"
+                    "pass test/scale: 100 threads in 4 x 1 groups of 32; reads a; writes b\n");
+}
+
+TEST(FrameGraph, UpdatesSpreadOverSubmissions)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.slices.most_units = 2;
+    vk::HeadlessDevice sliced(options, testKernels());
+    std::vector<gpu::uint> values(5 * 16384 - 1); // pieces of 64 KiB
+    std::iota(values.begin(), values.end(), 1U);
+    Words a(sliced.device(), "a", values.size() + 1);
+    sliced.run([&](vk::FrameGraph& graph) { graph.update(a, 1, values); });
+    EXPECT_EQ(sliced.submissionCount(), 3u);
+    EXPECT_EQ(sliced.download(a, 1), values);
+}
+
+TEST(FrameGraph, UpdatesOutsideABufferOrOfPartsOfWordsAreRefused)
+{
+    Words a(device().device(), "a", 100);
+    const std::vector<gpu::uint> values(10, 5);
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(values));
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            EXPECT_THROW(graph.update(a, 91, values), Error);
+            EXPECT_THROW(graph.update(a, UINT64_MAX - 3, bytes), Error);
+            EXPECT_THROW(graph.update(a, 2, bytes), Error);
+            EXPECT_THROW(graph.update(a, 4, bytes.first(6)), Error);
+            EXPECT_EQ(graph.dump(), "");
         });
 }
 
