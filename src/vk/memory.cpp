@@ -3,27 +3,17 @@
 
 #include "vk/check.h"
 #include "vk/device.h"
+#include "vk/free_ranges.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <map>
 #include <optional>
 
 namespace zvo::vk
 {
-
-namespace
-{
-
-std::uint64_t alignUp(std::uint64_t value, std::uint64_t alignment)
-{
-    return (value + alignment - 1) / alignment * alignment;
-}
-
-} // namespace
 
 struct MemoryAllocator::Block
 {
@@ -31,55 +21,9 @@ struct MemoryAllocator::Block
     std::uint32_t memory_type = 0;
     std::byte* mapped = nullptr;
     std::uint64_t bytes = 0;
-    std::map<std::uint64_t, std::uint64_t> free; // offset -> size, never touching each other
+    FreeRanges free; // bytes
 
-    // First fit. The gap in front of an aligned range stays free.
-    std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment)
-    {
-        for (auto range = free.begin(); range != free.end(); ++range)
-        {
-            const auto [start, available] = *range;
-            const std::uint64_t offset = alignUp(start, alignment);
-            const std::uint64_t end = start + available;
-            if (offset + size > end)
-            {
-                continue;
-            }
-            free.erase(range);
-            if (offset > start)
-            {
-                free[start] = offset - start;
-            }
-            if (offset + size < end)
-            {
-                free[offset + size] = end - offset - size;
-            }
-            return offset;
-        }
-        return std::nullopt;
-    }
-
-    void give(std::uint64_t offset, std::uint64_t size)
-    {
-        auto next = free.lower_bound(offset);
-        if (next != free.end() && next->first == offset + size)
-        {
-            size += next->second;
-            next = free.erase(next);
-        }
-        if (next != free.begin())
-        {
-            const auto previous = std::prev(next);
-            if (previous->first + previous->second == offset)
-            {
-                previous->second += size;
-                return;
-            }
-        }
-        free.emplace_hint(next, offset, size);
-    }
-
-    [[nodiscard]] bool unused() const { return free.size() == 1 && free.begin()->second == bytes; }
+    [[nodiscard]] bool unused() const { return free.total() == bytes; }
 };
 
 MemoryAllocator::MemoryAllocator(Device& device, std::uint64_t limit_bytes)
@@ -195,7 +139,7 @@ bool MemoryAllocator::allocateFrom(std::uint32_t type, std::uint64_t size, std::
             block->memory_type = type;
             block->mapped = static_cast<std::byte*>(mapped);
             block->bytes = bytes;
-            block->free[0] = bytes;
+            block->free.give(0, bytes);
             const auto slot = std::find(m_blocks.begin(), m_blocks.end(), nullptr);
             const auto index = static_cast<std::uint32_t>(slot - m_blocks.begin());
             if (slot == m_blocks.end())
@@ -215,7 +159,7 @@ bool MemoryAllocator::allocateFrom(std::uint32_t type, std::uint64_t size, std::
 bool MemoryAllocator::takeFrom(std::uint32_t index, std::uint64_t alignment, MemoryBlock& result)
 {
     Block& block = *m_blocks[index];
-    const std::optional<std::uint64_t> offset = block.take(result.bytes, alignment);
+    const std::optional<std::uint64_t> offset = block.free.take(result.bytes, alignment);
     if (!offset)
     {
         return false;
@@ -304,7 +248,7 @@ void MemoryAllocator::release(const MemoryBlock& range) noexcept
         return;
     }
     Block& block = *m_blocks[range.block];
-    block.give(range.offset, range.bytes);
+    block.free.give(range.offset, range.bytes);
     if (!block.unused())
     {
         return;
