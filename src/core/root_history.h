@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/overlay_arena.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace zvo
+{
+
+/// Which state of a layer an octree shows.
+struct LayerState
+{
+    std::uint32_t layer = 0;
+    std::uint64_t version = 0;
+
+    bool operator==(const LayerState&) const = default;
+};
+
+/// How much a RootHistory keeps.
+struct HistoryBounds
+{
+    std::size_t steps_max = 64;          // beside the first one, at least 1
+    std::uint64_t bytes_max = 256 << 20; // of the steps' regions
+};
+
+/// One entry of a RootHistory: an octree that can be traced.
+struct RootStep
+{
+    std::uint64_t id = 0;                // grows from push to push; 0: the first one
+    std::optional<OverlayRegion> region; // of its overlay; nothing: the static octree
+    std::span<const LayerState> layers;  // as pushed; valid until the history changes
+    bool pending = false;                // nobody has said yet whether its update succeeded
+};
+
+/// The octrees that were shown and can be shown again: a line of steps with a cursor, the current step. The first step
+/// is the static octree; it is always there. Steps own their overlays' regions. Host logic only: showing a step is the
+/// caller's copy of the step's root into the octree's root slot.
+///
+///     static ── step ── step ── step ── step
+///                         ▲       └───────┴─ redo, dropped by the next push()
+///                      current
+///
+/// *Updates* run on the device, and whether one had enough memory is known only frames later. Until then its step is
+/// pending, and the root that was current before it, to which it falls back, is kept. So an update that fails must
+/// leave in the root slot, and in what undo() and redo() would copy there for its step, the root before it; then
+/// whatever the device shows is a region that is kept. complete() or fail() must be called for every step that was
+/// pushed with a region, once, in the order of pushes, whether or not the step is still in the line.
+///
+/// *Frames* in flight: the device may use a region as long as a frame is not done that began before the history dropped
+/// it. Such regions wait. Without beginFrame(), they do not: the caller then waits for the device himself.
+///
+/// *Bounds*: after push() there are at most steps_max steps beside the first one, and their regions, each counted once,
+/// have at most bytes_max bytes, or there is only the pushed one. The oldest fall off for that. Regions that wait, or
+/// to which a pending step falls back, are held beyond that: waitingBytes().
+///
+/// undo(), redo() and current() take constant time, everything else at most n log n for n steps.
+class RootHistory
+{
+public:
+    /// arena must outlive the history. Pushed regions come from it and go back to it.
+    RootHistory(OverlayArena& arena, const HistoryBounds& bounds);
+
+    /// Gives everything back at once: the device must be done with all frames.
+    ~RootHistory();
+    RootHistory(const RootHistory&) = delete;
+    RootHistory& operator=(const RootHistory&) = delete;
+
+    /// A region for the next step. Where the arena has none, drops as many steps as it takes and no more, first from
+    /// the end of redo, then the oldest; never the first and the current one, and none at all where that would not
+    /// help. Nothing when there is no room, or not yet: see fitsLater().
+    std::optional<OverlayRegion> allocate(std::uint64_t nodes, std::uint64_t voxels);
+
+    /// Whether there is room for such a region once all frames that have begun are done and all updates succeeded, with
+    /// the steps that there are now. After allocate() returned nothing: whether to try again then; if not, the arena is
+    /// too small.
+    [[nodiscard]] bool fitsLater(std::uint64_t nodes, std::uint64_t voxels) const;
+
+    /// Gives back, once the device is done with it, a region of allocate() that is not going to be pushed.
+    void giveBack(const OverlayRegion& region);
+
+    /// Puts a step in the place of those of redo and makes it the current one. Call it in the frame that
+    /// changes the root slot. Without a region the step shows the static octree, and is complete. Returns its id.
+    std::uint64_t push(const std::optional<OverlayRegion>& region, std::vector<LayerState> layers);
+
+    /// The update of a step succeeded and needed this many nodes and voxels, at most what its region has: the rest of
+    /// the region is free at once.
+    void complete(std::uint64_t id, std::uint32_t nodes, std::uint32_t voxels);
+
+    /// The update of a step failed: the step now equals the one that it followed (region and layers), whether or not
+    /// that is still in the line.
+    void fail(std::uint64_t id);
+
+    [[nodiscard]] RootStep current() const { return step(m_current); }
+
+    /// The step before or behind the current one, which becomes the current one; nothing at the ends.
+    std::optional<RootStep> undo();
+    std::optional<RootStep> redo();
+    [[nodiscard]] std::size_t undoCount() const { return m_current; }
+    [[nodiscard]] std::size_t redoCount() const { return m_steps.size() - 1 - m_current; }
+
+    /// A frame begins to be recorded; returns its number: 1, 2, 3...
+    std::uint64_t beginFrame() { return ++m_frame; }
+
+    /// The device is done with that frame and all before it.
+    void frameDone(std::uint64_t frame);
+
+    [[nodiscard]] std::uint64_t stepBytes() const;    // of the steps' regions
+    [[nodiscard]] std::uint64_t waitingBytes() const; // of other regions that are held
+
+private:
+    // Sole or shared ownership of a region; the last owner leaves it to the frames in flight.
+    struct Lease
+    {
+        Lease(RootHistory& h, const OverlayRegion& r) : history(h), region(r) {}
+        ~Lease() { history.giveBack(region); }
+        Lease(const Lease&) = delete;
+        Lease& operator=(const Lease&) = delete;
+
+        RootHistory& history;
+        OverlayRegion region;
+    };
+    // What a step shows. Shared with the update that makes it and with the update that falls back to it.
+    struct Root
+    {
+        std::shared_ptr<Lease> lease; // null: the static octree
+        std::vector<LayerState> layers;
+        bool pending = false;
+    };
+    struct Step
+    {
+        std::uint64_t id;
+        std::shared_ptr<Root> root;
+    };
+    struct Update
+    {
+        std::uint64_t id;
+        std::shared_ptr<Root> root;
+        std::shared_ptr<const Root> fallback;
+    };
+    struct Waiting
+    {
+        std::uint64_t frame; // the last one that may use region
+        OverlayRegion region;
+    };
+
+    [[nodiscard]] RootStep step(std::size_t index) const;
+    [[nodiscard]] OverlayArena arenaLater() const;
+    [[nodiscard]] const Lease* leaseOf(std::size_t index) const { return m_steps[index].root->lease.get(); }
+    [[nodiscard]] const OverlayRegion* freedBy(std::size_t index, std::size_t neighbour) const;
+    Update endUpdate(std::uint64_t id);
+    bool dropStep();
+
+    OverlayArena& m_arena;
+    HistoryBounds m_bounds;
+    std::uint64_t m_frame = 0; // the last one that has begun
+    std::uint64_t m_frame_done = 0;
+    std::uint64_t m_last_id = 0;
+    std::deque<Waiting> m_waiting; // in order of frames
+    std::deque<Step> m_steps;      // [0]: the static octree
+    std::size_t m_current = 0;     // index in m_steps
+    std::deque<Update> m_updates;  // pending ones in order of pushes
+};
+
+} // namespace zvo
