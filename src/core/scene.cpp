@@ -17,6 +17,15 @@ template <typename T> void moveBehind(std::vector<T>& into, std::vector<T>& from
     from.clear();
 }
 
+/// Moves an index behind count items that come first, but none stays none.
+void shift(std::uint32_t& index, std::size_t count)
+{
+    if (index != kNone)
+    {
+        index += static_cast<std::uint32_t>(count);
+    }
+}
+
 bool isFinite(const glm::vec3& point)
 {
     return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
@@ -82,6 +91,26 @@ void Scene::append(Scene&& other)
     for (Instance& instance : other.instances)
     {
         instance.primitive += first_primitive;
+        shift(instance.node, nodes.size());
+        shift(instance.skin, skins.size());
+    }
+    for (Node& node : other.nodes)
+    {
+        shift(node.parent, nodes.size());
+    }
+    for (Skin& skin : other.skins)
+    {
+        for (std::uint32_t& joint : skin.joints)
+        {
+            shift(joint, nodes.size());
+        }
+    }
+    for (Animation& animation : other.animations)
+    {
+        for (Channel& channel : animation.channels)
+        {
+            shift(channel.node, nodes.size());
+        }
     }
     moveBehind(images, other.images);
     moveBehind(textures, other.textures);
@@ -89,7 +118,11 @@ void Scene::append(Scene&& other)
     moveBehind(primitives, other.primitives);
     moveBehind(instances, other.instances);
     moveBehind(cameras, other.cameras);
+    moveBehind(nodes, other.nodes);
+    moveBehind(skins, other.skins);
+    moveBehind(animations, other.animations);
     moveBehind(warnings, other.warnings);
+    moveBehind(rest_warnings, other.rest_warnings);
 }
 
 // Compiled without contraction (zvo_options), so that no product and sum are fused.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/grid.h"
+#include "core/rig.h"
 
 #include <cstdint>
 #include <map>
@@ -63,13 +64,20 @@ struct Primitive
     std::vector<glm::vec4> colors;  // linear, multiplies the base colour
     std::vector<glm::uvec3> triangles; // vertex indices, all < positions.size()
     std::uint32_t material = 0;        // index into Scene::materials
+
+    // What deforms it; at rest it stands as the arrays above say.
+    std::vector<glm::u16vec4> joints; // indices into Skin::joints of each skin that an instance of it names
+    std::vector<glm::vec4> weights;   // of joints: from 0 to 1, their sum is 1; as long as joints
+    std::vector<MorphTarget> morph_targets;
 };
 
 /// One appearance of a primitive in the world.
 struct Instance
 {
     std::uint32_t primitive = 0; // index into Scene::primitives
-    glm::mat4 transform{1.0F};   // object to world, affine: the last row is (0, 0, 0, 1)
+    glm::mat4 transform{1.0F};   // object to world at rest, affine: the last row is (0, 0, 0, 1)
+    std::uint32_t node = kNone;  // index into Scene::nodes: what the transform follows, and whose morph weights count
+    std::uint32_t skin = kNone;  // index into Scene::skins; only where the primitive has joints
 };
 
 struct Camera
@@ -90,7 +98,11 @@ struct Scene
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;
     std::vector<Camera> cameras;
-    std::vector<std::string> warnings; // what was left out while loading, one line each
+    std::vector<Node> nodes;
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;
+    std::vector<std::string> warnings;      // what was left out while loading, one line each
+    std::vector<std::string> rest_warnings; // what else is missing where the scene is used at rest, without a pose
 
     /// Triangles with instances counted each time.
     [[nodiscard]] std::uint64_t triangleCount() const;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Scenes in motion: key frames and node hierarchies (core/rig.h) evaluated at a time, after the glTF 2.0 specification
+// (Khronos Group, 2021), sections "Skins", "Morph Targets" and "Animations" and appendix C, "Interpolation Modes".
+#pragma once
+
+#include "core/scene.h"
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace zvo
+{
+
+/// Where the instances of a scene are, and into which shape they are pulled, at one time.
+struct Pose
+{
+    std::vector<glm::mat4> transforms; // [instances] object to world, affine; the identity for those with a skin
+    std::vector<std::vector<glm::mat4>> joint_matrices; // [instances][joints of its skin] object to world, affine:
+                                                        // world(joint) * inverse_bind; empty without a skin
+    std::vector<std::vector<float>> morph_weights;      // [instances][morph targets of its primitive]
+};
+
+/// The pose at a time from 0 on or before it, with every animation of the scene repeated over its own length; before
+/// its first key a channel holds the first one. Of channels of several animations that move the same property the last
+/// one counts. Instances that nothing moves keep their transform, bit for bit; others follow their node. Nodes are
+/// evaluated in double precision. A time that is not finite counts as 0. A transform that overflows single precision
+/// is not finite; the voxelizer drops such triangles and counts them.
+Pose poseAt(const Scene& scene, double seconds);
+
+/// Whether a skin or morph targets give the instance a shape of its own in a pose.
+bool deforms(const Scene& scene, std::size_t instance);
+
+/// Whether the instance may change with time: a channel moves its node, one above it, or a joint of its skin or one
+/// above that, or the weights of its morph targets.
+bool isAnimated(const Scene& scene, std::size_t instance);
+
+/// isAnimated() of all instances, in time proportional to the scene.
+std::vector<bool> animatedInstances(const Scene& scene);
+
+/// The scene as it stands in a pose, without nodes, skins, animations and morph targets: instances that deform
+/// (deforms()) have a primitive each, with the positions and normals that the device makes of it (core/deform.h), bit
+/// for bit. Instances keep their order. pose: of this scene.
+Scene posedScene(const Scene& scene, const Pose& pose);
+
+} // namespace zvo

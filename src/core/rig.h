@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// What moves a scene: nodes, skins and key frames, as glTF has them; core/animation.h evaluates them.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// An index that names nothing.
+inline constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+/// What a morph target of weight 1 adds to each vertex, before skinning.
+struct MorphTarget
+{
+    std::vector<glm::vec3> positions; // [vertices] or empty: nothing is added
+    std::vector<glm::vec3> normals;   // [vertices] or empty; empty where the primitive has no normals
+};
+
+/// A place in the hierarchy, relative to its parent: translation * rotation * scale, or a matrix where one is given.
+struct Node
+{
+    std::uint32_t parent = kNone; // index into Scene::nodes, below the node's own: parents stand before their children
+    glm::vec3 translation{0.0F};
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F}; // w, x, y, z; of any length, a zero one does not rotate
+    glm::vec3 scale{1.0F};
+    std::optional<glm::mat4> matrix;  // affine; no channel names its node
+    std::vector<float> morph_weights; // [targets of the node's mesh] at rest; empty: all 0
+    std::string name;
+};
+
+/// Joints that a mesh hangs on: a vertex is taken to the world by the weighted sum of world(joint) * inverse_bind.
+struct Skin
+{
+    std::vector<std::uint32_t> joints;   // [joints] indices into Scene::nodes
+    std::vector<glm::mat4> inverse_bind; // [joints] object to joint, affine
+};
+
+enum class ChannelPath : std::uint32_t
+{
+    Translation, // 3 numbers
+    Rotation,    // 4 numbers: x, y, z, w
+    Scale,       // 3 numbers
+    Weights      // as many numbers as the node has morph weights
+};
+
+enum class Interpolation : std::uint32_t
+{
+    Step,
+    Linear,     // rotations along the shorter arc (slerp)
+    CubicSpline // Hermite; a key has an incoming tangent, a value and an outgoing tangent
+};
+
+/// Key frames of one property of one node.
+struct Channel
+{
+    std::uint32_t node = 0; // index into Scene::nodes
+    ChannelPath path = ChannelPath::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> times;  // [keys] at least one; seconds from 0 on, finite, none below the one before
+    std::vector<float> values; // [keys * numbers of the path], three times as many for CubicSpline; finite
+};
+
+struct Animation
+{
+    std::string name;
+    std::vector<Channel> channels;
+    double seconds = 0.0; // the last time of all channels; the animation repeats after it
+};
+
+} // namespace zvo
