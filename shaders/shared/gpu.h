@@ -27,6 +27,7 @@ using glm::uvec3;
 using glm::uvec4;
 using glm::vec2;
 using glm::vec3;
+using glm::vec4;
 
 /// Address of a T[] in device memory that a kernel may only read.
 template <typename T> struct ConstPtr

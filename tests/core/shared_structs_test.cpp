@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Structs that C++ and GLSL share lie in memory alike.
 #include "core/kernels.h"
+#include "deform/deform.h"
 #include "octree/octree.h"
 #include "support/spirv_structs.h"
 #include "trace/trace.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Every kernel of the library, run once on work so small that a tool which slows programs down a hundredfold can watch:
 // valgrind, instrumented kernels, poisoned memory.
+#include "core/animation.h"
+#include "core/deform_mesh.h"
 #include "core/grid.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
@@ -103,11 +105,49 @@ Names tracePictures(const Octree& octree)
     return names;
 }
 
+// 70 vertices with all that a deforming mesh can have, twice, of which the second is without a skin.
+Names deformVertices()
+{
+    Scene scene;
+    Primitive& primitive = scene.primitives.emplace_back();
+    for (std::uint32_t i = 0; i < 70; ++i)
+    {
+        const auto place = static_cast<float>(i);
+        primitive.positions.emplace_back(place, 1.0F, 2.0F);
+        primitive.normals.emplace_back(0.0F, 1.0F, 0.0F);
+        primitive.joints.emplace_back(i % 3, 1, 2, 0);
+        primitive.weights.emplace_back(0.5F, 0.25F, 0.25F, 0.0F);
+    }
+    primitive.morph_targets = {{primitive.normals, {}}, {primitive.positions, primitive.normals}};
+    scene.skins.push_back({{0, 0, 0}, std::vector<glm::mat4>(3, glm::mat4(1.0F))});
+    scene.instances.push_back({0, glm::mat4(1.0F), kNone, 0});
+    scene.instances.push_back({0, glm::mat4(1.0F), kNone, kNone});
+    Pose pose;
+    pose.transforms.assign(2, glm::mat4(1.0F));
+    pose.joint_matrices = {std::vector<glm::mat4>(3, glm::mat4(2.0F)), {}};
+    pose.morph_weights = {{0.5F, 0.25F}, {1.0F, 0.0F}};
+    const DeformMesh mesh = uploadDeformMesh(device(), scene);
+    PoseBuffers buffers(device().device(), mesh);
+    vk::BufferOf<gpu::vec3> positions(device().device(), "positions", mesh.position_count);
+    vk::BufferOf<gpu::vec3> normals(device().device(), "normals", mesh.normal_count);
+    Names names;
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph)
+                        {
+                            updatePose(graph, mesh, pose, buffers);
+                            deform(graph, mesh, buffers, positions, normals);
+                        }));
+    const std::vector<gpu::vec3> moved = device().download(positions);
+    EXPECT_EQ(moved.at(69), gpu::vec3(172.5F, 3.5F, 5.0F)); // (69, 1, 2) * 1.25 and (0, 0.5, 0), doubled
+    EXPECT_EQ(moved.at(139), gpu::vec3(69.0F, 2.0F, 2.0F)); // 1 added to y
+    return names;
+}
+
 TEST(EveryKernel, RunsOnASmallScene)
 {
     const Scene scene = smallScene();
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
-    Names names;
+    Names names = deformVertices();
     struct Case
     {
         Coverage coverage;

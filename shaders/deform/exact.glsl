@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Arithmetic that gives the same bits on every device: single rounded operations, and no subnormal numbers.
+#include "deform/deform.h"
+
+// v with 0 in place of components below 2^-100.
+vec3 dropTiny(vec3 v)
+{
+    return mix(v, vec3(0.0), lessThan(floatBitsToUint(v) << 1, uvec3(kTinyExponent << 24)));
+}
+
+vec3 product(vec3 v, float s)
+{
+    precise vec3 rounded = v * s;
+    return dropTiny(rounded);
+}
+
+vec3 product(vec3 a, vec3 b)
+{
+    precise vec3 rounded = a * b;
+    return dropTiny(rounded);
+}
+
+vec3 sum(vec3 a, vec3 b)
+{
+    precise vec3 rounded = a + b;
+    return rounded;
+}
+
+// ((m[0] * v.x + m[1] * v.y) + m[2] * v.z)
+vec3 transformed(mat3 m, vec3 v)
+{
+    return sum(sum(product(m[0], v.x), product(m[1], v.y)), product(m[2], v.z));
+}
+
+// a x b
+vec3 crossProduct(vec3 a, vec3 b)
+{
+    return sum(product(a.yzx, b.zxy), -product(a.zxy, b.yzx));
+}
+
+// The bits to write: zeros are positive, and whatever is not finite is the same NaN, since devices differ in both.
+uvec3 canonicalBits(vec3 v)
+{
+    uvec3 bits = floatBitsToUint(v);
+    uvec3 size = bits << 1;
+    bits = mix(bits, uvec3(kCanonicalNan), greaterThanEqual(size, uvec3(255u << 24)));
+    return mix(bits, uvec3(0u), equal(size, uvec3(0u)));
+}

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Morph targets and skins on the device: what of a scene deforms, what a pose is, and the pass that makes vertices of
+// the two.
+#pragma once
+
+#include "core/scene.h"
+#include "deform/deform.h"
+#include "vk/frame_graph.h"
+#include "vk/headless.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace zvo
+{
+
+struct Pose;
+
+/// Everything that the deforming instances of a scene need on the device and that no pose changes. Instances of one
+/// primitive share what is at rest; each has vertices of its own in the outputs. Without such instances, all is empty.
+struct DeformMesh
+{
+    /// Where a vertex array starts in the outputs.
+    struct Place
+    {
+        std::uint32_t first_position;
+        std::uint32_t first_normal; // gpu::kAbsent where the primitive has none
+    };
+
+    /// An instance that deforms, and its places in the buffers of a pose.
+    struct Part
+    {
+        std::uint32_t instance;     // in Scene::instances
+        std::uint32_t joint_count;  // 0: no skin
+        std::uint32_t first_joint;  // in PoseBuffers::joint_matrices
+        std::uint32_t target_count; // 0: no morph targets
+        std::uint32_t first_target; // in targets
+        std::uint32_t first_term;   // in PoseBuffers::morph_terms: target_count of positions, as many of normals
+    };
+
+    /// Where the deltas of a morph target start; gpu::kAbsent where it has none.
+    struct Target
+    {
+        std::uint32_t first_position;
+        std::uint32_t first_normal;
+    };
+
+    /// Chunks of the items of one variant.
+    struct ChunkRange
+    {
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+
+    vk::BufferOf<gpu::vec3> positions;                     // [vertices of deforming primitives] at rest
+    vk::BufferOf<gpu::vec3> normals;                       // [those of primitives that have them]
+    vk::BufferOf<gpu::JointBinding> bindings;              // [vertices of skinned primitives]
+    vk::BufferOf<gpu::vec3> deltas;                        // of positions and normals, a target after the other
+    vk::BufferOf<gpu::DeformItem> items;                   // [parts]
+    vk::BufferOf<gpu::DeformChunk> chunks;                 // [vertices of each item / kDeformGroup, rounded up]
+    std::array<ChunkRange, gpu::kDeformVariants> variants; // of chunks
+
+    std::vector<Place>
+        places; // [instances of the scene] where the outputs have their vertices, those that are rigid too
+    std::vector<Part> parts;
+    std::vector<Target> targets;      // of each deforming primitive
+    std::uint32_t position_count = 0; // of the outputs
+    std::uint32_t normal_count = 0;   // likewise
+    std::uint32_t joint_count = 0;    // of a pose
+    std::uint32_t term_count = 0;     // likewise
+
+    [[nodiscard]] bool empty() const { return parts.empty(); }
+};
+
+/// Uploads what deforms in scene, and waits. Throws Error{Memory} when the device's budget does not suffice and
+/// Error{Input} for a joint that is not there and for more of anything than 32-bit numbers count.
+DeformMesh uploadDeformMesh(vk::HeadlessDevice& device, const Scene& scene);
+
+/// What a pose is on the device, and the host's copies from which it is written.
+struct PoseBuffers
+{
+    PoseBuffers() = default;
+
+    /// Throws Error{Memory} when the device's budget does not suffice.
+    PoseBuffers(vk::Device& device, const DeformMesh& mesh);
+
+    vk::BufferOf<gpu::mat4x3> joint_matrices;    // [mesh.joint_count]
+    vk::BufferOf<gpu::MorphTerm> morph_terms;    // [mesh.term_count]
+    vk::BufferOf<gpu::MorphCounts> morph_counts; // [parts] where any part has morph targets
+
+    std::vector<gpu::mat4x3> host_joint_matrices;
+    std::vector<gpu::MorphTerm> host_morph_terms;
+    std::vector<gpu::MorphCounts> host_morph_counts;
+
+    /// Bytes on the device that a pose of mesh takes.
+    static std::uint64_t bytesOf(const DeformMesh& mesh);
+};
+
+/// Records the writing of pose to buffers: its values travel inside the command buffer, nothing is allocated and
+/// nothing waits. Throws Error{Usage} when pose does not fit the scene of mesh.
+void updatePose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, PoseBuffers& buffers);
+
+/// Records the pass that writes the vertices of all deforming instances to positions and normals
+/// ([mesh.position_count], [mesh.normal_count]; other vertices are left alone). Cost: vertices times the morph targets
+/// of weights other than 0.
+void deform(vk::FrameGraph& graph, const DeformMesh& mesh, const PoseBuffers& pose, vk::BufferOf<gpu::vec3>& positions,
+            vk::BufferOf<gpu::vec3>& normals);
+
+} // namespace zvo
