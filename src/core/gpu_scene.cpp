@@ -92,32 +92,14 @@ struct Staging
     std::array<std::vector<gpu::Chunk>, gpu::kClassCount> chunks;
 };
 
-// Where a primitive's arrays start.
-struct PrimitivePlace
-{
-    std::uint32_t first_triangle;
-    std::uint32_t first_vertex;
-    std::uint32_t first_normal;
-    std::uint32_t first_uv;
-    std::uint32_t first_color;
-};
-
 // Whether an array of a primitive is absent or as long as its positions.
 template <typename T> [[maybe_unused]] bool isWhole(const std::vector<T>& values, const Primitive& primitive)
 {
     return values.empty() || values.size() == primitive.positions.size();
 }
 
-PrimitivePlace addPrimitive(Staging& staging, const Primitive& primitive)
+void addPrimitive(Staging& staging, const Primitive& primitive)
 {
-    assert(isWhole(primitive.normals, primitive) && isWhole(primitive.uvs, primitive) &&
-           isWhole(primitive.colors, primitive));
-    PrimitivePlace place{};
-    place.first_triangle = checkedCount(staging.triangles.size(), "triangles");
-    place.first_vertex = checkedCount(staging.positions.size(), "vertices");
-    place.first_normal = primitive.normals.empty() ? gpu::kAbsent : checkedCount(staging.normals.size(), "normals");
-    place.first_uv = primitive.uvs.empty() ? gpu::kAbsent : checkedCount(staging.uvs.size(), "texture coordinates");
-    place.first_color = primitive.colors.empty() ? gpu::kAbsent : checkedCount(staging.colors.size(), "colours");
     staging.triangles.insert(staging.triangles.end(), primitive.triangles.begin(), primitive.triangles.end());
     staging.positions.insert(staging.positions.end(), primitive.positions.begin(), primitive.positions.end());
     staging.normals.insert(staging.normals.end(), primitive.normals.begin(), primitive.normals.end());
@@ -129,9 +111,6 @@ PrimitivePlace addPrimitive(Staging& staging, const Primitive& primitive)
     {
         staging.colors.push_back(packFractions(color));
     }
-    checkedCount(staging.triangles.size(), "triangles"); // the last ones have numbers, too
-    checkedCount(staging.positions.size(), "vertices");
-    return place;
 }
 
 // Textures that nothing needs get no texels: their materials do without them.
@@ -212,16 +191,21 @@ double triangleArea(const Primitive& primitive, const glm::dmat3& linear)
     return area;
 }
 
-gpu::Draw makeDraw(const Instance& instance, const Primitive& primitive, const PrimitivePlace& place)
+void placeDraw(gpu::Draw& draw, const glm::mat4& transform)
 {
-    const glm::dmat3 linear(instance.transform);
+    const glm::dmat3 linear(transform);
     const double determinant = glm::determinant(linear);
     const double sign = determinant < 0 ? -1.0 : 1.0;
-    gpu::Draw draw{};
-    draw.transform = gpu::mat4x3(instance.transform);
+    draw.transform = gpu::mat4x3(transform);
     draw.normal_transform =
         gpu::mat3(glm::dmat3(glm::cross(linear[1], linear[2]) * sign, glm::cross(linear[2], linear[0]) * sign,
                              glm::cross(linear[0], linear[1]) * sign));
+    draw.mirrored = determinant < 0 ? 1 : 0;
+}
+
+gpu::Draw makeDraw(const Primitive& primitive, const PrimitivePlace& place, const glm::mat4& transform)
+{
+    gpu::Draw draw{};
     draw.first_triangle = place.first_triangle;
     draw.triangle_count = checkedCount(primitive.triangles.size(), "triangles");
     draw.first_vertex = place.first_vertex;
@@ -229,7 +213,7 @@ gpu::Draw makeDraw(const Instance& instance, const Primitive& primitive, const P
     draw.first_uv = place.first_uv;
     draw.first_color = place.first_color;
     draw.material = primitive.material;
-    draw.mirrored = determinant < 0 ? 1 : 0;
+    placeDraw(draw, transform);
     return draw;
 }
 
@@ -266,15 +250,83 @@ std::vector<std::uint32_t> packBytes(const std::vector<std::uint8_t>& bytes)
 
 } // namespace
 
-GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attributes)
+std::vector<PrimitivePlace> primitivePlaces(const Scene& scene)
+{
+    std::vector<PrimitivePlace> places;
+    places.reserve(scene.primitives.size());
+    std::uint64_t triangle_count = 0;
+    std::uint64_t vertex_count = 0;
+    std::uint64_t normal_count = 0;
+    std::uint64_t uv_count = 0;
+    std::uint64_t color_count = 0;
+    for (const Primitive& primitive : scene.primitives)
+    {
+        assert(isWhole(primitive.normals, primitive) && isWhole(primitive.uvs, primitive) &&
+               isWhole(primitive.colors, primitive));
+        const auto placeOf = [](std::uint64_t first, std::size_t count, const char* what)
+        { return count == 0 ? gpu::kAbsent : checkedCount(first, what); };
+        PrimitivePlace place{};
+        place.first_triangle = checkedCount(triangle_count, "triangles");
+        place.first_vertex = checkedCount(vertex_count, "vertices");
+        place.first_normal = placeOf(normal_count, primitive.normals.size(), "normals");
+        place.first_uv = placeOf(uv_count, primitive.uvs.size(), "texture coordinates");
+        place.first_color = placeOf(color_count, primitive.colors.size(), "colours");
+        places.push_back(place);
+        triangle_count += primitive.triangles.size();
+        vertex_count += primitive.positions.size();
+        normal_count += primitive.normals.size();
+        uv_count += primitive.uvs.size();
+        color_count += primitive.colors.size();
+    }
+    checkedCount(triangle_count, "triangles"); // the last ones have numbers, too
+    checkedCount(vertex_count, "vertices");
+    return places;
+}
+
+std::vector<gpu::Draw> makeDraws(const Scene& scene)
+{
+    const std::vector<PrimitivePlace> places = primitivePlaces(scene);
+    std::vector<gpu::Draw> draws;
+    draws.reserve(scene.instances.size());
+    for (const Instance& instance : scene.instances)
+    {
+        draws.push_back(makeDraw(scene.primitives[instance.primitive], places[instance.primitive], instance.transform));
+    }
+    return draws;
+}
+
+std::vector<gpu::Draw> makeDraws(const Scene& scene, std::span<const glm::mat4> transforms)
+{
+    std::vector<gpu::Draw> draws = makeDraws(scene);
+    placeDraws(draws, transforms);
+    return draws;
+}
+
+void placeDraws(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms)
+{
+    assert(transforms.size() == draws.size());
+    for (std::size_t i = 0; i < draws.size(); ++i)
+    {
+        placeDraw(draws[i], transforms[i]);
+    }
+}
+
+float brightestEmission(const Scene& scene)
+{
+    float brightest = 0.0F;
+    for (const Material& material : scene.materials)
+    {
+        brightest = std::max({brightest, material.emission.r, material.emission.g, material.emission.b});
+    }
+    return brightest;
+}
+
+GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attributes,
+                     std::optional<float> emission_scale)
 {
     GpuScene result;
     result.has_attributes = attributes;
-    for (const Material& material : scene.materials)
-    {
-        result.emission_scale =
-            std::max({result.emission_scale, material.emission.r, material.emission.g, material.emission.b});
-    }
+    result.emission_scale = emission_scale ? *emission_scale : brightestEmission(scene);
 
     Staging staging;
     const std::vector<bool> needed = neededTextures(scene, attributes);
@@ -283,16 +335,17 @@ GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attrib
     {
         addMaterial(staging, material, needed, result.emission_scale);
     }
-    std::vector<PrimitivePlace> places;
+    staging.draws = makeDraws(scene);
     for (const Primitive& primitive : scene.primitives)
     {
-        places.push_back(addPrimitive(staging, primitive));
+        addPrimitive(staging, primitive);
     }
-    for (const Instance& instance : scene.instances)
+    checkedCount(scene.instances.size(), "instances");
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
     {
+        const Instance& instance = scene.instances[i];
         const Primitive& primitive = scene.primitives[instance.primitive];
-        staging.draws.push_back(makeDraw(instance, primitive, places[instance.primitive]));
-        addChunks(staging, checkedCount(staging.draws.size(), "instances") - 1);
+        addChunks(staging, static_cast<std::uint32_t>(i));
         result.triangle_count += primitive.triangles.size();
         result.surface_area += triangleArea(primitive, glm::dmat3(instance.transform));
     }
@@ -325,21 +378,27 @@ GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attrib
         result.chunks[i] = upload(device, "scene/chunks", staging.chunks[i]);
     }
 
-    gpu::SceneView view{};
-    view.draws = {result.draws.address()};
-    view.triangles = {result.triangles.address()};
-    view.positions = {result.positions.address()};
-    view.normals = {result.normals.address()};
-    view.uvs = {result.uvs.address()};
-    view.colors = {result.colors.address()};
-    view.materials = {result.materials.address()};
-    view.textures = {result.textures.address()};
-    view.levels = {result.levels.address()};
-    view.texels = {result.texels.address()};
-    view.srgb_to_linear = {result.srgb_to_linear.address()};
-    view.linear_to_srgb = {result.linear_to_srgb.address()};
+    const gpu::SceneView view = sceneView(result);
     result.view = device.makeBuffer("scene/view", std::span<const gpu::SceneView>(&view, 1));
     return result;
+}
+
+gpu::SceneView sceneView(const GpuScene& scene)
+{
+    gpu::SceneView view{};
+    view.draws = {scene.draws.address()};
+    view.triangles = {scene.triangles.address()};
+    view.positions = {scene.positions.address()};
+    view.normals = {scene.normals.address()};
+    view.uvs = {scene.uvs.address()};
+    view.colors = {scene.colors.address()};
+    view.materials = {scene.materials.address()};
+    view.textures = {scene.textures.address()};
+    view.levels = {scene.levels.address()};
+    view.texels = {scene.texels.address()};
+    view.srgb_to_linear = {scene.srgb_to_linear.address()};
+    view.linear_to_srgb = {scene.linear_to_srgb.address()};
+    return view;
 }
 
 } // namespace zvo
