@@ -136,11 +136,12 @@ struct Coverings
 };
 
 // The coverings, with what result tells of them, or what was too small.
-std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
+std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
                                            Coverage coverage, BuildResult& result)
 {
-    device.device().memory().require(coverageBytes(result.capacities, scene), "voxelization");
-    Coverings coverings{{device.device(), result.capacities, scene}, {device.device(), result.capacities.bricks}};
+    device.device().memory().require(coverageBytes(result.capacities, scene.uploaded()), "voxelization");
+    Coverings coverings{{device.device(), result.capacities, scene.uploaded()},
+                        {device.device(), result.capacities.bricks}};
     std::vector<vk::PassTime> passes = device.run(
         [&](vk::FrameGraph& graph)
         {
@@ -169,7 +170,7 @@ std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const Gpu
     return coverings;
 }
 
-Coverings coverVoxels(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, Coverage coverage,
+Coverings coverVoxels(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, Coverage coverage,
                       BuildResult& result)
 {
     for (; result.retry_count < kRetriesMax; ++result.retry_count)
@@ -180,7 +181,7 @@ Coverings coverVoxels(vk::HeadlessDevice& device, const GpuScene& scene, const G
             return std::move(*coverings);
         }
         const Growth& growth = std::get<Growth>(outcome); // the likely one: fewer runs, where memory allows it
-        const bool fits = coverageBytes(growth.likely, scene) <= device.device().memory().roomBytes();
+        const bool fits = coverageBytes(growth.likely, scene.uploaded()) <= device.device().memory().roomBytes();
         result.capacities = fits ? growth.likely : growth.needed;
     }
     throw Error(ErrorCode::Memory,
@@ -209,11 +210,11 @@ void allocateNodes(vk::HeadlessDevice& device, const Coverings& coverings, Octre
     octree.nodes = {device.device(), "octree/nodes", octree.node_count};
 }
 
-void makeEmission(vk::HeadlessDevice& device, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& voxelize,
+void makeEmission(vk::HeadlessDevice& device, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& voxelize,
                   AttributeBuffers& attributes, BuildResult& result)
 {
     Octree& octree = result.octree;
-    octree.emission_scale = scene.emission_scale;
+    octree.emission_scale = scene.uploaded().emission_scale;
     const std::uint32_t emissive_count = device.download(attributes.emissive_count).front();
     if (emissive_count == 0)
     {
@@ -228,11 +229,11 @@ void makeEmission(vk::HeadlessDevice& device, const GpuScene& scene, Coverage co
 
 // Voxel attributes, and emission; voxelize is used up. The sums are many times larger than what becomes of them: they
 // and the brick table go before the attributes of inner nodes come.
-void makeVoxelAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Coverage coverage,
+void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, Coverage coverage,
                          VoxelizeBuffers& voxelize, BuildResult& result)
 {
     Octree& octree = result.octree;
-    const bool emission = scene.emission_scale > 0.0F;
+    const bool emission = scene.uploaded().emission_scale > 0.0F;
     const std::uint64_t word_count = emission ? divideUp(octree.voxel_count, 32) : 0;
     device.device().memory().require(octree.voxel_count * (sizeof(gpu::Attribute) + sizeof(gpu::VoxelSums)) +
                                          word_count * sizeof(gpu::uvec2),
@@ -297,7 +298,7 @@ double BuildResult::stageMs(const std::string& operation) const
     return ms;
 }
 
-BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
+BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
                         const BuildOptions& options)
 {
     if (grid.depth < 1 || grid.depth > Grid::kDepthMax)
@@ -305,13 +306,13 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const
         throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} is out of range: 1 to {} (resolution 2 to {})",
                                                   grid.depth, Grid::kDepthMax, 1U << Grid::kDepthMax));
     }
-    if (options.attributes && !scene.has_attributes)
+    if (options.attributes && !scene.uploaded().has_attributes)
     {
         throw Error(ErrorCode::Usage, "attributes were asked of a scene that was uploaded without them");
     }
     BuildResult result;
     result.octree.grid = grid;
-    result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene, grid)));
+    result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid)));
     Coverings coverings = coverVoxels(device, scene, grid, options.coverage, result);
     if (!options.attributes)
     {
@@ -329,7 +330,7 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const
     if (options.attributes)
     {
         makeVoxelAttributes(device, scene, options.coverage, coverings.voxelize, result);
-        makeNodeAttributes(device, scene, result);
+        makeNodeAttributes(device, scene.uploaded(), result);
     }
     return result;
 }

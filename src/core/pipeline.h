@@ -41,7 +41,7 @@ struct BuildResult
 /// what turns out too small grows, and the operation runs again. Throws Error{Memory} when the device's budget does not
 /// suffice and Error{Usage} for a depth outside 1 to Grid::kDepthMax. A scene without triangles in the grid gives an
 /// octree without nodes.
-BuildResult buildOctree(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
+BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
                         const BuildOptions& options);
 
 /// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have

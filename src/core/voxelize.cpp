@@ -33,7 +33,7 @@ std::uint64_t clampedCount(double value, std::uint64_t low, std::uint64_t high)
 // Everything about a raster pass that does not depend on the mode.
 struct RasterJob
 {
-    const GpuScene& scene;
+    const PlacedScene& scene;
     const Grid& grid;
     Coverage coverage;
     VoxelizeBuffers& buffers;
@@ -51,9 +51,9 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32
 {
     const bool covers = mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
     VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
-    const vk::BufferOf<gpu::Chunk>& chunks = job.scene.chunks[material_class];
+    const vk::BufferOf<gpu::Chunk>& chunks = job.scene.uploaded().chunks[material_class];
     gpu::RasterParams params{};
-    params.scene = pass.read(job.scene.view);
+    params.scene = job.scene.read(pass);
     params.chunks = pass.read(chunks);
     params.bricks = access(pass, job.buffers.bricks, covers);
     params.big_triangles = access(pass, rows.big_triangles, covers);
@@ -96,10 +96,10 @@ void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
 void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
 {
     const std::uint32_t coverage = job.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
-    const std::uint32_t emits = mode != gpu::kModeCoverage && job.scene.emission_scale > 0.0F ? 1 : 0;
+    const std::uint32_t emits = mode != gpu::kModeCoverage && job.scene.uploaded().emission_scale > 0.0F ? 1 : 0;
     for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
     {
-        const std::uint64_t chunk_count = job.scene.chunks[material_class].count();
+        const std::uint64_t chunk_count = job.scene.uploaded().chunks[material_class].count();
         if (chunk_count == 0)
         {
             continue;
@@ -192,7 +192,7 @@ AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count
     }
 }
 
-void voxelizeCoverage(vk::FrameGraph& graph, const GpuScene& scene, const Grid& grid, Coverage coverage,
+void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
                       VoxelizeBuffers& buffers)
 {
     graph.fill(buffers.bricks, 0);
@@ -207,7 +207,7 @@ void voxelizeCoverage(vk::FrameGraph& graph, const GpuScene& scene, const Grid& 
     rasterize(graph, {scene, grid, coverage, buffers, nullptr, nullptr}, gpu::kModeCoverage);
 }
 
-void voxelizeAttributes(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
                         AttributeBuffers& attributes, Octree& octree)
 {
     const bool emission = octree.emission_words.count() != 0;
@@ -221,7 +221,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const GpuScene& scene, Coverage c
     {
         vk::Pass pass = graph.addPass("voxelize/resolve");
         gpu::ResolveParams params{};
-        params.scene = pass.read(scene.view);
+        params.scene = pass.read(scene.uploaded().view); // for its tables of colours
         params.sums = pass.read(attributes.sums);
         params.emission_words = pass.read(octree.emission_words);
         params.attributes = pass.write(octree.voxel_attributes);
@@ -237,7 +237,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const GpuScene& scene, Coverage c
     }
 }
 
-void voxelizeEmission(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
                       AttributeBuffers& attributes, Octree& octree)
 {
     graph.fill(attributes.emission_sums, 0);

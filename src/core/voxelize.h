@@ -4,6 +4,7 @@
 #include "core/coverage.h"
 #include "core/gpu_scene.h"
 #include "core/grid.h"
+#include "core/mover.h"
 #include "shared/bricks.h"
 #include "vk/frame_graph.h"
 
@@ -71,18 +72,18 @@ struct Octree;
 /// Records the coverage passes: clears the buffers, then sets the bit of every covered voxel in the brick table. Reads
 /// the scene; writes everything in buffers. What did not fit is counted, never written.
 /// Cost: triangles plus covered voxels (and the capacity of the table, once, for clearing it).
-void voxelizeCoverage(vk::FrameGraph& graph, const GpuScene& scene, const Grid& grid, Coverage coverage,
+void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
                       VoxelizeBuffers& buffers);
 
 /// Records the passes that average colour and normal of each voxel's fragments into octree.voxel_attributes, and
 /// mark emissive voxels in octree.emission_words. The brick table must hold the first voxel of each leaf (numberNodes).
 /// Cost: triangles plus fragments plus voxels.
-void voxelizeAttributes(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
                         AttributeBuffers& attributes, Octree& octree);
 
 /// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
 /// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.
-void voxelizeEmission(vk::FrameGraph& graph, const GpuScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
+void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
                       AttributeBuffers& attributes, Octree& octree);
 
 } // namespace zvo

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// A scene that moves: what of it changes from frame to frame, and how that gets to the device without waiting.
+#pragma once
+
+#include "core/deform_mesh.h"
+#include "core/gpu_scene.h"
+#include "core/scene.h"
+#include "vk/frame_graph.h"
+#include "vk/headless.h"
+
+#include <span>
+#include <vector>
+
+namespace zvo
+{
+
+struct Pose;
+
+/// What changes of an uploaded scene when it moves; everything else it shares with the GpuScene, which must outlive it.
+/// The device writes these buffers in the order of the queue. So frames in flight may share them if each begins behind
+/// a barrier that covers the reads of the one before; otherwise, each has its own.
+struct MoverBuffers
+{
+    vk::BufferOf<gpu::Draw> draws;     // [instances]
+    vk::BufferOf<gpu::vec3> positions; // [mesh.position_count] of rigid and of deforming instances; empty where
+                                       // nothing deforms: then those of the GpuScene count
+    vk::BufferOf<gpu::vec3> normals;   // [mesh.normal_count] likewise
+    vk::BufferOf<gpu::SceneView> view; // [1] never changes
+    PoseBuffers pose;
+    std::vector<gpu::Draw> host_draws; // what draws is written from
+};
+
+/// The buffers of a mover, placed as scene is at rest; vertices that deform are undefined until placeMover. uploaded
+/// and mesh: made of scene. Waits. Throws Error{Memory} when the device's budget does not suffice.
+MoverBuffers makeMover(vk::HeadlessDevice& device, const Scene& scene, const GpuScene& uploaded,
+                       const DeformMesh& mesh);
+
+/// Records what puts the mover into pose: its draws and, where it deforms, its vertices. Values travel inside the
+/// command buffer; nothing is allocated and nothing waits. Throws Error{Usage} when pose does not fit the mover's
+/// scene.
+void placeMover(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, MoverBuffers& mover);
+
+/// The same for a mover of which nothing deforms: transforms [instances], object to world.
+void placeMover(vk::FrameGraph& graph, std::span<const glm::mat4> transforms, MoverBuffers& mover);
+
+/// What a voxelization walks: a scene as it was uploaded, or as a mover has placed it. Refers to both.
+class PlacedScene
+{
+public:
+    PlacedScene(const GpuScene& scene) : m_scene(scene) {} // implicit: a scene stands where it is
+    PlacedScene(const GpuScene& scene, const MoverBuffers& mover) : m_scene(scene), m_mover(&mover) {}
+
+    /// Materials, textures, chunks and triangles, and what is known of them at rest.
+    [[nodiscard]] const GpuScene& uploaded() const { return m_scene; }
+
+    /// Declares that pass reads the scene, and everything of it that changes. Returns the address of the table.
+    gpu::ConstPtr<gpu::SceneView> read(vk::Pass& pass) const;
+
+private:
+    const GpuScene& m_scene;
+    const MoverBuffers* m_mover = nullptr;
+};
+
+} // namespace zvo
