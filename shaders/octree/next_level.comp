@@ -3,6 +3,7 @@
 // Notes which work items the level that was just listed has, and how many workgroups take them.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+#include "lib/dispatch_args.glsl"
 
 layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -19,7 +20,5 @@ void main()
         first = params.ranges.data[params.step - 1u].first + params.ranges.data[params.step - 1u].count;
     uint count = params.counters.data[0].node_count - first;
     params.ranges.data[params.step] = LevelRange(first, count);
-    uint groups = (count + kNodesGroup - 1u) / kNodesGroup;
-    uint rows = (groups + params.max_groups_x - 1u) / params.max_groups_x;
-    params.args.data[0] = DispatchArgs(rows > 1u ? params.max_groups_x : groups, rows, 1u);
+    params.args.data[params.step] = foldedArgs((count + kNodesGroup - 1u) / kNodesGroup, params.max_groups_x);
 }

@@ -44,7 +44,7 @@ struct NextLevelParams // push constants of octree/next_level
 {
     GPU_CONST_PTR(BrickCounters) counters;
     GPU_PTR(LevelRange) ranges; // [kNodeLevelsMax]
-    GPU_PTR(DispatchArgs) args; // [1] for one thread per item of the level
+    GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] of each step: for one thread an item
     uint step;
     uint max_groups_x;
 };

@@ -7,19 +7,13 @@
 #define BRICKS_CONSTANT_ID 0
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/node.glsl"
 
 layout(local_size_x = kNodesGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     PlaceParams params;
 };
-
-uint childNode(Node parent, uint cell)
-{
-    uint below = (1u << (cell & 31u)) - 1u;
-    return cell < 32u ? parent.base_lo + bitCount(parent.mask_lo & below)
-                      : parent.base_hi + bitCount(parent.mask_hi & below);
-}
 
 void main()
 {
@@ -30,7 +24,7 @@ void main()
     BrickEntry brick = params.bricks.data[item.entry];
     uint node = 0u;
     if (params.is_root == 0u)
-        node = childNode(params.nodes.data[nodeOf(params.bricks.data[item.parent_entry])], brick.key & 63u);
+        node = childIndex(params.nodes.data[nodeOf(params.bricks.data[item.parent_entry])], brick.key & 63u);
     params.nodes.data[node] = Node(brick.mask_lo, 0u, brick.mask_hi, item.entry);
     if (kWideKeys)
         params.bricks.data[item.entry].mask_lo = node;

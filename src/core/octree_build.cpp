@@ -43,8 +43,8 @@ void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuil
 
 OctreeBuildBuffers::OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity)
     : items(device, "octree/items", brick_capacity), ranges(device, "octree/ranges", gpu::kNodeLevelsMax),
-      args(device, "octree/args", 1), partials(device, "octree/partials", divideUp(brick_capacity, gpu::kScanBlock)),
-      total(device, "octree/total", 1)
+      args(device, "octree/args", gpu::kNodeLevelsMax),
+      partials(device, "octree/partials", divideUp(brick_capacity, gpu::kScanBlock)), total(device, "octree/total", 1)
 {
 }
 
@@ -57,12 +57,18 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
                                            static_cast<std::uint32_t>(voxelize.bricks.count())};
         pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
     }
+    listAncestors(graph, grid, voxelize.bricks, voxelize.counters, work);
+}
+
+void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::BrickEntry>& bricks,
+                   vk::BufferOf<gpu::BrickCounters>& counters, OctreeBuildBuffers& work)
+{
     for (std::uint32_t step = 0; step < grid.nodeLevels(); ++step)
     {
         {
             vk::Pass pass = graph.addPass("octree/next_level");
             gpu::NextLevelParams params{};
-            params.counters = pass.read(voxelize.counters);
+            params.counters = pass.read(counters);
             params.ranges = pass.readWrite(work.ranges);
             params.args = pass.write(work.args);
             params.step = step;
@@ -75,13 +81,13 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
         }
         vk::Pass pass = graph.addPass("octree/parents", {hasWideKeys(grid) ? 1U : 0U});
         gpu::ParentsParams params{};
-        params.bricks = pass.readWrite(voxelize.bricks);
+        params.bricks = pass.readWrite(bricks);
         params.items = pass.readWrite(work.items);
-        params.counters = pass.readWrite(voxelize.counters);
+        params.counters = pass.readWrite(counters);
         params.ranges = pass.read(work.ranges);
-        params.brick_mask = static_cast<std::uint32_t>(voxelize.bricks.count() - 1);
+        params.brick_mask = static_cast<std::uint32_t>(bricks.count() - 1);
         params.step = step;
-        pass.dispatchIndirect(work.args, 0, params, divideUp(work.items.count(), gpu::kNodesGroup));
+        pass.dispatchIndirect(work.args, step, params, divideUp(work.items.count(), gpu::kNodesGroup));
     }
 }
 

@@ -19,7 +19,7 @@ struct OctreeBuildBuffers
 
     vk::BufferOf<gpu::WorkItem> items;    // [brick_capacity] leaves first, the root last
     vk::BufferOf<gpu::LevelRange> ranges; // [kNodeLevelsMax] the items of each level, leaves first
-    vk::BufferOf<gpu::DispatchArgs> args; // [1]
+    vk::BufferOf<gpu::DispatchArgs> args; // [kNodeLevelsMax] of each step, leaves first: one thread an item
     vk::BufferOf<gpu::uint> partials;     // [ceil(brick_capacity / kScanBlock)]
     vk::BufferOf<gpu::uint> total;        // [1]
 };
@@ -29,6 +29,11 @@ struct OctreeBuildBuffers
 /// work.ranges and voxelize.counters tell how many nodes and voxels there are. Cost: nodes, and one look at every entry
 /// of the table.
 void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work);
+
+/// Records the passes that put all ancestors of the leaves in items beside them, level by level: what is left of
+/// listNodes when somebody else has listed the leaves. counters tells how many those are.
+void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::BrickEntry>& bricks,
+                   vk::BufferOf<gpu::BrickCounters>& counters, OctreeBuildBuffers& work);
 
 /// Records the passes that number the nodes breadth first in Morton order and write octree.nodes, from the root down.
 /// octree.levels, node_count and nodes must be set up. Leaves in the brick table learn their first voxel.

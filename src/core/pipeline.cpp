@@ -229,9 +229,10 @@ void makeEmission(vk::HeadlessDevice& device, const PlacedScene& scene, Coverage
 
 // Voxel attributes, and emission; voxelize is used up. The sums are many times larger than what becomes of them: they
 // and the brick table go before the attributes of inner nodes come.
-void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, Coverage coverage,
+void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, const BuildOptions& options,
                          VoxelizeBuffers& voxelize, BuildResult& result)
 {
+    const Coverage coverage = options.coverage;
     Octree& octree = result.octree;
     const bool emission = scene.uploaded().emission_scale > 0.0F;
     const std::uint64_t word_count = emission ? divideUp(octree.voxel_count, 32) : 0;
@@ -263,6 +264,10 @@ void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, C
     }
     voxelize.bricks = {};
     voxelize.rows = {};
+    if (options.keep_sums)
+    {
+        result.sums = {std::move(attributes.sums), std::move(attributes.emission_sums), attributes.sum_shift};
+    }
 }
 
 void makeNodeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, BuildResult& result)
@@ -329,7 +334,7 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, co
     coverings.work.partials = {};
     if (options.attributes)
     {
-        makeVoxelAttributes(device, scene, options.coverage, coverings.voxelize, result);
+        makeVoxelAttributes(device, scene, options, coverings.voxelize, result);
         makeNodeAttributes(device, scene.uploaded(), result);
     }
     return result;

@@ -21,7 +21,8 @@ struct BuildOptions
 {
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
-    std::optional<VoxelizeCapacities> capacities; // where to start; by default, an estimate
+    std::optional<VoxelizeCapacities> capacities = std::nullopt; // where to start; by default, an estimate
+    bool keep_sums = false; // of attributes, for BuildResult::sums: 28 bytes a voxel
 };
 
 /// An octree and how it came about.
@@ -32,6 +33,7 @@ struct BuildResult
     std::vector<vk::PassTime> passes;             // of the runs that succeeded
     VoxelizeCapacities capacities;                // that sufficed
     std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
+    FragmentSums sums;                            // with BuildOptions::keep_sums
 
     /// GPU time of the passes of an operation: "voxelize" or "octree".
     [[nodiscard]] double stageMs(const std::string& operation) const;

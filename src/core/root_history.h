@@ -3,6 +3,7 @@
 
 #include "core/overlay_arena.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -110,6 +111,15 @@ public:
 
     /// The device is done with that frame and all before it.
     void frameDone(std::uint64_t frame);
+
+    /// Calls see with every layer state of every step, in any order.
+    template <typename See> void forEachLayer(const See& see) const
+    {
+        for (const Step& step : m_steps)
+        {
+            std::ranges::for_each(step.root->layers, see);
+        }
+    }
 
     [[nodiscard]] std::uint64_t stepBytes() const;    // of the steps' regions
     [[nodiscard]] std::uint64_t waitingBytes() const; // of other regions that are held

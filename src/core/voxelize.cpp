@@ -37,8 +37,7 @@ struct RasterJob
     const Grid& grid;
     Coverage coverage;
     VoxelizeBuffers& buffers;
-    AttributeBuffers* attributes; // null in coverage mode
-    Octree* octree;               // null in coverage mode
+    const AttributeSums* sums; // null in coverage mode
 };
 
 // The kernels of all modes share their parameters: those that only read a buffer get a writable address, too.
@@ -70,11 +69,11 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32
     if (!covers)
     {
         const bool emits = mode == gpu::kModeEmission;
-        params.nodes = pass.read(job.octree->nodes);
-        params.sums = access(pass, job.attributes->sums, !emits);
-        params.emission_words = access(pass, job.octree->emission_words, !emits);
-        params.emission_sums = access(pass, job.attributes->emission_sums, emits);
-        params.sum_shift = job.attributes->sum_shift;
+        params.nodes = pass.read(job.sums->leaves);
+        params.sums = access(pass, job.sums->sums, !emits);
+        params.emission_words = access(pass, job.sums->emission_words, !emits);
+        params.emission_sums = access(pass, job.sums->emission_sums, emits);
+        params.sum_shift = job.sums->sum_shift;
     }
     return params;
 }
@@ -108,7 +107,15 @@ void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
         const vk::Specialization variant = {coverage, mode, material_class, emits, hasWideKeys(job.grid) ? 1U : 0U};
         {
             vk::Pass pass = graph.addPass("voxelize/triangles", variant);
-            pass.dispatch(chunk_count * gpu::kChunkTriangles, rasterParams(pass, job, material_class, mode));
+            const gpu::RasterParams params = rasterParams(pass, job, material_class, mode);
+            if (job.sums != nullptr && job.sums->triangle_args != nullptr)
+            {
+                pass.dispatchIndirect(*job.sums->triangle_args, material_class, params, chunk_count);
+            }
+            else
+            {
+                pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
+            }
         }
         if (mode == gpu::kModeCoverage)
         {
@@ -144,6 +151,11 @@ void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Oct
     const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.readWrite(attributes.partials),
                                             word_count};
     pass.dispatch(threads, params);
+}
+
+AttributeSums sumsOf(AttributeBuffers& attributes, Octree& octree)
+{
+    return {octree.nodes, attributes.sums, octree.emission_words, attributes.emission_sums, attributes.sum_shift};
 }
 
 } // namespace
@@ -204,7 +216,19 @@ void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Gri
             graph.fill(rows.counters, 0);
         }
     }
-    rasterize(graph, {scene, grid, coverage, buffers, nullptr, nullptr}, gpu::kModeCoverage);
+    rasterize(graph, {scene, grid, coverage, buffers, nullptr}, gpu::kModeCoverage);
+}
+
+void addAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+                   VoxelizeBuffers& buffers, const AttributeSums& sums)
+{
+    rasterize(graph, {scene, grid, coverage, buffers, &sums}, gpu::kModeAttributes);
+}
+
+void addEmission(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+                 VoxelizeBuffers& buffers, const AttributeSums& sums)
+{
+    rasterize(graph, {scene, grid, coverage, buffers, &sums}, gpu::kModeEmission);
 }
 
 void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
@@ -217,7 +241,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverag
     {
         graph.fill(octree.emission_words, 0);
     }
-    rasterize(graph, {scene, octree.grid, coverage, buffers, &attributes, &octree}, gpu::kModeAttributes);
+    addAttributes(graph, scene, octree.grid, coverage, buffers, sumsOf(attributes, octree));
     {
         vk::Pass pass = graph.addPass("voxelize/resolve");
         gpu::ResolveParams params{};
@@ -241,7 +265,7 @@ void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, Coverage 
                       AttributeBuffers& attributes, Octree& octree)
 {
     graph.fill(attributes.emission_sums, 0);
-    rasterize(graph, {scene, octree.grid, coverage, buffers, &attributes, &octree}, gpu::kModeEmission);
+    addEmission(graph, scene, octree.grid, coverage, buffers, sumsOf(attributes, octree));
     vk::Pass pass = graph.addPass("voxelize/resolve_emission");
     gpu::ResolveEmissionParams params{};
     params.sums = pass.read(attributes.sums);

@@ -32,6 +32,8 @@ struct VoxelizeCapacities
 
     /// A guess from the scene's surface area and the grid that mostly suffices.
     static VoxelizeCapacities estimate(const GpuScene& scene, const Grid& grid);
+
+    bool operator==(const VoxelizeCapacities&) const = default;
 };
 
 /// What the passes of a voxelization write, sized once. The brick table ends up holding the leaves of the octree, and
@@ -67,7 +69,35 @@ struct AttributeBuffers
     std::uint32_t sum_shift = 0; // value bits dropped, so that sums of max_fragments >> sum_shift fragments fit
 };
 
+/// The sums that an octree's attributes were made of.
+struct FragmentSums
+{
+    vk::BufferOf<gpu::VoxelSums> sums;             // [voxel_count], or empty
+    vk::BufferOf<gpu::EmissionSums> emission_sums; // [emissive voxels], or empty
+    std::uint32_t sum_shift = 0;                   // value bits dropped
+};
+
 struct Octree;
+
+/// Where the second and third walk over the triangles add up what fragments look like.
+struct AttributeSums
+{
+    const vk::BufferOf<gpu::Node>& leaves; // of the octree, or of a layer
+    vk::BufferOf<gpu::VoxelSums>& sums;
+    vk::BufferOf<gpu::uvec2>& emission_words; // empty unless something emits
+    vk::BufferOf<gpu::EmissionSums>& emission_sums;
+    std::uint32_t sum_shift = 0;
+    const vk::BufferOf<gpu::DispatchArgs>* triangle_args = nullptr; // [kClassCount]; null: over all triangles
+};
+
+/// Records the passes that add colours and normals of all fragments to sums.sums (cleared before), and set the bits of
+/// emissive voxels in sums.emission_words. The brick table must hold the first voxel of each leaf.
+void addAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+                   VoxelizeBuffers& buffers, const AttributeSums& sums);
+
+/// Likewise emission to sums.emission_sums (cleared before), in the places that emission_words tells.
+void addEmission(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+                 VoxelizeBuffers& buffers, const AttributeSums& sums);
 
 /// Records the coverage passes: clears the buffers, then sets the bit of every covered voxel in the brick table. Reads
 /// the scene; writes everything in buffers. What did not fit is counted, never written.

@@ -3,12 +3,14 @@
 // valgrind, instrumented kernels, poisoned memory.
 #include "core/animation.h"
 #include "core/deform_mesh.h"
+#include "core/dynamic_octree.h"
 #include "core/grid.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/trace.h"
 #include "oracle/voxelizer.h"
 #include "support/device.h"
+#include "support/octree_contents.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -67,6 +69,19 @@ Scene smallScene()
     scene.instances.push_back({1, glm::mat4(0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1)});
     scene.instances.push_back({2, glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 16, 0, 0, 1)});
     return scene;
+}
+
+std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, const Grid& grid)
+{
+    std::vector<std::uint64_t> codes;
+    for (const test::Cell& cell : cells)
+    {
+        if (cell.level == grid.nodeLevels())
+        {
+            codes.push_back(cell.code);
+        }
+    }
+    return codes;
 }
 
 // Pictures by every path of the tracer.
@@ -143,6 +158,42 @@ Names deformVertices()
     return names;
 }
 
+// The scene merged with itself, moved by two voxels, and that undone.
+Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage)
+{
+    Names names;
+    const float emission_scale = brightestEmission(scene);
+    const GpuScene gpu_scene = uploadScene(device(), scene, true, emission_scale);
+    BuildOptions build{coverage};
+    build.keep_sums = true;
+    DynamicOctree octree(device(), buildOctree(device(), gpu_scene, grid, build),
+                         {.coverage = coverage, .emission_scale = emission_scale});
+    const std::vector<test::Cell> before = test::cellsOf(device(), octree.octree());
+
+    Scene moved = scene;
+    Pose pose;
+    for (Instance& instance : moved.instances)
+    {
+        instance.transform[3].x += 2.0F * grid.voxel_size;
+        pose.transforms.push_back(instance.transform);
+    }
+    octree.add(uploadMover(device(), scene, true, emission_scale), pose);
+    do
+    {
+        const std::uint64_t frame = octree.beginFrame();
+        addNames(names, device().run([&](vk::FrameGraph& graph) { octree.update(graph); }));
+        octree.frameDone(frame);
+    } while (octree.needsUpdate());
+    Scene both = scene;
+    both.append(std::move(moved));
+    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.octree()), grid),
+              oracle::voxelize(both, grid, coverage).codes);
+
+    addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undo(graph); }));
+    EXPECT_EQ(test::difference(test::cellsOf(device(), octree.octree()), before), "");
+    return names;
+}
+
 TEST(EveryKernel, RunsOnASmallScene)
 {
     const Scene scene = smallScene();
@@ -161,9 +212,10 @@ TEST(EveryKernel, RunsOnASmallScene)
     for (const Case& c : cases)
     {
         const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = c.voxel_size, .depth = c.depth};
-        const BuildResult built = buildOctree(device(), gpu_scene, grid, {c.coverage, true, {}});
+        const BuildResult built = buildOctree(device(), gpu_scene, grid, {c.coverage});
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, c.coverage).codes);
         addNames(names, built.passes);
+        names.merge(mergeMovers(scene, grid, c.coverage));
         if (c.pictures)
         {
             names.merge(tracePictures(built.octree));

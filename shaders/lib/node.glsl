@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Children of a node (shared/octree.h).
+#include "shared/octree.h"
+
+bool hasChild(Node node, uint cell)
+{
+    return (((cell < 32u ? node.mask_lo : node.mask_hi) >> (cell & 31u)) & 1u) != 0u;
+}
+
+// Where the child in a cell stands, or, in a leaf, the voxel's attribute; or would, if it existed.
+uint childIndex(Node node, uint cell)
+{
+    uint below = (1u << (cell & 31u)) - 1u;
+    return cell < 32u ? node.base_lo + bitCount(node.mask_lo & below) : node.base_hi + bitCount(node.mask_hi & below);
+}

@@ -1,0 +1,23 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// What touched nodes of a level look like from afar.
+#extension GL_GOOGLE_include_directive : require
+#include "update/update.h"
+#include "lib/average.glsl"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = kNodesGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    OverlayAverageParams params;
+};
+
+void main()
+{
+    LevelRange range = params.ranges.data[params.item_range];
+    uint item = threadIndex();
+    if (item >= range.count || params.status.data[0].failed != 0u)
+        return;
+    uint index = params.touched.data[params.items.data[range.first + item].entry].node;
+    params.averages.data[index] = averageChildren(params.scene, params.nodes.data[index], params.children);
+}

@@ -1,0 +1,73 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Writes the children of each touched node: merged with the base octree's where a layer touches them, else copies of those.
+// A touched child notes how many children of its own it is to have.
+#extension GL_GOOGLE_include_directive : require
+#include "update/update.h"
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/node.glsl"
+
+layout(constant_id = 1) const bool kAttributes = false;
+
+layout(local_size_x = kUpdateGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    ExpandParams params;
+};
+
+uvec2 childKey(uvec2 key, uint cell)
+{
+    if (!kWideKeys)
+        return uvec2((key.x << 6) | cell, 0u);
+    uvec2 code = key & ~kBrickKeyTag;
+    return uvec2(((code.x << 6) | cell) & ((1u << kBrickKeyBits) - 1u), (code.y << 6) | (code.x >> (kBrickKeyBits - 6u))) |
+           kBrickKeyTag;
+}
+
+void main()
+{
+    LevelRange range = params.ranges.data[params.item_range];
+    uint item = workgroupIndex();
+    if (item >= range.count)
+        return;
+    uint entry = params.items.data[range.first + item].entry;
+    BrickEntry brick = params.bricks.data[entry];
+    TouchedNode touched = params.touched.data[entry];
+    Node node = params.nodes.data[touched.node];
+    uint cell = gl_LocalInvocationIndex;
+    if (!hasChild(node, cell))
+        return;
+    uint child = childIndex(node, cell);
+    uint base = kNoNode;
+    if (touched.base != kNoNode)
+    {
+        Node base_node = params.nodes.data[touched.base];
+        if (hasChild(base_node, cell))
+            base = childIndex(base_node, cell);
+    }
+    uint slot = child - params.first_node;
+    Node merged = Node(0u, 0u, 0u, 0u);
+    if (base != kNoNode)
+        merged = params.nodes.data[base];
+    if (((cell < 32u ? brick.mask_lo >> cell : brick.mask_hi >> (cell - 32u)) & 1u) != 0u)
+    {
+        uint child_entry = brickFind(params.bricks, params.brick_mask, childKey(keyOf(brick), cell));
+        BrickEntry child_brick = params.bricks.data[child_entry];
+        merged.mask_lo |= child_brick.mask_lo;
+        merged.mask_hi |= child_brick.mask_hi;
+        params.touched.data[child_entry] = TouchedNode(child, base);
+        uint count = bitCount(merged.mask_lo) + bitCount(merged.mask_hi);
+        params.counts.data[slot] = count;
+        uint block = (child - params.levels.data[params.level].first_node) / kScanBlock;
+        atomicAdd(params.partials.data[params.first_partial + block], count);
+    }
+    else
+    {
+        params.counts.data[slot] = 0u;
+        if (kAttributes)
+            params.node_attributes.data[child] = params.node_attributes.data[base];
+    }
+    params.nodes.data[child] = merged;
+}

@@ -1,0 +1,31 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Shows the overlay's root, or the one before if something had no room, and tells what the update came to.
+#extension GL_GOOGLE_include_directive : require
+#include "update/update.h"
+
+layout(constant_id = 0) const bool kAttributes = false;
+
+layout(local_size_x = kArgsGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    FinishParams params;
+};
+
+void main()
+{
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    UpdateStatus status = params.status.data[0];
+    status.touched_count = params.counters.data[0].node_count;
+    if (status.max_fragments != 0u)
+        status.failed |= kFailedFragments;
+    uint root = params.root;
+    if (status.failed != 0u)
+        root = params.last_root != kNoNode ? params.last_root : params.roots.data[params.last_place];
+    params.roots.data[params.place] = root;
+    params.nodes.data[0] = params.nodes.data[root];
+    if (kAttributes)
+        params.node_attributes.data[0] = params.node_attributes.data[root];
+    params.results.data[params.result] = status;
+}

@@ -1,0 +1,62 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Lists the leaves in a layer's brick table and gives each a place for its voxels' sums. Their order is arbitrary: sums
+// are added up, whatever the order. One atomic a subgroup, no barriers.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+#include "update/update.h"
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = kCollectGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    LayerLeavesParams params;
+};
+
+void main()
+{
+    uint start = workgroupIndex() * (kCollectGroup * kCollectItems) + gl_LocalInvocationIndex;
+    uint occupied = 0u; // bit i: the thread's entry i
+    uint voxels = 0u;
+    for (uint i = 0u; i < kCollectItems; ++i)
+    {
+        uint entry = start + i * kCollectGroup;
+        if (entry < params.brick_capacity && params.bricks.data[entry].key != 0u)
+        {
+            occupied |= 1u << i;
+            voxels += bitCount(params.bricks.data[entry].mask_lo) + bitCount(params.bricks.data[entry].mask_hi);
+        }
+    }
+    uint count = bitCount(occupied);
+    uint leaves_before = subgroupExclusiveAdd(count);
+    uint voxels_before = subgroupExclusiveAdd(voxels);
+    uint leaf_total = subgroupAdd(count);
+    uint voxel_total = subgroupAdd(voxels);
+    uvec2 first = uvec2(0u);
+    if (subgroupElect() && leaf_total != 0u)
+    {
+        first.x = atomicAdd(params.counters.data[0].leaf_count, leaf_total);
+        first.y = atomicAdd(params.counters.data[0].voxel_count, voxel_total);
+    }
+    first = subgroupBroadcastFirst(first) + uvec2(leaves_before, voxels_before);
+    for (; occupied != 0u; occupied &= occupied - 1u)
+    {
+        uint entry = start + uint(findLSB(occupied)) * kCollectGroup;
+        BrickEntry brick = params.bricks.data[entry];
+        uint middle = first.y + bitCount(brick.mask_lo);
+        if (first.x < params.leaf_capacity)
+        {
+            params.keys.data[first.x] = keyOf(brick);
+            params.leaves.data[first.x] = Node(brick.mask_lo, first.y, brick.mask_hi, middle);
+            if (kWideKeys)
+                params.bricks.data[entry].mask_lo = first.x;
+            else
+                params.bricks.data[entry].base = first.y;
+        }
+        ++first.x;
+        first.y = middle + bitCount(brick.mask_hi);
+    }
+}

@@ -1,0 +1,49 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// What the voxels of each touched leaf look like: as in the base octree where no layer has them, else by kMerge.
+#extension GL_GOOGLE_include_directive : require
+#include "update/update.h"
+#include "lib/dispatch.glsl"
+#include "lib/merge.glsl"
+#include "lib/resolve.glsl"
+
+layout(local_size_x = kUpdateGroup) in;
+
+void main()
+{
+    MergedVoxel voxel;
+    if (!findVoxel(workgroupIndex(), gl_LocalInvocationIndex, voxel))
+        return;
+    SceneView_ConstPtr scene = params.view.data[0].scene;
+    Attribute look = Attribute(0u, 0u);
+    if (voxel.base != kNoVoxel)
+        look = params.attributes.data[voxel.base];
+    VoxelSums sums = VoxelSums(0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    bool emits = false;
+    LayerVoxel place = firstLayerVoxel(voxel);
+    for (uint i = 0u; i < kLayersMax && place.record != 0u; ++i)
+    {
+        if (place.exists)
+        {
+            addSums(sums, place.layer.sums.data[place.voxel], 0u);
+            emits = emits || emitsIn(place);
+        }
+        place = nextLayerVoxel(voxel, place);
+    }
+    bool dynamic = sums.fragments != 0u && !(kMerge == kMergeStatic && voxel.base != kNoVoxel);
+    if (dynamic)
+    {
+        uint flags = emits ? kAttributeEmissive : 0u;
+        if (kMerge == kMergeAverage && voxel.base != kNoVoxel)
+        {
+            addSums(sums, params.view.data[0].sums.data[voxel.base], params.view.data[0].base_shift);
+            flags |= look.color >> 24;
+        }
+        if ((sums.fragments >> params.sum_shift) > kFragmentsMax)
+            atomicMax(params.status.data[0].max_fragments, sums.fragments);
+        look = resolveSums(scene, sums, params.sum_shift, flags);
+    }
+    params.attributes.data[voxel.index] = look;
+    if (kEmits && ((look.color >> 24) & kAttributeEmissive) != 0u)
+        atomicOr(params.emission_words.data[voxel.index >> 5].x, 1u << (voxel.index & 31u));
+}

@@ -1,0 +1,23 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Shows the root of an earlier step.
+#extension GL_GOOGLE_include_directive : require
+#include "update/update.h"
+
+layout(constant_id = 0) const bool kAttributes = false;
+
+layout(local_size_x = kArgsGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    ShowParams params;
+};
+
+void main()
+{
+    if (gl_LocalInvocationIndex != 0u)
+        return;
+    uint root = params.root != kNoNode ? params.root : params.roots.data[params.place];
+    params.nodes.data[0] = params.nodes.data[root];
+    if (kAttributes)
+        params.node_attributes.data[0] = params.node_attributes.data[root];
+}

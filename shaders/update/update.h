@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// What the kernels of dynamic update share with the host.
+//
+// A layer is what voxelization makes of one moving mesh: a brick table with its leaves, and sums over the fragments of
+// each of its voxels. An overlay is a copy of every path of a base octree that leads to a leaf which some layer has,
+// merged with the layers. It stands behind the base octree's nodes and attributes, in the same buffers:
+//
+//   - nodes[0] is the root that is traced: a copy of the root chosen last. Nobody else reads or writes it.
+//   - The overlay's root is the first node of its region; then come its levels, breadth first in Morton order.
+//   - The children of an overlay's node stand together, as everywhere: those that no layer touches are copies of the
+//     base octree's nodes, whose own children stay where they are.
+//   - A leaf of an overlay has attributes of its own for all of its voxels, in the order of the leaves.
+//
+// A node of the overlay that stands above a leaf of a layer is touched. Touched nodes have entries in a brick table, as
+// nodes under construction do (shared/bricks.h).
+#ifndef ZVO_SHADERS_UPDATE_UPDATE_H
+#define ZVO_SHADERS_UPDATE_UPDATE_H
+
+#include "octree/octree.h"
+#include "shared/bricks.h"
+#include "shared/octree.h"
+#include "shared/scene.h"
+#include "voxelize/voxelize.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kLayersMax = 1024u; // in one overlay
+const uint kNoNode = ~0u;      // in a base octree
+const uint kUpdateGroup = 64u; // threads of most workgroups: for a node's children, one each
+
+// Specialization constant of update/merge: what a voxel looks like that the base octree and layers have.
+const uint kMergeAverage = 0u; // the mean over the fragments of both
+const uint kMergeDynamic = 1u; // the layers
+const uint kMergeStatic = 2u;  // the base octree
+
+// Why an update came to nothing: bits of UpdateStatus::failed.
+const uint kFailedLayer = 1u;      // a layer had not enough room: LayerCounters tell which
+const uint kFailedTable = 2u;      // the table of touched nodes
+const uint kFailedNodes = 4u;      // the overlay's region
+const uint kFailedVoxels = 8u;     // likewise
+const uint kFailedFragments = 16u; // more fragments in a voxel than sums hold
+
+/// What a layer holds. Counting goes on past capacities.
+struct LayerCounters
+{
+    uint leaf_count;
+    uint voxel_count;
+    uint failed;         // 1: something had no room, the layer is of no use
+    uint overflow_count; // leaves that found no place in the brick table
+    uint big_count;      // the largest counts of a material class, as in RasterCounters
+    uint block_count;
+    uint blocks_exceeded;
+    uint nonfinite; // triangles that were left out, by reason
+    uint out_of_range;
+    uint outside;
+    uint zero_area;
+};
+GPU_BUFFER(LayerCounters, 4);
+
+/// Where a layer is.
+struct Layer
+{
+    GPU_CONST_PTR(LayerCounters) counters; // [1]
+    GPU_CONST_PTR(uvec2) keys;             // [leaf_capacity] of the leaves, in any order (shared/bricks.h)
+    GPU_CONST_PTR(Node) leaves;            // [leaf_capacity] masks, and bases in sums
+    GPU_CONST_PTR(VoxelSums) sums;         // [voxel_capacity]
+    GPU_CONST_PTR(uvec2)
+    emission_words;                            // [ceil(voxel_capacity / 32)] bits of voxels that emit, index in
+                                               // emission_sums of the word's first; null if nothing does
+    GPU_CONST_PTR(EmissionSums) emission_sums; // [voxel_capacity], in places
+    uint first_record;                         // the records before it: the leaf capacities of the layers before
+    uint leaf_capacity;
+};
+GPU_BUFFER(Layer, 8);
+
+/// A layer's leaf in the chain of those with the same key.
+struct LayerLink
+{
+    uint next;  // record + 1 of the next one, 0 at the end
+    uint layer; // that the record belongs to
+};
+GPU_BUFFER(LayerLink, 4);
+
+/// A touched node: what stands for its entry of the table.
+struct TouchedNode
+{
+    uint node; // its index
+    uint base; // the node of the base octree in the same place, or kNoNode
+};
+GPU_BUFFER(TouchedNode, 4);
+
+/// Nodes of one level of the overlay.
+struct OverlayLevel
+{
+    uint first_node;
+    uint node_count;
+};
+GPU_BUFFER(OverlayLevel, 4);
+
+/// What an update came to; the host reads it when it likes. Counting goes on past capacities.
+struct UpdateStatus
+{
+    uint failed;        // bits kFailed*; not 0: the root is the one that was shown before
+    uint node_count;    // of the overlay, its root included
+    uint voxel_count;   // attributes of the overlay
+    uint touched_count; // nodes in the table
+    uint dynamic_count; // voxels of the layers' union
+    uint max_fragments; // the most fragments of a voxel, if too many for sum_shift, else 0
+};
+GPU_BUFFER(UpdateStatus, 4);
+
+// Elements of the indirect arguments of an update.
+const uint kArgsExpand = 0u; // a workgroup for each touched node of the level above
+const uint kArgsAssign = 1u; // for each kScanBlock nodes of the level
+const uint kArgsMerge = 2u;  // for each touched leaf
+const uint kArgsCount = 3u;
+
+struct LayerLeavesParams // push constants of update/layer_leaves
+{
+    GPU_PTR(BrickEntry) bricks; // [brick_capacity], leaves only
+    GPU_PTR(uvec2) keys;        // [leaf_capacity]
+    GPU_PTR(Node) leaves;       // [leaf_capacity]
+    GPU_PTR(LayerCounters) counters;
+    uint brick_capacity;
+    uint leaf_capacity;
+};
+
+struct LayerCheckParams // push constants of update/layer_check
+{
+    GPU_PTR(LayerCounters) counters;
+    GPU_PTR(LayerCounters) reports; // copies that the host can read
+    GPU_CONST_PTR(BrickCounters) brick_counters;
+    GPU_CONST_PTR(RasterCounters) rasters[3]; // of each material class, or null
+    GPU_PTR(DispatchArgs) rows[3];            // [2] likewise: the second becomes 0 if the layer failed
+    GPU_PTR(DispatchArgs) triangles;          // [kClassCount] of the second walk over the triangles
+    uint chunk_counts[3];
+    uint leaf_capacity;
+    uint voxel_capacity;
+    uint big_capacity;
+    uint block_capacity;
+    uint report; // element of reports
+    uint max_groups_x;
+};
+
+struct EmissionPlacesParams // push constants of update/emission_places
+{
+    GPU_PTR(uvec2) words;
+    uint first_word;
+    uint word_count;
+    uint first_place; // of the first word's voxels
+};
+
+struct InsertParams // push constants of update/insert: one thread a record
+{
+    GPU_CONST_PTR(Layer) layers; // [layer_count]
+    GPU_PTR(BrickEntry) bricks;
+    GPU_PTR(uint) heads;             // [brick_capacity] cleared: record + 1 of the first layer's leaf
+    GPU_PTR(LayerLink) links;        // [record_count]
+    GPU_PTR(WorkItem) items;         // [brick_capacity]
+    GPU_PTR(BrickCounters) counters; // [1] cleared
+    GPU_PTR(UpdateStatus) status;    // [1] cleared
+    uint layer_count;
+    uint record_count;
+    uint brick_mask;
+};
+
+struct RootParams // push constants of update/root
+{
+    GPU_CONST_PTR(BrickEntry) bricks;
+    GPU_CONST_PTR(WorkItem) items;
+    GPU_CONST_PTR(LevelRange) ranges; // [level_count]
+    GPU_CONST_PTR(BrickCounters) counters;
+    GPU_PTR(TouchedNode) touched; // [brick_capacity]
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_PTR(OverlayLevel) levels;       // [level_count]
+    GPU_PTR(DispatchArgs) args;         // [kArgsCount]
+    GPU_PTR(UpdateStatus) status;
+    uint level_count;
+    uint base_root;  // node index; the node may be empty
+    uint first_node; // of the overlay's region
+    uint node_capacity;
+    uint first_voxel;
+    uint voxel_capacity;
+    uint max_groups_x;
+};
+
+struct ExpandParams // push constants of update/expand: a workgroup for each touched node of the level above
+{
+    GPU_CONST_PTR(BrickEntry) bricks;
+    GPU_CONST_PTR(WorkItem) items;
+    GPU_CONST_PTR(LevelRange) ranges;
+    GPU_PTR(TouchedNode) touched;
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_PTR(uint) counts;               // [node_capacity] children that the overlay has to hold for its nodes
+    GPU_PTR(uint) partials;             // [levels * ceil(node_capacity / kScanBlock)] cleared: sums of those
+    GPU_CONST_PTR(OverlayLevel) levels;
+    uint brick_mask;
+    uint level;         // of the children
+    uint item_range;    // of the parents, in ranges
+    uint first_node;    // of the overlay
+    uint first_partial; // of the level
+};
+
+struct OverlayScanParams // push constants of update/scan: one workgroup
+{
+    GPU_PTR(uint) partials; // those of the level become their exclusive prefix sum
+    GPU_PTR(OverlayLevel) levels;
+    GPU_CONST_PTR(LevelRange) ranges;
+    GPU_PTR(DispatchArgs) args;
+    GPU_PTR(UpdateStatus) status;
+    uint level;
+    uint level_count;
+    uint node_capacity;
+    uint voxel_capacity;
+    uint first_partial;
+    uint max_groups_x;
+};
+
+struct OverlayAssignParams // push constants of update/assign
+{
+    GPU_PTR(Node) nodes;
+    GPU_CONST_PTR(uint) counts;
+    GPU_CONST_PTR(uint) partials;
+    GPU_CONST_PTR(OverlayLevel) levels;
+    uint level;
+    uint level_count;
+    uint first_node;
+    uint first_voxel;
+    uint first_partial;
+};
+
+/// What merging looks up and never changes.
+struct MergeView
+{
+    GPU_CONST_PTR(SceneView) scene;            // for the tables of sRGB codes
+    GPU_CONST_PTR(VoxelSums) sums;             // of the static octree's voxels; kMergeAverage only
+    GPU_CONST_PTR(EmissionSums) emission_sums; // of its emissive voxels; likewise
+    uint base_shift;                           // bits that these sums have more than those of the layers
+    uint reserved;
+};
+GPU_BUFFER(MergeView, 8);
+
+struct MergeParams // push constants of update/merge and update/merge_emission: a workgroup for each touched leaf
+{
+    GPU_CONST_PTR(MergeView) view;
+    GPU_CONST_PTR(WorkItem) items;
+    GPU_CONST_PTR(LevelRange) ranges;
+    GPU_CONST_PTR(TouchedNode) touched;
+    GPU_CONST_PTR(uint) heads;
+    GPU_CONST_PTR(LayerLink) links;
+    GPU_CONST_PTR(Layer) layers;
+    GPU_CONST_PTR(Node) nodes;
+    GPU_PTR(Attribute) attributes;
+    GPU_PTR(uvec2) emission_words; // the overlay's bits cleared; or null
+    GPU_PTR(uint) emission;        // or null
+    GPU_PTR(UpdateStatus) status;
+    uint sum_shift;
+};
+
+struct OverlayAverageParams // push constants of update/average: one thread a touched node
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(WorkItem) items;
+    GPU_CONST_PTR(LevelRange) ranges;
+    GPU_CONST_PTR(TouchedNode) touched;
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Attribute) children; // of voxels for leaves, else of nodes
+    GPU_PTR(Attribute) averages;       // of nodes
+    GPU_CONST_PTR(UpdateStatus) status;
+    uint item_range;
+};
+
+struct FinishParams // push constants of update/finish
+{
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_CONST_PTR(BrickCounters) counters;
+    GPU_CONST_PTR(UpdateStatus) status;
+    GPU_PTR(UpdateStatus) results; // copies that the host can read
+    GPU_PTR(uint) roots;           // of updates of which the host does not know yet whether they failed
+    uint root;                     // of the overlay
+    uint last_root;                // the one that stays if the update failed, or kNoNode: roots[last_place]
+    uint last_place;
+    uint place;  // element of roots that this root goes to
+    uint result; // element of results
+};
+
+struct ShowParams // push constants of update/show
+{
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_CONST_PTR(uint) roots;
+    uint root; // or kNoNode: roots[place]
+    uint place;
+};
+
+GPU_NAMESPACE_END
+
+#endif

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/animation.h"
+#include "core/coverage.h"
+#include "core/deform_mesh.h"
+#include "core/layer.h"
+#include "core/mover.h"
+#include "core/octree.h"
+#include "core/overlay_arena.h"
+#include "core/pipeline.h"
+#include "core/root_history.h"
+#include "core/update.h"
+#include "vk/headless.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace zvo
+{
+
+/// How a DynamicOctree works.
+struct DynamicOptions
+{
+    Coverage coverage = Coverage::Thin; // of the movers; as the static octree's
+    MergeRule merge = MergeRule::Average;
+    std::uint32_t frames_in_flight = 2; // updates that may be recorded before frameDone() was told of the first
+    HistoryBounds history = {1, UINT64_MAX};
+    float emission_scale = 0;        // common to the static scene and all movers; 0: nothing emits light
+    bool attributes = true;          // of an empty static octree, which does not say
+    bool minimal_capacities = false; // everything starts with room for one: for tests
+};
+
+/// A mesh that can move, in device memory. Several movers may share it.
+struct MoverMesh
+{
+    Scene scene; // without its images
+    GpuScene uploaded;
+    DeformMesh deform;
+};
+
+/// Uploads scene as a mover and waits; emission_scale: the common one. Throws as uploadScene and uploadDeformMesh.
+std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene scene, bool attributes,
+                                             float emission_scale);
+
+/// Number of a mover, for as long as its DynamicOctree lives.
+using MoverId = std::uint32_t;
+
+/// What an update came to, known once the device is done with its frame.
+struct UpdateReport
+{
+    std::uint64_t step = 0;
+    std::uint32_t failed = 0;        // bits kFailed*; 0: its root is shown
+    std::uint32_t node_count = 0;    // of the overlay
+    std::uint32_t voxel_count = 0;   // with attributes of their own in the overlay
+    std::uint32_t touched_count = 0; // nodes of the overlay that are not mere copies
+    std::uint32_t dynamic_count = 0; // voxels that movers cover
+};
+
+/// A static octree into which moving meshes are merged, frame by frame. The static octree never changes: an update
+/// copies the paths that movers touch behind it, and shows the copy; undo shows an older one.
+///
+/// Every frame: beginFrame(), then any of update(), undo() and redo() and the tracing of octree() into a command buffer
+/// that is submitted after those of earlier frames, then, once the device is done with it, frameDone(). Nothing waits
+/// for the device. What an update needs beyond the memory there is, it reports; the frame then shows the last root that
+/// is complete, and a later update has more memory.
+class DynamicOctree
+{
+public:
+    /// Takes over a static octree (and, for MergeRule::Average, the sums it was made of: BuildOptions::keep_sums).
+    /// Throws Error{Usage} where those are missing, Error{Memory} when the device's budget does not suffice.
+    DynamicOctree(vk::HeadlessDevice& device, BuildResult built, const DynamicOptions& options);
+
+    /// Adds a mover in a pose of its mesh's scene; may wait for the device. Shown from the next update() on, as all
+    /// changes are. Throws Error{Usage} for more than kLayersMax movers, a mesh with another emission scale or a pose
+    /// that does not fit the mesh.
+    MoverId add(std::shared_ptr<const MoverMesh> mesh, Pose pose);
+
+    /// Puts the mover into another pose. Where that is not finite, triangles are left out. Throws as add().
+    void place(MoverId mover, Pose pose);
+
+    /// Takes the mover away. Throws Error{Usage} for one that is not there, as place() does.
+    void remove(MoverId mover);
+
+    /// Numbers the frame that is to be recorded.
+    std::uint64_t beginFrame();
+
+    /// Records an update: movers that changed are voxelized, all are merged with the static octree, and the result is
+    /// shown. It becomes a step of the history.
+    void update(vk::FrameGraph& graph);
+
+    /// Records that the step before, or behind, the one that is shown is shown again. Movers are where they were then.
+    /// False if there is none.
+    bool undo(vk::FrameGraph& graph);
+    bool redo(vk::FrameGraph& graph);
+
+    /// The device is done with a frame and all before it: learns what its updates came to.
+    std::vector<UpdateReport> frameDone(std::uint64_t frame);
+
+    /// Whether what is missing has to be shown by another update(): one failed, and nothing was recorded since.
+    [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
+
+    /// What to trace. Its node_count and voxel_count are those of the static octree.
+    [[nodiscard]] const Octree& octree() const { return m_octree; }
+
+    [[nodiscard]] const RootHistory& history() const { return *m_history; }
+    [[nodiscard]] std::uint32_t staticNodeCount() const { return m_static_nodes; }
+
+    /// Node that is the static octree's root, untouched by what is shown.
+    [[nodiscard]] std::uint32_t staticRoot() const { return m_static_nodes; }
+
+private:
+    struct Mover
+    {
+        std::shared_ptr<const MoverMesh> mesh;
+        MoverBuffers buffers;
+        LayerCapacities capacities;
+        std::unique_ptr<LayerBuffers> layer;
+        bool present = true;         // or taken away, for as long as a step shows it
+        std::uint64_t version = 0;   // of the pose that it is to be in
+        std::uint64_t voxelized = 0; // version that layer shows; 0: none
+    };
+    struct PendingUpdate
+    {
+        std::uint64_t frame;
+        std::uint64_t step;
+        std::uint32_t result; // element of m_results
+    };
+    struct PendingLayer
+    {
+        std::uint64_t frame;
+        MoverId mover;
+        std::uint64_t version;
+        std::uint32_t report; // element of m_reports
+        LayerCapacities capacities;
+    };
+    struct Retired
+    {
+        std::uint64_t frame;
+        std::shared_ptr<void> what;
+    };
+
+    void takeOver(BuildResult& built);
+    void growSpace(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
+    template <typename T> void lengthen(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, std::uint64_t count);
+    template <typename T> void retire(T&& what);
+    std::uint64_t addPose(const MoverMesh& mesh, Pose pose);
+    void forgetPoses();
+    [[nodiscard]] Mover& presentMover(MoverId id);
+    [[nodiscard]] std::vector<Mover*> presentMovers();
+    void dropLayer(Mover& mover);
+    void voxelizeMovers(vk::FrameGraph& graph);
+    void prepareBuffers(const OverlayRegion& region);
+    OverlayRegion allocateRegion(vk::FrameGraph& graph);
+    bool show(vk::FrameGraph& graph, const std::optional<RootStep>& step);
+    void learnLayer(const PendingLayer& pending);
+    UpdateReport learnUpdate(const PendingUpdate& pending);
+    void raiseShift(std::uint32_t fragments);
+    [[nodiscard]] bool emits() const { return m_has_attributes && m_options.emission_scale > 0; }
+    [[nodiscard]] std::uint32_t voxelBlockBytes() const;
+    [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
+    [[nodiscard]] std::vector<LayerState> layerStates() const;
+    [[nodiscard]] RootPlace rootOf(const RootStep& step) const;
+
+    vk::HeadlessDevice& m_device;
+    DynamicOptions m_options;
+    Octree m_octree;
+    FragmentSums m_static_sums;
+    GpuScene m_tables; // a scene of nothing: the tables of sRGB codes
+    vk::BufferOf<gpu::MergeView> m_merge_view;
+    std::uint32_t m_static_nodes = 0;
+    std::uint32_t m_static_voxels = 0;
+    std::uint64_t m_static_emissive = 0;
+    bool m_has_attributes = false;
+    std::uint32_t m_sum_shift = 0;
+
+    std::map<MoverId, Mover> m_movers;
+    MoverId m_next_mover = 1;
+    std::uint64_t m_next_version = 1;
+    std::map<std::uint64_t, Pose> m_poses; // by version
+    std::size_t m_poses_max = 1024;        // until those that are not used are dropped
+
+    std::unique_ptr<OverlayArena> m_arena;
+    std::unique_ptr<RootHistory> m_history;
+    std::unique_ptr<UpdateBuffers> m_update;
+    UpdateCapacities m_capacities;
+    std::uint64_t m_touched_min = 0;  // entries that the table of the next update has at least
+    std::uint64_t m_likely_nodes = 0; // of the next overlay
+    std::uint64_t m_likely_voxels = 0;
+
+    vk::BufferOf<gpu::uint> m_roots;
+    vk::BufferOf<gpu::UpdateStatus> m_results;  // host-visible, a ring
+    vk::BufferOf<gpu::LayerCounters> m_reports; // host-visible, a ring
+    std::uint64_t m_result_count = 0;
+    std::uint64_t m_report_count = 0;
+    std::uint64_t m_frame = 0;
+    std::deque<PendingUpdate> m_pending_updates;
+    std::deque<PendingLayer> m_pending_layers;
+    std::deque<Retired> m_retired;
+    std::set<std::uint64_t> m_failed; // steps that equal the one before them
+    bool m_needs_update = false;
+};
+
+} // namespace zvo

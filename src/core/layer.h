@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/coverage.h"
+#include "core/gpu_scene.h"
+#include "core/grid.h"
+#include "core/voxelize.h"
+#include "update/update.h"
+#include "vk/frame_graph.h"
+
+#include <cstdint>
+
+namespace zvo
+{
+
+/// How much a layer has room for.
+struct LayerCapacities
+{
+    VoxelizeCapacities voxelize;
+    std::uint64_t leaves = 0;
+    std::uint64_t voxels = 0;
+
+    /// A guess from the mesh's surface area and the grid that mostly suffices.
+    static LayerCapacities estimate(const GpuScene& scene, const Grid& grid);
+
+    bool operator==(const LayerCapacities&) const = default;
+};
+
+/// What layers are asked for beside their voxels.
+struct LayerContents
+{
+    bool attributes = true;
+    bool emission = false; // only with attributes
+};
+
+/// The voxels of one mover; shaders/update/update.h has the picture.
+struct LayerBuffers
+{
+    LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene, LayerContents contents);
+
+    /// Bytes of device memory that such buffers take.
+    static std::uint64_t bytes(const LayerCapacities& capacities, const GpuScene& scene, LayerContents contents);
+
+    VoxelizeBuffers voxelize;
+    vk::BufferOf<gpu::LayerCounters> counters;     // [1]
+    vk::BufferOf<gpu::DispatchArgs> triangle_args; // [kClassCount] of the walks for attributes
+    vk::BufferOf<gpu::uvec2> keys;                 // [capacities.leaves]
+    vk::BufferOf<gpu::Node> leaves;                // [capacities.leaves]
+    vk::BufferOf<gpu::VoxelSums> sums;             // [capacities.voxels], or empty without attributes
+    vk::BufferOf<gpu::uvec2> emission_words;       // [ceil(capacities.voxels / 32)], or empty without emission
+    vk::BufferOf<gpu::EmissionSums> emission_sums; // [capacities.voxels], or empty without emission
+};
+
+/// Records the passes that voxelize a mover into a layer: coverage, then sums of what its fragments look like. Nothing
+/// is read back; what does not fit is counted, and the layer then says that it failed. reports[report] becomes a copy
+/// of the layer's counters, for the host. Cost: triangles plus fragments, and the layer's capacities, once, for
+/// clearing them.
+void voxelizeLayer(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+                   std::uint32_t sum_shift, LayerBuffers& layer, vk::BufferOf<gpu::LayerCounters>& reports,
+                   std::uint32_t report);
+
+} // namespace zvo

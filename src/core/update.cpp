@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "core/update.h"
+
+#include "core/divide_up.h"
+
+#include <array>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+std::uint32_t partialsPerLevel(const UpdateBuffers& buffers)
+{
+    return static_cast<std::uint32_t>(divideUp(buffers.counts.count(), gpu::kScanBlock));
+}
+
+// Layers' buffers are read through a table of addresses: every pass that does so declares them here.
+gpu::ConstPtr<gpu::Layer> readLayers(vk::Pass& pass, const UpdateJob& job, const UpdateBuffers& buffers)
+{
+    for (const LayerBuffers* layer : job.layers)
+    {
+        pass.read(layer->counters);
+        pass.read(layer->keys);
+        pass.read(layer->leaves);
+        pass.read(layer->sums);
+        pass.read(layer->emission_words);
+        pass.read(layer->emission_sums);
+    }
+    return pass.read(buffers.layers);
+}
+
+// Lists which leaves are touched, and all nodes above them. Returns the number of records.
+void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+{
+    std::vector<gpu::Layer> layers;
+    std::uint32_t record_count = 0;
+    for (const LayerBuffers* layer : job.layers)
+    {
+        const auto capacity = static_cast<std::uint32_t>(layer->leaves.count());
+        layers.push_back({{layer->counters.address()},
+                          {layer->keys.address()},
+                          {layer->leaves.address()},
+                          {layer->sums.address()},
+                          {layer->emission_words.address()},
+                          {layer->emission_sums.address()},
+                          record_count,
+                          capacity});
+        record_count += capacity;
+    }
+    graph.fill(buffers.counters, 0);
+    graph.fill(buffers.status, 0);
+    graph.fill(buffers.bricks, 0);
+    graph.fill(buffers.heads, 0);
+    graph.fill(buffers.partials, 0);
+    if (!layers.empty())
+    {
+        graph.update(buffers.layers, 0, layers);
+        vk::Pass pass = graph.addPass("update/insert", {hasWideKeys(job.octree.grid) ? 1U : 0U});
+        gpu::InsertParams params{};
+        params.layers = readLayers(pass, job, buffers);
+        params.bricks = pass.readWrite(buffers.bricks);
+        params.heads = pass.readWrite(buffers.heads);
+        params.links = pass.write(buffers.links);
+        params.items = pass.write(buffers.work.items);
+        params.counters = pass.readWrite(buffers.counters);
+        params.status = pass.readWrite(buffers.status);
+        params.layer_count = static_cast<std::uint32_t>(layers.size());
+        params.record_count = record_count;
+        params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
+        pass.dispatch(record_count, params);
+    }
+    listAncestors(graph, job.octree.grid, buffers.bricks, buffers.counters, buffers.work);
+}
+
+void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+{
+    const bool attributes = job.octree.node_attributes.count() != 0;
+    vk::Pass pass = graph.addPass("update/root", {attributes ? 1U : 0U});
+    gpu::RootParams params{};
+    params.bricks = pass.read(buffers.bricks);
+    params.items = pass.read(buffers.work.items);
+    params.ranges = pass.read(buffers.work.ranges);
+    params.counters = pass.read(buffers.counters);
+    params.touched = pass.write(buffers.touched);
+    params.nodes = pass.readWrite(job.octree.nodes);
+    params.node_attributes = pass.readWrite(job.octree.node_attributes);
+    params.levels = pass.write(buffers.levels);
+    params.args = pass.write(buffers.args);
+    params.status = pass.readWrite(buffers.status);
+    params.level_count = job.octree.grid.nodeLevels();
+    params.base_root = job.base_root;
+    params.first_node = job.region.first_node;
+    params.node_capacity = job.region.node_capacity;
+    params.first_voxel = job.region.first_voxel;
+    params.voxel_capacity = job.region.voxel_capacity;
+    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+    pass.dispatch(1, params);
+}
+
+// Writes the nodes of one level (not the root) and gives the touched ones their child bases.
+void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
+{
+    Octree& octree = job.octree;
+    const std::uint32_t level_count = octree.grid.nodeLevels();
+    const std::uint32_t first_partial = level * partialsPerLevel(buffers);
+    const bool attributes = octree.node_attributes.count() != 0;
+    const std::uint64_t groups_max = buffers.bricks.count();
+    {
+        vk::Pass pass = graph.addPass("update/expand", {hasWideKeys(octree.grid) ? 1U : 0U, attributes ? 1U : 0U});
+        gpu::ExpandParams params{};
+        params.bricks = pass.read(buffers.bricks);
+        params.items = pass.read(buffers.work.items);
+        params.ranges = pass.read(buffers.work.ranges);
+        params.touched = pass.readWrite(buffers.touched);
+        params.nodes = pass.readWrite(octree.nodes);
+        params.node_attributes = pass.readWrite(octree.node_attributes);
+        params.counts = pass.write(buffers.counts);
+        params.partials = pass.readWrite(buffers.partials);
+        params.levels = pass.read(buffers.levels);
+        params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
+        params.level = level;
+        params.item_range = level_count - level;
+        params.first_node = job.region.first_node;
+        params.first_partial = first_partial;
+        pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, groups_max);
+    }
+    {
+        vk::Pass pass = graph.addPass("update/scan");
+        gpu::OverlayScanParams params{};
+        params.partials = pass.readWrite(buffers.partials);
+        params.levels = pass.readWrite(buffers.levels);
+        params.ranges = pass.read(buffers.work.ranges);
+        params.args = pass.write(buffers.args);
+        params.status = pass.readWrite(buffers.status);
+        params.level = level;
+        params.level_count = level_count;
+        params.node_capacity = job.region.node_capacity;
+        params.voxel_capacity = job.region.voxel_capacity;
+        params.first_partial = first_partial;
+        params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+        pass.dispatch(gpu::kScanGroup, params);
+    }
+    vk::Pass pass = graph.addPass("update/assign");
+    gpu::OverlayAssignParams params{};
+    params.nodes = pass.readWrite(octree.nodes);
+    params.counts = pass.read(buffers.counts);
+    params.partials = pass.read(buffers.partials);
+    params.levels = pass.read(buffers.levels);
+    params.level = level;
+    params.level_count = level_count;
+    params.first_node = job.region.first_node;
+    params.first_voxel = job.region.first_voxel;
+    params.first_partial = first_partial;
+    pass.dispatchIndirect(buffers.args, gpu::kArgsAssign, params, partialsPerLevel(buffers));
+}
+
+void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const char* kernel)
+{
+    Octree& octree = job.octree;
+    const bool emits = octree.emission_words.count() != 0;
+    vk::Pass pass = graph.addPass(kernel, {static_cast<std::uint32_t>(job.merge), emits ? 1U : 0U});
+    gpu::MergeParams params{};
+    params.view = pass.read(job.view);
+    pass.read(job.tables);
+    pass.read(job.static_sums.sums);
+    pass.read(job.static_sums.emission_sums);
+    params.items = pass.read(buffers.work.items);
+    params.ranges = pass.read(buffers.work.ranges);
+    params.touched = pass.read(buffers.touched);
+    params.heads = pass.read(buffers.heads);
+    params.links = pass.read(buffers.links);
+    params.layers = readLayers(pass, job, buffers);
+    params.nodes = pass.read(octree.nodes);
+    params.attributes = pass.readWrite(octree.voxel_attributes);
+    params.emission_words = pass.readWrite(octree.emission_words);
+    params.emission = pass.readWrite(octree.emission);
+    params.status = pass.readWrite(buffers.status);
+    params.sum_shift = job.sum_shift;
+    pass.dispatchIndirect(buffers.args, gpu::kArgsMerge, params, buffers.bricks.count());
+}
+
+void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+{
+    Octree& octree = job.octree;
+    const bool emits = octree.emission_words.count() != 0;
+    if (emits)
+    {
+        vk::Pass pass = graph.addPass("update/emission_places");
+        gpu::EmissionPlacesParams params{};
+        params.words = pass.readWrite(octree.emission_words);
+        params.first_word = job.region.first_voxel / kVoxelBlock;
+        params.word_count = job.region.voxel_capacity / kVoxelBlock;
+        params.first_place = job.region.first_voxel + job.emission_offset;
+        pass.dispatch(params.word_count, params);
+    }
+    addMergePass(graph, job, buffers, "update/merge");
+    if (emits)
+    {
+        addMergePass(graph, job, buffers, "update/merge_emission");
+    }
+    for (std::uint32_t step = 0; step < octree.grid.nodeLevels() && octree.node_attributes.count() != 0; ++step)
+    {
+        vk::Pass pass = graph.addPass("update/average");
+        gpu::OverlayAverageParams params{};
+        params.scene = pass.read(job.tables);
+        params.items = pass.read(buffers.work.items);
+        params.ranges = pass.read(buffers.work.ranges);
+        params.touched = pass.read(buffers.touched);
+        params.nodes = pass.read(octree.nodes);
+        params.children = step == 0 ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes);
+        params.averages = pass.readWrite(octree.node_attributes);
+        params.status = pass.read(buffers.status);
+        params.item_range = step;
+        pass.dispatchIndirect(buffers.work.args, step, params, divideUp(buffers.work.items.count(), gpu::kNodesGroup));
+    }
+}
+
+void finish(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+{
+    Octree& octree = job.octree;
+    vk::Pass pass = graph.addPass("update/finish", {octree.node_attributes.count() != 0 ? 1U : 0U});
+    gpu::FinishParams params{};
+    params.nodes = pass.readWrite(octree.nodes);
+    params.node_attributes = pass.readWrite(octree.node_attributes);
+    params.counters = pass.read(buffers.counters);
+    params.status = pass.read(buffers.status);
+    params.results = pass.readWrite(job.results);
+    params.roots = pass.readWrite(job.roots);
+    params.root = job.region.first_node;
+    params.last_root = job.last.root;
+    params.last_place = job.last.place;
+    params.place = job.place;
+    params.result = job.result;
+    pass.dispatch(1, params);
+}
+
+} // namespace
+
+UpdateBuffers::UpdateBuffers(vk::Device& device, const UpdateCapacities& capacities, const Grid& grid)
+    : layers(device, "update/layers", gpu::kLayersMax), links(device, "update/links", capacities.records),
+      bricks(device, "update/bricks", capacities.touched), counters(device, "update/brick_counters", 1),
+      heads(device, "update/heads", capacities.touched), touched(device, "update/touched", capacities.touched),
+      work(device, capacities.touched), levels(device, "update/levels", gpu::kNodeLevelsMax),
+      counts(device, "update/counts", capacities.overlay_nodes),
+      partials(device, "update/partials", grid.nodeLevels() * divideUp(capacities.overlay_nodes, gpu::kScanBlock)),
+      args(device, "update/args", gpu::kArgsCount), status(device, "update/status", 1)
+{
+}
+
+std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities)
+{
+    return capacities.touched *
+               (sizeof(gpu::BrickEntry) + sizeof(gpu::uint) + sizeof(gpu::TouchedNode) + sizeof(gpu::WorkItem)) +
+           capacities.records * sizeof(gpu::LayerLink) + capacities.overlay_nodes * sizeof(gpu::uint);
+}
+
+void mergeLayers(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+{
+    listTouched(graph, job, buffers);
+    mergeRoots(graph, job, buffers);
+    for (std::uint32_t level = 1; level < job.octree.grid.nodeLevels(); ++level)
+    {
+        expandLevel(graph, job, buffers, level);
+    }
+    if (job.octree.hasAttributes())
+    {
+        mergeAttributes(graph, job, buffers);
+    }
+    finish(graph, job, buffers);
+}
+
+void showRoot(vk::FrameGraph& graph, Octree& octree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)
+{
+    vk::Pass pass = graph.addPass("update/show", {octree.node_attributes.count() != 0 ? 1U : 0U});
+    gpu::ShowParams params{};
+    params.nodes = pass.readWrite(octree.nodes);
+    params.node_attributes = pass.readWrite(octree.node_attributes);
+    params.roots = pass.read(roots);
+    params.root = root.root;
+    params.place = root.place;
+    pass.dispatch(1, params);
+}
+
+} // namespace zvo

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/layer.h"
+#include "core/octree.h"
+#include "core/octree_build.h"
+#include "core/overlay_arena.h"
+#include "update/update.h"
+#include "vk/frame_graph.h"
+
+#include <cstdint>
+#include <span>
+
+namespace zvo
+{
+
+/// What a voxel looks like that both the static octree and a mover have.
+enum class MergeRule : std::uint32_t
+{
+    Average = gpu::kMergeAverage,     ///< the mean over the fragments of both: as if they were one scene
+    DynamicWins = gpu::kMergeDynamic, ///< the movers, the mean over their fragments
+    StaticWins = gpu::kMergeStatic,   ///< the static octree
+};
+
+/// How much an update has room for, whatever its region has.
+struct UpdateCapacities
+{
+    std::uint64_t touched = 0;       // entries of the table of touched nodes, a power of two
+    std::uint64_t records = 0;       // leaf capacities of all layers
+    std::uint64_t overlay_nodes = 0; // of the largest region
+
+    bool operator==(const UpdateCapacities&) const = default;
+};
+
+/// What an update needs while it runs; nothing of it is needed afterwards.
+struct UpdateBuffers
+{
+    UpdateBuffers(vk::Device& device, const UpdateCapacities& capacities, const Grid& grid);
+
+    /// Bytes of device memory that such buffers take, but for some that are small.
+    static std::uint64_t bytes(const UpdateCapacities& capacities);
+
+    vk::BufferOf<gpu::Layer> layers;           // [kLayersMax]
+    vk::BufferOf<gpu::LayerLink> links;        // [capacities.records]
+    vk::BufferOf<gpu::BrickEntry> bricks;      // [capacities.touched]
+    vk::BufferOf<gpu::BrickCounters> counters; // [1]
+    vk::BufferOf<gpu::uint> heads;             // [capacities.touched]
+    vk::BufferOf<gpu::TouchedNode> touched;    // [capacities.touched]
+    OctreeBuildBuffers work;                   // lists of touched nodes, leaves first
+    vk::BufferOf<gpu::OverlayLevel> levels;    // [kNodeLevelsMax]
+    vk::BufferOf<gpu::uint> counts;            // [capacities.overlay_nodes] children of the overlay's nodes
+    vk::BufferOf<gpu::uint> partials;          // for each level, sums of kScanBlock of them
+    vk::BufferOf<gpu::DispatchArgs> args;      // [kArgsCount]
+    vk::BufferOf<gpu::UpdateStatus> status;    // [1]
+};
+
+/// Where the index of a root's node is known: by the host or, until it knows how an update ended, by the device.
+struct RootPlace
+{
+    std::uint32_t root = gpu::kNoNode; // kNoNode: in roots[place]
+    std::uint32_t place = 0;
+};
+
+/// One update: which layers are merged with which octree, and where the result goes.
+struct UpdateJob
+{
+    Octree& octree;                              // with room for overlays behind the static part
+    std::uint32_t base_root = 0;                 // node that is merged with the layers
+    std::span<const LayerBuffers* const> layers; // at most kLayersMax
+    OverlayRegion region;
+    MergeRule merge = MergeRule::Average;
+    std::uint32_t sum_shift = 0;                // of the layers
+    std::uint32_t emission_offset = 0;          // from a voxel of an overlay to its place in octree.emission
+    const vk::BufferOf<gpu::MergeView>& view;   // [1]
+    const vk::BufferOf<gpu::SceneView>& tables; // [1] of sRGB codes
+    const FragmentSums& static_sums;
+    RootPlace last;          // the root that stays if something has no room
+    std::uint32_t place = 0; // element of roots for this update's root
+    vk::BufferOf<gpu::uint>& roots;
+    vk::BufferOf<gpu::UpdateStatus>& results; // host-visible
+    std::uint32_t result = 0;                 // element of results
+};
+
+/// Records the passes that merge layers with the static octree and show the result: copies of all paths to leaves that
+/// a layer has go to the region, merged with it, and nodes[0] becomes the new root. Nothing is read back.
+/// Cost: touched nodes, and their children.
+void mergeLayers(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers);
+
+/// Records the pass that shows an earlier root again. Cost: constant.
+void showRoot(vk::FrameGraph& graph, Octree& octree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root);
+
+} // namespace zvo

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Merging movers gives what voxelizing everything anew gives.
+#include "core/dynamic_octree.h"
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/materials_scene.h"
+#include "support/octree_contents.h"
+#include "support/scenes.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::Cell;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+constexpr float kExtent = 16.0F;
+
+// A static scene, movers, and an octree that follows them.
+class World
+{
+public:
+    explicit World(std::uint32_t depth, DynamicOptions options = {})
+        : m_grid{.origin = glm::vec3(0.0F),
+                 .voxel_size = kExtent / static_cast<float>(1U << std::min(depth, 6U)),
+                 .depth = depth},
+          m_static(test::materialsScene(kExtent)), m_mover(test::materialsScene(kExtent / 3)), m_options(options)
+    {
+        m_scale = std::max(brightestEmission(m_static), brightestEmission(m_mover));
+        m_options.emission_scale = m_scale;
+        const GpuScene scene = uploadScene(device(), m_static, true, m_scale);
+        BuildOptions build{.coverage = m_options.coverage};
+        build.keep_sums = true;
+        m_octree = std::make_unique<DynamicOctree>(device(), buildOctree(device(), scene, m_grid, build), m_options);
+        m_mesh = uploadMover(device(), m_mover, true, m_scale);
+    }
+
+    DynamicOctree& octree() { return *m_octree; }
+    const std::shared_ptr<const MoverMesh>& mesh() const { return m_mesh; }
+
+    Pose poseAt(const glm::mat4& place) const
+    {
+        Pose pose;
+        for (const Instance& instance : m_mover.instances)
+        {
+            pose.transforms.push_back(place * instance.transform);
+        }
+        return pose;
+    }
+
+    // Updates until everything had room.
+    UpdateReport update()
+    {
+        for (int attempt = 0; attempt < 64; ++attempt)
+        {
+            const std::uint64_t frame = m_octree->beginFrame();
+            device().run([&](vk::FrameGraph& graph) { m_octree->update(graph); });
+            const std::vector<UpdateReport> reports = m_octree->frameDone(frame);
+            if (!m_octree->needsUpdate())
+            {
+                return reports.empty() ? UpdateReport{} : reports.back();
+            }
+        }
+        throw std::runtime_error("no update succeeded");
+    }
+
+    bool undo()
+    {
+        const std::uint64_t frame = m_octree->beginFrame();
+        bool shown = false;
+        device().run([&](vk::FrameGraph& graph) { shown = m_octree->undo(graph); });
+        m_octree->frameDone(frame);
+        return shown;
+    }
+
+    bool redo()
+    {
+        const std::uint64_t frame = m_octree->beginFrame();
+        bool shown = false;
+        device().run([&](vk::FrameGraph& graph) { shown = m_octree->redo(graph); });
+        m_octree->frameDone(frame);
+        return shown;
+    }
+
+    std::vector<Cell> shown() const { return test::cellsOf(device(), m_octree->octree()); }
+
+    // Everything voxelized at once.
+    std::vector<Cell> rebuilt(const std::vector<glm::mat4>& places) const
+    {
+        Scene scene = m_static;
+        for (const glm::mat4& place : places)
+        {
+            Scene mover = m_mover;
+            const std::vector<glm::mat4> transforms = poseAt(place).transforms;
+            for (std::size_t i = 0; i < transforms.size(); ++i)
+            {
+                mover.instances[i].transform = transforms[i];
+            }
+            scene.append(std::move(mover));
+        }
+        const GpuScene uploaded = uploadScene(device(), scene, true, m_scale);
+        return test::cellsOf(device(),
+                             buildOctree(device(), uploaded, m_grid, {.coverage = m_options.coverage}).octree);
+    }
+
+private:
+    Grid m_grid;
+    Scene m_static;
+    Scene m_mover;
+    DynamicOptions m_options;
+    float m_scale = 0;
+    std::shared_ptr<const MoverMesh> m_mesh;
+    std::unique_ptr<DynamicOctree> m_octree;
+};
+
+glm::mat4 moved(float x, float y, float z)
+{
+    return glm::translate(glm::mat4(1.0F), glm::vec3(x, y, z));
+}
+
+TEST(DynamicOctree, ShowsTheStaticOctreeWithoutMovers)
+{
+    World world(6);
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
+}
+
+TEST(DynamicOctree, FollowsMoversThatComeMoveAndGo)
+{
+    World world(6);
+    const MoverId first = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(0, 0, 0)})), "");
+    const MoverId second = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    world.octree().place(second, world.poseAt(moved(2, 1, 1))); // overlaps the first
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(0, 0, 0), moved(2, 1, 1)})), "");
+    world.octree().place(first, world.poseAt(moved(9, 9, 9)));
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(9, 9, 9), moved(2, 1, 1)})), "");
+    world.octree().remove(second);
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(9, 9, 9)})), "");
+    world.octree().place(first, world.poseAt(moved(14, 9, 9))); // half outside
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(14, 9, 9)})), "");
+    world.octree().place(first, world.poseAt(moved(100, 9, 9)));
+    EXPECT_EQ(world.update().dynamic_count, 0U);
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
+}
+
+TEST(DynamicOctree, UndoAndRedoShowEarlierSteps)
+{
+    World world(6, {.history = {16, UINT64_MAX}});
+    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    std::vector<std::vector<Cell>> shown = {world.shown()};
+    for (int i = 0; i < 4; ++i)
+    {
+        world.octree().place(mover, world.poseAt(moved(2.5F * static_cast<float>(i), 3, 1)));
+        world.update();
+        shown.push_back(world.shown());
+        EXPECT_EQ(test::difference(shown.back(), world.rebuilt({moved(2.5F * static_cast<float>(i), 3, 1)})), "");
+    }
+    for (int i = 3; i >= 0; --i)
+    {
+        EXPECT_TRUE(world.undo());
+        EXPECT_EQ(test::difference(world.shown(), shown[static_cast<std::size_t>(i)]), "");
+    }
+    EXPECT_FALSE(world.undo());
+    EXPECT_TRUE(world.redo());
+    EXPECT_TRUE(world.redo());
+    EXPECT_EQ(test::difference(world.shown(), shown[2]), "");
+    const MoverId second = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    EXPECT_NE(second, mover);
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(2.5F, 3, 1), moved(0, 0, 0)})), "");
+    EXPECT_FALSE(world.redo());
+}
+
+TEST(DynamicOctree, StartsWithRoomForOne)
+{
+    World world(6, {.minimal_capacities = true});
+    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    world.octree().place(mover, world.poseAt(moved(3, 4, 5)));
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(3, 4, 5)})), "");
+}
+
+TEST(DynamicOctree, OneMoverGivesWhatARebuildGives)
+{
+    for (const std::uint32_t depth : {5U, 1U, 2U, 6U, 13U})
+    {
+        SCOPED_TRACE(depth);
+        World world(depth);
+        const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+        world.octree().place(mover, world.poseAt(moved(3, 4, 5)));
+        const UpdateReport report = world.update();
+        EXPECT_EQ(report.failed, 0U);
+        EXPECT_GT(report.dynamic_count, 0U);
+        EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(3, 4, 5)})), "");
+    }
+}
+
+} // namespace
+} // namespace zvo

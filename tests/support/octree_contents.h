@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/octree.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// A node or a voxel as a ray sees it, whatever its number.
+struct Cell
+{
+    std::uint32_t level = 0; // of nodes; nodeLevels() for a voxel
+    std::uint64_t code = 0;  // Morton code among the cells of its level
+    gpu::Attribute attribute{};
+    std::uint32_t emission = 0; // RGB9E5, or 0
+
+    bool operator==(const Cell& other) const
+    {
+        return level == other.level && code == other.code && attribute.color == other.attribute.color &&
+               attribute.normal == other.attribute.normal && emission == other.emission;
+    }
+};
+
+/// Everything below nodes[0], level by level in Morton order, by following the bases, as the traversal does. Attributes
+/// and emission are 0 where octree has none. Throws std::out_of_range where a base leads out of a buffer.
+std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const Octree& octree);
+
+/// What tells two lists apart: the first difference, or "" for none.
+std::string difference(const std::vector<Cell>& actual, const std::vector<Cell>& expected);
+
+} // namespace zvo::test
