@@ -121,8 +121,11 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
                   (mirror & 4u) != 0u ? kPathCells - 1u : 0u);
     uvec2 path = loadPath(cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
     path = inside ? path : uvec2(0u);
-    uint node1 = path.x & ((1u << kPathLevel2Shift) - 1u);
-    uint node2 = path.x >> kPathLevel2Shift;
+    uint before_children = loadHalf(0u).y - 1u;
+    uint node1 = path.x & ((1u << kPathLevel1Bits) - 1u);
+    node1 += node1 != 0u ? before_children : 0u;
+    uint node2 = bitfieldExtract(path.x, int(kPathLevel2Shift), int(kPathLevel2Bits));
+    node2 += (path.x >> kPathRelativeShift) != 0u ? before_children : 0u;
     saveNode(kRootShift, 0u);
     saveNode(kRootShift - 2u, node1);
     saveNode(kRootShift - 4u, node2);

@@ -12,6 +12,19 @@ layout(push_constant, scalar) uniform Push
     BeamPathsParams params;
 };
 
+// The nodes of a path as rays take them; 0 for those that do not exist.
+uint64_t packPath(uint path[kPathLevels], uint before_children)
+{
+    uint node1 = path[0] - before_children;
+    bool has1 = path[0] != 0u && node1 - 1u < (1u << kPathLevel1Bits) - 1u;
+    uint node2 = path[1] - before_children;
+    bool relative = node2 - 1u < (1u << kPathLevel2Bits) - 1u;
+    node2 = relative ? node2 : path[1];
+    bool has2 = has1 && path[1] != 0u && node2 < 1u << kPathLevel2Bits;
+    uint upper = (node2 << kPathLevel2Shift) | (relative ? 1u << kPathRelativeShift : 0u);
+    return packUint2x32(uvec2((has1 ? node1 : 0u) | (has2 ? upper : 0u), has2 ? path[2] : 0u));
+}
+
 void main()
 {
     uint i = threadIndex();
@@ -30,5 +43,5 @@ void main()
         node = (c < 32u ? n.base_lo : n.base_hi) + bitCount(mask & ((1u << (c & 31u)) - 1u));
         path[level] = present ? node : 0u;
     }
-    params.paths.data[i] = packUint2x32(uvec2(path[0] | (path[1] << kPathLevel2Shift), path[2]));
+    params.paths.data[i] = packPath(path, params.octree.data[0].base_lo - 1u);
 }

@@ -41,13 +41,20 @@ const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that b
 // Where rays begin: kPathCells^3 cells over the root cube, x in the lowest bits of their number, each with the nodes of
 // levels 1 to 3 that contain it, 0 where there is none:
 //
-//     level 1: 8 bits | level 2: 16 | unused 8 | level 3: 32, from the lowest bit on
+//     level 1: 8 bits | level 2: 16 | level 2 is relative: 1 | unused 7 | level 3: 32, from the lowest bit on
 //
-// Nodes are numbered by levels, so those of level 1 are at most 64, those of level 2 at most 4160.
+// Nodes of level 1, and of level 2 where it says so, are relative: counted from the node before the root's first child.
+// Every octree that zvo makes fits: numbered by levels as a whole, level 1 is at most 64 and level 2 at most 4160.
+// Where an update has merged a root, level 1 is at most 64 relative to it, level 2 either at most 4160 relative to it
+// or a node of the octree that it changed. A node that does not fit, and those below, are left out: rays begin above
+// it.
 const uint kPathLevels = 3u;
 const uint kPathCellBits = 6u;
 const uint kPathCells = 64u;
+const uint kPathLevel1Bits = 8u;
+const uint kPathLevel2Bits = 16u;
 const uint kPathLevel2Shift = 8u;
+const uint kPathRelativeShift = 24u;
 
 // Light that arrives at a hit, for the parts of it: 0 none, 255 all.
 const uint kLightSun = 255u; // mask

@@ -4,6 +4,7 @@
 #include "core/trace.h"
 #include "oracle/trace.h"
 #include "support/device.h"
+#include "support/pictures.h"
 #include "support/spirv_structs.h"
 #include "support/trace_octrees.h"
 
@@ -18,37 +19,19 @@ namespace zvo
 namespace
 {
 
+using test::hitCount;
+using test::manyCameras;
+using test::Picture;
+
 vk::HeadlessDevice& device()
 {
     return test::sharedDevice(zvoKernels());
 }
 
-/// A picture and how it came about.
-struct Picture
-{
-    std::vector<gpu::uint> image;
-    std::vector<gpu::Hit> hits;   // misses in dead tiles, too
-    std::vector<gpu::uint> light; // 0 in dead tiles
-    std::uint32_t live_tiles = 0;
-    std::uint32_t capped_rays = 0;
-};
-
 Picture takeAny(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
                 const TraceOptions& options)
 {
-    BeamGrid beam(device().device());
-    TraceBuffers buffers(device().device(), width, height);
-    device().run(
-        [&](vk::FrameGraph& graph)
-        {
-            graph.fill(buffers.hits, gpu::kHitMiss);
-            graph.fill(buffers.light, 0);
-            buildBeam(graph, octree, beam);
-            trace(graph, octree, beam, camera, options, buffers);
-        });
-    const gpu::TraceStatus status = device().download(buffers.status).at(0);
-    return {device().download(buffers.image), device().download(buffers.hits), device().download(buffers.light),
-            status.live_tiles, status.capped_rays};
+    return test::takePicture(device(), octree, camera, width, height, options);
 }
 
 /// A picture all of whose rays got an answer.
@@ -58,16 +41,6 @@ Picture take(const Octree& octree, const TraceCamera& camera, std::uint32_t widt
     Picture picture = takeAny(octree, camera, width, height, options);
     EXPECT_EQ(picture.capped_rays, 0U);
     return picture;
-}
-
-std::uint32_t hitCount(const Picture& picture)
-{
-    std::uint32_t count = 0;
-    for (const gpu::Hit& hit : picture.hits)
-    {
-        count += hit.index != gpu::kHitMiss ? 1 : 0;
-    }
-    return count;
 }
 
 void expectSameHits(const Picture& a, const Picture& b)
@@ -83,33 +56,6 @@ void expectSameHits(const Picture& a, const Picture& b)
         }
     }
     EXPECT_EQ(a.image, b.image);
-}
-
-/// Cameras inside, outside, close, far away, along axes and orthographic ones, for a grid with its corner at 0.
-std::vector<ViewCamera> manyCameras(const Grid& grid)
-{
-    const auto edge = static_cast<double>(grid.resolution());
-    const glm::dvec3 middle(0.5 * edge);
-    std::vector<ViewCamera> cameras;
-    cameras.push_back(ViewCamera::framing({glm::vec3(0.0F), glm::vec3(static_cast<float>(edge))}, 1.3));
-    cameras.push_back(ViewCamera::lookAt(middle, middle + glm::dvec3(1.0, 0.3, 0.2), 1.2));
-    cameras.push_back(ViewCamera::lookAt(middle + 0.2, middle + glm::dvec3(0.0, 0.0, 1.0), 2.5));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(0.5, 0.5, 3.0), middle, 0.3));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(1.02, 0.9, 0.4), middle, 1.0));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(20.0, 7.0, -9.0), middle, 0.05));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(20.0, 7.0, -9.0), middle, 1.0));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(300.0, 200.0, 100.0), middle, 0.004));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(5e3, 2e3, 1e3), middle, 0.0003));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(0.5, 4.0, 0.5), middle, 0.4));
-    cameras.push_back(ViewCamera::lookAt(edge * glm::dvec3(-1.0, 0.5, 0.5), edge * glm::dvec3(-2.0, 0.5, 0.5), 1.0));
-    for (const double half_height : {0.02, 0.3, 0.8, 5.0})
-    {
-        ViewCamera camera = ViewCamera::lookAt(edge * glm::dvec3(1.4, 1.1, 1.7), middle, 0.5);
-        camera.orthographic = true;
-        camera.half_height = half_height * edge;
-        cameras.push_back(camera);
-    }
-    return cameras;
 }
 
 TEST(TracePicture, BeamDoesNotChangeThePicture)
