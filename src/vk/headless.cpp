@@ -2,6 +2,8 @@
 #include "vk/headless.h"
 
 #include "vk/check.h"
+#include "vk/command_context.h"
+#include "vk/flight.h"
 #include "vk/instance.h"
 #include "vk/pipeline_cache.h"
 #include "zvo/error.h"
@@ -97,110 +99,6 @@ private:
     Functions m_functions;
 };
 
-// One command buffer, submitted and waited for before it is recorded again.
-class CommandContext
-{
-public:
-    CommandContext(Device& device, VkQueue queue) : m_device(device), m_queue(queue)
-    {
-        try
-        {
-            create();
-        }
-        catch (...)
-        {
-            destroy();
-            throw;
-        }
-    }
-
-    ~CommandContext() { destroy(); }
-
-    CommandContext(const CommandContext&) = delete;
-    CommandContext& operator=(const CommandContext&) = delete;
-
-    VkCommandBuffer begin()
-    {
-        const Functions& fn = m_device.fn();
-        VK_CHECK(fn.vkResetCommandPool(m_device.handle(), m_pool, 0));
-        VK_CHECK(fn.vkResetFences(m_device.handle(), 1, &m_fence)); // here: a submission may have failed after all else
-        VkCommandBufferBeginInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-        info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        VK_CHECK(fn.vkBeginCommandBuffer(m_commands, &info));
-
-        // A fence says that earlier work is done, not that this work sees its writes.
-        VkMemoryBarrier2 memory{};
-        memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-        memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        memory.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-        memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        memory.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-        VkDependencyInfo dependency{};
-        dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &memory;
-        fn.vkCmdPipelineBarrier2(m_commands, &dependency);
-        return m_commands;
-    }
-
-    void submitAndWait()
-    {
-        const Functions& fn = m_device.fn();
-        VK_CHECK(fn.vkEndCommandBuffer(m_commands));
-        VkCommandBufferSubmitInfo commands{};
-        commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
-        commands.commandBuffer = m_commands;
-        VkSubmitInfo2 submit{};
-        submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-        submit.commandBufferInfoCount = 1;
-        submit.pCommandBufferInfos = &commands;
-        VK_CHECK(fn.vkQueueSubmit2(m_queue, 1, &submit, m_fence));
-        const VkResult result = fn.vkWaitForFences(m_device.handle(), 1, &m_fence, VK_TRUE, UINT64_MAX);
-        if (result < 0)
-        {
-            fn.vkDeviceWaitIdle(m_device.handle()); // what the work uses is about to be destroyed
-            throwFailedCall(result, "vkWaitForFences", __FILE_NAME__, __LINE__);
-        }
-    }
-
-private:
-    void create()
-    {
-        const Functions& fn = m_device.fn();
-        VkCommandPoolCreateInfo pool{};
-        pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-        pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-        pool.queueFamilyIndex = m_device.handles().queue_family;
-        VK_CHECK(fn.vkCreateCommandPool(m_device.handle(), &pool, nullptr, &m_pool));
-        VkCommandBufferAllocateInfo buffer{};
-        buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-        buffer.commandPool = m_pool;
-        buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-        buffer.commandBufferCount = 1;
-        VK_CHECK(fn.vkAllocateCommandBuffers(m_device.handle(), &buffer, &m_commands));
-        VkFenceCreateInfo fence{};
-        fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-        VK_CHECK(fn.vkCreateFence(m_device.handle(), &fence, nullptr, &m_fence));
-        m_device.setName(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<std::uint64_t>(m_pool), "headless commands");
-        m_device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(m_commands),
-                         "headless commands");
-        m_device.setName(VK_OBJECT_TYPE_FENCE, reinterpret_cast<std::uint64_t>(m_fence), "headless fence");
-    }
-
-    void destroy()
-    {
-        m_device.fn().vkDestroyFence(m_device.handle(), m_fence, nullptr);
-        m_device.fn().vkDestroyCommandPool(m_device.handle(), m_pool, nullptr);
-    }
-
-    Device& m_device;
-    VkQueue m_queue;
-    VkCommandPool m_pool = VK_NULL_HANDLE;
-    VkCommandBuffer m_commands = VK_NULL_HANDLE;
-    VkFence m_fence = VK_NULL_HANDLE;
-};
-
 // Spreads a run over submissions that are waited for one by one, and measures them.
 class RunSlicer : public Slicer
 {
@@ -234,7 +132,8 @@ public:
     void submit()
     {
         const auto start = std::chrono::steady_clock::now();
-        m_commands.submitAndWait();
+        m_commands.submit();
+        m_commands.wait();
         const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
         ++m_submission_count;
         std::vector<PassTime> times = m_timers.collect();
@@ -312,7 +211,8 @@ struct HeadlessDevice::Impl
           logical(instance, chosen, options.gpu_assisted_validation, choosesSubgroupSize(options, chosen)),
           cache(logical.fn(), chosen.physical_device, logical.handle(), options.pipeline_cache_path),
           device(handles(options), kernels), commands(device, logical.queue()), timers(device, options.timer_capacity),
-          readback(device, "slice readback", sizeof(gpu::DispatchArgs), MemoryKind::Readback), planner(options.slices)
+          readback(device, "slice readback", sizeof(gpu::DispatchArgs), MemoryKind::Readback), planner(options.slices),
+          timer_capacity(options.timer_capacity), flights_max(std::max(options.submissions_in_flight, 1U))
     {
         device.setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<std::uint64_t>(logical.queue()), "headless queue");
     }
@@ -334,7 +234,19 @@ struct HeadlessDevice::Impl
     {
         FrameGraph graph(device, commands.begin());
         record(graph);
-        commands.submitAndWait();
+        commands.submit();
+        commands.wait();
+    }
+
+    // The flight that is free, or whose submission is the oldest.
+    Flight& nextFlight(std::size_t number)
+    {
+        if (number == flights.size())
+        {
+            flights.push_back(std::make_unique<Flight>(device, logical.queue(), timer_capacity));
+        }
+        flights[number]->finish();
+        return *flights[number];
     }
 
     Instance instance;
@@ -348,6 +260,10 @@ struct HeadlessDevice::Impl
     Buffer readback; // arguments of an indirect dispatch
     SlicePlanner planner;
     std::uint32_t submission_count = 0; // of the last run
+    std::uint32_t timer_capacity;
+    std::size_t flights_max;
+    std::size_t next_flight = 0;
+    std::vector<std::unique_ptr<Flight>> flights; // made when they are needed, used in turns
 };
 
 std::vector<DeviceReport> queryAllDevices()
@@ -375,6 +291,13 @@ std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>
     slicer.submit();
     m_impl->submission_count = slicer.submissionCount();
     return slicer.takeTimes();
+}
+
+Submission HeadlessDevice::submit(const std::function<void(FrameGraph&)>& record)
+{
+    Submission submission = m_impl->nextFlight(m_impl->next_flight).submit(record);
+    m_impl->next_flight = (m_impl->next_flight + 1) % m_impl->flights_max;
+    return submission;
 }
 
 std::uint32_t HeadlessDevice::submissionCount() const

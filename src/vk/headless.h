@@ -4,6 +4,7 @@
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/slice_planner.h"
+#include "vk/submission.h"
 
 #include <algorithm>
 #include <atomic>
@@ -25,6 +26,7 @@ struct HeadlessOptions
     bool gpu_assisted_validation = false; // instruments the kernels; implies validation
     std::uint64_t memory_budget_bytes = UINT64_MAX;
     SliceOptions slices;                                        // how long submissions of run() may take
+    std::uint32_t submissions_in_flight = 3;                    // of submit(): at most; at least 1
     std::string pipeline_cache_path;                            // empty: pipelines are not kept on disk
     std::uint32_t timer_capacity = 4096;                        // passes of one run that are timed; 0: none
     std::atomic<std::uint32_t>* message_counter = nullptr;      // also counts validation messages, to the very end
@@ -52,6 +54,13 @@ public:
     /// (HeadlessOptions::slices), which the results do not depend on. Returns the GPU time of each pass, in order.
     /// Throws Error{Other} on a lost device.
     std::vector<PassTime> run(const std::function<void(FrameGraph&)>& record);
+
+    /// Records with record and submits, without waiting for it: what runs is as long as what was recorded, never split.
+    /// Work runs, and sees what was written, in the order of submission, run() and transfers included. When
+    /// HeadlessOptions::submissions_in_flight are under way, waits for the oldest. What fails on the device is thrown
+    /// by Submission::wait(). The host may read mapped buffers then if record ends with FrameGraph::releaseToHost().
+    /// Throws what record throws, and Error{Other} on a lost device.
+    [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record);
 
     /// Submissions of the last run().
     [[nodiscard]] std::uint32_t submissionCount() const;

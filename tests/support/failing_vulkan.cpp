@@ -26,6 +26,7 @@ struct State
     bool fail_on = false; // all later ones, too
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     std::uint64_t call_count = 0;
+    std::map<std::string, std::uint64_t> call_counts; // by function
     std::string failed;
     std::map<std::uint64_t, std::string> live; // handle -> who made it
 };
@@ -35,6 +36,7 @@ State g_state;
 bool mustFail(const char* name)
 {
     const std::uint64_t number = g_state.call_count++;
+    ++g_state.call_counts[name];
     if (number == g_state.fail_number || (g_state.fail_on && number > g_state.fail_number))
     {
         g_state.failed = g_state.failed.empty() ? name : g_state.failed;
@@ -173,6 +175,7 @@ void reset(std::uint64_t number, VkResult result, bool fail_on)
     g_state.fail_on = fail_on;
     g_state.result = result;
     g_state.call_count = 0;
+    g_state.call_counts.clear();
     g_state.failed.clear();
 }
 
@@ -196,6 +199,12 @@ void failAllFrom(std::uint64_t number, VkResult result)
 std::uint64_t fallibleCallCount()
 {
     return g_state.call_count;
+}
+
+std::uint64_t callCount(const std::string& function)
+{
+    const auto found = g_state.call_counts.find(function);
+    return found != g_state.call_counts.end() ? found->second : 0;
 }
 
 std::string failedFunction()

@@ -26,6 +26,9 @@ void failAllFrom(std::uint64_t number, VkResult result);
 /// Calls that could have failed since failCall().
 std::uint64_t fallibleCallCount();
 
+/// Calls of the function with this name among them.
+std::uint64_t callCount(const std::string& function);
+
 /// Name of the function that was made to fail; empty while none was.
 std::string failedFunction();
 
