@@ -53,9 +53,12 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
     Scene scene = loadScene(paths, options);
-    for (const std::string& warning : scene.warnings)
+    for (const std::vector<std::string>* warnings : {&scene.warnings, &scene.rest_warnings})
     {
-        talk(fmt::format("warning: {}", warning));
+        for (const std::string& warning : *warnings)
+        {
+            talk(fmt::format("warning: {}", warning));
+        }
     }
     if (scene.triangleCount() == 0)
     {

@@ -35,7 +35,7 @@ std::size_t componentBytes(int component_type)
     }
 }
 
-/// Components of an element; 0 for matrices, which no vertex has.
+/// Components of an element; 0 for the smaller matrices, which nothing in a scene has.
 std::uint32_t componentCount(int type)
 {
     switch (type)
@@ -48,6 +48,8 @@ std::uint32_t componentCount(int type)
         return 3;
     case TINYGLTF_TYPE_VEC4:
         return 4;
+    case TINYGLTF_TYPE_MAT4:
+        return 16;
     default:
         return 0;
     }
@@ -91,6 +93,42 @@ template <typename Component, int N> std::vector<glm::vec<N, float>> readAs(cons
         element += accessor.stride_bytes;
     }
     return vectors;
+}
+
+template <typename Component> std::vector<float> readNumbersAs(const GltfAccessor& accessor)
+{
+    std::vector<float> numbers;
+    numbers.reserve(accessor.count * accessor.component_count);
+    const std::uint8_t* element = accessor.data;
+    for (std::size_t i = 0; i < accessor.count; ++i)
+    {
+        for (std::uint32_t k = 0; k < accessor.component_count; ++k)
+        {
+            numbers.push_back(toFloat(load<Component>(element + k * sizeof(Component)), accessor.normalized));
+        }
+        element += accessor.stride_bytes;
+    }
+    return numbers;
+}
+
+/// read(Component{}) for the type of the accessor's components.
+template <typename Read> auto withComponent(const GltfAccessor& accessor, const Read& read)
+{
+    switch (accessor.component_type)
+    {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return read(std::int8_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return read(std::uint8_t{});
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return read(std::int16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return read(std::uint16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return read(std::uint32_t{});
+    default:
+        return read(float{});
+    }
 }
 
 template <typename Component> std::vector<std::uint32_t> readIndicesAs(const GltfAccessor& accessor)
@@ -219,7 +257,7 @@ GltfAccessor describeAccessor(const GltfDocument& document, int index, const std
     accessor.normalized = source.normalized;
     if (elementBytes(accessor) == 0)
     {
-        throw document.error(fmt::format("{} has component type {} or an element type that no vertex has; {}",
+        throw document.error(fmt::format("{} has component type {} or an element type that nothing has; {}",
                                          accessor.where, source.componentType, kExportAgain));
     }
     return accessor;
@@ -253,26 +291,17 @@ GltfAccessor openAccessor(const GltfDocument& document, int index, const std::st
 template <int N> std::vector<glm::vec<N, float>> readVectors(const GltfAccessor& accessor)
 {
     assert(accessor.component_count == N);
-    switch (accessor.component_type)
-    {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return readAs<std::int8_t, N>(accessor);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return readAs<std::uint8_t, N>(accessor);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return readAs<std::int16_t, N>(accessor);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return readAs<std::uint16_t, N>(accessor);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return readAs<std::uint32_t, N>(accessor);
-    default:
-        return readAs<float, N>(accessor);
-    }
+    return withComponent(accessor, [&](auto component) { return readAs<decltype(component), N>(accessor); });
 }
 
 template std::vector<glm::vec2> readVectors<2>(const GltfAccessor& accessor);
 template std::vector<glm::vec3> readVectors<3>(const GltfAccessor& accessor);
 template std::vector<glm::vec4> readVectors<4>(const GltfAccessor& accessor);
+
+std::vector<float> readNumbers(const GltfAccessor& accessor)
+{
+    return withComponent(accessor, [&](auto component) { return readNumbersAs<decltype(component)>(accessor); });
+}
 
 std::vector<std::uint32_t> readIndices(const GltfAccessor& accessor)
 {

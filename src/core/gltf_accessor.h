@@ -28,7 +28,7 @@ struct GltfAccessor
     GltfAccessor& operator=(GltfAccessor&&) = default;
 };
 
-/// An accessor's types and count, without its data. Throws Error{Input} for a type that no vertex has.
+/// An accessor's types and count, without its data. Throws Error{Input} for a type that nothing in a scene has.
 GltfAccessor describeAccessor(const GltfDocument& document, int index, const std::string& use);
 
 /// The accessor with that index. use: what it is for. A sparse one has its changes applied, to zeros where it has no
@@ -41,6 +41,9 @@ std::size_t elementBytes(const GltfAccessor& accessor);
 
 /// Components as single precision numbers, integers as they are or normalized; component_count of the accessor is N.
 template <int N> std::vector<glm::vec<N, float>> readVectors(const GltfAccessor& accessor);
+
+/// The same one behind the other, whatever their number in an element: [count * component_count].
+std::vector<float> readNumbers(const GltfAccessor& accessor);
 
 /// Unsigned integers of 8, 16 or 32 bits.
 std::vector<std::uint32_t> readIndices(const GltfAccessor& accessor);

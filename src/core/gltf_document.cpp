@@ -43,7 +43,7 @@ constexpr std::size_t kGlbHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 
 /// The parts of the document that tinygltf sees. Buffers and images, whose sizes and files it does not check well
-/// enough, are read here; extras, animations and skins are not needed.
+/// enough, are read here, and animations, of which it refuses some that may be there; extras are not needed.
 constexpr std::array kModelParts = {
     "asset",     "extensionsUsed", "extensionsRequired", "scene",       "scenes",   "nodes",  "meshes",
     "accessors", "materials",      "textures",           "bufferViews", "samplers", "cameras"};
@@ -456,6 +456,8 @@ GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_
     loadBuffers(document, root, container.bin);
     unpackMeshoptViews(root, document);
     document.images = listImages(gltfItems(root, "images"));
+    document.skins = listGltfSkins(root);
+    document.animations = listGltfAnimations(root, path);
     document.model = parseModel(root, path);
     return document;
 }

@@ -2,6 +2,7 @@
 // What the glTF loader's parts share; gltf_loader.h is its face.
 #pragma once
 
+#include "core/gltf_rig_source.h"
 #include "core/input_error.h"
 #include "core/third_party_tinygltf.h"
 #include "zvo/error.h"
@@ -32,8 +33,10 @@ struct GltfImageSource
 struct GltfDocument
 {
     std::filesystem::path path;
-    tinygltf::Model model; // without buffers and images, which are below
+    tinygltf::Model model; // without buffers, images, skins and animations, which are below
     std::vector<GltfImageSource> images;
+    std::vector<GltfSkinSource> skins;
+    std::vector<GltfAnimationSource> animations;
     std::vector<std::span<const std::uint8_t>> buffers;      // [buffers], byteLength bytes each
     std::vector<std::vector<std::uint8_t>> storage;          // what the buffers lie in
     std::map<int, std::vector<std::uint8_t>> unpacked_views; // what packed buffer views hold

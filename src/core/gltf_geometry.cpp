@@ -25,9 +25,49 @@ constexpr std::initializer_list<int> kFloatOrUnsigned = {
 constexpr std::initializer_list<int> kFloatOrShort = {
     TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
     TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}; // with KHR_mesh_quantization
+constexpr std::initializer_list<int> kFloatOrSigned = {
+    TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_COMPONENT_TYPE_BYTE,
+    TINYGLTF_COMPONENT_TYPE_SHORT}; // of morph targets with KHR_mesh_quantization
+constexpr std::initializer_list<int> kJointTypes = {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                                                    TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT};
 constexpr std::initializer_list<int> kIndexTypes = {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
                                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
                                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
+
+bool isFinite(const glm::vec3& vector)
+{
+    return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+}
+
+/// Makes the sum of a vertex's weights 1 and lets joints of weight 0, which may name anything, repeat one that counts.
+/// Returns false where no weights make sense: the vertex follows joint 0.
+bool normalizeWeights(glm::u16vec4& joints, glm::vec4& weights)
+{
+    double sum = 0.0;
+    bool valid = true;
+    for (int i = 0; i < 4; ++i)
+    {
+        valid = valid && weights[i] >= 0.0F && std::isfinite(weights[i]);
+        sum += weights[i];
+    }
+    if (!valid || sum == 0.0)
+    {
+        joints = glm::u16vec4(0);
+        weights = glm::vec4(1, 0, 0, 0);
+        return false;
+    }
+    int heaviest = 0;
+    for (int i = 0; i < 4; ++i)
+    {
+        weights[i] = static_cast<float>(weights[i] / sum);
+        heaviest = weights[i] > weights[heaviest] ? i : heaviest;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+        joints[i] = weights[i] == 0.0F ? joints[heaviest] : joints[i];
+    }
+    return true;
+}
 
 class PrimitiveLoader
 {
@@ -55,10 +95,6 @@ public:
             m_warnings.add("primitive without positions left out", m_where);
             return std::nullopt;
         }
-        if (!m_source.targets.empty())
-        {
-            m_warnings.add("morph targets left out", m_where);
-        }
         m_draco = GltfDracoMesh::unpack(m_document, m_source, m_where);
         Primitive primitive;
         primitive.positions = readPositions();
@@ -67,6 +103,11 @@ public:
         primitive.normals = readNormals();
         primitive.uvs = readUvs(uvs);
         primitive.colors = readColors();
+        readJoints(primitive);
+        for (std::size_t i = 0; i < m_source.targets.size(); ++i)
+        {
+            primitive.morph_targets.push_back(readMorphTarget(i, !primitive.normals.empty()));
+        }
         return primitive;
     }
 
@@ -85,12 +126,20 @@ private:
                                     ? m_draco->open(m_document, attribute, found->second, use)
                                     : openAccessor(m_document, found->second, use);
         checkType(accessor, component_types, component_count_min, component_count_max);
-        if (attribute != "POSITION" && accessor.count != m_vertex_count)
+        if (attribute != "POSITION")
+        {
+            checkCount(accessor);
+        }
+        return accessor;
+    }
+
+    void checkCount(const GltfAccessor& accessor) const
+    {
+        if (accessor.count != m_vertex_count)
         {
             throw m_document.error(fmt::format("{} has {} elements for {} vertices; {}", accessor.where, accessor.count,
                                                m_vertex_count, kExportAgain));
         }
-        return accessor;
     }
 
     void checkType(const GltfAccessor& accessor, std::initializer_list<int> component_types,
@@ -182,6 +231,82 @@ private:
             colors.emplace_back(color, 1.0F);
         }
         return colors;
+    }
+
+    /// Joints and weights, neither where one of them is missing.
+    void readJoints(Primitive& primitive) const
+    {
+        auto joints = open("JOINTS_0", kJointTypes, 4, 4);
+        auto weights = open("WEIGHTS_0", kFloatOrUnsigned, 4, 4);
+        if (!joints || !weights)
+        {
+            if (joints || weights)
+            {
+                m_warnings.add("joints without weights, or weights without joints, left out", m_where);
+            }
+            return;
+        }
+        if (m_source.attributes.contains("JOINTS_1"))
+        {
+            m_warnings.add("joints beyond four a vertex left out", m_where);
+        }
+        joints->normalized = false;
+        for (const glm::vec4& vertex : readVectors<4>(*joints))
+        {
+            primitive.joints.emplace_back(vertex);
+        }
+        weights->normalized = true; // whole numbers are, whether or not the file says so
+        primitive.weights = readVectors<4>(*weights);
+        bool all_valid = true;
+        for (std::size_t i = 0; i < m_vertex_count; ++i)
+        {
+            all_valid = normalizeWeights(primitive.joints[i], primitive.weights[i]) && all_valid;
+        }
+        if (!all_valid)
+        {
+            m_warnings.add("vertices whose joint weights are negative, not finite or all 0 follow the first joint",
+                           m_where);
+        }
+    }
+
+    MorphTarget readMorphTarget(std::size_t index, bool has_normals) const
+    {
+        const std::string where = fmt::format("{}.targets[{}]", m_where, index);
+        const std::map<std::string, int>& attributes = m_source.targets[index];
+        MorphTarget target;
+        for (const auto& [attribute, accessor] : attributes)
+        {
+            if (attribute == "POSITION")
+            {
+                target.positions = readDeltas(accessor, attribute, where);
+            }
+            else if (attribute == "NORMAL" && has_normals)
+            {
+                target.normals = readDeltas(accessor, attribute, where);
+            }
+            else if (attribute.starts_with("TEXCOORD_") || attribute.starts_with("COLOR_"))
+            {
+                m_warnings.add("morph targets do not move texture coordinates and colours", where);
+            }
+        }
+        return target;
+    }
+
+    /// What a morph target adds; 0 for what is not finite, as even a weight of 0 would not hide it.
+    std::vector<glm::vec3> readDeltas(int index, const std::string& attribute, const std::string& where) const
+    {
+        GltfAccessor accessor = openAccessor(m_document, index, attribute + " of " + where);
+        checkType(accessor, quantized() ? kFloatOrSigned : kFloat, 3, 3);
+        checkCount(accessor);
+        accessor.normalized = accessor.normalized || attribute == "NORMAL";
+        std::vector<glm::vec3> deltas = readVectors<3>(accessor);
+        if (!std::all_of(deltas.begin(), deltas.end(), isFinite))
+        {
+            m_warnings.add("vertices that a morph target moves by what is not finite stay where they are", where);
+            std::replace_if(
+                deltas.begin(), deltas.end(), [](const glm::vec3& delta) { return !isFinite(delta); }, glm::vec3(0.0F));
+        }
+        return deltas;
     }
 
     std::vector<std::uint32_t> readVertexOrder() const

@@ -12,62 +12,35 @@ namespace zvo
 namespace
 {
 
-constexpr double kAffineTolerance = 1e-6; // of the last row; some exporters round
-
 glm::dvec3 toVec3(const std::vector<double>& values, double missing)
 {
     return values.empty() ? glm::dvec3(missing) : glm::dvec3(values[0], values[1], values[2]);
 }
 
-/// The rotation of the quaternion (x, y, z, w), whatever its length; a zero one is no rotation.
-glm::dmat3 rotationMatrix(const std::vector<double>& quaternion)
+/// values: x, y, z, w.
+glm::dquat toQuaternion(const std::vector<double>& values)
 {
-    if (quaternion.empty())
-    {
-        return glm::dmat3(1.0);
-    }
-    const glm::dvec4 q(quaternion[0], quaternion[1], quaternion[2], quaternion[3]);
-    const double length_squared = glm::dot(q, q);
-    const double s = length_squared > 0.0 ? 2.0 / length_squared : 0.0;
-    const glm::dvec3 column_x(1.0 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y + q.w * q.z),
-                              s * (q.x * q.z - q.w * q.y));
-    const glm::dvec3 column_y(s * (q.x * q.y - q.w * q.z), 1.0 - s * (q.x * q.x + q.z * q.z),
-                              s * (q.y * q.z + q.w * q.x));
-    const glm::dvec3 column_z(s * (q.x * q.z + q.w * q.y), s * (q.y * q.z - q.w * q.x),
-                              1.0 - s * (q.x * q.x + q.y * q.y));
-    return {column_x, column_y, column_z};
+    return values.empty() ? glm::dquat(1.0, 0.0, 0.0, 0.0) : glm::dquat(values[3], values[0], values[1], values[2]);
 }
 
 glm::dmat4 localMatrix(const GltfDocument& document, int index)
 {
     const tinygltf::Node& node = document.model.nodes[index];
-    glm::dmat4 matrix(1.0);
     if (node.matrix.empty())
     {
-        const glm::dmat3 rotation = rotationMatrix(node.rotation);
-        const glm::dvec3 scale = toVec3(node.scale, 1.0);
-        for (int column = 0; column < 3; ++column)
-        {
-            matrix[column] = glm::dvec4(rotation[column] * scale[column], 0.0);
-        }
-        matrix[3] = glm::dvec4(toVec3(node.translation, 0.0), 1.0);
-        return matrix;
+        return composeTransform(toVec3(node.translation, 0.0), toQuaternion(node.rotation), toVec3(node.scale, 1.0));
     }
+    glm::dmat4 matrix;
     for (int i = 0; i < 16; ++i)
     {
         matrix[i / 4][i % 4] = node.matrix[i];
     }
-    for (int column = 0; column < 4; ++column)
+    if (!isAffine(matrix))
     {
-        const double affine = column == 3 ? 1.0 : 0.0;
-        if (std::abs(matrix[column][3] - affine) > kAffineTolerance)
-        {
-            throw document.error(
-                fmt::format("the last row of nodes[{}].matrix is not (0, 0, 0, 1); {}", index, kExportAgain));
-        }
-        matrix[column][3] = affine;
+        throw document.error(
+            fmt::format("the last row of nodes[{}].matrix is not (0, 0, 0, 1); {}", index, kExportAgain));
     }
-    return matrix;
+    return withAffineRow(matrix);
 }
 
 /// The parent of each node. Throws for a node with two, and for a cycle.
@@ -140,7 +113,7 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
     std::vector<GltfPlacedNode> open; // the next one last; to_world is that of the parent
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
     {
-        open.push_back({*root, glm::dmat4(1.0)});
+        open.push_back({*root, kNone, glm::dmat4(1.0)});
     }
     std::vector<bool> is_placed(nodes.size(), false);
     while (!open.empty())
@@ -153,11 +126,12 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
         }
         is_placed[node.node] = true;
         node.to_world = node.to_world * localMatrix(document, node.node);
+        const auto index = static_cast<std::uint32_t>(placed.size());
         placed.push_back(node);
         const std::vector<int>& children = nodes[node.node].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
         {
-            open.push_back({*child, node.to_world});
+            open.push_back({*child, index, node.to_world});
         }
     }
     return placed;

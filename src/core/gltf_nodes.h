@@ -2,7 +2,9 @@
 #pragma once
 
 #include "core/gltf_document.h"
+#include "core/rig.h"
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace zvo
 struct GltfPlacedNode
 {
     int node = 0;
+    std::uint32_t parent = kNone; // index among the placed nodes, below its own; kNone: a root of the scene
     glm::dmat4 to_world{1.0};
 };
 

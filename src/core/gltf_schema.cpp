@@ -26,11 +26,12 @@ enum class Kind
     Index,      // into the document's array `target`
     Indices,    // array of them
     IndexMap,   // object of them
+    IndexMaps,  // array of objects of them
     Numbering,  // object of small whole numbers
     Whole,      // whole number from 0 on
     Enumerator, // whole number that fits a signed 32-bit one
     Number,
-    Numbers, // array of `count` numbers
+    Numbers, // array of `count` numbers; of any number of them where that is 0
     Text,
     Texts, // array of strings
     Flag,
@@ -74,15 +75,17 @@ constexpr Rule kScene[] = {{"nodes", Kind::Indices, false, "nodes"}};
 constexpr Rule kNode[] = {
     index("mesh", "meshes"), index("camera", "cameras"), {"children", Kind::Indices, false, "nodes"},
     numbers("matrix", 16),   numbers("translation", 3),  numbers("rotation", 4),
-    numbers("scale", 3),     {"name", Kind::Text}};
+    numbers("scale", 3),     {"name", Kind::Text},       index("skin", "skins"),
+    numbers("weights", 0)};
 constexpr Rule kDraco[] = {index("bufferView", "bufferViews", kRequired), {"attributes", Kind::Numbering, kRequired}};
 constexpr Rule kPrimitiveExtensions[] = {object("KHR_draco_mesh_compression", kDraco)};
 constexpr Rule kPrimitive[] = {{"attributes", Kind::IndexMap, kRequired, "accessors"},
                                index("indices", "accessors"),
                                index("material", "materials"),
                                {"mode", Kind::Enumerator},
+                               {"targets", Kind::IndexMaps, false, "accessors"},
                                object("extensions", kPrimitiveExtensions)};
-constexpr Rule kMesh[] = {objects("primitives", kPrimitive, kRequired)};
+constexpr Rule kMesh[] = {objects("primitives", kPrimitive, kRequired), numbers("weights", 0)};
 constexpr Rule kSparseIndices[] = {index("bufferView", "bufferViews", kRequired),
                                    {"byteOffset", Kind::Enumerator},
                                    {"componentType", Kind::Enumerator, kRequired}};
@@ -140,6 +143,13 @@ constexpr Rule kCamera[] = {{"type", Kind::Text, kRequired},
                             object("perspective", kPerspective),
                             object("orthographic", kOrthographic),
                             {"name", Kind::Text}};
+constexpr Rule kSkin[] = {index("inverseBindMatrices", "accessors"), {"joints", Kind::Indices, kRequired, "nodes"}};
+constexpr Rule kChannelTarget[] = {index("node", "nodes"), {"path", Kind::Text, kRequired}};
+constexpr Rule kChannel[] = {{"sampler", Kind::Whole, kRequired}, object("target", kChannelTarget, kRequired)};
+constexpr Rule kAnimationSampler[] = {
+    index("input", "accessors", kRequired), index("output", "accessors", kRequired), {"interpolation", Kind::Text}};
+constexpr Rule kAnimation[] = {
+    objects("channels", kChannel, kRequired), objects("samplers", kAnimationSampler, kRequired), {"name", Kind::Text}};
 constexpr Rule kDocument[] = {index("scene", "scenes"),
                               {"extensionsUsed", Kind::Texts},
                               {"extensionsRequired", Kind::Texts},
@@ -153,7 +163,9 @@ constexpr Rule kDocument[] = {index("scene", "scenes"),
                               objects("samplers", kSampler),
                               objects("textures", kTexture),
                               objects("materials", kMaterial),
-                              objects("cameras", kCamera)};
+                              objects("cameras", kCamera),
+                              objects("skins", kSkin),
+                              objects("animations", kAnimation)};
 
 class Checker
 {
@@ -189,12 +201,10 @@ private:
             return checkEach(value, where,
                              [&](const json& item, const std::string& place) { checkIndex(item, rule, place); });
         case Kind::IndexMap:
-            require(value.is_object(), where, "an object");
-            for (const auto& [key, item] : value.items())
-            {
-                checkIndex(item, rule, where + '.' + key);
-            }
-            return;
+            return checkIndexMap(value, rule, where);
+        case Kind::IndexMaps:
+            return checkEach(value, where,
+                             [&](const json& item, const std::string& place) { checkIndexMap(item, rule, place); });
         case Kind::Numbering:
             require(value.is_object(), where, "an object");
             for (const auto& [key, item] : value.items())
@@ -211,9 +221,9 @@ private:
             return require(value.is_number(), where, "a number");
         case Kind::Numbers:
             return require(
-                value.is_array() && value.size() == rule.count &&
+                value.is_array() && (rule.count == 0 || value.size() == rule.count) &&
                     std::all_of(value.begin(), value.end(), [](const json& item) { return item.is_number(); }),
-                where, fmt::format("an array of {} numbers", rule.count));
+                where, rule.count == 0 ? "an array of numbers" : fmt::format("an array of {} numbers", rule.count));
         case Kind::Text:
             return require(value.is_string(), where, "a string");
         case Kind::Texts:
@@ -237,6 +247,15 @@ private:
         for (std::size_t i = 0; i < array.size(); ++i)
         {
             check(array[i], fmt::format("{}[{}]", where, i));
+        }
+    }
+
+    void checkIndexMap(const json& value, const Rule& rule, const std::string& where) const
+    {
+        require(value.is_object(), where, "an object");
+        for (const auto& [key, item] : value.items())
+        {
+            checkIndex(item, rule, where + '.' + key);
         }
     }
 

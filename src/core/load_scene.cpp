@@ -116,6 +116,20 @@ glm::mat4 rotationTo(UpAxis up)
     }
 }
 
+/// Puts a node with that transform above all others.
+void placeNodes(Scene& scene, const glm::mat4& to_world)
+{
+    Scene placed;
+    placed.nodes.emplace_back().matrix = to_world;
+    placed.append(std::move(scene));
+    for (std::size_t i = 1; i < placed.nodes.size(); ++i)
+    {
+        std::uint32_t& parent = placed.nodes[i].parent;
+        parent = parent == kNone ? 0 : parent;
+    }
+    scene = std::move(placed);
+}
+
 } // namespace
 
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options)
@@ -154,6 +168,10 @@ void place(Scene& scene, const LoadOptions& options)
     {
         instance.transform = to_world * instance.transform;
         checkFinite(instance.transform);
+    }
+    if (!scene.nodes.empty())
+    {
+        placeNodes(scene, to_world);
     }
     for (Camera& camera : scene.cameras)
     {

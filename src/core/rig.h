@@ -29,8 +29,8 @@ struct Node
     glm::vec3 translation{0.0F};
     glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F}; // w, x, y, z; of any length, a zero one does not rotate
     glm::vec3 scale{1.0F};
-    std::optional<glm::mat4> matrix;  // affine; no channel names its node
-    std::vector<float> morph_weights; // [targets of the node's mesh] at rest; empty: all 0
+    std::optional<glm::mat4> matrix;  // affine; no channel moves its node
+    std::vector<float> morph_weights; // [targets of its mesh] at rest
     std::string name;
 };
 
@@ -72,5 +72,14 @@ struct Animation
     std::vector<Channel> channels;
     double seconds = 0.0; // the last time of all channels; the animation repeats after it
 };
+
+/// translation * rotation * scale. rotation: of any length, a zero one does not rotate.
+glm::dmat4 composeTransform(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale);
+
+/// Whether the last row of a matrix is (0, 0, 0, 1), but for what exporters round.
+bool isAffine(const glm::dmat4& matrix);
+
+/// matrix with exactly that last row.
+glm::dmat4 withAffineRow(glm::dmat4 matrix);
 
 } // namespace zvo

@@ -179,7 +179,7 @@ TEST(GltfErrors, AccessorsMustLieInsideTheirViewsAndBuffers)
     expectBroken([&](GltfBuilder& b) { view(b)["byteLength"] = 37; }, {"bufferViews[0] takes 37 bytes", "has 36"});
     expectBroken([&](GltfBuilder& b) { view(b)["byteOffset"] = kHuge; }, {"bufferViews[0] takes 36 bytes"});
     expectBroken([&](GltfBuilder& b) { accessor(b).erase("bufferView"); }, {"has no buffer view"});
-    expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "MAT4"; }, {"element type that no vertex has"});
+    expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "MAT3"; }, {"element type that nothing has"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "VEC9"; }, {"VEC9"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = 5124; }, {"component type 5124"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = kU8; }, {"does not allow there"});

@@ -83,6 +83,28 @@ TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)
     EXPECT_EQ(transformPoint(scene.instances[0].transform, {1, 2, 3}), glm::vec3(1, 3, -2));
 }
 
+TEST(LoadScene, NodesArePlacedByOneAboveThemAll)
+{
+    Scene scene;
+    scene.nodes.resize(3);
+    scene.nodes[1].parent = 0;
+    scene.nodes[1].name = "child";
+    scene.skins.push_back({{1}, {glm::mat4(1.0F)}});
+    scene.instances.push_back({0, glm::mat4(1.0F), 2, 0});
+    place(scene, {UpAxis::Z, 2.0F});
+    ASSERT_EQ(scene.nodes.size(), 4U);
+    EXPECT_EQ(scene.nodes[0].parent, kNone);
+    EXPECT_EQ(transformPoint(scene.nodes[0].matrix.value(), {1, 2, 3}), glm::vec3(2, 6, -4));
+    EXPECT_EQ(scene.nodes[1].parent, 0U);
+    EXPECT_EQ(scene.nodes[2].parent, 1U);
+    EXPECT_EQ(scene.nodes[2].name, "child");
+    EXPECT_EQ(scene.nodes[3].parent, 0U);
+    EXPECT_EQ(scene.skins.at(0).joints, (std::vector<std::uint32_t>{2}));
+    EXPECT_EQ(scene.instances.at(0).node, 3U);
+    EXPECT_EQ(scene.instances.at(0).skin, 0U);
+    EXPECT_EQ(scene.instances.at(0).transform, scene.nodes[0].matrix.value());
+}
+
 TEST(LoadScene, ScaleMovesPointsAndCamerasButNotTheirAxes)
 {
     Scene scene;

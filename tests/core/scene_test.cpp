@@ -31,6 +31,13 @@ Scene smallScene()
     scene.instances = {{0, glm::mat4(1.0F)}, {0, moved}};
     scene.cameras.emplace_back();
     scene.warnings.emplace_back("warning");
+    scene.rest_warnings.emplace_back("rest");
+    scene.nodes.resize(3);
+    scene.nodes[2].parent = 1;
+    scene.skins.push_back({{2, 0}, {glm::mat4(1.0F), glm::mat4(1.0F)}});
+    scene.animations.push_back({"turn", {{.node = 1, .times = {0}, .values = {0, 0, 0}}}, 0.0});
+    scene.instances[1].node = 2;
+    scene.instances[1].skin = 0;
     return scene;
 }
 
@@ -73,7 +80,19 @@ TEST(Scene, AppendShiftsEveryIndex)
     EXPECT_EQ(scene.instances[3].primitive, 1U);
     EXPECT_EQ(scene.cameras.size(), 2U);
     EXPECT_EQ(scene.warnings.size(), 2U);
+    EXPECT_EQ(scene.rest_warnings.size(), 2U);
     EXPECT_EQ(scene.triangleCount(), 4U);
+    ASSERT_EQ(scene.nodes.size(), 6U);
+    EXPECT_EQ(scene.nodes[2].parent, 1U);
+    EXPECT_EQ(scene.nodes[4].parent, kNone);
+    EXPECT_EQ(scene.nodes[5].parent, 4U);
+    EXPECT_EQ(scene.skins.at(1).joints, (std::vector<std::uint32_t>{5, 3}));
+    EXPECT_EQ(scene.animations.at(1).channels.at(0).node, 4U);
+    EXPECT_EQ(scene.instances[1].node, 2U);
+    EXPECT_EQ(scene.instances[2].node, kNone);
+    EXPECT_EQ(scene.instances[2].skin, kNone);
+    EXPECT_EQ(scene.instances[3].node, 5U);
+    EXPECT_EQ(scene.instances[3].skin, 1U);
 }
 
 TEST(Scene, TransformRoundsEveryOperationInOrder)
