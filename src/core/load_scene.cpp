@@ -73,6 +73,10 @@ std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const st
 
 Scene loadFile(const std::filesystem::path& path)
 {
+    if (isStageFile(path))
+    {
+        throw inputError(path, "a scene file, which cannot be part of another scene; name the files in it");
+    }
     std::vector<std::uint8_t> bytes = readFile(path);
     const std::optional<FileFormat> format = formatOf(bytes, lowerExtension(path));
     if (!format)
@@ -94,28 +98,6 @@ Scene loadFile(const std::filesystem::path& path)
     }
 }
 
-/// The rotation that takes the axis to y.
-glm::mat4 rotationTo(UpAxis up)
-{
-    const auto columns = [](const glm::vec3& x, const glm::vec3& y, const glm::vec3& z)
-    { return glm::mat4(glm::mat3(x, y, z)); }; // where x, y and z of the file go
-    switch (up)
-    {
-    case UpAxis::X:
-        return columns({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
-    case UpAxis::Z:
-        return columns({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
-    case UpAxis::MinusX:
-        return columns({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
-    case UpAxis::MinusY:
-        return columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
-    case UpAxis::MinusZ:
-        return columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
-    default:
-        return glm::mat4(1.0F);
-    }
-}
-
 /// Puts a node with that transform above all others.
 void placeNodes(Scene& scene, const glm::mat4& to_world)
 {
@@ -131,6 +113,32 @@ void placeNodes(Scene& scene, const glm::mat4& to_world)
 }
 
 } // namespace
+
+bool isStageFile(const std::filesystem::path& path)
+{
+    return lowerExtension(path) == ".json" && lowerExtension(path.stem()) == ".scene";
+}
+
+glm::mat3 rotationToY(UpAxis up)
+{
+    const auto columns = [](const glm::vec3& x, const glm::vec3& y, const glm::vec3& z)
+    { return glm::mat3(x, y, z); }; // where x, y and z of the file go
+    switch (up)
+    {
+    case UpAxis::X:
+        return columns({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
+    case UpAxis::Z:
+        return columns({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+    case UpAxis::MinusX:
+        return columns({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+    case UpAxis::MinusY:
+        return columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
+    case UpAxis::MinusZ:
+        return columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+    default:
+        return glm::mat3(1.0F);
+    }
+}
 
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
@@ -149,7 +157,7 @@ void place(Scene& scene, const LoadOptions& options)
     {
         return;
     }
-    const glm::mat4 rotation = rotationTo(options.up);
+    const glm::mat4 rotation(rotationToY(options.up));
     glm::mat4 to_world = options.scale * rotation;
     to_world[3][3] = 1.0F;
     const auto checkFinite = [&](const glm::mat4& transform)

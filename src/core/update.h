@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/layer.h"
+#include "core/merge_rule.h"
 #include "core/octree.h"
 #include "core/octree_build.h"
 #include "core/overlay_arena.h"
@@ -13,14 +14,6 @@
 
 namespace zvo
 {
-
-/// What a voxel looks like that both the static octree and a mover have.
-enum class MergeRule : std::uint32_t
-{
-    Average = gpu::kMergeAverage,     ///< the mean over the fragments of both: as if they were one scene
-    DynamicWins = gpu::kMergeDynamic, ///< the movers, the mean over their fragments
-    StaticWins = gpu::kMergeStatic,   ///< the static octree
-};
 
 /// How much an update has room for, whatever its region has.
 struct UpdateCapacities

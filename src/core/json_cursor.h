@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "zvo/error.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zvo
+{
+
+/// The largest number, in size, that a file may give: what single precision holds.
+inline constexpr double kJsonNumberMax = 3.4e38;
+
+/// text as JSON. Throws Error{Input} where it is not, is nested more than 64 deep, or has a key twice in one object.
+nlohmann::json parseJsonStrictly(std::string_view text, const std::filesystem::path& file);
+
+/// A value in a JSON document together with its path, so that whoever reads it can say what is wrong where. Every
+/// function that reads throws Error{Input}, one line with file, path, what is there and what is expected. Refers to
+/// the document and to the file's path.
+class JsonCursor
+{
+public:
+    JsonCursor(const nlohmann::json& document, const std::filesystem::path& file);
+
+    /// The path, such as objects[1].place.scale; empty for the document.
+    [[nodiscard]] const std::string& where() const { return m_where; }
+
+    /// An error about this value: file, path, text.
+    [[nodiscard]] Error error(std::string_view text) const;
+    /// That it is something else than expected.
+    [[nodiscard]] Error mismatch(std::string_view expected) const;
+
+    /// Checks that it is an object that has only these keys.
+    void allowKeys(std::initializer_list<std::string_view> keys) const;
+    /// A member of an object.
+    [[nodiscard]] std::optional<JsonCursor> find(std::string_view key) const;
+    [[nodiscard]] JsonCursor at(std::string_view key) const;
+    /// The elements of an array.
+    [[nodiscard]] std::vector<JsonCursor> items() const;
+
+    [[nodiscard]] bool isText() const;
+    [[nodiscard]] bool isNumber() const;
+    [[nodiscard]] bool flag() const;
+    [[nodiscard]] std::string text() const;
+    /// The place of a text among names.
+    [[nodiscard]] std::size_t oneOf(std::initializer_list<std::string_view> names) const;
+    /// At most kJsonNumberMax in size.
+    [[nodiscard]] double number() const;
+    /// A number above 0 and at most high.
+    [[nodiscard]] double positive(double high) const;
+    [[nodiscard]] std::uint32_t whole(std::uint32_t low, std::uint32_t high) const;
+    /// Three numbers.
+    [[nodiscard]] glm::dvec3 vector() const;
+    /// Three numbers, not all 0, scaled to length 1.
+    [[nodiscard]] glm::dvec3 direction() const;
+
+private:
+    JsonCursor(const nlohmann::json& value, const std::filesystem::path& file, std::string where);
+
+    [[nodiscard]] JsonCursor child(const nlohmann::json& value, std::string_view key) const;
+    void requireObject() const;
+    [[nodiscard]] bool isVector() const;
+
+    const nlohmann::json* m_value;
+    const std::filesystem::path* m_file;
+    std::string m_where;
+};
+
+} // namespace zvo
