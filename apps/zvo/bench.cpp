@@ -13,6 +13,7 @@
 #include "progress.h"
 #include "session.h"
 #include "view.h"
+#include "zvo/error.h"
 
 #ifdef ZVO_EMBREE
 #include "bench_embree.h"
@@ -54,7 +55,7 @@ public:
         row.build_ms = runs.build_ms;
         row.passes = std::move(runs.passes);
         const Octree& octree = runs.last.octree;
-        const Bounds subject = subjectOf(scene, grid);
+        const Bounds subject = subjectOf(scene.bounds(), grid);
         const ViewCamera view = chooseCamera(m_options.camera, scene, subject, double{kWidth} / kHeight);
         const TraceCamera camera = traceCamera(view, grid, kHeight);
         measureTrace(octree, camera, row);
@@ -134,6 +135,10 @@ private:
 
 void bench(const BenchOptions& options)
 {
+    if (options.dynamic)
+    {
+        throw Error(ErrorCode::Other, "bench --dynamic: this build cannot update octrees; zvo render shows the scene");
+    }
     if (options.balance)
     {
         benchBalance(options);

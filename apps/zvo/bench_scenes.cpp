@@ -100,6 +100,11 @@ void checkPresent(const std::vector<fs::path>& paths)
 {
     for (const fs::path& path : paths)
     {
+        if (isStageFile(path))
+        {
+            throw Error(ErrorCode::Usage,
+                        fmt::format("{} is a scene file, which bench measures with --dynamic", path.string()));
+        }
         std::error_code ignored;
         if (!fs::exists(path, ignored))
         {

@@ -35,7 +35,9 @@ Examples:
   zvo render scenes/atrium.glb -o atrium.png --json atrium.json
   zvo render bunny.glb -o bunny.png --resolution 1024 --view normal
   zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60 --occlusion 16
-  zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f)";
+  zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f
+  zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119
+  zvo render scenes/sponza_bunny.scene.json -o later.png --scenes ../models --time 1.5)";
 
 constexpr const char* kVoxelizeFooter = R"(
 A .morton file holds the sorted Morton codes of the voxels (x in bit 0, y in bit 1, z in bit 2), 64-bit
@@ -58,11 +60,13 @@ Each row is one scene at one resolution: a warm-up, then N runs on the device's 
 Embree, the same rays are also traced by Embree on all processors, through the same voxels and through the triangles.
 Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
 --balance: each row is voxelization and octree construction alone; ratios of them follow the table.
+--dynamic: the scenes are scene files (.scene.json), what they name lies beside them or in the folder of --scenes.
 
 Examples:
   zvo bench scenes/knot.glb --resolutions 256 --runs 3
   zvo bench --scenes ../models --json bench.json --passes
-  zvo bench --balance scenes/knot.glb scenes/atrium.glb)";
+  zvo bench --balance scenes/knot.glb scenes/atrium.glb
+  zvo bench --dynamic scenes/atrium_knot.scene.json)";
 
 // An option with one argument that read makes a value of.
 template <typename T, typename Read>
@@ -96,6 +100,13 @@ std::string oneOf(std::string_view option, std::string_view text, std::initializ
         throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, text, fmt::join(names, ", ")));
     }
     return std::string(text);
+}
+
+void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what)
+{
+    addValue(
+        app, name, folder, [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
+        what);
 }
 
 void addDeviceOptions(CLI::App& app, DeviceOptions& options)
@@ -136,12 +147,18 @@ void addLoadOptions(CLI::App& app, LoadOptions& options)
 
 void addVoxelOptions(CLI::App& app, VoxelOptions& options)
 {
-    app.add_option("SCENE", options.scenes, "glTF 2.0 (.glb, .gltf), OBJ, PLY and STL files; several make one scene")
+    app.add_option("SCENE", options.scenes,
+                   "glTF 2.0 (.glb, .gltf), OBJ, PLY and STL files; several make one scene; or one scene file "
+                   "(.scene.json), which places them and lets them move")
         ->required()
         ->type_name("FILE");
     addLoadOptions(app, options.load);
+    addFolder(app, "--scenes", options.scenes_folder,
+              "folder of the files that a scene file names, those that do not lie beside it");
+    addValue(app, "--time", options.time, parseSeconds, "SECONDS",
+             "the time of a scene in which something moves; after its end it begins anew (default 0)");
     addValue(app, "--resolution", options.depth, parseResolution, "N",
-             "voxels per edge of the grid, a power of two from 2 to 131072 (default 512)");
+             "voxels per edge of the grid, a power of two from 2 to 131072 (default: the scene file's, or else 512)");
     addCoverageOptions(app, options.coverage, options.attributes);
     addValue(app, "--bounds", options.bounds, parseBounds, "x0,y0,z0,x1,y1,z1",
              "the grid is the cube from corner 0 on, as long as the box's longest edge");
@@ -189,7 +206,9 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
     addValue(*render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(*render, "--frames", options.frames, parseFrames, "A..B",
-             "turn the camera once around the scene; #### in the output's name becomes the frame's number");
+             "pictures of a scene in which something moves, frame N at N / frames_per_second seconds; of any other "
+             "scene, a camera that turns once around it; #### in the output's name becomes the frame's number")
+        ->excludes("--time");
     addOutputOptions(*render, options.output, "the picture, a .png file; - is standard output");
     addDeviceOptions(*render, options.device);
     render->footer(kRenderFooter);
@@ -227,10 +246,8 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
     CLI::App* bench = app.add_subcommand("bench", "measure voxelization, octree construction and ray tracing");
     bench->add_option("SCENE", options.scenes, "glTF 2.0, OBJ, PLY and STL files, each measured on its own")
         ->type_name("FILE");
-    addValue(
-        *bench, "--scenes", options.scene_folder,
-        [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
-        "where the usual scenes are (default scenes)");
+    addFolder(*bench, "--scenes", options.scene_folder,
+              "where the usual scenes are (default scenes), or what scene files name");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
              "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048)");
     addValue(
@@ -248,6 +265,12 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
                    "small ones, slivers, crowds, and the scenes that were named")
         ->excludes("--passes")
         ->excludes("--camera");
+    bench
+        ->add_flag("--dynamic", options.dynamic,
+                   "measure instead scenes in which something moves: update of the octree against a full rebuild")
+        ->excludes("--balance")
+        ->excludes("--up")
+        ->excludes("--scale");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");
@@ -320,6 +343,10 @@ Command parseCommandLine(int argc, const char* const* argv)
         throw usageError(app, "a command is missing: render, voxelize, info or bench");
     }
     const CLI::App* const chosen = app.get_subcommands().front();
+    if (bench.dynamic && bench.scenes.empty())
+    {
+        throw usageError(app, "--dynamic needs a scene file (.scene.json) or another scene in which something moves");
+    }
     for (const VoxelOptions* options : {&render.voxels, &voxelize.voxels})
     {
         if (options->bounds && options->grid_place)

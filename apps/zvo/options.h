@@ -37,9 +37,11 @@ struct GridPlace
 /// What becomes voxels, and how.
 struct VoxelOptions
 {
-    std::vector<std::filesystem::path> scenes;
+    std::vector<std::filesystem::path> scenes; // files that make one scene, or one scene file
     LoadOptions load;
-    std::uint32_t depth = 9;
+    std::optional<std::filesystem::path> scenes_folder; // where else what a scene file names may lie
+    std::optional<double> time;                         // seconds, from 0 on
+    std::optional<std::uint32_t> depth;                 // not given: the scene file's, or 9
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
     std::optional<Bounds> bounds;        // the cube from this box's minimum corner on
@@ -66,8 +68,8 @@ struct RenderOptions
     std::uint32_t occlusion_rays = 0; // a pixel
     std::optional<glm::dvec3> to_sun; // direction, any length
     float exposure = 1.0F;
-    float detail_pixels = 0.0F; // rays stop at octree nodes up to this wide
-    std::optional<std::pair<std::uint32_t, std::uint32_t>> frames;
+    float detail_pixels = 0.0F;                                    // rays stop at octree nodes up to this wide
+    std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
 };
 
 struct VoxelizeOptions
@@ -96,6 +98,7 @@ struct BenchOptions
     std::string camera; // as in RenderOptions
     bool passes = false;
     bool balance = false; // balance of load on generated scenes, and on scenes if any were named
+    bool dynamic = false; // scenes in which something moves: update against rebuild
     DeviceOptions device;
     OutputOptions output; // path: unused
 };

@@ -70,6 +70,16 @@ float parsePositive(std::string_view option, std::string_view text)
     return *value;
 }
 
+double parseSeconds(std::string_view option, std::string_view text)
+{
+    const auto value = number<double>(text);
+    if (!value || !std::isfinite(*value) || *value < 0.0)
+    {
+        throw valueError(option, text, "a number of seconds from 0 on");
+    }
+    return *value;
+}
+
 std::optional<std::vector<float>> tryParseFloats(std::string_view text)
 {
     std::vector<float> values;

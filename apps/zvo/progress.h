@@ -23,6 +23,9 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Tells how many steps there are in all, where that shows only on the way.
+    void expect(std::size_t step_count) { m_step_count = step_count; }
+
     /// The next step begins; what: a few words on it.
     void step(std::string_view what);
 

@@ -17,6 +17,9 @@
 
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace zvo::cli
 {
@@ -60,6 +63,12 @@ public:
         return m_options.frames ? m_options.frames->second - m_options.frames->first + 1 : 1;
     }
 
+    // The number of a frame, 0 where none was asked for.
+    [[nodiscard]] std::uint32_t number(std::uint32_t index) const
+    {
+        return m_options.frames ? m_options.frames->first + index : 0;
+    }
+
     void write(std::uint32_t index, std::span<const std::uint8_t> png)
     {
         if (!m_first)
@@ -75,7 +84,7 @@ private:
     [[nodiscard]] std::string pathOf(std::uint32_t index) const
     {
         const std::string& path = m_options.output.path;
-        return fmt::format("{}{:0{}}{}", path.substr(0, m_marker), m_options.frames->first + index, m_digits,
+        return fmt::format("{}{:0{}}{}", path.substr(0, m_marker), number(index), m_digits,
                            path.substr(m_marker + m_digits));
     }
 
@@ -127,6 +136,7 @@ TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& option
     }
 }
 
+// Pictures of one octree.
 class Renderer
 {
 public:
@@ -168,30 +178,158 @@ private:
     std::uint64_t m_capped_rays = 0;
 };
 
-// Adds what tracing has to report: the first picture's passes, and mean times of all pictures.
-void addTrace(Json& json, const RenderOptions& options, const Renderer& renderer,
-              const std::vector<PictureTimes>& times)
+/// The pictures of a scene, and what there is to tell of them.
+class Run
 {
-    double trace_ms = 0;
-    double shade_ms = 0;
-    for (const PictureTimes& picture : times)
+public:
+    Run(const RenderOptions& options, Pictures& pictures, Progress& progress)
+        : m_options(options), m_pictures(pictures), m_progress(progress),
+          m_device(headlessOptions(options.device), zvoKernels())
     {
-        trace_ms += picture.trace_ms / static_cast<double>(times.size());
-        shade_ms += picture.shade_ms / static_cast<double>(times.size());
     }
-    for (const std::vector<vk::PassTime>* passes : {&renderer.beamPasses(), &times.front().passes})
-    {
-        const Json more = passesJson(*passes);
-        json["passes"].insert(json["passes"].end(), more.begin(), more.end());
-    }
-    json["trace_ms"] = trace_ms;
-    json["shade_ms"] = shade_ms;
-    json["beam_grid_ms"] = sumMs(renderer.beamPasses());
-    json["capped_rays"] = renderer.cappedRays();
-    json["picture"] = {{"width", options.width}, {"height", options.height}, {"count", times.size()}};
-}
 
-// Beside the octree the picture has buffers of its own, which a lower resolution does not make smaller.
+    // A camera that turns around what stands still.
+    void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& centre)
+    {
+        const BuildResult result = voxelize(std::move(scene), grid);
+        report(result);
+        Renderer renderer(m_device, result.octree, m_options);
+        m_beam_passes = renderer.beamPasses();
+        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
+        {
+            const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
+            draw(i, renderer, camera.turnedAround(centre, turn));
+        }
+        m_capped_rays = renderer.cappedRays();
+    }
+
+    // Times of what moves, each voxelized on its own.
+    void play(const Stage& stage, const Grid& grid, const ViewCamera& camera)
+    {
+        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
+        {
+            const double seconds = m_options.frames ? frameTime(stage, m_pictures.number(i))
+                                                    : loopedTime(stage, m_options.voxels.time.value_or(0.0));
+            const BuildResult result = voxelize(stageAt(stage, seconds), grid);
+            Renderer renderer(m_device, result.octree, m_options);
+            if (i == 0)
+            {
+                report(result);
+                m_beam_passes = renderer.beamPasses();
+            }
+            draw(i, renderer, camera);
+            m_capped_rays += renderer.cappedRays();
+            reportFrame(m_pictures.number(i), seconds, result);
+        }
+    }
+
+    // The report, if one was asked for, after all pictures.
+    Json json()
+    {
+        double trace_ms = 0;
+        double shade_ms = 0;
+        for (const PictureTimes& picture : m_times)
+        {
+            trace_ms += picture.trace_ms / static_cast<double>(m_times.size());
+            shade_ms += picture.shade_ms / static_cast<double>(m_times.size());
+        }
+        for (const std::vector<vk::PassTime>* passes : {&m_beam_passes, &m_times.front().passes})
+        {
+            const Json more = passesJson(*passes);
+            m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
+        }
+        m_json["bytes"]["peak_device"] = m_device.device().memory().peakBytes();
+        m_json["trace_ms"] = trace_ms;
+        m_json["shade_ms"] = shade_ms;
+        m_json["beam_grid_ms"] = sumMs(m_beam_passes);
+        m_json["capped_rays"] = m_capped_rays;
+        m_json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", m_pictures.count()}};
+        if (!m_frames.empty())
+        {
+            m_json["frames"] = m_frames;
+        }
+        return m_json;
+    }
+
+    // What was made, on one line.
+    void tell()
+    {
+        if (m_capped_rays != 0)
+        {
+            talk(fmt::format("warning: {} rays took too many steps and were given up", m_capped_rays));
+        }
+        talk(fmt::format("{}; trace {:.1f} ms, light and shade {:.1f} ms on {}", m_built, m_times.front().trace_ms,
+                         m_times.front().shade_ms, m_device.device().report().name));
+    }
+
+private:
+    BuildResult voxelize(Scene scene, const Grid& grid)
+    {
+        m_progress.step("copying to the device");
+        m_triangle_count = scene.triangleCount();
+        const GpuScene gpu_scene = uploadScene(m_device, scene, m_options.voxels.attributes);
+        scene = {};
+        m_progress.step("voxelizing");
+        BuildResult result =
+            buildOctree(m_device, gpu_scene, grid, {m_options.voxels.coverage, m_options.voxels.attributes, {}});
+        m_has_warned = m_has_warned || warnOfDropped(result); // once, not for each frame
+        return result;
+    }
+
+    // The octree of the first picture.
+    void report(const BuildResult& result)
+    {
+        m_built = fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms",
+                              result.octree.voxel_count, result.octree.grid.resolution(), m_triangle_count,
+                              result.stageMs("voxelize"), result.stageMs("octree"));
+        if (!m_options.output.json.empty())
+        {
+            m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, m_triangle_count, result,
+                                octreeSha256(m_device, result.octree), 0);
+        }
+    }
+
+    void reportFrame(std::uint32_t number, double seconds, const BuildResult& result)
+    {
+        if (m_options.output.json.empty())
+        {
+            return;
+        }
+        m_frames.push_back({{"frame", number},
+                            {"seconds", seconds},
+                            {"triangles", m_triangle_count},
+                            {"voxels", result.octree.voxel_count},
+                            {"nodes", result.octree.node_count},
+                            {"octree_sha256", octreeSha256(m_device, result.octree)},
+                            {"voxelize_ms", result.stageMs("voxelize")},
+                            {"build_ms", result.stageMs("octree")},
+                            {"trace_ms", m_times.back().trace_ms},
+                            {"shade_ms", m_times.back().shade_ms}});
+    }
+
+    void draw(std::uint32_t index, Renderer& renderer, const ViewCamera& camera)
+    {
+        m_progress.step("tracing");
+        m_times.emplace_back();
+        const std::vector<std::uint8_t> png = renderer.render(camera, m_times.back());
+        checkValidation(m_device);
+        m_pictures.write(index, png);
+    }
+
+    const RenderOptions& m_options;
+    Pictures& m_pictures;
+    Progress& m_progress;
+    vk::HeadlessDevice m_device;
+    std::uint64_t m_triangle_count = 0; // of the scene voxelized last
+    std::vector<vk::PassTime> m_beam_passes;
+    std::vector<PictureTimes> m_times;
+    std::uint64_t m_capped_rays = 0;
+    bool m_has_warned = false;
+    std::string m_built;
+    Json m_json;
+    Json m_frames = Json::array();
+};
+
 } // namespace
 
 void render(const RenderOptions& options)
@@ -206,53 +344,31 @@ void render(const RenderOptions& options)
 
     Progress progress(3 + pictures.count());
     progress.step("loading");
-    Scene scene = loadWithWarnings(options.voxels.scenes, options.voxels.load);
-    const std::uint64_t triangle_count = scene.triangleCount();
-    const Grid grid = placeGrid(options.voxels, scene.bounds());
-    const Bounds subject = subjectOf(scene, grid);
+    Stage stage = loadStageWithWarnings(options.voxels);
+    const bool moves = !stage.movers.empty();
+    progress.expect(moves ? 1 + 3 * pictures.count() : 3 + pictures.count());
+    checkPlaces(options.output, stage.files);
+    const Bounds bounds = stageBounds(stage);
+    const Grid grid = placeGrid(options.voxels, stage, bounds);
+    const Bounds subject = subjectOf(bounds, grid);
     const ViewCamera camera =
-        chooseCamera(options.camera, scene, subject, static_cast<double>(options.width) / options.height);
+        chooseCamera(options.camera, stage, subject, static_cast<double>(options.width) / options.height);
 
-    progress.step("copying to the device");
-    vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
-    std::optional<GpuScene> gpu_scene = uploadScene(device, scene, options.voxels.attributes);
-    scene = {};
-
-    progress.step("voxelizing");
-    const BuildResult result =
-        buildOctree(device, *gpu_scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
-    warnOfDropped(result);
-    gpu_scene.reset();
-
-    Renderer renderer(device, result.octree, options);
-    const glm::dvec3 centre = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
-    std::vector<PictureTimes> times(pictures.count());
-    for (std::uint32_t i = 0; i < pictures.count(); ++i)
+    Run run(options, pictures, progress);
+    if (moves)
     {
-        progress.step("tracing");
-        const std::uint32_t number = options.frames ? options.frames->first + i : 0;
-        const double turn = 2.0 * std::numbers::pi * number / pictures.count();
-        const std::vector<std::uint8_t> png = renderer.render(camera.turnedAround(centre, turn), times[i]);
-        checkValidation(device);
-        pictures.write(i, png);
+        run.play(stage, grid, camera);
+    }
+    else
+    {
+        run.turn(std::move(stage.fixed), grid, camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     }
     if (report)
     {
-        Json json = octreeJson("zvo.render/1", device.device().report(), options.voxels, triangle_count, result,
-                               octreeSha256(device, result.octree), device.device().memory().peakBytes());
-        addTrace(json, options, renderer, times);
-        report->write(jsonText(json));
+        report->write(jsonText(run.json()));
         report->finish();
     }
-    if (renderer.cappedRays() != 0)
-    {
-        talk(fmt::format("warning: {} rays took too many steps and were given up", renderer.cappedRays()));
-    }
-    talk(fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms, trace {:.1f} ms, light "
-                     "and shade {:.1f} ms on {}",
-                     result.octree.voxel_count, grid.resolution(), triangle_count, result.stageMs("voxelize"),
-                     result.stageMs("octree"), times.front().trace_ms, times.front().shade_ms,
-                     device.device().report().name));
+    run.tell();
 }
 
 } // namespace zvo::cli

@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <system_error>
 
 namespace zvo::cli
 {
@@ -35,6 +37,54 @@ std::filesystem::path cacheFolder()
     return base.empty() ? base : base / "zvo";
 }
 
+void tellWarnings(const std::vector<std::string>& warnings)
+{
+    for (const std::string& warning : warnings)
+    {
+        talk(fmt::format("warning: {}", warning));
+    }
+}
+
+void warnOfNothing(bool has_triangles)
+{
+    if (!has_triangles)
+    {
+        talk("warning: the scene has no triangles");
+    }
+}
+
+// Options that a scene file takes no notice of must not look as if it did.
+void checkStageOptions(const VoxelOptions& options)
+{
+    if (options.scenes.size() > 1)
+    {
+        throw Error(ErrorCode::Usage, "a scene file (.scene.json) stands alone; name further files in it");
+    }
+    if (options.load.up != UpAxis::Y || options.load.scale != 1.0F)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("--up and --scale do not go with {}; write up and place into it",
+                                                  options.scenes.front().string()));
+    }
+    std::error_code missing;
+    if (options.scenes_folder && !std::filesystem::is_directory(*options.scenes_folder, missing))
+    {
+        throw Error(ErrorCode::Input, fmt::format("--scenes {} is not a folder", options.scenes_folder->string()));
+    }
+}
+
+void warnOfIdleTime(const VoxelOptions& options, const Stage& stage)
+{
+    if (options.time && stage.movers.empty())
+    {
+        talk("warning: nothing moves in this scene, it is the same at every --time");
+    }
+}
+
+const char* ruleName(MergeRule rule)
+{
+    return rule == MergeRule::DynamicWins ? "dynamic" : rule == MergeRule::StaticWins ? "static" : "average";
+}
+
 } // namespace
 
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
@@ -53,32 +103,59 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
     Scene scene = loadScene(paths, options);
-    for (const std::vector<std::string>* warnings : {&scene.warnings, &scene.rest_warnings})
-    {
-        for (const std::string& warning : *warnings)
-        {
-            talk(fmt::format("warning: {}", warning));
-        }
-    }
-    if (scene.triangleCount() == 0)
-    {
-        talk("warning: the scene has no triangles");
-    }
+    tellWarnings(scene.warnings);
+    tellWarnings(scene.rest_warnings);
+    warnOfNothing(scene.triangleCount() != 0);
     return scene;
 }
 
-Grid placeGrid(const VoxelOptions& options, const Bounds& bounds)
+Stage loadStageWithWarnings(const VoxelOptions& options)
 {
-    if (options.grid_place)
+    if (std::none_of(options.scenes.begin(), options.scenes.end(), isStageFile))
     {
-        return {options.grid_place->origin, options.grid_place->voxel_size, options.depth};
+        if (options.scenes_folder)
+        {
+            throw Error(ErrorCode::Usage, "--scenes goes with a scene file (.scene.json)");
+        }
+        Stage stage;
+        stage.fixed = loadWithWarnings(options.scenes, options.load);
+        stage.files = options.scenes;
+        warnOfIdleTime(options, stage);
+        return stage;
     }
-    return options.bounds ? Grid::withCorner(*options.bounds, options.depth) : Grid::around(bounds, options.depth);
+    checkStageOptions(options);
+    Stage stage = loadStage(options.scenes.front(), {options.scenes_folder});
+    const bool has_triangles = stage.fixed.triangleCount() != 0 ||
+                               std::any_of(stage.movers.begin(), stage.movers.end(),
+                                           [](const Mover& mover) { return mover.scene.triangleCount() != 0; });
+    tellWarnings(stage.warnings);
+    warnOfNothing(has_triangles);
+    warnOfIdleTime(options, stage);
+    if (stage.merge != MergeRule::Average)
+    {
+        talk(fmt::format("warning: everything is voxelized together, which averages where objects overlap; the scene "
+                         "file's merge, {}, has no effect",
+                         ruleName(stage.merge)));
+    }
+    return stage;
 }
 
-void warnOfDropped(const BuildResult& result)
+Grid placeGrid(const VoxelOptions& options, const Stage& stage, const Bounds& bounds)
 {
-    if (result.octree.voxel_count == 0)
+    constexpr std::uint32_t kDefaultDepth = 9;
+    const std::uint32_t depth = options.depth.value_or(stage.grid_depth.value_or(kDefaultDepth));
+    if (options.grid_place)
+    {
+        return {options.grid_place->origin, options.grid_place->voxel_size, depth};
+    }
+    const std::optional<Bounds>& wanted = options.bounds ? options.bounds : stage.grid_bounds;
+    return wanted ? Grid::withCorner(*wanted, depth) : Grid::around(bounds, depth);
+}
+
+bool warnOfDropped(const BuildResult& result)
+{
+    bool told = result.octree.voxel_count == 0;
+    if (told)
     {
         talk("warning: there are no voxels; the grid misses the scene, or its triangles have no area at this "
              "resolution");
@@ -89,8 +166,10 @@ void warnOfDropped(const BuildResult& result)
         if (dropped != result.dropped.end())
         {
             talk(fmt::format("warning: {} triangles left out ({})", dropped->second, reason));
+            told = true;
         }
     }
+    return told;
 }
 
 void checkValidation(const vk::HeadlessDevice& device)

@@ -5,6 +5,7 @@
 #include "core/grid.h"
 #include "core/pipeline.h"
 #include "core/scene.h"
+#include "core/stage.h"
 #include "options.h"
 #include "vk/headless.h"
 
@@ -20,11 +21,15 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
 /// Loads files as one scene and tells what was left out of it. Throws Error{Input}.
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options);
 
-/// The grid that options ask for, or the one around bounds.
-Grid placeGrid(const VoxelOptions& options, const Bounds& bounds);
+/// What options name: a scene file with all that it names, or other files as one scene that stands still. Tells what
+/// was left out. Throws Error{Input}, and Error{Usage} for options that do not fit the files.
+Stage loadStageWithWarnings(const VoxelOptions& options);
 
-/// Tells of triangles that were left out because their numbers make no sense.
-void warnOfDropped(const BuildResult& result);
+/// The grid that options or else the stage ask for, or the one around bounds, the stage's.
+Grid placeGrid(const VoxelOptions& options, const Stage& stage, const Bounds& bounds);
+
+/// Tells of triangles that were left out because their numbers make no sense. Whether there was something to tell.
+bool warnOfDropped(const BuildResult& result);
 
 /// Throws Error{Other} where the validation layers have said something.
 void checkValidation(const vk::HeadlessDevice& device);

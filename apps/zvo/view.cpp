@@ -57,12 +57,11 @@ Error noSuchCamera(const std::string& wanted, const Scene& scene)
 
 } // namespace
 
-Bounds subjectOf(const Scene& scene, const Grid& grid)
+Bounds subjectOf(const Bounds& scene, const Grid& grid)
 {
     const float edge = grid.voxel_size * static_cast<float>(grid.resolution());
     const Bounds cube = {grid.origin, grid.origin + edge};
-    const Bounds bounds = scene.bounds();
-    const Bounds common = {glm::max(cube.min, bounds.min), glm::min(cube.max, bounds.max)};
+    const Bounds common = {glm::max(cube.min, scene.min), glm::min(cube.max, scene.max)};
     return common.empty() ? cube : common;
 }
 
@@ -90,6 +89,16 @@ ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bou
         return cameraFromNumbers(*numbers);
     }
     throw noSuchCamera(wanted, scene);
+}
+
+ViewCamera chooseCamera(const std::string& wanted, const Stage& stage, const Bounds& subject, double aspect)
+{
+    if (!wanted.empty() || !stage.camera)
+    {
+        return chooseCamera(wanted, stage.fixed, subject, aspect);
+    }
+    const auto* const view = std::get_if<ViewCamera>(&*stage.camera);
+    return view != nullptr ? *view : chooseCamera(std::get<std::string>(*stage.camera), stage.fixed, subject, aspect);
 }
 
 View viewOf(std::string_view option, std::string_view name)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/camera.h"
+#include "core/stage.h"
 #include "core/trace.h"
 
 #include <string>
@@ -9,13 +10,16 @@
 namespace zvo::cli
 {
 
-/// Part of scene that lies in grid, or all of grid where there is none: what a picture is about.
-Bounds subjectOf(const Scene& scene, const Grid& grid);
+/// Part of a scene's bounds that lies in grid, or all of grid where there is none: what a picture is about.
+Bounds subjectOf(const Bounds& scene, const Grid& grid);
 
 /// The camera that wanted names: "ex,ey,ez,tx,ty,tz[,fov]", a camera of scene, "auto", which fits subject into the
 /// picture, or "close", which is less than half as far from its centre; empty: the scene's first camera, or as auto.
 /// Throws Error{Usage} where there is no such camera.
 ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect);
+
+/// The same of a stage, whose own camera comes before the first one of what is fixed in it.
+ViewCamera chooseCamera(const std::string& wanted, const Stage& stage, const Bounds& subject, double aspect);
 
 /// The view of that name. Throws Error{Usage} that lists the names.
 View viewOf(std::string_view option, std::string_view name);

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 
 namespace zvo::cli
 {
@@ -52,9 +53,11 @@ void voxelize(const VoxelizeOptions& options)
 
     Progress progress(4);
     progress.step("loading");
-    Scene scene = loadWithWarnings(options.voxels.scenes, options.voxels.load);
+    Stage stage = loadStageWithWarnings(options.voxels);
+    checkPlaces(options.output, stage.files);
+    const Grid grid = placeGrid(options.voxels, stage, stageBounds(stage));
+    Scene scene = stageAt(std::move(stage), loopedTime(stage, options.voxels.time.value_or(0.0)));
     const std::uint64_t triangle_count = scene.triangleCount();
-    const Grid grid = placeGrid(options.voxels, scene.bounds());
 
     progress.step("copying to the device");
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+// Scene files on the command line: pictures and voxels of a scene in which something moves.
+#include "cli/cli_scene.h"
+#include "cli/run_zvo.h"
+#include "core/image_io.h"
+#include "support/temp_dir.h"
+
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <ostream>
+#include <set>
+
+namespace zvo::test
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// A folder with cube.glb, models/slab.glb and test.scene.json, in which the cube stands and the slab slides through
+/// it.
+class CliStage : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        fs::create_directory(m_dir.path() / "models");
+        m_dir.write("cube.glb", colouredCube().glb());
+        m_dir.write("models/slab.glb", slab(0.0).glb());
+        m_dir.write("test.scene.json", std::string_view(R"({"seconds": 2, "frames_per_second": 4,
+            "grid": {"depth": 5, "bounds": {"min": [-1.625, -1, -1], "max": [2.375, 3, 3]}},
+            "camera": {"eye": [0.5, 0.5, 9], "target": [0.5, 0.5, 0]},
+            "objects": [{"file": "cube.glb"},
+                        {"file": "slab.glb", "motion": {"line": {"from": [-2, 0, 0], "to": [2, 0, 0]}}}]})"));
+    }
+
+    /// The cube, flattened, at x.
+    static GltfBuilder slab(double x)
+    {
+        GltfBuilder builder = colouredCube();
+        builder.document["nodes"][0]["scale"] = {0.25, 0.5, 1.5};
+        builder.document["nodes"][0]["translation"] = {x, 0.25, -0.25};
+        builder.document["nodes"].erase(1);
+        builder.document.erase("cameras");
+        return builder;
+    }
+
+    Outcome run(const std::vector<std::string>& arguments)
+    {
+        const Outcome outcome = runZvo(m_dir.path(), arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome;
+    }
+
+    [[nodiscard]] std::string file(const std::string& name) const { return contentOf(m_dir.path() / name); }
+
+    [[nodiscard]] std::set<std::uint64_t> codes(const std::string& name) const
+    {
+        const std::string bytes = file(name);
+        std::vector<std::uint64_t> values(bytes.size() / sizeof(std::uint64_t));
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(std::uint64_t));
+        return {values.begin(), values.end()};
+    }
+
+    TempDir m_dir;
+};
+
+std::string gridText(const json& report)
+{
+    const json& grid = report["grid"];
+    return grid["origin"][0].dump() + "," + grid["origin"][1].dump() + "," + grid["origin"][2].dump() + "," +
+           grid["voxel_size"].dump();
+}
+
+TEST_F(CliStage, VoxelsAtATimeAreTheUnionOfTheObjectsInTheirPlaces)
+{
+    for (const double seconds : {0.0, 0.125, 0.5, 1.0, 1.25}) // outside, half outside, beside, within
+    {
+        // Everything on the lattice, so that a slab of its own has the same vertices.
+        m_dir.write("moved.glb", slab(-2.0 + 2.0 * seconds).glb());
+        const json report = json::parse(run({"voxelize", "test.scene.json", "--scenes", "models", "--time",
+                                             std::to_string(seconds), "-o", "all.morton", "-f", "--json", "-"})
+                                            .out);
+        EXPECT_EQ(report["resolution"], 32) << "the scene file's";
+        EXPECT_EQ(report["scene"]["triangles"], 24);
+        EXPECT_EQ(report["grid"]["origin"], (json{-1.625, -1.0, -1.0}));
+        std::set<std::uint64_t> expected;
+        for (const char* part : {"cube.glb", "moved.glb"})
+        {
+            run({"voxelize", part, "--grid", gridText(report), "--resolution", "32", "-o", "part.morton", "-f"});
+            expected.merge(codes("part.morton"));
+        }
+        EXPECT_EQ(codes("all.morton"), expected);
+        EXPECT_FALSE(expected.empty());
+        run({"voxelize", "cube.glb", "moved.glb", "--grid", gridText(report), "--resolution", "32", "-o", "both.morton",
+             "-f", "--json", "both.json"});
+        EXPECT_EQ(report["octree_sha256"], json::parse(file("both.json"))["octree_sha256"]) << "attributes too";
+    }
+}
+
+TEST_F(CliStage, FramesAreTimesAndBeginAnew)
+{
+    const std::vector<std::string> common = {"--scenes", "models", "--size", "64x48", "--view", "albedo"};
+    const auto render = [&](std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), {"render", "test.scene.json"});
+        arguments.insert(arguments.end(), common.begin(), common.end());
+        return run(arguments);
+    };
+    render({"-o", "f_##.png", "--frames", "2..10", "--json", "frames.json"});
+    render({"-o", "start.png"});
+    for (const int frame : {2, 5, 7})
+    {
+        render({"-o", "time.png", "-f", "--time", std::to_string(frame * 0.25)});
+        EXPECT_EQ(file("f_0" + std::to_string(frame) + ".png"), file("time.png")) << frame;
+    }
+    EXPECT_EQ(file("f_08.png"), file("start.png"));
+    EXPECT_EQ(file("f_10.png"), file("f_02.png"));
+    EXPECT_NE(file("f_03.png"), file("f_02.png"));
+
+    const json report = json::parse(file("frames.json"));
+    EXPECT_EQ(report["schema"], "zvo.render/1");
+    EXPECT_EQ(report["picture"]["count"], 9);
+    ASSERT_EQ(report["frames"].size(), 9U);
+    EXPECT_EQ(report["frames"][0]["octree_sha256"], report["octree_sha256"]);
+    EXPECT_EQ(report["frames"][0]["octree_sha256"], report["frames"][8]["octree_sha256"]);
+    for (int i = 0; i < 9; ++i)
+    {
+        const json& frame = report["frames"][i];
+        EXPECT_EQ(frame["frame"], i + 2);
+        EXPECT_EQ(frame["seconds"], (i + 2) % 8 * 0.25);
+        EXPECT_EQ(frame["triangles"], 24);
+        EXPECT_GT(frame["voxels"], 0);
+        EXPECT_GT(frame["trace_ms"], 0);
+    }
+}
+
+TEST_F(CliStage, TheCameraOfTheSceneFileStandsStill)
+{
+    // The slab's face towards the camera is blue and a quarter wide: find its middle.
+    const auto middleAt = [this](const char* seconds)
+    {
+        run({"render", "test.scene.json", "--scenes", "models", "-o", "a.png", "-f", "--size", "512x256", "--view",
+             "albedo", "--resolution", "128", "--time", seconds});
+        const std::string png = file("a.png");
+        const Image image = decodeImage({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}, "", "a.png");
+        double sum = 0;
+        int count = 0;
+        for (std::uint32_t x = 0; x < image.width; ++x)
+        {
+            const std::uint8_t* const pixel = image.rgba.data() + std::size_t{4} * (128 * image.width + x);
+            if (pixel[2] == 255 && pixel[0] == 0 && pixel[1] == 0)
+            {
+                sum += x;
+                ++count;
+            }
+        }
+        return count == 0 ? -1.0 : sum / count;
+    };
+    // At 0.25 s the slab spans x from -1.5 to -1.25 at z = 1.25, the cube 0 to 1 at z = 1: too far apart to touch.
+    const double pixels_per_unit = 128.0 / std::tan(0.5 * 45.0 * std::numbers::pi / 180.0);
+    const double slab = 255.5 + pixels_per_unit * (-1.375 - 0.5) / 7.75;
+    const double cube = 255.5;
+    const double slab_width = pixels_per_unit * 0.25 / 7.75;
+    const double cube_width = pixels_per_unit * 1.0 / 8.0;
+    EXPECT_NEAR(middleAt("0.25"), (slab * slab_width + cube * cube_width) / (slab_width + cube_width), 1.5);
+    // At 1.2 s it stands before the cube.
+    EXPECT_NEAR(middleAt("1.2"), cube, 1.5);
+}
+
+TEST_F(CliStage, OptionsStandBeforeTheSceneFile)
+{
+    const json report = json::parse(run({"voxelize", "test.scene.json", "--scenes", "models", "-o", "a.morton",
+                                         "--resolution", "16", "--bounds", "0,0,0,1,1,1", "--json", "-"})
+                                        .out);
+    EXPECT_EQ(report["resolution"], 16);
+    EXPECT_EQ(report["grid"]["origin"], (json{0.0, 0.0, 0.0}));
+    run({"render", "test.scene.json", "--scenes", "models", "-o", "named.png", "--size", "32x32", "--camera", "front"});
+    run({"render", "test.scene.json", "--scenes", "models", "-o", "file.png", "--size", "32x32"});
+    EXPECT_NE(file("named.png"), file("file.png"));
+}
+
+TEST_F(CliStage, FramesOfWhatStandsStillTurnTheCamera)
+{
+    m_dir.write("still.scene.json", std::string_view(R"({"objects": [{"file": "cube.glb"}], "grid": {"depth": 5}})"));
+    const std::vector<std::string> options = {"--frames", "0..2", "--size", "32x32", "--resolution", "32"};
+    for (const char* scene : {"still.scene.json", "cube.glb"})
+    {
+        std::vector<std::string> arguments = {"render", scene, "-o", scene + std::string("#.png")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        run(arguments);
+    }
+    for (const char* frame : {"0.png", "1.png", "2.png"})
+    {
+        EXPECT_EQ(file("still.scene.json" + std::string(frame)), file("cube.glb" + std::string(frame)));
+    }
+    EXPECT_NE(file("cube.glb1.png"), file("cube.glb0.png"));
+    const Outcome idle = run({"voxelize", "cube.glb", "--time", "3", "-o", "a.morton", "--resolution", "8"});
+    EXPECT_TRUE(contains(idle.err, "warning: nothing moves in this scene")) << idle.err;
+}
+
+TEST_F(CliStage, RulesThatARebuildCannotFollowAreToldOf)
+{
+    json stage = json::parse(file("test.scene.json"));
+    stage["merge"] = "dynamic";
+    m_dir.write("rule.scene.json", stage.dump());
+    const Outcome outcome = run({"voxelize", "rule.scene.json", "--scenes", "models", "-o", "a.morton"});
+    EXPECT_TRUE(contains(outcome.err, "merge, dynamic, has no effect")) << outcome.err;
+}
+
+struct WrongUse
+{
+    const char* name;
+    int exit_code;
+    std::vector<std::string> arguments;
+    std::vector<std::string> words; // of the message
+};
+
+void PrintTo(const WrongUse& use, std::ostream* stream)
+{
+    *stream << use.name;
+}
+
+const std::vector<WrongUse>& wrongUses()
+{
+    static const std::vector<WrongUse> uses = {
+        {"ModelIsNotThere",
+         3,
+         {"render", "test.scene.json", "-o", "a.png"},
+         {"test.scene.json: objects[1].file is \"slab.glb\"", "--scenes DIR"}},
+        {"UnknownKey",
+         3,
+         {"render", "typo.scene.json", "-o", "a.png"},
+         {"typo.scene.json: objects[0].plaec is not known; expected name, file"}},
+        {"NotJson", 3, {"voxelize", "text.scene.json", "-o", "a.ply"}, {"text.scene.json: not JSON"}},
+        {"MissingSceneFile", 3, {"render", "absent.scene.json", "-o", "a.png"}, {"absent.scene.json", "No such file"}},
+        {"FolderOfModelsIsNotThere",
+         3,
+         {"render", "test.scene.json", "-o", "a.png", "--scenes", "absent"},
+         {"--scenes absent is not a folder"}},
+        {"ModelOutside",
+         3,
+         {"render", "out.scene.json", "-o", "a.png", "--scenes", "models"},
+         {"objects[0].file is \"../../etc/passwd\", which leaves"}},
+        {"TwoSceneFiles",
+         2,
+         {"render", "test.scene.json", "cube.glb", "-o", "a.png", "--scenes", "models"},
+         {"stands alone"}},
+        {"FramesAndTime",
+         2,
+         {"render", "test.scene.json", "-o", "a#.png", "--frames", "0..1", "--time", "1"},
+         {"--frames", "--time"}},
+        {"TimeBeforeTheStart",
+         2,
+         {"render", "test.scene.json", "-o", "a.png", "--time=-1"},
+         {"--time -1", "from 0 on"}},
+        {"UpOfASceneFile",
+         2,
+         {"render", "test.scene.json", "-o", "a.png", "--scenes", "models", "--up", "z"},
+         {"--up and --scale do not go with test.scene.json"}},
+        {"FolderForAMesh",
+         2,
+         {"render", "cube.glb", "-o", "a.png", "--scenes", "models"},
+         {"--scenes goes with a scene"}},
+        {"ReportIsAModel",
+         2,
+         {"render", "test.scene.json", "-o", "a.png", "--scenes", "models", "--json", "models/slab.glb", "-f"},
+         {"models/slab.glb", "overwritten"}},
+        {"BenchWithoutDynamic", 2, {"bench", "test.scene.json"}, {"test.scene.json", "--dynamic"}},
+        {"BenchOfDynamicAndBalance", 2, {"bench", "--dynamic", "--balance"}, {"--dynamic", "--balance"}},
+        {"BenchOfDynamicWithoutScene", 2, {"bench", "--dynamic"}, {"--dynamic", "scene file"}},
+    };
+    return uses;
+}
+
+class CliStageError : public CliStage, public testing::WithParamInterface<WrongUse>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(CliStage, CliStageError, testing::ValuesIn(wrongUses()),
+                         [](const auto& use) { return std::string(use.param.name); });
+
+TEST_P(CliStageError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
+{
+    m_dir.write("typo.scene.json", std::string_view(R"({"objects": [{"file": "cube.glb", "plaec": {}}]})"));
+    m_dir.write("text.scene.json", std::string_view("a cube, please"));
+    m_dir.write("out.scene.json", std::string_view(R"({"objects": [{"file": "../../etc/passwd"}]})"));
+    const std::vector<std::string> before = filesIn(m_dir.path());
+    const std::string slab = file("models/slab.glb");
+    const Outcome outcome = runZvo(m_dir.path(), GetParam().arguments);
+    EXPECT_EQ(outcome.exit_code, GetParam().exit_code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
+    EXPECT_EQ(outcome.err.find_first_of("\n\r\t"), outcome.err.size() - 1) << outcome.err;
+    for (const std::string& word : GetParam().words)
+    {
+        EXPECT_TRUE(contains(outcome.err, word)) << '"' << word << "\" is not in: " << outcome.err;
+    }
+    EXPECT_EQ(filesIn(m_dir.path()), before);
+    EXPECT_EQ(file("models/slab.glb"), slab);
+}
+
+} // namespace
+} // namespace zvo::test
