@@ -25,11 +25,9 @@ struct Pose
 /// its first key a channel holds the first one. Of channels of several animations that move the same property the last
 /// one counts. Instances that nothing moves keep their transform, bit for bit; others follow their node. Nodes are
 /// evaluated in double precision. A time that is not finite counts as 0. A transform that overflows single precision
-/// is not finite; the voxelizer drops such triangles and counts them.
-Pose poseAt(const Scene& scene, double seconds);
-
-/// Whether a skin or morph targets give the instance a shape of its own in a pose.
-bool deforms(const Scene& scene, std::size_t instance);
+/// is not finite; the voxelizer drops such triangles and counts them. to_world: what places the scene, affine; it comes
+/// after everything else.
+Pose poseAt(const Scene& scene, double seconds, const glm::dmat4& to_world = glm::dmat4(1.0));
 
 /// Whether the instance may change with time: a channel moves its node, one above it, or a joint of its skin or one
 /// above that, or the weights of its morph targets.
@@ -38,9 +36,11 @@ bool isAnimated(const Scene& scene, std::size_t instance);
 /// isAnimated() of all instances, in time proportional to the scene.
 std::vector<bool> animatedInstances(const Scene& scene);
 
-/// The scene as it stands in a pose, without nodes, skins, animations and morph targets: instances that deform
-/// (deforms()) have a primitive each, with the positions and normals that the device makes of it (core/deform.h), bit
-/// for bit. Instances keep their order. pose: of this scene.
+/// The scene as it stands in a pose, without nodes, skins, animations and morph targets: each instance that deforms
+/// (isDeformed()) has a primitive of its own, with the positions and normals that the device makes of it
+/// (core/deform.h), bit for bit; such normals have any length. Instances and cameras keep their order, cameras their
+/// place. pose: of this scene.
+/// Throws Error{Memory} where these primitives take more than half of this machine's memory.
 Scene posedScene(const Scene& scene, const Pose& pose);
 
 } // namespace zvo

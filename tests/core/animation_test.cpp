@@ -1,0 +1,565 @@
+// SPDX-License-Identifier: MIT
+// Poses against values that were worked out by hand, and interpolation against formulas other than the ones in use:
+// rotation matrices from an axis and an angle, Hermite splines as Bezier curves.
+#include "core/animation.h"
+
+#include "core/scene_size.h"
+#include "gltf_builder.h"
+#include "rig_documents.h"
+#include "support/scenes.h"
+
+#include <cmath>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+constexpr double kPi = std::numbers::pi;
+
+/// A triangle on node 0, which the channel moves.
+Scene movedBy(const Channel& channel)
+{
+    Scene scene = triangleSoup({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    scene.nodes.emplace_back();
+    scene.instances[0].node = 0;
+    scene.animations.push_back({"", {channel}, channel.times.back()});
+    return scene;
+}
+
+glm::mat4 transformAt(const Scene& scene, double seconds)
+{
+    return poseAt(scene, seconds).transforms.at(0);
+}
+
+void expectNear(const glm::mat4& matrix, const glm::mat4& wanted, float tolerance)
+{
+    for (int i = 0; i < 16; ++i)
+    {
+        EXPECT_NEAR(matrix[i / 4][i % 4], wanted[i / 4][i % 4], tolerance) << "column " << i / 4 << ", row " << i % 4;
+    }
+}
+
+/// By Rodrigues' formula. axis: of length 1.
+glm::mat4 rotationBy(const glm::dvec3& axis, double angle)
+{
+    glm::dmat4 matrix(1.0);
+    for (int column = 0; column < 3; ++column)
+    {
+        glm::dvec3 unit(0.0);
+        unit[column] = 1.0;
+        const glm::dvec3 turned = unit * std::cos(angle) + glm::cross(axis, unit) * std::sin(angle) +
+                                  axis * (glm::dot(axis, unit) * (1.0 - std::cos(angle)));
+        matrix[column] = glm::dvec4(turned, 0.0);
+    }
+    return glm::mat4(matrix);
+}
+
+/// x, y, z, w of that rotation.
+std::vector<float> quaternionOf(const glm::dvec3& axis, double angle, double length = 1.0)
+{
+    const glm::dvec3 xyz = axis * (std::sin(angle / 2) * length);
+    return {static_cast<float>(xyz.x), static_cast<float>(xyz.y), static_cast<float>(xyz.z),
+            static_cast<float>(std::cos(angle / 2) * length)};
+}
+
+void append(std::vector<float>& into, const std::vector<float>& more)
+{
+    into.insert(into.end(), more.begin(), more.end());
+}
+
+/// A cubic Hermite segment of that many seconds as a Bezier curve, by de Casteljau's construction.
+double bezier(double from, double leaving, double to, double arriving, double seconds, double fraction)
+{
+    double p[4] = {from, from + leaving * seconds / 3, to - arriving * seconds / 3, to};
+    for (int left = 3; left > 0; --left)
+    {
+        for (int i = 0; i < left; ++i)
+        {
+            p[i] += (p[i + 1] - p[i]) * fraction;
+        }
+    }
+    return p[0];
+}
+
+TEST(Animation, StepHoldsEachKeyUntilTheNext)
+{
+    const Scene scene = movedBy({.path = ChannelPath::Translation,
+                                 .interpolation = Interpolation::Step,
+                                 .times = {1, 2, 4},
+                                 .values = {1, 0, 0, 2, 0, 0, 3, 0, 0}});
+    for (const auto& [seconds, x] : {std::pair(0.0, 1.0F), std::pair(1.0, 1.0F), std::pair(1.999, 1.0F),
+                                     std::pair(2.0, 2.0F), std::pair(3.999, 2.0F), std::pair(4.0, 1.0F)})
+    {
+        EXPECT_EQ(transformAt(scene, seconds)[3], glm::vec4(x, 0, 0, 1)) << seconds;
+    }
+}
+
+TEST(Animation, LinearRunsStraightBetweenKeys)
+{
+    Scene scene = movedBy({.path = ChannelPath::Translation,
+                           .interpolation = Interpolation::Linear,
+                           .times = {1, 2, 4},
+                           .values = {1, -2, 3, 5, 6, 7, -3, 0, 8}});
+    scene.animations[0].channels.push_back({.path = ChannelPath::Scale,
+                                            .interpolation = Interpolation::Linear,
+                                            .times = {0, 8},
+                                            .values = {1, 1, 1, -3, 5, 0}});
+    scene.animations[0].seconds = 8;
+    const auto expectAt = [&](double seconds, const glm::vec3& translation, const glm::vec3& scale)
+    {
+        glm::mat4 wanted(1.0F);
+        wanted[3] = glm::vec4(translation, 1);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            wanted[axis][axis] = scale[axis];
+        }
+        EXPECT_EQ(transformAt(scene, seconds), wanted) << seconds;
+    };
+    expectAt(0, {1, -2, 3}, {1, 1, 1}); // before the first key
+    expectAt(1, {1, -2, 3}, {0.5F, 1.5F, 0.875F});
+    expectAt(1.25, {2, 0, 4}, {0.375F, 1.625F, 0.84375F});
+    expectAt(2, {5, 6, 7}, {0, 2, 0.75F});
+    expectAt(3, {1, 3, 7.5F}, {-0.5F, 2.5F, 0.625F});
+    expectAt(6, {-3, 0, 8}, {-2, 4, 0.25F}); // after the last key of one, between those of the other
+}
+
+TEST(Animation, RotationsTakeTheShorterArcAtConstantSpeed)
+{
+    std::mt19937 random(3); // NOLINT: the same on every run
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (int i = 0; i < 2000; ++i)
+    {
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(number(random), number(random), number(random) + 1e-3));
+        const double from = number(random) * kPi;
+        // Less than half a turn apart; every tenth time nearly or wholly equal.
+        const double turn = i % 10 == 0 ? number(random) * 1e-7 : i % 10 == 1 ? 0.0 : number(random) * 3.14;
+        Channel channel = {
+            .path = ChannelPath::Rotation, .interpolation = Interpolation::Linear, .times = {0, 2, 3}, .values = {}};
+        const double sign = i % 2 == 0 ? 1.0 : -1.0; // the same rotation
+        append(channel.values, quaternionOf(axis, from, 1.0 + 0.5 * number(random)));
+        append(channel.values, quaternionOf(axis, from + turn, sign * (1.0 + 0.5 * number(random))));
+        append(channel.values, {0, 0, 0, 0});
+        const Scene scene = movedBy(channel);
+        const double fraction = 0.5 + 0.5 * number(random);
+        SCOPED_TRACE(i);
+        expectNear(transformAt(scene, 2.0 * fraction), rotationBy(axis, from + turn * fraction), 1e-6F);
+        expectNear(transformAt(scene, 0.0), rotationBy(axis, from), 1e-6F);
+    }
+}
+
+TEST(Animation, RotationsOfHalfATurnGoSomeWayRound)
+{
+    // Both ways are equally short; the rule is that the one to the quaternion as written counts.
+    const Scene scene = movedBy({.path = ChannelPath::Rotation,
+                                 .interpolation = Interpolation::Linear,
+                                 .times = {0, 1, 2},
+                                 .values = {0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0}});
+    expectNear(transformAt(scene, 0.5), rotationBy({0, 0, 1}, kPi / 2), 1e-6F);
+    expectNear(transformAt(scene, 0.25), rotationBy({0, 0, 1}, kPi / 4), 1e-6F);
+    expectNear(transformAt(scene, 1.5), rotationBy({0, 0, 1}, kPi), 1e-6F);
+}
+
+TEST(Animation, QuaternionsOfLengthZeroDoNotRotate)
+{
+    const Scene scene = movedBy({.path = ChannelPath::Rotation,
+                                 .interpolation = Interpolation::Linear,
+                                 .times = {0, 1, 2},
+                                 .values = {0, 0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 1}});
+    EXPECT_EQ(transformAt(scene, 0.0), glm::mat4(1.0F));
+    expectNear(transformAt(scene, 0.5), rotationBy({0, 0, 1}, kPi / 4), 1e-6F);
+}
+
+TEST(Animation, CubicSplinesAreHermiteCurves)
+{
+    std::mt19937 random(4); // NOLINT: the same on every run
+    std::uniform_real_distribution<float> number(-3.0F, 3.0F);
+    for (int i = 0; i < 500; ++i)
+    {
+        Channel channel = {.path = ChannelPath::Translation,
+                           .interpolation = Interpolation::CubicSpline,
+                           .times = {0.5F, 1.75F, 2},
+                           .values = {}};
+        for (int k = 0; k < 27; ++k)
+        {
+            channel.values.push_back(number(random));
+        }
+        const Scene scene = movedBy(channel);
+        const auto value = [&](int key, int part, int axis) -> double
+        { return channel.values[9 * key + 3 * part + axis]; };
+        const double fraction = (number(random) + 3.0F) / 6.01F;
+        const glm::mat4 first = transformAt(scene, 0.5 + 1.25 * fraction);
+        const glm::mat4 second = transformAt(scene, 1.75 + 0.25 * fraction);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            constexpr int kIn = 0;
+            constexpr int kValue = 1;
+            constexpr int kOut = 2;
+            EXPECT_NEAR(first[3][axis],
+                        bezier(value(0, kValue, axis), value(0, kOut, axis), value(1, kValue, axis),
+                               value(1, kIn, axis), 1.25, fraction),
+                        2e-6);
+            EXPECT_NEAR(second[3][axis],
+                        bezier(value(1, kValue, axis), value(1, kOut, axis), value(2, kValue, axis),
+                               value(2, kIn, axis), 0.25, fraction),
+                        2e-6);
+            EXPECT_EQ(transformAt(scene, 0.0)[3][axis], channel.values[3 + axis]); // without the tangents beside it
+        }
+    }
+}
+
+TEST(Animation, CubicRotationsAreNormalized)
+{
+    // Tangents of 0: halfway the quaternion is the mean of both, whose direction is the middle rotation.
+    std::vector<float> values(24);
+    const std::vector<float> from = quaternionOf({0, 1, 0}, 0.4);
+    const std::vector<float> to = quaternionOf({0, 1, 0}, 1.4);
+    std::copy(from.begin(), from.end(), values.begin() + 4);
+    std::copy(to.begin(), to.end(), values.begin() + 16);
+    const Scene scene = movedBy({.path = ChannelPath::Rotation,
+                                 .interpolation = Interpolation::CubicSpline,
+                                 .times = {0, 2},
+                                 .values = values});
+    expectNear(transformAt(scene, 1.0), rotationBy({0, 1, 0}, 0.9), 1e-6F);
+    // A quarter along the curve weighs 27/32 and 5/32.
+    const double x = 27.0 / 32.0 * std::sin(0.2) + 5.0 / 32.0 * std::sin(0.7);
+    const double w = 27.0 / 32.0 * std::cos(0.2) + 5.0 / 32.0 * std::cos(0.7);
+    expectNear(transformAt(scene, 0.5), rotationBy({0, 1, 0}, 2.0 * std::atan2(x, w)), 1e-6F);
+}
+
+TEST(Animation, WeightsOfAllTargetsMoveTogether)
+{
+    GltfBuilder builder = morphDocument({0.5F, -1});
+    addAnimation<float>(builder, 0, "weights", "LINEAR", {1, 2, 3}, "SCALAR", kF32, 6, {0, 1, 4, 2, 8, 8});
+    const Scene scene = builder.load();
+    const auto weightsAt = [&](double seconds) { return poseAt(scene, seconds).morph_weights.at(0); };
+    EXPECT_EQ(weightsAt(0.5), (std::vector<float>{0, 1}));
+    EXPECT_EQ(weightsAt(1.25), (std::vector<float>{1, 1.25F}));
+    EXPECT_EQ(weightsAt(2), (std::vector<float>{4, 2}));
+    EXPECT_EQ(poseAt(scene, 2).transforms.at(0), glm::mat4(1.0F));
+    EXPECT_EQ(poseAt(morphDocument({0.5F, -1}).load(), 7).morph_weights.at(0), (std::vector<float>{0.5F, -1}));
+}
+
+TEST(Animation, WeightsOfASplineHaveTangentsForAllTargets)
+{
+    GltfBuilder builder = morphDocument({});
+    // Incoming tangents, values, outgoing tangents of two targets; two keys.
+    const std::vector<float> values = {9, 9, 1, 10, 2, 0, 0, -8, 3, 20, 9, 9};
+    addAnimation(builder, 0, "weights", "CUBICSPLINE", {0, 2}, "SCALAR", kF32, 12, values);
+    const std::vector<float> weights = poseAt(builder.load(), 1).morph_weights.at(0);
+    EXPECT_NEAR(weights.at(0), bezier(1, 2, 3, 0, 2, 0.5), 1e-6);
+    EXPECT_NEAR(weights.at(1), bezier(10, 0, 20, -8, 2, 0.5), 1e-6);
+}
+
+TEST(Animation, TimesRepeat)
+{
+    const Scene scene = movedBy({.path = ChannelPath::Translation,
+                                 .interpolation = Interpolation::Linear,
+                                 .times = {0, 1.5F, 4},
+                                 .values = {0, 0, 0, 3, 1, 0, 0, 0, 7}});
+    for (double seconds = 0; seconds < 4; seconds += 0.125)
+    {
+        for (const double turns : {1.0, 1000.0, 1e9, -1.0, -123456.0})
+        {
+            EXPECT_EQ(transformAt(scene, seconds + 4 * turns), transformAt(scene, seconds)) << seconds << ' ' << turns;
+        }
+    }
+    EXPECT_EQ(transformAt(scene, -1e-300), transformAt(scene, 0));
+    for (const double seconds : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                                 -std::numeric_limits<double>::infinity()})
+    {
+        EXPECT_EQ(transformAt(scene, seconds), transformAt(scene, 0));
+    }
+    const Scene single = movedBy({.path = ChannelPath::Translation, .times = {0}, .values = {1, 2, 3}});
+    EXPECT_EQ(transformAt(single, 5)[3], glm::vec4(1, 2, 3, 1));
+}
+
+TEST(Animation, EachAnimationHasItsOwnLengthAndTheLastOneCounts)
+{
+    Scene scene = movedBy({.path = ChannelPath::Translation, .times = {0, 2}, .values = {0, 0, 0, 2, 0, 0}});
+    scene.animations.push_back(
+        {"", {{.path = ChannelPath::Scale, .times = {0, 3}, .values = {1, 1, 1, 4, 1, 1}}}, 3.0});
+    EXPECT_EQ(transformAt(scene, 2.5)[3].x, 0.5F); // 0.5 s of the first
+    EXPECT_EQ(transformAt(scene, 2.5)[0].x, 3.5F);
+    EXPECT_EQ(transformAt(scene, 3.5)[3].x, 1.5F);
+    EXPECT_EQ(transformAt(scene, 3.5)[0].x, 1.5F);
+    scene.animations.push_back({"", {{.path = ChannelPath::Translation, .times = {0}, .values = {9, 0, 0}}}, 0.0});
+    EXPECT_EQ(transformAt(scene, 2.5)[3].x, 9.0F);
+}
+
+TEST(Animation, NodesFollowTheirParents)
+{
+    // A quarter turn of the root takes the child's x to y; the leaf stands on it.
+    Scene scene = movedBy({.path = ChannelPath::Rotation,
+                           .interpolation = Interpolation::Step,
+                           .times = {0, 1, 2},
+                           .values = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1}});
+    scene.nodes.resize(4);
+    scene.nodes[0].translation = {1, 2, 3};
+    scene.nodes[1].parent = 0;
+    scene.nodes[1].translation = {10, 0, 0};
+    scene.nodes[1].scale = {2, 2, 2};
+    scene.nodes[2].parent = 1;
+    scene.nodes[2].matrix = glm::mat4(1.0F);
+    scene.nodes[2].matrix->operator[](3) = glm::vec4(0, 0, 5, 1);
+    scene.instances = {{0, glm::mat4(1.0F), 0}, {0, glm::mat4(1.0F), 2}, {0, glm::mat4(2.0F), 3}};
+    const Pose pose = poseAt(scene, 1.0);
+    expectNear(pose.transforms.at(0), glm::mat4(0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1), 1e-6F);
+    expectNear(pose.transforms.at(1), glm::mat4(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 1, 12, 13, 1), 1e-6F);
+    EXPECT_EQ(pose.transforms.at(2), glm::mat4(2.0F)); // nothing moves node 3
+    EXPECT_TRUE(pose.joint_matrices.at(1).empty());
+    EXPECT_TRUE(pose.morph_weights.at(1).empty());
+}
+
+TEST(Animation, WhatNothingMovesKeepsItsTransformBitForBit)
+{
+    Scene scene = movedBy({.path = ChannelPath::Translation, .times = {0}, .values = {0, 0, 0}});
+    scene.nodes.emplace_back().translation = {0.1F, 0.2F, 0.3F};
+    scene.instances.push_back({0, glm::mat4(0.1F, -0.0F, 1e-40F, 0, 7, 1e30F, 0, 0, 0, 0, 0, 0, -0.0F, 0, 0, 1), 1});
+    scene.instances.push_back({0, glm::mat4(3.0F)}); // of no node
+    const Pose pose = poseAt(scene, 1.0);
+    for (const std::size_t i : {1U, 2U})
+    {
+        EXPECT_EQ(std::memcmp(&pose.transforms.at(i), &scene.instances[i].transform, sizeof(glm::mat4)), 0);
+    }
+}
+
+TEST(Animation, LongChainsOfNodesNeedNoStack)
+{
+    constexpr std::size_t kNodes = 200000;
+    Scene scene = movedBy({.path = ChannelPath::Translation, .times = {0}, .values = {3, 0, 0}});
+    scene.nodes.resize(kNodes);
+    for (std::uint32_t i = 1; i < kNodes; ++i)
+    {
+        scene.nodes[i].parent = i - 1;
+        scene.nodes[i].translation = {0, 1, 0};
+    }
+    scene.instances[0].node = kNodes - 1;
+    EXPECT_EQ(transformAt(scene, 0)[3], glm::vec4(3, kNodes - 1, 0, 1));
+    EXPECT_TRUE(isAnimated(scene, 0));
+}
+
+TEST(Animation, SkinnedMeshesFollowTheirJointsAlone)
+{
+    const Scene scene = armDocument().load();
+    const Pose rest = poseAt(scene, 0);
+    EXPECT_EQ(rest.transforms.at(0), glm::mat4(1.0F)); // not the node's
+    ASSERT_EQ(rest.joint_matrices.at(0).size(), 2U);
+    EXPECT_EQ(rest.joint_matrices[0][0], glm::mat4(1.0F));
+    EXPECT_EQ(rest.joint_matrices[0][1], glm::mat4(1.0F));
+    const Pose bent = poseAt(scene, 1);
+    EXPECT_EQ(bent.joint_matrices.at(0).at(0), glm::mat4(1.0F));
+    // Around (0, 1): (x, y) becomes (1 - y, 1 + x).
+    expectNear(bent.joint_matrices[0].at(1), glm::mat4(0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 1), 1e-6F);
+}
+
+TEST(Animation, ScenesAreTurnedToTheirPlaceInTheWorld)
+{
+    glm::dmat4 place(2.0); // twice as large
+    place[3] = glm::dvec4(10, 20, 30, 1);
+    const Scene scene = armDocument().load();
+    const Pose pose = poseAt(scene, 0, place);
+    EXPECT_EQ(pose.transforms.at(0), glm::mat4(1.0F));
+    EXPECT_EQ(pose.joint_matrices.at(0).at(1), glm::mat4(place));
+    const Scene still = triangleDocument().load();
+    EXPECT_EQ(poseAt(still, 0, place).transforms.at(0), glm::mat4(place));
+    const Scene moved = movedBy({.path = ChannelPath::Translation, .times = {0}, .values = {1, 1, 1}});
+    EXPECT_EQ(poseAt(moved, 0, place).transforms.at(0)[3], glm::vec4(12, 22, 32, 1));
+}
+
+TEST(Animation, TransformsThatOverflowAreNotFiniteButAffine)
+{
+    for (const std::uint32_t node_count : {2U, 20U}) // more than single, more than double precision holds
+    {
+        Scene scene = movedBy({.path = ChannelPath::Scale, .times = {0}, .values = {3e38F, 1, 1}});
+        scene.nodes.resize(node_count);
+        for (std::uint32_t i = 1; i < node_count; ++i)
+        {
+            scene.nodes[i].parent = i - 1;
+            scene.nodes[i].scale = {3e38F, 1, 1};
+        }
+        scene.instances[0].node = node_count - 1;
+        const glm::mat4 transform = transformAt(scene, 0);
+        EXPECT_FALSE(std::isfinite(transform[0].x));
+        for (int column = 0; column < 4; ++column)
+        {
+            EXPECT_EQ(transform[column].w, column == 3 ? 1.0F : 0.0F);
+        }
+    }
+}
+
+TEST(Animation, AnimatedIsWhatAChannelReaches)
+{
+    Scene scene = movedBy({.node = 1, .path = ChannelPath::Rotation, .times = {0}, .values = {0, 0, 0, 1}});
+    scene.nodes.resize(6); // 0 - 1 - 2, 3 - 4, 5
+    scene.nodes[1].parent = 0;
+    scene.nodes[2].parent = 1;
+    scene.nodes[4].parent = 3;
+    scene.nodes[5].morph_weights = {0};
+    scene.nodes[4].morph_weights = {0};
+    scene.animations.push_back({"", {{.node = 5, .path = ChannelPath::Weights, .times = {0}, .values = {1}}}, 0.0});
+    scene.primitives.push_back(scene.primitives[0]); // 1: has joints
+    scene.primitives[1].joints.assign(3, glm::u16vec4(0));
+    scene.primitives[1].weights.assign(3, glm::vec4(1, 0, 0, 0));
+    scene.primitives.push_back(scene.primitives[0]); // 2: has a morph target
+    scene.primitives[2].morph_targets.resize(1);
+    scene.skins = {{{3, 2}, {glm::mat4(1.0F), glm::mat4(1.0F)}}, {{3, 4}, {glm::mat4(1.0F), glm::mat4(1.0F)}}};
+    struct Case
+    {
+        Instance instance;
+        bool animated;
+    };
+    const glm::mat4 any(1.0F);
+    const std::vector<Case> cases = {
+        {{0, any, 0}, false}, // a node above the one that moves
+        {{0, any, 1}, true},      {{0, any, 2}, true},    {{0, any, 3}, false},
+        {{0, any, kNone}, false}, {{1, any, 4, 0}, true}, // a joint hangs below node 1
+        {{1, any, 4, 1}, false},  {{1, any, 2, 1}, true}, // its node moves, which a skinned mesh does not follow
+        {{2, any, 5}, true},                              // its weights change
+        {{2, any, 4}, false},                             // nobody changes its weights
+        {{0, any, 5}, false},                             // it has no targets
+    };
+    scene.instances.clear();
+    for (const Case& item : cases)
+    {
+        scene.instances.push_back(item.instance);
+    }
+    const std::vector<bool> animated = animatedInstances(scene);
+    ASSERT_EQ(animated.size(), cases.size());
+    for (std::size_t i = 0; i < cases.size(); ++i)
+    {
+        EXPECT_EQ(isAnimated(scene, i), cases[i].animated) << i;
+        EXPECT_EQ(animated[i], cases[i].animated) << i;
+    }
+}
+
+TEST(Animation, PosedMeshesAreWhereTheirJointsTakeThem)
+{
+    const Scene scene = armDocument().load();
+    const Scene posed = posedScene(scene, poseAt(scene, 1));
+    EXPECT_EQ(sceneFault(posed), "");
+    ASSERT_EQ(posed.instances.size(), 1U);
+    EXPECT_EQ(posed.instances[0].transform, glm::mat4(1.0F));
+    const std::vector<glm::vec3>& positions = posed.primitives.at(posed.instances[0].primitive).positions;
+    // The third vertex turns with the elbow; the last one is a quarter of the way from where it was.
+    const std::vector<glm::vec3> wanted = {{0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {0.75F, 1.25F, 0}};
+    ASSERT_EQ(positions.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+        EXPECT_LT(glm::distance(positions[i], wanted[i]), 1e-6F) << i;
+    }
+    EXPECT_EQ(posed.primitives[0].triangles, scene.primitives[0].triangles);
+    EXPECT_TRUE(posed.nodes.empty());
+    EXPECT_TRUE(posed.skins.empty());
+    EXPECT_TRUE(posed.animations.empty());
+    EXPECT_TRUE(posed.rest_warnings.empty());
+}
+
+TEST(Animation, PosedMeshesAreMorphed)
+{
+    GltfBuilder builder = morphDocument({0.5F, 2});
+    builder.document["nodes"][0]["translation"] = {7, 0, 0};
+    builder.add("nodes", {{"mesh", 0}, {"weights", {0, 0}}});
+    const Scene scene = builder.load();
+    const Scene posed = posedScene(scene, poseAt(scene, 0));
+    ASSERT_EQ(posed.instances.size(), 2U);
+    EXPECT_EQ(posed.instances[0].transform[3], glm::vec4(7, 0, 0, 1)); // the morph happens before the transform
+    const Primitive& morphed = posed.primitives.at(posed.instances[0].primitive);
+    EXPECT_EQ(morphed.positions, (std::vector<glm::vec3>{{0, 0, 0.5F}, {5, 0, 0.5F}, {0, 1, 0.5F}}));
+    for (const glm::vec3& normal : morphed.normals)
+    {
+        const glm::vec3 wanted = glm::normalize(glm::vec3(0.5F, 0, 1));
+        EXPECT_LT(glm::distance(glm::normalize(normal), wanted), 1e-6F);
+    }
+    EXPECT_TRUE(morphed.morph_targets.empty());
+    const Primitive& still = posed.primitives.at(posed.instances[1].primitive);
+    EXPECT_EQ(still.positions, scene.primitives[0].positions);
+}
+
+TEST(Animation, PosedScenesShareWhatDoesNotDeform)
+{
+    Scene scene = movedBy({.path = ChannelPath::Translation, .times = {0}, .values = {1, 2, 3}});
+    scene.primitives[0].joints.assign(3, glm::u16vec4(0)); // without a skin they do nothing
+    scene.primitives[0].weights.assign(3, glm::vec4(1, 0, 0, 0));
+    scene.instances.push_back(scene.instances[0]);
+    scene.cameras.emplace_back();
+    scene.warnings.emplace_back("warning");
+    const Scene posed = posedScene(scene, poseAt(scene, 0));
+    ASSERT_EQ(posed.primitives.size(), 1U);
+    EXPECT_EQ(posed.primitives[0].positions, scene.primitives[0].positions);
+    EXPECT_TRUE(posed.primitives[0].joints.empty());
+    ASSERT_EQ(posed.instances.size(), 2U);
+    EXPECT_EQ(posed.instances[1].primitive, 0U);
+    EXPECT_EQ(posed.instances[1].transform[3], glm::vec4(1, 2, 3, 1));
+    EXPECT_EQ(posed.materials.size(), scene.materials.size());
+    EXPECT_EQ(posed.cameras.size(), 1U);
+    EXPECT_EQ(posed.warnings.size(), 1U);
+    EXPECT_EQ(posed.triangleCount(), scene.triangleCount());
+}
+
+TEST(Animation, CopiesOfDeformedMeshesAreBounded)
+{
+    Scene scene;
+    Primitive primitive;
+    constexpr std::size_t kVertices = 1 << 20;
+    primitive.positions.resize(kVertices);
+    primitive.morph_targets.resize(1);
+    scene.primitives.push_back(primitive);
+    scene.materials.emplace_back();
+    scene.instances.resize(sceneBytesMax() / (kVertices * 2 * sizeof(glm::vec3)) + 1);
+    try
+    {
+        posedScene(scene, poseAt(scene, 0));
+        ADD_FAILURE() << "accepted";
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), ErrorCode::Memory) << error.what();
+    }
+}
+
+TEST(Animation, TheWheelsOfTheTruckTurnAndItsBodyStands)
+{
+    const auto path = sharedScene("milk_truck.glb");
+    if (!path)
+    {
+        GTEST_SKIP() << "milk_truck.glb is not at hand";
+    }
+    const Scene scene = loadGltf(*path);
+    EXPECT_EQ(sceneFault(scene), "");
+    ASSERT_EQ(scene.animations.size(), 1U);
+    EXPECT_NEAR(scene.animations[0].seconds, 1.25, 1e-6);
+    int wheel_count = 0;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    {
+        const bool is_wheel = scene.nodes.at(scene.instances[i].node).parent != kNone; // they hang on the body
+        EXPECT_EQ(isAnimated(scene, i), is_wheel);
+        const glm::mat4& rest = scene.instances[i].transform;
+        if (!is_wheel)
+        {
+            EXPECT_EQ(poseAt(scene, 0.3).transforms[i], rest);
+            continue;
+        }
+        ++wheel_count;
+        expectNear(poseAt(scene, 0).transforms[i], rest, 1e-5F);
+        const glm::mat4 turned = poseAt(scene, 0.3).transforms[i];
+        EXPECT_EQ(turned[3], rest[3]);
+        EXPECT_GT(glm::distance(turned[1], rest[1]), 0.1F);
+        // A turn leaves lengths and angles as they are.
+        const glm::mat3 linear(turned);
+        const glm::mat3 product = glm::transpose(linear) * linear;
+        const glm::mat3 wanted = glm::transpose(glm::mat3(rest)) * glm::mat3(rest);
+        expectNear(glm::mat4(product), glm::mat4(wanted), 1e-5F);
+    }
+    EXPECT_EQ(wheel_count, 2);
+}
+
+} // namespace
+
+} // namespace zvo::test
