@@ -2,6 +2,7 @@
 #include "bench.h"
 
 #include "bench_balance.h"
+#include "bench_dynamic.h"
 #include "bench_runs.h"
 #include "bench_scenes.h"
 #include "bench_table.h"
@@ -137,7 +138,8 @@ void bench(const BenchOptions& options)
 {
     if (options.dynamic)
     {
-        throw Error(ErrorCode::Other, "bench --dynamic: this build cannot update octrees; zvo render shows the scene");
+        benchDynamic(options);
+        return;
     }
     if (options.balance)
     {
@@ -181,7 +183,7 @@ void bench(const BenchOptions& options)
     {
         for (const BenchRow& row : rows)
         {
-            table.write(passTable(row));
+            table.write(passTable(row.scene, row.resolution, row.passes));
         }
     }
     checkValidation(device);

@@ -148,18 +148,18 @@ std::string tableLine(const BenchRow& row)
     return columnValues(columns(), row);
 }
 
-std::string passTable(const BenchRow& row)
+std::string passTable(const std::string& scene, std::uint32_t resolution, const std::vector<vk::PassTime>& passes)
 {
     double sum = 0;
     std::size_t width = 4;
-    for (const vk::PassTime& pass : row.passes)
+    for (const vk::PassTime& pass : passes)
     {
         sum += pass.ms;
         width = std::max(width, pass.name.size());
     }
     std::string table = fmt::format("\n{}, {}:\n\n| {:<{}} |        ms | share |\n|{:-<{}}|----------:|------:|\n",
-                                    row.scene, row.resolution, "pass", width, "", width + 2);
-    for (const vk::PassTime& pass : row.passes)
+                                    scene, resolution, "pass", width, "", width + 2);
+    for (const vk::PassTime& pass : passes)
     {
         table += fmt::format("| {:<{}} | {:>9.3f} | {:>4.1f}% |\n", pass.name, width, pass.ms,
                              sum > 0 ? 100 * pass.ms / sum : 0.0);

@@ -75,8 +75,8 @@ std::string tableHead(const BenchHeader& header);
 /// One line of the table.
 std::string tableLine(const BenchRow& row);
 
-/// The times of a row's passes as a table of its own.
-std::string passTable(const BenchRow& row);
+/// The times of passes as a table of its own.
+std::string passTable(const std::string& scene, std::uint32_t resolution, const std::vector<vk::PassTime>& passes);
 
 /// The report of `zvo bench`; the names of the fields are an interface.
 Json benchJson(const BenchHeader& header, const std::vector<BenchRow>& rows);

@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include "bench_dynamic.h"
+
+#include "bench_runs.h"
+#include "bench_table.h"
+#include "core/kernels.h"
+#include "core/stage_octree.h"
+#include "core/trace.h"
+#include "output.h"
+#include "progress.h"
+#include "report.h"
+#include "session.h"
+#include "table.h"
+#include "view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+// As the thesis has it.
+constexpr std::uint32_t kWidth = 1280;
+constexpr std::uint32_t kHeight = 720;
+constexpr std::uint32_t kDepth = 9;
+
+// Least and greatest of some counts.
+struct Range
+{
+    std::uint64_t min = UINT64_MAX;
+    std::uint64_t max = 0;
+
+    void add(std::uint64_t value)
+    {
+        min = std::min(min, value);
+        max = std::max(max, value);
+    }
+};
+
+std::string rangeText(const Range& range)
+{
+    return range.min == range.max ? fmt::format("{}", range.min) : fmt::format("{}-{}", range.min, range.max);
+}
+
+Json rangeJson(const Range& range)
+{
+    return {{"min", range.min}, {"max", range.max}};
+}
+
+// One scene at one resolution.
+struct DynamicRow
+{
+    std::string scene;
+    std::uint32_t resolution = 0;
+    std::uint64_t triangles_static = 0;
+    std::uint64_t triangles_dynamic = 0;
+    std::uint64_t voxels_static = 0;
+    std::uint64_t nodes_static = 0;
+    Range voxels_dynamic; // covered by what moves
+    Range nodes_dynamic;  // of the overlays
+    double voxelize_ms = 0;
+    double build_ms = 0;
+    std::uint32_t frame_count = 0;
+    Spread dynamic_voxelize_ms;
+    Spread update_ms;
+    Spread rebuild_ms;
+    Spread trace_merged_ms;
+    Spread trace_rebuilt_ms;
+    std::uint32_t retry_count = 0;
+    std::vector<vk::PassTime> passes; // of the updates: mean of the frames, summed by name
+};
+
+const Columns<DynamicRow>& columns()
+{
+    static const Columns<DynamicRow> all = {
+        {"scene", 12, [](const DynamicRow& row) { return row.scene; }},
+        {"resolution", 10, [](const DynamicRow& row) { return fmt::format("{}", row.resolution); }},
+        {"triangles", 9, [](const DynamicRow& row) { return fmt::format("{}", row.triangles_static); }},
+        {"moving", 7, [](const DynamicRow& row) { return fmt::format("{}", row.triangles_dynamic); }},
+        {"voxels", 9, [](const DynamicRow& row) { return fmt::format("{}", row.voxels_static); }},
+        {"moving", 15, [](const DynamicRow& row) { return rangeText(row.voxels_dynamic); }},
+        {"nodes", 9, [](const DynamicRow& row) { return fmt::format("{}", row.nodes_static); }},
+        {"overlay", 15, [](const DynamicRow& row) { return rangeText(row.nodes_dynamic); }},
+        {"voxelize ms", 11, [](const DynamicRow& row) { return fmt::format("{:.2f}", row.voxelize_ms); }},
+        {"build ms", 8, [](const DynamicRow& row) { return fmt::format("{:.2f}", row.build_ms); }},
+        {"dynamic voxelize ms", 22, [](const DynamicRow& row) { return spreadText(row.dynamic_voxelize_ms); }},
+        {"update ms", 22, [](const DynamicRow& row) { return spreadText(row.update_ms); }},
+        {"rebuild ms", 25, [](const DynamicRow& row) { return spreadText(row.rebuild_ms); }},
+        {"trace merged ms", 22, [](const DynamicRow& row) { return spreadText(row.trace_merged_ms); }},
+        {"trace rebuilt ms", 22, [](const DynamicRow& row) { return spreadText(row.trace_rebuilt_ms); }},
+    };
+    return all;
+}
+
+Json rowJson(const DynamicRow& row)
+{
+    Json json;
+    json["scene"] = row.scene;
+    json["resolution"] = row.resolution;
+    json["triangles_static"] = row.triangles_static;
+    json["triangles_dynamic"] = row.triangles_dynamic;
+    json["voxels_static"] = row.voxels_static;
+    json["voxels_dynamic"] = rangeJson(row.voxels_dynamic);
+    json["nodes_static"] = row.nodes_static;
+    json["nodes_dynamic"] = rangeJson(row.nodes_dynamic);
+    json["voxelize_ms"] = row.voxelize_ms;
+    json["build_ms"] = row.build_ms;
+    json["frames"] = row.frame_count;
+    json["dynamic_voxelize_ms"] = spreadJson(row.dynamic_voxelize_ms);
+    json["update_ms"] = spreadJson(row.update_ms);
+    json["rebuild_ms"] = spreadJson(row.rebuild_ms);
+    json["trace_merged_ms"] = spreadJson(row.trace_merged_ms);
+    json["trace_rebuilt_ms"] = spreadJson(row.trace_rebuilt_ms);
+    json["retries"] = row.retry_count;
+    json["passes"] = passesJson(row.passes);
+    return json;
+}
+
+// Whether a pass of an update belongs to the voxelization of what moves.
+bool voxelizes(const std::string& pass)
+{
+    constexpr std::string_view kParts[] = {"voxelize/", "update/layer", "mover/", "deform/"};
+    return std::ranges::any_of(kParts, [&](std::string_view part) { return pass.find(part) != std::string::npos; });
+}
+
+class DynamicBench
+{
+public:
+    DynamicBench(const BenchOptions& options, vk::HeadlessDevice& device)
+        : m_options(options), m_device(device), m_beam(device.device()), m_buffers(device.device(), kWidth, kHeight)
+    {
+    }
+
+    DynamicRow measure(const std::string& name, const Stage& stage, std::uint32_t depth, Progress& progress)
+    {
+        const Bounds bounds = stageBounds(stage);
+        const Grid grid = Grid::around(stage.grid_bounds.value_or(bounds), depth);
+        const ViewCamera view =
+            chooseCamera(m_options.camera, stage, subjectOf(bounds, grid), double{kWidth} / kHeight);
+        const TraceCamera camera = traceCamera(view, grid, kHeight);
+        DynamicRow row;
+        row.scene = name;
+        row.resolution = grid.resolution();
+        StageOctree octree(m_device, stage, grid, {m_options.coverage, m_options.attributes});
+        row.triangles_static = octree.staticPart().triangle_count;
+        row.triangles_dynamic = octree.moverTriangleCount();
+        row.voxels_static = octree.staticPart().voxel_count;
+        row.nodes_static = octree.staticPart().node_count;
+        for (const vk::PassTime& pass : octree.staticPart().passes)
+        {
+            (pass.name.find("octree/") != std::string::npos ? row.build_ms : row.voxelize_ms) += pass.ms;
+        }
+        row.frame_count =
+            static_cast<std::uint32_t>(std::max(1.0, std::round(stage.seconds * stage.frames_per_second)));
+        measureFrames(stage, octree, camera, row, progress);
+        measureRebuilds(stage, grid, camera, row, progress);
+        return row;
+    }
+
+private:
+    // Every frame once, after one that finds out how much room it takes.
+    void measureFrames(const Stage& stage, StageOctree& octree, const TraceCamera& camera, DynamicRow& row,
+                       Progress& progress)
+    {
+        std::vector<double> voxelize_ms;
+        std::vector<double> update_ms;
+        std::vector<double> trace_ms;
+        octree.update(frameTime(stage, row.frame_count - 1));
+        traceMs(octree.octree(), camera);
+        for (std::uint32_t frame = 0; frame < row.frame_count; ++frame)
+        {
+            progress.step(fmt::format("{} at {}: frame {}", row.scene, row.resolution, frame));
+            const StageUpdate update = octree.update(frameTime(stage, frame));
+            row.retry_count += update.retry_count;
+            row.voxels_dynamic.add(update.report.dynamic_count);
+            row.nodes_dynamic.add(update.report.node_count);
+            voxelize_ms.push_back(0);
+            update_ms.push_back(0);
+            for (const vk::PassTime& pass : update.passes)
+            {
+                (voxelizes(pass.name) ? voxelize_ms : update_ms).back() += pass.ms;
+            }
+            addPasses(row.passes, update.passes, row.frame_count);
+            trace_ms.push_back(traceMs(octree.octree(), camera));
+        }
+        row.dynamic_voxelize_ms = Spread::of(voxelize_ms);
+        row.update_ms = Spread::of(update_ms);
+        row.trace_merged_ms = Spread::of(trace_ms);
+    }
+
+    // At times spread evenly over the stage.
+    void measureRebuilds(const Stage& stage, const Grid& grid, const TraceCamera& camera, DynamicRow& row,
+                         Progress& progress)
+    {
+        std::vector<double> rebuild_ms;
+        std::vector<double> trace_ms;
+        BuildOptions build;
+        build.coverage = m_options.coverage;
+        build.attributes = m_options.attributes;
+        for (std::uint32_t run = 0; run < m_options.run_count; ++run)
+        {
+            progress.step(fmt::format("{} at {}: rebuild {}", row.scene, row.resolution, run));
+            const std::uint32_t frame = run * row.frame_count / m_options.run_count;
+            const GpuScene scene = uploadScene(m_device, stageAt(stage, frameTime(stage, frame)), m_options.attributes,
+                                               brightestEmission(stage));
+            const BuildResult built = buildOctree(m_device, scene, grid, build);
+            build.capacities = built.capacities;
+            rebuild_ms.push_back(sumMs(built.passes));
+            trace_ms.push_back(traceMs(built.octree, camera));
+        }
+        row.rebuild_ms = Spread::of(rebuild_ms);
+        row.trace_rebuilt_ms = Spread::of(trace_ms);
+    }
+
+    // The beam grid and primary rays.
+    double traceMs(const Octree& octree, const TraceCamera& camera)
+    {
+        return sumMs(m_device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                buildBeam(graph, octree, m_beam);
+                tracePrimary(graph, octree, m_beam, camera, TraceOptions{}, m_buffers);
+            }));
+    }
+
+    const BenchOptions& m_options;
+    vk::HeadlessDevice& m_device;
+    BeamGrid m_beam;
+    TraceBuffers m_buffers;
+};
+
+std::string tableHead(const vk::DeviceReport& device, std::uint32_t run_count)
+{
+    return fmt::format(
+               "zvo {} on {} ({}, {}). GPU milliseconds: median (min-max), of all frames or, for rebuilds, of {}. "
+               "Trace: beam grid and primary rays, {}x{}.\n\n",
+               ZVO_VERSION, device.name, device.type, device.driver, run_count, kWidth, kHeight) +
+           columnNames(columns());
+}
+
+Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<DynamicRow>& rows)
+{
+    Json json;
+    json["schema"] = "zvo.bench_dynamic/1";
+    json["zvo"] = ZVO_VERSION;
+    json["device"] = deviceJson(device);
+    json["width"] = kWidth;
+    json["height"] = kHeight;
+    json["coverage"] = coverageName(options.coverage);
+    json["attributes"] = options.attributes ? "full" : "none";
+    json["rebuilds"] = options.run_count;
+    json["rows"] = Json::array();
+    for (const DynamicRow& row : rows)
+    {
+        json["rows"].push_back(rowJson(row));
+    }
+    return json;
+}
+
+} // namespace
+
+void benchDynamic(const BenchOptions& options)
+{
+    std::optional<Output> report;
+    if (!options.output.json.empty())
+    {
+        report.emplace(options.output.json, options.output.overwrite);
+    }
+    std::vector<Stage> stages;
+    std::size_t steps = 0;
+    for (const std::filesystem::path& path : options.scenes)
+    {
+        VoxelOptions voxels;
+        voxels.scenes = {path};
+        voxels.load = options.load;
+        voxels.scenes_folder = options.scene_folder;
+        stages.push_back(loadStageWithWarnings(voxels));
+        steps += static_cast<std::size_t>(stages.back().seconds * stages.back().frames_per_second) + options.run_count;
+    }
+    vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
+    Output table("-", true);
+    const bool show_table = options.output.json != "-";
+    if (show_table)
+    {
+        table.write(tableHead(device.device().report(), options.run_count));
+    }
+    DynamicBench measurements(options, device);
+    std::vector<DynamicRow> rows;
+    Progress progress(steps * options.depths.value_or(std::vector{kDepth}).size());
+    for (std::size_t i = 0; i < stages.size(); ++i)
+    {
+        const std::string name = options.scenes[i].stem().stem().string();
+        for (const std::uint32_t depth : options.depths.value_or(std::vector{stages[i].grid_depth.value_or(kDepth)}))
+        {
+            rows.push_back(measurements.measure(name, stages[i], depth, progress));
+            if (show_table)
+            {
+                clearProgressBar();
+                table.write(columnValues(columns(), rows.back()));
+            }
+        }
+    }
+    if (show_table && options.passes)
+    {
+        for (const DynamicRow& row : rows)
+        {
+            table.write(passTable(row.scene, row.resolution, row.passes));
+        }
+    }
+    checkValidation(device);
+    if (report)
+    {
+        report->write(jsonText(reportJson(device.device().report(), options, rows)));
+        report->finish();
+    }
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "options.h"
+
+namespace zvo::cli
+{
+
+/// `zvo bench --dynamic`: updates while something moves, beside building everything anew. Throws Error.
+void benchDynamic(const BenchOptions& options);
+
+} // namespace zvo::cli

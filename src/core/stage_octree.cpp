@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "core/stage_octree.h"
+
+#include "core/gpu_scene.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kAttemptsMax = 64; // everything doubles in two attempts at most
+
+} // namespace
+
+float brightestEmission(const Stage& stage)
+{
+    float brightest = brightestEmission(stage.fixed);
+    for (const Mover& mover : stage.movers)
+    {
+        brightest = std::max(brightest, brightestEmission(mover.scene));
+    }
+    return brightest;
+}
+
+StageOctree::StageOctree(vk::HeadlessDevice& device, const Stage& stage, const Grid& grid,
+                         const StageOctreeOptions& options)
+    : m_device(device), m_stage(stage)
+{
+    const float emission_scale = brightestEmission(stage);
+    BuildOptions build;
+    build.coverage = options.coverage;
+    build.attributes = options.attributes;
+    build.keep_sums = options.attributes && stage.merge == MergeRule::Average;
+    BuildResult built =
+        buildOctree(device, uploadScene(device, stage.fixed, options.attributes, emission_scale), grid, build);
+    m_static_part = {stage.fixed.triangleCount(), built.octree.voxel_count, built.octree.node_count, built.dropped,
+                     built.passes};
+    DynamicOptions dynamic;
+    dynamic.coverage = options.coverage;
+    dynamic.merge = stage.merge;
+    dynamic.attributes = options.attributes;
+    dynamic.history = options.history;
+    dynamic.emission_scale = emission_scale;
+    m_dynamic = std::make_unique<DynamicOctree>(device, std::move(built), dynamic);
+    for (const Mover& mover : stage.movers)
+    {
+        m_mover_triangle_count += mover.scene.triangleCount();
+        m_movers.push_back(m_dynamic->add(uploadMover(device, mover.scene, options.attributes, emission_scale),
+                                          poseAt(mover.scene, 0.0, placeAt(mover, 0.0))));
+    }
+}
+
+StageUpdate StageOctree::update(double seconds)
+{
+    for (std::size_t i = 0; i < m_movers.size(); ++i)
+    {
+        const Mover& mover = m_stage.movers[i];
+        m_dynamic->place(m_movers[i], poseAt(mover.scene, seconds, placeAt(mover, seconds)));
+    }
+    StageUpdate result;
+    for (; result.retry_count < kAttemptsMax; ++result.retry_count)
+    {
+        const std::uint64_t frame = m_dynamic->beginFrame();
+        result.passes = m_device.run([&](vk::FrameGraph& graph) { m_dynamic->update(graph); });
+        const std::vector<UpdateReport> reports = m_dynamic->frameDone(frame);
+        if (!m_dynamic->needsUpdate())
+        {
+            result.report = reports.empty() ? UpdateReport{} : reports.back();
+            return result;
+        }
+    }
+    throw Error(ErrorCode::Memory,
+                fmt::format("movers found no room in {} attempts; lower the resolution", kAttemptsMax));
+}
+
+} // namespace zvo
