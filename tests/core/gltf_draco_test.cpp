@@ -232,6 +232,67 @@ TEST(GltfDraco, OneTriangleMayBePacked)
     expectSame(soupOf(packedDocument(pack(soup, {}), 1).load().primitives.at(0)), soup, 0.0F);
 }
 
+TEST(GltfDraco, JointsAndWeightsMayBePacked)
+{
+    // Both tell the vertex, as Draco may number vertices anew.
+    const auto jointsAt = [](const glm::vec3& place)
+    { return glm::u16vec4(place.x, 300.0F + place.x, place.z, 1000.0F - place.z); };
+    const auto weightsAt = [](const glm::vec3& place)
+    { return glm::vec4(place.x + 1.0F, place.z + 1.0F, 2.0F, 11.0F - place.x - place.z) / 15.0F; };
+    const Soup soup = hills(4);
+    draco::TriangleSoupMeshBuilder mesh_builder;
+    mesh_builder.Start(static_cast<int>(soup.size()));
+    const int positions = mesh_builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    const int joints = mesh_builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_UINT16);
+    const int weights = mesh_builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_FLOAT32);
+    for (std::uint32_t i = 0; i < soup.size(); ++i)
+    {
+        std::array<glm::u16vec4, 3> corner_joints;
+        std::array<glm::vec4, 3> corner_weights;
+        for (std::size_t k = 0; k < 3; ++k)
+        {
+            corner_joints[k] = jointsAt(soup[i][k].position);
+            corner_weights[k] = weightsAt(soup[i][k].position);
+        }
+        const draco::FaceIndex face(i);
+        mesh_builder.SetAttributeValuesForFace(positions, face, &soup[i][0].position, &soup[i][1].position,
+                                               &soup[i][2].position);
+        mesh_builder.SetAttributeValuesForFace(joints, face, &corner_joints[0], &corner_joints[1], &corner_joints[2]);
+        mesh_builder.SetAttributeValuesForFace(weights, face, &corner_weights[0], &corner_weights[1],
+                                               &corner_weights[2]);
+    }
+    const std::unique_ptr<draco::Mesh> mesh = mesh_builder.Finalize();
+    draco::EncoderBuffer packed;
+    ASSERT_TRUE(draco::ExpertEncoder(*mesh).EncodeToBuffer(&packed).ok());
+
+    GltfBuilder builder;
+    builder.document["extensionsRequired"] = {kExtension};
+    const auto add = [&](const char* type, int component_type, std::size_t count) {
+        return builder.add("accessors", {{"componentType", component_type}, {"count", count}, {"type", type}});
+    };
+    const std::size_t vertex_count = mesh->num_points();
+    const json attributes = {{"POSITION", add("VEC3", kF32, vertex_count)},
+                             {"JOINTS_0", add("VEC4", kU16, vertex_count)},
+                             {"WEIGHTS_0", add("VEC4", kF32, vertex_count)}};
+    const std::size_t indices = add("SCALAR", kU32, 3 * soup.size());
+    const json extension = {{"bufferView", builder.addView(packed.data(), packed.size())},
+                            {"attributes",
+                             {{"POSITION", mesh->attribute(positions)->unique_id()},
+                              {"JOINTS_0", mesh->attribute(joints)->unique_id()},
+                              {"WEIGHTS_0", mesh->attribute(weights)->unique_id()}}}};
+    builder.addMeshNode({{"attributes", attributes}, {"indices", indices}, {"extensions", {{kExtension, extension}}}});
+    const Scene scene = builder.load();
+    EXPECT_EQ(sceneFault(scene), "");
+    EXPECT_TRUE(scene.warnings.empty());
+    const Primitive& primitive = scene.primitives.at(0);
+    ASSERT_EQ(primitive.joints.size(), vertex_count);
+    for (std::size_t i = 0; i < vertex_count; ++i)
+    {
+        EXPECT_EQ(primitive.joints[i], jointsAt(primitive.positions[i])) << i;
+        EXPECT_LT(glm::distance(primitive.weights[i], weightsAt(primitive.positions[i])), 1e-6F) << i;
+    }
+}
+
 TEST(GltfDraco, AttributesMayStayOutside)
 {
     const Soup soup = hills(4);
