@@ -311,6 +311,77 @@ TEST(DeformMesh, OddNumbersEqualTheRule)
     }
 }
 
+TEST(DeformMesh, NumbersAroundTheSmallestThatCountEqualTheRule)
+{
+    std::mt19937 random(17);
+    const auto factor = [&](int exponent)
+    { return std::ldexp(std::uniform_real_distribution<float>(0.5F, 2.0F)(random), exponent); };
+    // Inputs, products of targets, and products of joints with values on both sides of 2^-100.
+    auto [scene, pose] = oneInstance(random, 4096, {false, 1, 2});
+    Primitive& primitive = scene.primitives[0];
+    for (MorphTarget& target : primitive.morph_targets)
+    {
+        target.positions.resize(primitive.positions.size());
+    }
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i)
+    {
+        primitive.positions[i] = glm::vec3(factor(-100), 0.0F, -factor(-100));
+        primitive.morph_targets[0].positions[i] = glm::vec3(0.0F, factor(-60), 0.0F);
+        primitive.morph_targets[1].positions[i] = glm::vec3(-factor(-99), factor(-100), factor(-100));
+        primitive.weights[i] = glm::vec4(1.0F, 0.0F, 0.0F, 0.0F);
+    }
+    std::size_t zero_count = 0;
+    for (const float scale : {1.0F, 1.4F, 0.7F})
+    {
+        pose.morph_weights[0] = {scale * 0x1p-40F, 1.0F};
+        pose.joint_matrices[0][0] = glm::mat4(scale);
+        Deformer deformer(device(), scene);
+        const Deformed seen = deformer.run(pose);
+        expectEqualsTheRule(scene, pose, deformer.mesh(), seen);
+        for (const gpu::vec3& position : seen.positions)
+        {
+            zero_count += position.x == 0.0F ? 1 : 0;
+        }
+    }
+    EXPECT_GT(zero_count, 1000U);
+    EXPECT_LT(zero_count, 3U * 4096 - 1000);
+}
+
+TEST(DeformMesh, NormalsOfFlatAndOfExtremeMatricesEqualTheRule)
+{
+    std::mt19937 random(18);
+    constexpr std::size_t kVertices = 2000;
+    auto [scene, pose] = oneInstance(random, kVertices, {true, 2 * kVertices, 0});
+    std::vector<glm::mat4>& joints = pose.joint_matrices[0];
+    for (std::size_t i = 0; i < kVertices; ++i)
+    {
+        scene.primitives[0].joints[i] = {i, kVertices + i, 0, 0};
+        scene.primitives[0].weights[i] = {1.0F, i % 4 == 3 ? 1.0F : 0.0F, 0.0F, 0.0F};
+        if (i % 2 == 0) // the columns lie in a plane but for their rounding, which decides the determinant's sign
+        {
+            joints[i][2] = joints[i][0] * 0.7F + joints[i][1] * 1.3F;
+            continue;
+        }
+        // The largest entry lies around the ends of what is usable, for every fourth vertex as a difference.
+        const int exponent = (i / 4 % 2 == 0 ? -100 : 100) + static_cast<int>(i % 5) - 2;
+        for (int column = 0; column < 3; ++column)
+        {
+            joints[i][column] *= std::ldexp(1.0F, exponent + (i % 4 == 3 ? 2 : 0));
+        }
+        joints[kVertices + i] = joints[i] * -0.75F;
+    }
+    Deformer deformer(device(), scene);
+    const Deformed seen = deformer.run(pose);
+    expectEqualsTheRule(scene, pose, deformer.mesh(), seen);
+    std::size_t none_count = 0;
+    for (std::size_t i = 1; i < kVertices; i += 2)
+    {
+        none_count += seen.normals[i] == gpu::vec3(0.0F) ? 1 : 0;
+    }
+    EXPECT_GT(none_count, 200U);
+    EXPECT_LT(none_count, 800U);
+}
+
 TEST(DeformMesh, SplitOverSubmissionsItGivesTheSameBits)
 {
     std::mt19937 random(11);
