@@ -3,7 +3,6 @@
 #include "core/mover.h"
 
 #include "core/animation.h"
-#include "core/deform.h"
 #include "core/kernels.h"
 #include "core/octree_build.h"
 #include "core/pipeline.h"
@@ -17,11 +16,16 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <regex>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace zvo
@@ -87,16 +91,17 @@ Made makeAnew(const Scene& scene, const Grid& grid, Coverage coverage)
 
 constexpr Grid kGrid{.origin = glm::vec3(-4.0F), .voxel_size = 0.125F, .depth = 6};
 
-/// Expects that mover in pose has the bytes of scene baked in pose, with both coverages; returns the number of voxels.
-std::uint32_t expectEqualsBaked(Mover& mover, const Scene& scene, const Pose& pose)
+/// Expects that mover in pose has the bytes of the posed scene uploaded anew, with both coverages; returns the number
+/// of voxels.
+std::uint32_t expectEqualsPosed(Mover& mover, const Scene& scene, const Pose& pose)
 {
     mover.place(pose);
-    const Scene baked = test::bakedScene(scene, pose);
+    const Scene posed = posedScene(scene, pose);
     std::uint32_t voxel_count = 0;
     for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
     {
         const Made moved = mover.make(kGrid, coverage);
-        const Made expected = makeAnew(baked, kGrid, coverage);
+        const Made expected = makeAnew(posed, kGrid, coverage);
         EXPECT_EQ(moved.sha, expected.sha);
         EXPECT_EQ(moved.dropped, expected.dropped);
         voxel_count = moved.voxel_count;
@@ -140,9 +145,115 @@ TEST(Mover, OfAllSortsOfInstancesEqualsAnUploadInEveryPose)
     EXPECT_EQ(mover.mesh().parts.size(), 6U);
     for (int round = 0; round < 3; ++round)
     {
-        EXPECT_GT(expectEqualsBaked(mover, scene, pose), 5000U);
+        EXPECT_GT(expectEqualsPosed(mover, scene, pose), 5000U);
         test::changePose(random, pose);
     }
+}
+
+/// A column of rings on a chain of joints that bends and twists, beside a bump that grows out of a plate on a carrier.
+Scene bendingScene()
+{
+    constexpr std::uint32_t kRings = 24;
+    constexpr std::uint32_t kSegments = 16;
+    constexpr std::uint32_t kJoints = 4;
+    Scene scene;
+    scene.materials.emplace_back();
+    Primitive column;
+    for (std::uint32_t ring = 0; ring <= kRings; ++ring)
+    {
+        const float height = 3.0F * static_cast<float>(ring) / kRings; // a joint every 1
+        const auto joint = std::min(static_cast<std::uint32_t>(height), kJoints - 2);
+        const float share = height - static_cast<float>(joint);
+        for (std::uint32_t segment = 0; segment < kSegments; ++segment)
+        {
+            const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(segment) / kSegments;
+            const glm::vec3 normal(std::cos(angle), 0.0F, std::sin(angle));
+            column.positions.push_back(0.4F * normal + glm::vec3(0.0F, height, 0.0F));
+            column.normals.push_back(normal);
+            column.joints.emplace_back(joint, joint + 1, 0, 0);
+            column.weights.emplace_back(1.0F - share, share, 0.0F, 0.0F);
+            const std::uint32_t a = ring * kSegments + segment;
+            const std::uint32_t b = ring * kSegments + (segment + 1) % kSegments;
+            if (ring != kRings)
+            {
+                column.triangles.emplace_back(a, b, a + kSegments);
+                column.triangles.emplace_back(b, b + kSegments, a + kSegments);
+            }
+        }
+    }
+    Primitive plate;
+    MorphTarget bump;
+    for (std::uint32_t i = 0; i < 81; ++i)
+    {
+        const glm::vec3 place(static_cast<float>(i % 9) / 4.0F - 1.0F, 0.0F, static_cast<float>(i / 9) / 4.0F - 1.0F);
+        plate.positions.push_back(place);
+        bump.positions.emplace_back(0.0F, std::exp(-3.0F * glm::dot(place, place)), 0.0F);
+        if (i % 9 != 8 && i / 9 != 8)
+        {
+            plate.triangles.emplace_back(i, i + 9, i + 1);
+            plate.triangles.emplace_back(i + 1, i + 9, i + 10);
+        }
+    }
+    plate.morph_targets = {bump};
+    scene.primitives = {column, plate};
+
+    Animation animation{"bend", {}, 2.0};
+    Skin skin;
+    for (std::uint32_t joint = 0; joint < kJoints; ++joint)
+    {
+        Node node;
+        node.parent = joint == 0 ? kNone : joint - 1;
+        node.translation = joint == 0 ? glm::vec3(-1.5F, -2.0F, 0.0F) : glm::vec3(0.0F, 1.0F, 0.0F);
+        scene.nodes.push_back(node);
+        skin.joints.push_back(joint);
+        skin.inverse_bind.push_back(glm::translate(glm::mat4(1.0F), glm::vec3(0.0F, -static_cast<float>(joint), 0.0F)));
+        Channel bend;
+        bend.node = joint;
+        bend.path = ChannelPath::Rotation;
+        bend.times = {0.0F, 1.0F, 2.0F};
+        bend.values = {0, 0, 0, 1, 0.2F, 0.3F, 0.1F, 0.9F, 0, 0, 0, 1};
+        animation.channels.push_back(bend);
+    }
+    Node carrier;
+    carrier.translation = {1.5F, -1.0F, 0.5F};
+    carrier.scale = {1.0F, 1.0F, -1.0F}; // mirrored
+    carrier.morph_weights = {0.0F};
+    scene.nodes.push_back(carrier);
+    Channel grow;
+    grow.node = kJoints;
+    grow.path = ChannelPath::Weights;
+    grow.times = {0.0F, 0.5F, 2.0F};
+    grow.values = {0.0F, 2.0F, -1.0F};
+    Channel turn;
+    turn.node = kJoints;
+    turn.path = ChannelPath::Rotation;
+    turn.times = {0.0F, 2.0F};
+    turn.values = {0, 0, 0, 1, 1, 0, 0, 0};
+    animation.channels.push_back(grow);
+    animation.channels.push_back(turn);
+    scene.animations.push_back(animation);
+    scene.skins.push_back(skin);
+    scene.instances.push_back({0, glm::mat4(1.0F), kNone, 0});
+    scene.instances.push_back({1, glm::mat4(1.0F), kJoints, kNone});
+    return scene;
+}
+
+TEST(Mover, FollowsAnimationsThroughTheirTime)
+{
+    const Scene scene = bendingScene();
+    Mover mover(device(), scene);
+    EXPECT_EQ(mover.mesh().parts.size(), 2U);
+    std::set<std::string> shas;
+    for (const double seconds : {0.0, 0.3, 0.5, 1.0, 1.7})
+    {
+        const Pose pose = poseAt(scene, seconds);
+        EXPECT_GT(expectEqualsPosed(mover, scene, pose), 1000U);
+        shas.insert(mover.make(kGrid, Coverage::Thin).sha);
+    }
+    EXPECT_EQ(shas.size(), 5U);
+    mover.place(poseAt(scene, 2.0)); // where it began
+    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha,
+              makeAnew(posedScene(scene, poseAt(scene, 0.0)), kGrid, Coverage::Thin).sha);
 }
 
 TEST(Mover, RigidWithAllMaterialsEqualsAnUpload)
@@ -177,8 +288,8 @@ TEST(Mover, HasTheVoxelsOfTheOracle)
     const auto [scene, pose] = mixedScene(random);
     Mover mover(device(), scene);
     mover.place(pose);
-    const Scene baked = test::bakedScene(scene, pose);
-    EXPECT_EQ(test::expectEqualsOracle(device(), baked, kGrid, Coverage::Thin),
+    const Scene posed = posedScene(scene, pose);
+    EXPECT_EQ(test::expectEqualsOracle(device(), posed, kGrid, Coverage::Thin),
               mover.make(kGrid, Coverage::Thin).voxel_count);
 }
 
@@ -212,7 +323,7 @@ TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
 {
     std::mt19937 random(25);
     auto [scene, pose] = mixedScene(random);
-    const GpuScene baked = uploadScene(device(), test::bakedScene(scene, pose), true);
+    const GpuScene posed = uploadScene(device(), posedScene(scene, pose), true);
     Mover mover(device(), scene);
     const VoxelizeCapacities capacities{1 << 15, 1 << 12, 1 << 16};
     const auto cover =
@@ -225,7 +336,7 @@ TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
     std::string dump;
     for (const bool moves : {false, true})
     {
-        VoxelizeBuffers voxelize(device().device(), capacities, baked);
+        VoxelizeBuffers voxelize(device().device(), capacities, posed);
         OctreeBuildBuffers work(device().device(), capacities.bricks);
         device().run(
             [&](vk::FrameGraph& graph)
@@ -241,7 +352,7 @@ TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
                 }
                 else
                 {
-                    cover(graph, baked, voxelize, work);
+                    cover(graph, posed, voxelize, work);
                 }
             });
         counters.push_back(device().download(voxelize.counters).front());
@@ -288,7 +399,7 @@ TEST(Mover, WhatIsNotFiniteIsCountedAndTheRestIsThere)
     pose.joint_matrices[1][2][3].x = std::numeric_limits<float>::infinity();
     pose.transforms[0][1][1] = nan;
     pose.morph_weights[8][0] = nan;
-    EXPECT_GT(expectEqualsBaked(mover, scene, pose), 3000U);
+    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 3000U);
     // The instances of numbers 0 and 8 are gone, that of 1 in part.
     EXPECT_GT(mover.make(kGrid, Coverage::Thin).dropped["nonfinite"], 2U * 58);
     EXPECT_LT(mover.make(kGrid, Coverage::Thin).dropped["nonfinite"], 3U * 58);
@@ -301,8 +412,8 @@ TEST(Mover, ComesBackToTheSameBytesInConstantMemory)
     Pose second = first;
     test::changePose(random, second);
     Mover mover(device(), scene);
-    const std::string shas[2] = {makeAnew(test::bakedScene(scene, first), kGrid, Coverage::Thin).sha,
-                                 makeAnew(test::bakedScene(scene, second), kGrid, Coverage::Thin).sha};
+    const std::string shas[2] = {makeAnew(posedScene(scene, first), kGrid, Coverage::Thin).sha,
+                                 makeAnew(posedScene(scene, second), kGrid, Coverage::Thin).sha};
     mover.place(first);
     vk::MemoryAllocator& memory = device().device().memory();
     const std::uint64_t used = memory.usedBytes();
@@ -338,10 +449,9 @@ TEST(Mover, TwoSetsOfBuffersOfOneSceneAreIndependent)
             placeMover(graph, mover.mesh(), pose, mover.buffers());
             placeMover(graph, mover.mesh(), other, second);
         });
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha,
-              makeAnew(test::bakedScene(scene, pose), kGrid, Coverage::Thin).sha);
+    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
     EXPECT_EQ(make(device(), {mover.uploaded(), second}, kGrid, Coverage::Thin).sha,
-              makeAnew(test::bakedScene(scene, other), kGrid, Coverage::Thin).sha);
+              makeAnew(posedScene(scene, other), kGrid, Coverage::Thin).sha);
 }
 
 TEST(Mover, SplitOverSubmissionsItHasTheSameBytes)
@@ -353,8 +463,7 @@ TEST(Mover, SplitOverSubmissionsItHasTheSameBytes)
     vk::HeadlessDevice sliced(options, zvoKernels());
     Mover mover(sliced, scene);
     mover.place(pose);
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha,
-              makeAnew(test::bakedScene(scene, pose), kGrid, Coverage::Thin).sha);
+    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
 }
 
 TEST(Mover, TransformsOfAnotherSceneAreRefused)
@@ -366,7 +475,7 @@ TEST(Mover, TransformsOfAnotherSceneAreRefused)
     other.transforms.pop_back();
     EXPECT_THROW(mover.place(other), Error);
     EXPECT_THROW(mover.place({}), Error);
-    EXPECT_GT(expectEqualsBaked(mover, scene, pose), 5000U) << "and it goes on";
+    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 5000U) << "and it goes on";
 }
 
 TEST(Mover, NeedsAreNamedBeforeMemoryIsTaken)

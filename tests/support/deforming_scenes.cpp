@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/deforming_scenes.h"
 
-#include "core/deform.h"
-
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <utility>
@@ -150,34 +148,6 @@ void changePose(std::mt19937& random, Pose& pose)
             pose.transforms[i] = randomAffine(random, 2.0F);
         }
     }
-}
-
-Scene bakedScene(const Scene& scene, const Pose& pose)
-{
-    Scene result;
-    result.images = scene.images;
-    result.textures = scene.textures;
-    result.materials = scene.materials;
-    for (std::size_t i = 0; i < scene.instances.size(); ++i)
-    {
-        const Instance& instance = scene.instances[i];
-        Primitive primitive = scene.primitives[instance.primitive];
-        if (isDeformed(primitive, instance))
-        {
-            DeformedVertices vertices = deformVertices(primitive, pose.morph_weights[i], pose.joint_matrices[i]);
-            primitive.positions = std::move(vertices.positions);
-            primitive.normals = std::move(vertices.normals);
-        }
-        primitive.joints.clear();
-        primitive.weights.clear();
-        primitive.morph_targets.clear();
-        result.primitives.push_back(std::move(primitive));
-        Instance placed;
-        placed.primitive = static_cast<std::uint32_t>(i);
-        placed.transform = pose.transforms[i];
-        result.instances.push_back(placed);
-    }
-    return result;
 }
 
 } // namespace zvo::test

@@ -33,7 +33,4 @@ void addDeforming(std::mt19937& random, Scene& scene, Pose& pose, std::uint32_t 
 /// Other joint matrices, weights and transforms for what pose has, weights of 0 among them.
 void changePose(std::mt19937& random, Pose& pose);
 
-/// Scene in pose, with the vertices of deformVertices(): what a mover's buffers must be voxelized like.
-Scene bakedScene(const Scene& scene, const Pose& pose);
-
 } // namespace zvo::test
