@@ -23,6 +23,7 @@
 //                                      kStackShared
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail or
 //                                      fewer than four levels. Then also, as trace/trace.h describes it:
+//   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
 //   TRAVERSE_CONSTANT_ID               first of four constant_ids, 0 by default
 
@@ -121,11 +122,15 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
                   (mirror & 4u) != 0u ? kPathCells - 1u : 0u);
     uvec2 path = loadPath(cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
     path = inside ? path : uvec2(0u);
-    uint before_children = loadHalf(0u).y - 1u;
     uint node1 = path.x & ((1u << kPathLevel1Bits) - 1u);
-    node1 += node1 != 0u ? before_children : 0u;
-    uint node2 = bitfieldExtract(path.x, int(kPathLevel2Shift), int(kPathLevel2Bits));
-    node2 += (path.x >> kPathRelativeShift) != 0u ? before_children : 0u;
+    uint node2 = path.x >> kPathLevel2Shift;
+    if (TRAVERSE_PATHS_RELATIVE)
+    {
+        uint before_children = loadHalf(0u).y - 1u;
+        node1 += node1 != 0u ? before_children : 0u;
+        node2 &= (1u << kPathLevel2Bits) - 1u;
+        node2 += (path.x >> kPathRelativeShift) != 0u ? before_children : 0u;
+    }
     saveNode(kRootShift, 0u);
     saveNode(kRootShift - 2u, node1);
     saveNode(kRootShift - 4u, node2);

@@ -17,10 +17,9 @@ uint64_t packPath(uint path[kPathLevels], uint before_children)
 {
     uint node1 = path[0] - before_children;
     bool has1 = path[0] != 0u && node1 - 1u < (1u << kPathLevel1Bits) - 1u;
-    uint node2 = path[1] - before_children;
-    bool relative = node2 - 1u < (1u << kPathLevel2Bits) - 1u;
-    node2 = relative ? node2 : path[1];
-    bool has2 = has1 && path[1] != 0u && node2 < 1u << kPathLevel2Bits;
+    bool relative = path[1] >= 1u << kPathLevel2Bits;
+    uint node2 = relative ? path[1] - before_children : path[1];
+    bool has2 = has1 && node2 - 1u < (1u << kPathLevel2Bits) - 1u;
     uint upper = (node2 << kPathLevel2Shift) | (relative ? 1u << kPathRelativeShift : 0u);
     return packUint2x32(uvec2((has1 ? node1 : 0u) | (has2 ? upper : 0u), has2 ? path[2] : 0u));
 }

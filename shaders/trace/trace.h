@@ -44,10 +44,10 @@ const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that b
 //     level 1: 8 bits | level 2: 16 | level 2 is relative: 1 | unused 7 | level 3: 32, from the lowest bit on
 //
 // Nodes of level 1, and of level 2 where it says so, are relative: counted from the node before the root's first child.
-// Every octree that zvo makes fits: numbered by levels as a whole, level 1 is at most 64 and level 2 at most 4160.
-// Where an update has merged a root, level 1 is at most 64 relative to it, level 2 either at most 4160 relative to it
-// or a node of the octree that it changed. A node that does not fit, and those below, are left out: rays begin above
-// it.
+// Every octree that zvo makes fits. Where all nodes stand by levels, that node is the root, level 1 is at most 64 and
+// level 2 at most 4160, and is not relative. Where an update has merged a root, level 1 is at most 64 relative to it,
+// level 2 either at most 4160 relative to it or a node of the octree that it changed. A node that does not fit, and
+// those below, are left out: rays begin above it.
 const uint kPathLevels = 3u;
 const uint kPathCellBits = 6u;
 const uint kPathCells = 64u;

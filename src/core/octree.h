@@ -25,7 +25,7 @@ struct Octree
     Grid grid;
     std::uint32_t node_count = 0;
     std::uint32_t voxel_count = 0;
-    std::vector<Level> levels; // grid.nodeLevels() of them; empty for an octree without voxels
+    std::vector<Level> levels; // grid.nodeLevels() of them; empty without voxels, or where nodes stand elsewhere
 
     vk::BufferOf<gpu::Node> nodes;                 // [node_count]
     vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty without attributes

@@ -49,6 +49,17 @@ bool hasPaths(const Octree& octree)
     return octree.grid.nodeLevels() > gpu::kPathLevels;
 }
 
+// Whether the nodes stand level by level, with nothing behind them: what no update has changed.
+bool standsByLevels(const Octree& octree)
+{
+    if (octree.levels.empty())
+    {
+        return false;
+    }
+    const Octree::Level& last = octree.levels.back();
+    return std::uint64_t{last.first_node} + last.node_count == octree.nodes.count();
+}
+
 bool hasDetail(const TraceOptions& options)
 {
     return options.detail_pixels > 0.0F || options.detail_level != UINT32_MAX;
@@ -289,7 +300,8 @@ void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& b
     const bool count_iterations = options.view == View::Iterations;
     const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !hasDetail(options);
     const vk::Specialization constants =
-        withFlags(traverseConstants(octree, options), {camera.orthographic, count_iterations, use_paths});
+        withFlags(traverseConstants(octree, options),
+                  {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(octree)});
     const auto declare = [&](vk::Pass& pass)
     {
         gpu::PrimaryParams params{};

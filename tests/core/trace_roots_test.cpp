@@ -305,6 +305,19 @@ TEST(TraceRoots, RaysBeginAboveNodesThatPathsCannotName)
     }
 }
 
+TEST(TraceRoots, LevelsOfTheOctreeThatWasChangedMayStay)
+{
+    std::mt19937 random(18);
+    const Octree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
+    std::vector<Relocated> relocated = relocations(octree);
+    for (Relocated& each : relocated)
+    {
+        each.octree.levels = octree.levels;
+        each.octree.node_count = octree.node_count;
+    }
+    expectSamePictures(octree, relocated, test::manyCameras(octree.grid).front(), 99, 70, {}, 0);
+}
+
 TEST(TraceRoots, HalvesOfARootMayStandApart)
 {
     // Nothing in the format says that the children of both halves are neighbours.
