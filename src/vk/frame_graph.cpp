@@ -315,6 +315,7 @@ void FrameGraph::releaseToHost()
 
 void FrameGraph::declarePass(const std::string& name, std::span<const BufferAccess> accesses, const std::string& work)
 {
+    ++m_pass_count;
     recordBarrier(m_hazards.next(accesses));
     auto out = std::back_inserter(m_dump);
     fmt::format_to(out, "pass {}: {}", name, work);

@@ -130,6 +130,10 @@ public:
     /// Passes, their resources and the barriers between them, as text: one line each.
     [[nodiscard]] const std::string& dump() const { return m_dump; }
 
+    /// Passes recorded so far. Work that is recorded between two calls has the passes from the first number on and
+    /// before the second one; in that order the timers list them.
+    [[nodiscard]] std::size_t passCount() const { return m_pass_count; }
+
     [[nodiscard]] Device& device() { return m_device; }
 
     /// The command buffer that is recorded to: with a slicer, the one of the moment.
@@ -151,6 +155,7 @@ private:
     Slicer* m_slicer;
     HazardTracker m_hazards;
     std::string m_dump;
+    std::size_t m_pass_count = 0;
 };
 
 } // namespace zvo::vk

@@ -35,6 +35,37 @@ TEST(TimerPool, TimesHaveTheNamesOfThePassesInOrder)
     }
 }
 
+TEST(TimerPool, PassesStandWhereTheGraphCountsThem)
+{
+    vk::BufferOf<gpu::uint> values(device().device(), "values", 64);
+    vk::BufferOf<gpu::uint> copies(device().device(), "copies", 64);
+    vk::BufferOf<gpu::uint> empty(device().device(), "empty", 0);
+    vk::BufferOf<gpu::DispatchArgs> args(device().device(), "args", 1);
+    std::vector<std::size_t> counts;
+    const std::vector<vk::PassTime> times = device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            const auto count = [&] { counts.push_back(graph.passCount()); };
+            count();
+            graph.fill(args, 1);
+            graph.fill(values, 0);
+            count();
+            iota(graph, empty);
+            graph.fill(values, 0, 0, 0);
+            count();
+            vk::Pass pass = graph.addPass("test/iota");
+            const gpu::FillParams params = {.values = pass.write(values), .count = 64};
+            pass.dispatchIndirect(args, 0, params, 1);
+            count();
+            graph.copy(values, 0, copies, 0, 256);
+            count();
+        });
+    EXPECT_EQ(counts, (std::vector<std::size_t>{0, 2, 2, 3, 4})) << "what does nothing is no pass";
+    ASSERT_EQ(times.size(), 4u);
+    EXPECT_EQ(times[2].name, "test/iota");
+    EXPECT_EQ(times[3].name, "copy values to copies");
+}
+
 TEST(TimerPool, PassesPastTheCapacityRunUntimed)
 {
     vk::HeadlessOptions options = test::deviceOptions();
