@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: MIT
+// How updates are spread over frames, simulated: the budget knows neither device nor clock.
+#include "core/update_budget.h"
+
+#include "support/properties.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace
+{
+
+using zvo::UpdateBudget;
+using zvo::UpdateProgress;
+using zvo::UpdateSlice;
+using zvo::UpdateStep;
+using zvo::vk::PassTime;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+UpdateSlice slice(const std::string& name, std::size_t step, std::uint64_t first, std::uint64_t count)
+{
+    return {name, step, first, count};
+}
+
+// Tells budget that units of name took ms.
+void teach(UpdateBudget& budget, const std::string& name, std::uint64_t units, double ms)
+{
+    UpdateSlice measured = slice(name, 0, 0, units);
+    measured.pass_end = 1;
+    const PassTime pass{name, ms};
+    budget.learn({&measured, 1}, {&pass, 1});
+}
+
+TEST(UpdateBudget, WithoutABudgetEverythingIsOneFrames)
+{
+    const std::vector<UpdateStep> steps{{"a", 1'000'000'000, true}, {"b", 5}, {"none", 0}, {"a", 7, true}};
+    const std::vector<UpdateSlice> all{slice("a", 0, 0, 1'000'000'000), slice("b", 1, 0, 5), slice("a", 3, 0, 7)};
+    UpdateBudget budget;
+    for (const double bound : {0.0, -1.0, kNan, kInfinity})
+    {
+        UpdateProgress progress;
+        EXPECT_EQ(budget.plan(steps, progress, bound == kInfinity ? 0 : bound), all);
+        EXPECT_EQ(progress, (UpdateProgress{4, 0}));
+        EXPECT_TRUE(budget.plan(steps, progress, bound).empty());
+        teach(budget, "a", 1, 1e9);
+    }
+}
+
+TEST(UpdateBudget, ANewUpdateGoesByItsGuesses)
+{
+    // A millisecond a unit; divisible steps take what they guess to fit an eighth of the budget.
+    const std::vector<UpdateStep> steps{
+        {"a", 3, false, 1.0}, {"b", 100, true, 1.0}, {"c", 6, false, 1.0}, {"d", 1, false, 1.0}};
+    const UpdateBudget budget;
+    UpdateProgress progress;
+    const auto next = [&] { return budget.plan(steps, progress, 16); };
+    EXPECT_EQ(next(), (std::vector{slice("a", 0, 0, 3), slice("b", 1, 0, 2)}));
+    for (std::uint64_t unit = 2; unit < 98; unit += 2)
+    {
+        EXPECT_EQ(next(), (std::vector{slice("b", 1, unit, 2)}));
+    }
+    EXPECT_EQ(next(), (std::vector{slice("b", 1, 98, 2), slice("c", 2, 0, 6), slice("d", 3, 0, 1)}));
+    EXPECT_TRUE(next().empty());
+}
+
+TEST(UpdateBudget, MeasuredStepsFillTheBudget)
+{
+    const std::vector<UpdateStep> steps{{"a", 3}, {"b", 100, true}, {"c", 6}, {"d", 1}};
+    UpdateBudget budget;
+    teach(budget, "a", 1, 1.0);
+    teach(budget, "b", 4, 2.0);
+    teach(budget, "c", 2, 2.0);
+    teach(budget, "d", 1, 9.0);
+    UpdateProgress progress;
+    const auto next = [&] { return budget.plan(steps, progress, 16.25); };
+    EXPECT_EQ(next(), (std::vector{slice("a", 0, 0, 3), slice("b", 1, 0, 26)}));
+    EXPECT_EQ(next(), (std::vector{slice("b", 1, 26, 32)}));
+    EXPECT_EQ(next(), (std::vector{slice("b", 1, 58, 32)}));
+    EXPECT_EQ(next(), (std::vector{slice("b", 1, 90, 10), slice("c", 2, 0, 6)}));
+    EXPECT_EQ(next(), (std::vector{slice("d", 3, 0, 1)}));
+}
+
+TEST(UpdateBudget, ADeviceThatIsTooSlowStillGetsThere)
+{
+    const std::vector<UpdateStep> steps{{"a", 10}, {"b", 1000, true}, {"a", 10}, {"c", 3, true}};
+    UpdateBudget budget;
+    teach(budget, "a", 1, 1e6);
+    teach(budget, "b", 1, 1e6);
+    teach(budget, "c", 1, 1e6);
+    UpdateProgress progress;
+    std::vector<UpdateSlice> slices;
+    while (progress.step < steps.size())
+    {
+        const std::vector<UpdateSlice> frame = budget.plan(steps, progress, 1e-3);
+        ASSERT_EQ(frame.size(), 1u);
+        slices.push_back(frame[0]);
+    }
+    EXPECT_EQ(slices.size(), 1u + 250 + 1 + 3);
+    EXPECT_EQ(slices[1].unit_count, 4u) << "a 256th of 1,000, rounded up";
+}
+
+TEST(UpdateBudget, StepsWithNothingToDoTakeNoFrameAndTeachNothing)
+{
+    std::vector<UpdateStep> steps(5, {"none", 0, true});
+    steps.push_back({"a", 1, false, 100});
+    steps.push_back({"none", 0, false});
+    UpdateBudget budget;
+    UpdateProgress progress;
+    const std::vector<UpdateSlice> only{slice("a", 5, 0, 1)};
+    EXPECT_EQ(budget.plan(steps, progress, 1), only);
+    EXPECT_EQ(progress, (UpdateProgress{7, 0})) << "what follows and costs nothing is done, too";
+    teach(budget, "none", 0, 5.0);
+    EXPECT_FALSE(budget.measured("none"));
+    EXPECT_EQ(budget.predictMs(steps[0], 0), 0.0);
+    UpdateProgress nothing;
+    EXPECT_TRUE(budget.plan({}, nothing, 1).empty());
+    EXPECT_TRUE(budget.plan(std::vector<UpdateStep>(3, {"none", 0}), nothing, 1).empty());
+    EXPECT_EQ(nothing.step, 3u);
+}
+
+TEST(UpdateBudget, PredictionsRiseAtOnceAndFallSlowly)
+{
+    UpdateBudget budget;
+    const UpdateStep step{"a", 10, false, 7.0};
+    EXPECT_EQ(budget.predictMs(step, 10), 70.0);
+    teach(budget, "a", 10, 1.0);
+    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 1.0);
+    teach(budget, "a", 100, 80.0);
+    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 8.0);
+    teach(budget, "a", 10, 4.0);
+    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 7.0);
+    teach(budget, "a", 10, 0.0);
+    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 5.25);
+}
+
+TEST(UpdateBudget, SlicesOfOneKindInAFrameAreMeasuredTogether)
+{
+    UpdateBudget budget;
+    std::vector<UpdateSlice> slices{slice("a", 0, 0, 1), slice("b", 1, 0, 10), slice("a", 2, 0, 9)};
+    slices[0].first_pass = 1; // the first pass is somebody else's
+    slices[0].pass_end = 3;
+    slices[1].first_pass = 3; // recorded nothing
+    slices[1].pass_end = 3;
+    slices[2].first_pass = 4; // one more of somebody else's
+    slices[2].pass_end = 5;
+    budget.learn(slices, std::vector<PassTime>{{"x", 1000}, {"p", 1}, {"q", 2}, {"x", 1000}, {"p", 7}});
+    EXPECT_DOUBLE_EQ(budget.predictMs({"a"}, 1), 1.0);
+    EXPECT_TRUE(budget.measured("b"));
+    EXPECT_EQ(budget.predictMs({"b"}, 10), 0.0);
+}
+
+TEST(UpdateBudget, WhatWasNotTimedTeachesNothing)
+{
+    UpdateBudget budget;
+    UpdateSlice untimed = slice("a", 0, 0, 10);
+    untimed.first_pass = 1;
+    untimed.pass_end = 3;
+    for (const std::vector<PassTime>& passes : std::vector<std::vector<PassTime>>{
+             {},
+             {{"p", 1}, {"p", 1}}, // the timers were full
+             {{"p", 1}, {"p", kNan}, {"p", 1}},
+             {{"p", 1}, {"p", 1}, {"p", -1}},
+             {{"p", 1}, {"p", kInfinity}, {"p", 1}},
+         })
+    {
+        budget.learn({&untimed, 1}, passes);
+    }
+    std::swap(untimed.first_pass, untimed.pass_end);
+    budget.learn({&untimed, 1}, std::vector<PassTime>(5, {"p", 1}));
+    EXPECT_FALSE(budget.measured("a"));
+}
+
+TEST(UpdateBudget, WorkTooCheapToMeasureIsTakenWhole)
+{
+    UpdateBudget budget;
+    teach(budget, "a", 1000, 0.0);
+    const std::vector<UpdateStep> steps{{"a", UINT64_MAX, true}, {"a", 5, false}};
+    UpdateProgress progress;
+    EXPECT_EQ(budget.plan(steps, progress, 1).size(), 2u);
+}
+
+// A device that takes this long for a slice of some work.
+struct Cost
+{
+    double fixed_ms = 0;
+    double ms_per_unit = 0;
+};
+
+// Updates one after the other on a device whose times are known some frames later.
+class Simulation
+{
+public:
+    explicit Simulation(std::size_t latency) : m_latency(latency) {}
+
+    /// One update; what each of its frames took.
+    std::vector<double> update(const std::vector<UpdateStep>& steps, const std::map<std::string, Cost>& costs,
+                               double budget_ms)
+    {
+        std::vector<double> frames;
+        for (UpdateProgress progress; progress.step < steps.size();)
+        {
+            Frame frame{m_budget.plan(steps, progress, budget_ms), {{"trace/primary", 3.0}}};
+            double frame_ms = 0;
+            for (UpdateSlice& slice : frame.slices)
+            {
+                const Cost& cost = costs.at(slice.name);
+                const double ms = cost.fixed_ms + cost.ms_per_unit * static_cast<double>(slice.unit_count);
+                frame_ms += ms;
+                slice.first_pass = frame.passes.size();
+                frame.passes.push_back({"first", 0.25 * ms});
+                frame.passes.push_back({"second", 0.75 * ms});
+                slice.pass_end = frame.passes.size();
+                frame.passes.push_back({"trace/primary", 3.0});
+            }
+            frames.push_back(frame_ms);
+            m_in_flight.push_back(std::move(frame));
+            if (m_in_flight.size() > m_latency)
+            {
+                m_budget.learn(m_in_flight.front().slices, m_in_flight.front().passes);
+                m_in_flight.pop_front();
+            }
+        }
+        return frames;
+    }
+
+private:
+    struct Frame
+    {
+        std::vector<UpdateSlice> slices;
+        std::vector<PassTime> passes;
+    };
+
+    std::size_t m_latency;
+    UpdateBudget m_budget;
+    std::deque<Frame> m_in_flight;
+};
+
+// Two layers voxelized, their union, then the tree from the root down: 9.3 ms in all.
+const std::vector<UpdateStep> kUpdate{
+    {"voxelize", 40'000, true}, {"voxelize", 20'000, true}, {"union", 3'000, true},       {"expand", 64},
+    {"expand", 2'000},          {"expand", 3'000},          {"attributes", 50'000, true}, {"finish", 1}};
+const std::map<std::string, Cost> kCosts{{"voxelize", {0.01, 1e-4}},
+                                         {"union", {0.01, 1e-4}},
+                                         {"expand", {0.01, 1e-4}},
+                                         {"attributes", {0.02, 4e-5}},
+                                         {"finish", {0.005, 0.01}}};
+
+std::map<std::string, Cost> times(std::map<std::string, Cost> costs, double factor)
+{
+    for (auto& [name, cost] : costs)
+    {
+        cost.fixed_ms *= factor;
+        cost.ms_per_unit *= factor;
+    }
+    return costs;
+}
+
+std::size_t countOver(const std::vector<double>& frames, double ms)
+{
+    return static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [&](double f) { return f > ms; }));
+}
+
+TEST(UpdateBudget, SteadyWorkKeepsToTheBudgetInAboutAsFewFramesAsThereCanBe)
+{
+    for (const std::size_t latency : {0u, 1u, 3u})
+    {
+        for (const double budget_ms : {0.5, 1.0, 2.0, 5.0})
+        {
+            Simulation simulation(latency);
+            for (int i = 0; i < 20; ++i)
+            {
+                const std::vector<double> frames = simulation.update(kUpdate, kCosts, budget_ms);
+                const double total = std::accumulate(frames.begin(), frames.end(), 0.0);
+                if (i >= 10)
+                {
+                    EXPECT_LE(*std::max_element(frames.begin(), frames.end()), 1.1 * budget_ms);
+                    EXPECT_LE(static_cast<double>(frames.size()), std::ceil(1.25 * total / budget_ms) + 1)
+                        << total << " ms under a budget of " << budget_ms << " ms, latency " << latency;
+                }
+            }
+        }
+    }
+}
+
+TEST(UpdateBudget, AWrongGuessCostsEachKindOfWorkTheFramesUntilItIsMeasured)
+{
+    // 32 times as slow as guessed. Of "expand", steps of 10 and 15 ms, not divisible, exceed the budget at any rate.
+    std::map<std::string, Cost> slow = kCosts;
+    for (auto& [name, cost] : slow)
+    {
+        cost.ms_per_unit *= 50;
+    }
+    for (const std::size_t latency : {0u, 1u, 3u})
+    {
+        Simulation simulation(latency);
+        EXPECT_LE(countOver(simulation.update(kUpdate, slow, 2), 2.2), slow.size() * (latency + 1));
+        const std::vector<double> frames = simulation.update(kUpdate, slow, 2);
+        EXPECT_EQ(countOver(frames, 2.2), 2u);
+        EXPECT_DOUBLE_EQ(*std::max_element(frames.begin(), frames.end()), 15.01);
+    }
+}
+
+TEST(UpdateBudget, ASuddenlySlowDeviceGetsShorterFramesAsSoonAsItIsKnown)
+{
+    const std::vector<UpdateStep> steps{{"a", 100'000, true}};
+    for (const std::size_t latency : {0u, 1u, 3u})
+    {
+        Simulation simulation(latency);
+        const std::map<std::string, Cost> fast{{"a", {0, 1e-4}}};
+        for (int i = 0; i < 5; ++i)
+        {
+            simulation.update(steps, fast, 2);
+        }
+        const std::vector<double> frames = simulation.update(steps, times(fast, 8), 2);
+        EXPECT_EQ(countOver(frames, 2 * (1 + 1e-9)), latency + 1);
+        EXPECT_LE(*std::max_element(frames.begin(), frames.end()), 16.0 * (1 + 1e-9));
+        EXPECT_EQ(countOver(simulation.update(steps, times(fast, 8), 2), 2 * (1 + 1e-9)), 0u);
+        // And fast again: back to the five frames that it takes, in some updates' time.
+        std::vector<double> again;
+        for (int i = 0; i < 3; ++i)
+        {
+            again = simulation.update(steps, fast, 2);
+        }
+        EXPECT_LE(again.size(), 6u);
+        EXPECT_EQ(countOver(again, 2 * (1 + 1e-9)), 0u);
+    }
+}
+
+TEST(UpdateBudget, OneLongFrameIsForgottenInTime)
+{
+    const std::vector<UpdateStep> steps{{"a", 100'000, true}};
+    const std::map<std::string, Cost> usual{{"a", {0, 1e-4}}};
+    Simulation simulation(0);
+    simulation.update(steps, usual, 2);
+    const std::size_t before = simulation.update(steps, usual, 2).size();
+    simulation.update({{"a", 100, true}}, times(usual, 50), 2); // somebody else used the device
+    EXPECT_GT(simulation.update(steps, usual, 2).size(), before);
+    simulation.update(steps, usual, 2);
+    EXPECT_LE(simulation.update(steps, usual, 2).size(), before + 1);
+}
+
+TEST(UpdateBudget, CostsThatSlicingCannotShortenDoNotMakeSlicesShrinkToNothing)
+{
+    // Every slice costs 3 ms, the budget is 2.
+    const std::vector<UpdateStep> steps{{"a", 1'000'000, true}};
+    Simulation simulation(0);
+    for (int i = 0; i < 10; ++i)
+    {
+        EXPECT_LE(simulation.update(steps, {{"a", {3, 1e-6}}}, 2).size(), UpdateBudget::kParts);
+    }
+}
+
+TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
+{
+    zvo::test::checkProperty(
+        2000,
+        []
+        {
+            const auto names =
+                rc::gen::map(rc::gen::inRange(0, 5), [](int n) { return std::string(1, char('a' + n)); });
+            // (kind, units, divisible, guess)
+            const auto drawn =
+                *rc::gen::container<std::vector<std::tuple<std::string, std::uint64_t, bool, double>>>(rc::gen::tuple(
+                    names,
+                    rc::gen::weightedOneOf<std::uint64_t>({{1, rc::gen::just<std::uint64_t>(0)},
+                                                           {4, rc::gen::inRange<std::uint64_t>(1, 200)},
+                                                           {1, rc::gen::inRange<std::uint64_t>(1, 1'000'000)}}),
+                    rc::gen::arbitrary<bool>(), rc::gen::element(1e-6, 1e-3, 0.25)));
+            const auto measured =
+                *rc::gen::container<std::vector<std::tuple<std::string, std::uint64_t, double>>>(rc::gen::tuple(
+                    names, rc::gen::inRange<std::uint64_t>(1, 1000), rc::gen::element(0.0, 1e-3, 0.125, 4.0, 300.0)));
+            const auto budget_ms = *rc::gen::element(1e-4, 0.5, 2.0, 100.0);
+            std::vector<UpdateStep> steps;
+            for (const auto& [name, units, divisible, guess] : drawn)
+            {
+                steps.push_back({name, units, divisible, guess});
+            }
+            UpdateBudget budget;
+            for (const auto& [name, units, ms] : measured)
+            {
+                teach(budget, name, units, ms);
+            }
+
+            UpdateProgress progress;
+            UpdateProgress expected; // where the next slice begins
+            const auto skipEmpty = [&]
+            {
+                while (expected.step < steps.size() && expected.unit == steps[expected.step].units)
+                {
+                    expected = {expected.step + 1, 0};
+                }
+            };
+            std::size_t frames_max = 0;
+            for (const UpdateStep& step : steps)
+            {
+                frames_max += step.divisible ? UpdateBudget::kParts : 1;
+            }
+            std::size_t frame_count = 0;
+            for (skipEmpty(); expected.step < steps.size(); skipEmpty())
+            {
+                RC_ASSERT(++frame_count <= frames_max);
+                UpdateProgress same = progress;
+                const std::vector<UpdateSlice> slices = budget.plan(steps, progress, budget_ms);
+                RC_ASSERT(budget.plan(steps, same, budget_ms) == slices);
+                RC_ASSERT(same == progress);
+                RC_ASSERT(!slices.empty());
+                double ms = 0;
+                for (const UpdateSlice& slice : slices)
+                {
+                    skipEmpty();
+                    const UpdateStep& step = steps[slice.step];
+                    RC_ASSERT((UpdateProgress{slice.step, slice.first_unit}) == expected);
+                    RC_ASSERT(slice.name == step.name);
+                    RC_ASSERT(slice.unit_count > 0u);
+                    RC_ASSERT(slice.unit_count <= step.units - slice.first_unit);
+                    RC_ASSERT(step.divisible || slice.unit_count == step.units);
+                    expected.unit += slice.unit_count;
+                    ms += budget.predictMs(step, slice.unit_count);
+                }
+                const double within = budget_ms * (1 + 1e-9);
+                RC_ASSERT(ms <= within || slices.size() == 1);
+                skipEmpty();
+                RC_ASSERT(progress == expected);
+                if (expected.step < steps.size())
+                {
+                    // No more would have fitted, but for the caution that new work asks for.
+                    const UpdateStep& next = steps[expected.step];
+                    const std::uint64_t parts = (next.units + UpdateBudget::kParts - 1) / UpdateBudget::kParts;
+                    const std::uint64_t least = !next.divisible || expected.unit != 0 ? 1 : std::min(parts, next.units);
+                    const double more =
+                        next.divisible ? budget.predictMs(next, least) : budget.predictMs(next, next.units);
+                    const bool cautious = next.divisible && !budget.measured(next.name);
+                    RC_ASSERT(cautious || ms + more > budget_ms * (1 - 1e-9));
+                }
+            }
+            RC_ASSERT(budget.plan(steps, progress, budget_ms).empty());
+            RC_ASSERT(progress == (UpdateProgress{steps.size(), 0}));
+        });
+}
+
+} // namespace
