@@ -1,10 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Finds out whether everything that a layer's coverage listed had room. Sizes the second walk over the triangles: nothing
-// if not.
+// Finds out whether everything that a layer's coverage listed had room.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#include "lib/dispatch_args.glsl"
 
 layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -19,7 +17,7 @@ void main()
     LayerCounters counters = params.counters.data[0];
     counters.overflow_count = params.brick_counters.data[0].overflow_count;
     for (uint i = 0u; i < kClassCount; ++i)
-        if (params.chunk_counts[i] != 0u)
+        if (params.has_class[i] != 0u)
         {
             RasterCounters raster = params.rasters[i].data[0];
             counters.big_count = max(counters.big_count, raster.big_count);
@@ -36,10 +34,4 @@ void main()
     counters.failed = failed ? 1u : 0u;
     params.counters.data[0] = counters;
     params.reports.data[params.report] = counters;
-    for (uint i = 0u; i < kClassCount; ++i)
-    {
-        params.triangles.data[i] = foldedArgs(failed ? 0u : params.chunk_counts[i], params.max_groups_x);
-        if (failed && params.chunk_counts[i] != 0u)
-            params.rows[i].data[1] = DispatchArgs(0u, 1u, 1u);
-    }
 }

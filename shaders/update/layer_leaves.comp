@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Lists the leaves in a layer's brick table and gives each a place for its voxels' sums. Their order is arbitrary: sums
-// are added up, whatever the order. One atomic a subgroup, no barriers.
+// are added up, whatever the order. Leaves without room lose their voxels, so that nothing is written past the end; the
+// layer is of no use then. One atomic a subgroup, no barriers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -47,16 +48,21 @@ void main()
         uint entry = start + uint(findLSB(occupied)) * kCollectGroup;
         BrickEntry brick = params.bricks.data[entry];
         uint middle = first.y + bitCount(brick.mask_lo);
+        uint end = middle + bitCount(brick.mask_hi);
+        bool fits = first.x < params.leaf_capacity && end <= params.voxel_capacity;
         if (first.x < params.leaf_capacity)
         {
             params.keys.data[first.x] = keyOf(brick);
-            params.leaves.data[first.x] = Node(brick.mask_lo, first.y, brick.mask_hi, middle);
-            if (kWideKeys)
-                params.bricks.data[entry].mask_lo = first.x;
-            else
-                params.bricks.data[entry].base = first.y;
+            params.leaves.data[first.x] =
+                fits ? Node(brick.mask_lo, first.y, brick.mask_hi, middle) : Node(0u, 0u, 0u, 0u);
         }
+        if (!fits)
+            params.bricks.data[entry].mask_hi = 0u;
+        if (kWideKeys || !fits) // wide: the leaf's number
+            params.bricks.data[entry].mask_lo = kWideKeys && first.x < params.leaf_capacity ? first.x : 0u;
+        if (!kWideKeys)
+            params.bricks.data[entry].base = fits ? first.y : 0u;
         ++first.x;
-        first.y = middle + bitCount(brick.mask_hi);
+        first.y = end;
     }
 }

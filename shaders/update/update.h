@@ -123,6 +123,7 @@ struct LayerLeavesParams // push constants of update/layer_leaves
     GPU_PTR(LayerCounters) counters;
     uint brick_capacity;
     uint leaf_capacity;
+    uint voxel_capacity;
 };
 
 struct LayerCheckParams // push constants of update/layer_check
@@ -131,15 +132,12 @@ struct LayerCheckParams // push constants of update/layer_check
     GPU_PTR(LayerCounters) reports; // copies that the host can read
     GPU_CONST_PTR(BrickCounters) brick_counters;
     GPU_CONST_PTR(RasterCounters) rasters[3]; // of each material class, or null
-    GPU_PTR(DispatchArgs) rows[3];            // [2] likewise: the second becomes 0 if the layer failed
-    GPU_PTR(DispatchArgs) triangles;          // [kClassCount] of the second walk over the triangles
-    uint chunk_counts[3];
+    uint has_class[3];                        // whether it is not null
     uint leaf_capacity;
     uint voxel_capacity;
     uint big_capacity;
     uint block_capacity;
     uint report; // element of reports
-    uint max_groups_x;
 };
 
 struct EmissionPlacesParams // push constants of update/emission_places

@@ -241,6 +241,7 @@ void DynamicOctree::place(MoverId mover, Pose pose)
 void DynamicOctree::remove(MoverId mover)
 {
     Mover& m = presentMover(mover);
+    dropJob();
     m.present = false;
     dropLayer(m);
 }
@@ -286,7 +287,7 @@ std::uint64_t DynamicOctree::addPose(const MoverMesh& mesh, Pose pose)
                                                   mesh.scene.instances.size(), pose.transforms.size()));
     }
     forgetPoses();
-    m_poses.emplace(m_next_version, std::move(pose));
+    m_poses.emplace(m_next_version, std::make_shared<const Pose>(std::move(pose)));
     return m_next_version++;
 }
 
@@ -352,9 +353,10 @@ RootPlace DynamicOctree::rootOf(const RootStep& step) const
     return {step.region ? step.region->first_node : staticRoot(), 0};
 }
 
-void DynamicOctree::voxelizeMovers(vk::FrameGraph& graph)
+// Everything that voxelizes the movers which changed. They count as voxelized from now on: the job is recorded, or dropped.
+void DynamicOctree::addMoverSteps(std::vector<RecordedStep>& steps)
 {
-    const LayerContents contents = {m_has_attributes, m_has_attributes && emits()};
+    const LayerContents contents = {m_has_attributes, emits()};
     for (auto& [id, mover] : m_movers)
     {
         if (!mover.present || mover.voxelized == mover.version)
@@ -368,12 +370,23 @@ void DynamicOctree::voxelizeMovers(vk::FrameGraph& graph)
                                                "the voxels of a mover");
             mover.layer = std::make_unique<LayerBuffers>(m_device.device(), mover.capacities, scene, contents);
         }
-        placeMover(graph, mover.mesh->deform, m_poses.at(mover.version), mover.buffers);
-        const std::uint32_t report = static_cast<std::uint32_t>(m_report_count++ % m_reports.count());
-        voxelizeLayer(graph, {scene, mover.buffers}, m_octree.grid, m_options.coverage, m_sum_shift, *mover.layer,
-                      m_reports, report);
+        const auto report = static_cast<std::uint32_t>(m_report_count++ % m_reports.count());
+        steps.push_back({{"place a mover", scene.triangle_count},
+                         [this, &mover, id = id, version = mover.version, pose = m_poses.at(mover.version),
+                          report](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                         {
+                             placeMover(graph, mover.mesh->deform, *pose, mover.buffers);
+                             m_pending_layers.push_back({m_frame, id, version, report, mover.capacities});
+                         }});
+        addLayerSteps({.scene = {scene, mover.buffers},
+                       .grid = m_octree.grid,
+                       .coverage = m_options.coverage,
+                       .sum_shift = m_sum_shift,
+                       .layer = *mover.layer,
+                       .reports = m_reports,
+                       .report = report},
+                      steps);
         mover.voxelized = mover.version;
-        m_pending_layers.push_back({m_frame, id, mover.version, report, mover.capacities});
     }
 }
 
@@ -443,61 +456,106 @@ OverlayRegion DynamicOctree::allocateRegion(vk::FrameGraph& graph)
     return m_arena->allocate(m_likely_nodes, m_likely_voxels).value();
 }
 
-void DynamicOctree::update(vk::FrameGraph& graph)
+bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
 {
     if (m_pending_updates.size() + 1 >= m_results.count())
     {
         throw Error(ErrorCode::Usage, "more updates are under way than frames in flight were announced");
     }
     m_needs_update = false;
-    while (m_failed.erase(m_history->current().id) != 0) // never shown: what comes now takes its place
+    if (m_job == nullptr)
     {
-        m_history->undo();
+        if (presentMovers().empty())
+        {
+            m_history->push(std::nullopt, {});
+            showRoot(graph, m_octree, m_roots, {staticRoot(), 0});
+            return true;
+        }
+        beginJob(graph);
     }
-    const std::vector<Mover*> movers = presentMovers();
-    if (movers.empty())
+    std::vector<UpdateSlice> slices = m_budget.plan(m_job->plan, m_job->progress, budget_ms);
+    for (UpdateSlice& slice : slices)
     {
-        m_history->push(std::nullopt, {});
-        showRoot(graph, m_octree, m_roots, {staticRoot(), 0});
-        return;
+        slice.first_pass = graph.passCount();
+        m_job->steps[slice.step].record(graph, slice.first_unit, slice.unit_count);
+        slice.pass_end = graph.passCount();
     }
-    voxelizeMovers(graph);
+    m_pending_slices.push_back({m_frame, std::move(slices)});
+    if (m_job->progress.step != m_job->steps.size())
+    {
+        return false;
+    }
+    finishJob(graph);
+    return true;
+}
+
+void DynamicOctree::beginJob(vk::FrameGraph& graph)
+{
+    std::vector<RecordedStep> steps;
+    addMoverSteps(steps);
     const OverlayRegion region = allocateRegion(graph);
     prepareBuffers(region);
-    const RootPlace last = rootOf(m_history->current());
-    const std::uint64_t step = m_history->push(region, layerStates());
-    std::vector<const LayerBuffers*> layers;
-    for (const Mover* mover : movers)
-    {
-        layers.push_back(mover->layer.get());
-    }
-    const std::uint32_t result = static_cast<std::uint32_t>(m_result_count++ % m_results.count());
     const gpu::MergeView view = {{m_tables.view.address()},
                                  {m_static_sums.sums.address()},
                                  {m_static_sums.emission_sums.address()},
                                  m_sum_shift - m_static_sums.sum_shift,
                                  0};
     graph.update(m_merge_view, 0, std::span(&view, 1));
-    mergeLayers(graph,
-                {
-                    .octree = m_octree,
-                    .base_root = staticRoot(),
-                    .layers = layers,
-                    .region = region,
-                    .merge = m_options.merge,
-                    .sum_shift = m_sum_shift,
-                    .emission_offset = static_cast<std::uint32_t>(m_static_emissive - firstOverlayVoxel()),
-                    .view = m_merge_view,
-                    .tables = m_tables.view,
-                    .static_sums = m_static_sums,
-                    .last = last,
-                    .place = result,
-                    .roots = m_roots,
-                    .results = m_results,
-                    .result = result,
-                },
-                *m_update);
-    m_pending_updates.push_back({m_frame, step, result});
+    std::vector<const LayerBuffers*> layers;
+    for (const Mover* mover : presentMovers())
+    {
+        layers.push_back(mover->layer.get());
+    }
+    const auto result = static_cast<std::uint32_t>(m_result_count++ % m_results.count());
+    m_job = std::make_unique<Job>(Job{
+        .merge = {.octree = m_octree,
+                  .base_root = staticRoot(),
+                  .layers = std::move(layers),
+                  .region = region,
+                  .merge = m_options.merge,
+                  .sum_shift = m_sum_shift,
+                  .emission_offset = static_cast<std::uint32_t>(m_static_emissive - firstOverlayVoxel()),
+                  .view = m_merge_view,
+                  .tables = m_tables.view,
+                  .static_sums = m_static_sums,
+                  .place = result,
+                  .roots = m_roots,
+                  .results = m_results,
+                  .result = result},
+        .states = layerStates(),
+        .steps = std::move(steps),
+        .plan = {},
+        .progress = {},
+    });
+    addMergeSteps(m_job->merge, *m_update, m_job->steps);
+    for (const RecordedStep& step : m_job->steps)
+    {
+        m_job->plan.push_back(step.step);
+    }
+}
+
+void DynamicOctree::finishJob(vk::FrameGraph& graph)
+{
+    const RootPlace last = rootOf(m_history->current());
+    showOverlay(graph, m_job->merge, *m_update, last);
+    const std::uint64_t step = m_history->push(m_job->merge.region, std::move(m_job->states));
+    m_pending_updates.push_back({m_frame, step, m_job->merge.result});
+    m_job.reset();
+}
+
+// Gives an update up: what it has voxelized is made again.
+void DynamicOctree::dropJob()
+{
+    if (m_job == nullptr)
+    {
+        return;
+    }
+    m_history->giveBack(m_job->merge.region);
+    m_job.reset();
+    for (auto& [id, mover] : m_movers)
+    {
+        mover.voxelized = 0;
+    }
 }
 
 bool DynamicOctree::show(vk::FrameGraph& graph, const std::optional<RootStep>& step)
@@ -506,6 +564,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, const std::optional<RootStep>& s
     {
         return false;
     }
+    dropJob();
     showRoot(graph, m_octree, m_roots, rootOf(*step));
     for (auto& [id, mover] : m_movers)
     {
@@ -550,6 +609,7 @@ void DynamicOctree::learnLayer(const PendingLayer& pending)
     {
         throw Error(ErrorCode::Memory, "a mover makes more pieces than 32-bit numbers count; lower the resolution");
     }
+    dropJob();
     Mover& mover = found->second;
     mover.capacities = grown(pending.capacities, counters);
     dropLayer(mover);
@@ -567,8 +627,7 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
     else
     {
         m_history->fail(pending.step);
-        m_failed.insert(pending.step);
-        m_needs_update = m_pending_updates.empty();
+        m_needs_update = true;
         // Levels that were not reached are not counted: twice as much, if that is more.
         if ((status.failed & gpu::kFailedNodes) != 0)
         {
@@ -596,14 +655,23 @@ void DynamicOctree::raiseShift(std::uint32_t fragments)
 {
     m_sum_shift =
         std::max(m_sum_shift, static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
+    dropJob();
     for (auto& [id, mover] : m_movers)
     {
         mover.voxelized = 0;
     }
 }
 
-std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame)
+std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)
 {
+    while (!m_pending_slices.empty() && m_pending_slices.front().frame <= frame)
+    {
+        if (m_pending_slices.front().frame == frame)
+        {
+            m_budget.learn(m_pending_slices.front().slices, passes);
+        }
+        m_pending_slices.pop_front();
+    }
     std::vector<UpdateReport> reports;
     while (!m_pending_layers.empty() && m_pending_layers.front().frame <= frame)
     {

@@ -19,7 +19,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <vector>
 
@@ -93,16 +92,22 @@ public:
     std::uint64_t beginFrame();
 
     /// Records an update: movers that changed are voxelized, all are merged with the static octree, and the result is
-    /// shown. It becomes a step of the history.
-    void update(vk::FrameGraph& graph);
+    /// shown. It becomes a step of the history. Under a budget of GPU time, as much of it as is thought to fit
+    /// (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of movers count for
+    /// the update after this one. 0: no bound. Returns whether the update is complete.
+    bool update(vk::FrameGraph& graph, double budget_ms = 0);
+
+    /// Whether an update is under way that the next update() goes on with.
+    [[nodiscard]] bool isUpdating() const { return m_job != nullptr; }
 
     /// Records that the step before, or behind, the one that is shown is shown again. Movers are where they were then.
     /// False if there is none.
     bool undo(vk::FrameGraph& graph);
     bool redo(vk::FrameGraph& graph);
 
-    /// The device is done with a frame and all before it: learns what its updates came to.
-    std::vector<UpdateReport> frameDone(std::uint64_t frame);
+    /// The device is done with a frame and all before it: learns what its updates came to and, from the times of all its
+    /// passes, how much goes into a budget.
+    std::vector<UpdateReport> frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes = {});
 
     /// Whether what is missing has to be shown by another update(): one failed, and nothing was recorded since.
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
@@ -141,6 +146,20 @@ private:
         std::uint32_t report; // element of m_reports
         LayerCapacities capacities;
     };
+    // An update under way.
+    struct Job
+    {
+        UpdateJob merge;
+        std::vector<LayerState> states; // of the movers that it shows
+        std::vector<RecordedStep> steps;
+        std::vector<UpdateStep> plan; // the same, as UpdateBudget takes them
+        UpdateProgress progress;
+    };
+    struct PendingSlices
+    {
+        std::uint64_t frame;
+        std::vector<UpdateSlice> slices;
+    };
     struct Retired
     {
         std::uint64_t frame;
@@ -156,7 +175,10 @@ private:
     [[nodiscard]] Mover& presentMover(MoverId id);
     [[nodiscard]] std::vector<Mover*> presentMovers();
     void dropLayer(Mover& mover);
-    void voxelizeMovers(vk::FrameGraph& graph);
+    void beginJob(vk::FrameGraph& graph);
+    void addMoverSteps(std::vector<RecordedStep>& steps);
+    void finishJob(vk::FrameGraph& graph);
+    void dropJob();
     void prepareBuffers(const OverlayRegion& region);
     OverlayRegion allocateRegion(vk::FrameGraph& graph);
     bool show(vk::FrameGraph& graph, const std::optional<RootStep>& step);
@@ -184,8 +206,8 @@ private:
     std::map<MoverId, Mover> m_movers;
     MoverId m_next_mover = 1;
     std::uint64_t m_next_version = 1;
-    std::map<std::uint64_t, Pose> m_poses; // by version
-    std::size_t m_poses_max = 1024;        // until those that are not used are dropped
+    std::map<std::uint64_t, std::shared_ptr<const Pose>> m_poses; // by version
+    std::size_t m_poses_max = 1024;                               // until those that are not used are dropped
 
     std::unique_ptr<OverlayArena> m_arena;
     std::unique_ptr<RootHistory> m_history;
@@ -203,8 +225,10 @@ private:
     std::uint64_t m_frame = 0;
     std::deque<PendingUpdate> m_pending_updates;
     std::deque<PendingLayer> m_pending_layers;
+    std::deque<PendingSlices> m_pending_slices;
+    std::unique_ptr<Job> m_job;
+    UpdateBudget m_budget;
     std::deque<Retired> m_retired;
-    std::set<std::uint64_t> m_failed; // steps that equal the one before them
     bool m_needs_update = false;
 };
 

@@ -3,6 +3,8 @@
 
 #include "core/divide_up.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -42,7 +44,6 @@ LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& gri
 LayerBuffers::LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene,
                            LayerContents contents)
     : voxelize(device, capacities.voxelize, scene), counters(device, "update/layer_counters", 1),
-      triangle_args(device, "update/layer_args", gpu::kClassCount),
       keys(device, "update/layer_keys", capacities.leaves), leaves(device, "update/layer_leaves", capacities.leaves)
 {
     if (contents.attributes)
@@ -52,7 +53,7 @@ LayerBuffers::LayerBuffers(vk::Device& device, const LayerCapacities& capacities
     if (contents.emission)
     {
         emission_words = {device, "update/layer_emission_words", divideUp(capacities.voxels, 32)};
-        emission_sums = {device, "update/layer_emission_sums", capacities.voxels};
+        emission_sums = {device, "update/layer_emission_sums", 32 * emission_words.count()};
     }
 }
 
@@ -76,73 +77,108 @@ std::uint64_t LayerBuffers::bytes(const LayerCapacities& capacities, const GpuSc
 namespace
 {
 
-// Lists the leaves and decides whether everything had room.
-void listLeaves(vk::FrameGraph& graph, const GpuScene& scene, const Grid& grid, LayerBuffers& layer,
-                vk::BufferOf<gpu::LayerCounters>& reports, std::uint32_t report)
+void clearSums(vk::FrameGraph& graph, LayerBuffers& layer)
 {
+    graph.fill(layer.sums, 0);
+    if (layer.emission_words.count() != 0)
+    {
+        graph.fill(layer.emission_sums, 0);
+        vk::Pass pass = graph.addPass("update/emission_places");
+        const gpu::EmissionPlacesParams params = {pass.write(layer.emission_words), 0,
+                                                  static_cast<std::uint32_t>(layer.emission_words.count()), 0};
+        pass.dispatch(layer.emission_words.count(), params);
+    }
+}
+
+// Lists the leaves and decides whether everything had room.
+void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
+{
+    LayerBuffers& layer = job.layer;
     VoxelizeBuffers& voxelize = layer.voxelize;
+    const auto leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
+    const std::uint32_t voxel_capacity =
+        layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX; // none are kept
     graph.fill(layer.counters, 0);
     {
-        vk::Pass pass = graph.addPass("update/layer_leaves", {hasWideKeys(grid) ? 1U : 0U});
+        vk::Pass pass = graph.addPass("update/layer_leaves", {hasWideKeys(job.grid) ? 1U : 0U});
         gpu::LayerLeavesParams params{};
         params.bricks = pass.readWrite(voxelize.bricks);
         params.keys = pass.write(layer.keys);
         params.leaves = pass.write(layer.leaves);
         params.counters = pass.readWrite(layer.counters);
         params.brick_capacity = static_cast<std::uint32_t>(voxelize.bricks.count());
-        params.leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
+        params.leaf_capacity = leaf_capacity;
+        params.voxel_capacity = voxel_capacity;
         pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
     }
     vk::Pass pass = graph.addPass("update/layer_check");
     gpu::LayerCheckParams params{};
     params.counters = pass.readWrite(layer.counters);
-    params.reports = pass.readWrite(reports);
-    params.report = report;
+    params.reports = pass.readWrite(job.reports);
     params.brick_counters = pass.read(voxelize.counters);
-    params.triangles = pass.write(layer.triangle_args);
-    params.leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
-    params.voxel_capacity =
-        layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX; // none are kept
-    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+    params.leaf_capacity = leaf_capacity;
+    params.voxel_capacity = voxel_capacity;
+    params.report = job.report;
     for (std::uint32_t i = 0; i < gpu::kClassCount; ++i)
     {
-        VoxelizeBuffers::RowWork& rows = voxelize.rows[i];
+        const VoxelizeBuffers::RowWork& rows = voxelize.rows[i];
         params.rasters[i] = pass.read(rows.counters);
-        params.rows[i] = pass.readWrite(rows.args);
-        params.chunk_counts[i] = static_cast<std::uint32_t>(scene.chunks[i].count());
+        params.has_class[i] = rows.counters.count() != 0 ? 1 : 0;
         params.big_capacity = std::max(params.big_capacity, static_cast<std::uint32_t>(rows.big_triangles.count()));
         params.block_capacity = std::max(params.block_capacity, static_cast<std::uint32_t>(rows.row_blocks.count()));
     }
     pass.dispatch(1, params);
 }
 
+// A walk over the triangles; walk() must stay the same from step to step.
+void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, std::vector<RecordedStep>& steps)
+{
+    for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
+    {
+        const std::uint64_t chunk_count = job.scene.uploaded().chunks[material_class].count();
+        if (chunk_count == 0)
+        {
+            continue;
+        }
+        const auto withWalk = [job, mode](const auto& record)
+        {
+            LayerBuffers& layer = job.layer;
+            const AttributeSums sums = {layer.leaves, layer.sums, layer.emission_words, layer.emission_sums,
+                                        job.sum_shift};
+            record(RasterWalk{job.scene, job.grid, job.coverage, layer.voxelize, mode, &sums});
+        };
+        steps.push_back({{name, chunk_count, true},
+                         [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count) {
+                             withWalk([&](const RasterWalk& walk)
+                                      { walkTriangles(graph, walk, material_class, first, count); });
+                         }});
+        steps.push_back({{fmt::format("{}, large triangles", name), chunk_count},
+                         [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                         { withWalk([&](const RasterWalk& walk) { walkRows(graph, walk, material_class); }); }});
+    }
+}
+
 } // namespace
 
-void voxelizeLayer(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
-                   std::uint32_t sum_shift, LayerBuffers& layer, vk::BufferOf<gpu::LayerCounters>& reports,
-                   std::uint32_t report)
+void addLayerSteps(const LayerJob& job, std::vector<RecordedStep>& steps)
 {
-    voxelizeCoverage(graph, scene, grid, coverage, layer.voxelize);
-    listLeaves(graph, scene.uploaded(), grid, layer, reports, report);
-    if (layer.sums.count() == 0)
+    const std::uint64_t capacity = job.layer.voxelize.bricks.count();
+    steps.push_back({{"clear a layer", capacity},
+                     [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                     { clearCoverage(graph, job.layer.voxelize); }});
+    addWalk(job, "cover voxels", gpu::kModeCoverage, steps);
+    steps.push_back({{"list leaves", capacity},
+                     [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { listLeaves(graph, job); }});
+    if (job.layer.sums.count() == 0)
     {
         return;
     }
-    const AttributeSums sums = {layer.leaves,        layer.sums, layer.emission_words,
-                                layer.emission_sums, sum_shift,  &layer.triangle_args};
-    graph.fill(layer.sums, 0);
-    if (layer.emission_words.count() != 0)
+    steps.push_back({{"clear sums", job.layer.sums.count()},
+                     [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearSums(graph, job.layer); }});
+    addWalk(job, "add colours and normals", gpu::kModeAttributes, steps);
+    if (job.layer.emission_words.count() != 0)
     {
-        vk::Pass pass = graph.addPass("update/emission_places");
-        const gpu::EmissionPlacesParams params = {pass.write(layer.emission_words), 0,
-                                                  static_cast<std::uint32_t>(layer.emission_words.count()), 0};
-        pass.dispatch(layer.emission_words.count(), params);
-    }
-    addAttributes(graph, scene, grid, coverage, layer.voxelize, sums);
-    if (layer.emission_words.count() != 0)
-    {
-        graph.fill(layer.emission_sums, 0);
-        addEmission(graph, scene, grid, coverage, layer.voxelize, sums);
+        addWalk(job, "add emission", gpu::kModeEmission, steps);
     }
 }
 

@@ -4,11 +4,13 @@
 #include "core/coverage.h"
 #include "core/gpu_scene.h"
 #include "core/grid.h"
+#include "core/update_step.h"
 #include "core/voxelize.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace zvo
 {
@@ -43,7 +45,6 @@ struct LayerBuffers
 
     VoxelizeBuffers voxelize;
     vk::BufferOf<gpu::LayerCounters> counters;     // [1]
-    vk::BufferOf<gpu::DispatchArgs> triangle_args; // [kClassCount] of the walks for attributes
     vk::BufferOf<gpu::uvec2> keys;                 // [capacities.leaves]
     vk::BufferOf<gpu::Node> leaves;                // [capacities.leaves]
     vk::BufferOf<gpu::VoxelSums> sums;             // [capacities.voxels], or empty without attributes
@@ -51,12 +52,21 @@ struct LayerBuffers
     vk::BufferOf<gpu::EmissionSums> emission_sums; // [capacities.voxels], or empty without emission
 };
 
-/// Records the passes that voxelize a mover into a layer: coverage, then sums of what its fragments look like. Nothing
-/// is read back; what does not fit is counted, and the layer then says that it failed. reports[report] becomes a copy
-/// of the layer's counters, for the host. Cost: triangles plus fragments, and the layer's capacities, once, for
-/// clearing them.
-void voxelizeLayer(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
-                   std::uint32_t sum_shift, LayerBuffers& layer, vk::BufferOf<gpu::LayerCounters>& reports,
-                   std::uint32_t report);
+/// A mover, as it is voxelized into a layer.
+struct LayerJob
+{
+    PlacedScene scene;
+    const Grid& grid;
+    Coverage coverage;
+    std::uint32_t sum_shift = 0;
+    LayerBuffers& layer;
+    vk::BufferOf<gpu::LayerCounters>& reports; // host-visible
+    std::uint32_t report = 0;                  // element of reports that becomes a copy of the layer's counters
+};
+
+/// Adds the steps that voxelize a mover into a layer: coverage, then sums of what its fragments look like. Nothing is read
+/// back; what does not fit is counted, and the layer then says that it failed. What job refers to must outlive the
+/// steps. Cost: triangles plus fragments, and the layer's capacities, once, for clearing them.
+void addLayerSteps(const LayerJob& job, std::vector<RecordedStep>& steps);
 
 } // namespace zvo

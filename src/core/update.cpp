@@ -218,7 +218,9 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
     }
 }
 
-void finish(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+} // namespace
+
+void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last)
 {
     Octree& octree = job.octree;
     vk::Pass pass = graph.addPass("update/finish", {octree.node_attributes.count() != 0 ? 1U : 0U});
@@ -230,14 +232,12 @@ void finish(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
     params.results = pass.readWrite(job.results);
     params.roots = pass.readWrite(job.roots);
     params.root = job.region.first_node;
-    params.last_root = job.last.root;
-    params.last_place = job.last.place;
+    params.last_root = last.root;
+    params.last_place = last.place;
     params.place = job.place;
     params.result = job.result;
     pass.dispatch(1, params);
 }
-
-} // namespace
 
 UpdateBuffers::UpdateBuffers(vk::Device& device, const UpdateCapacities& capacities, const Grid& grid)
     : layers(device, "update/layers", gpu::kLayersMax), links(device, "update/links", capacities.records),
@@ -257,19 +257,28 @@ std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities)
            capacities.records * sizeof(gpu::LayerLink) + capacities.overlay_nodes * sizeof(gpu::uint);
 }
 
-void mergeLayers(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, std::vector<RecordedStep>& steps)
 {
-    listTouched(graph, job, buffers);
-    mergeRoots(graph, job, buffers);
+    const std::uint64_t records = buffers.links.count();
+    const auto add = [&](const char* name, auto record)
+    {
+        steps.push_back({{name, records}, [record](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); }});
+    };
+    add("list touched nodes",
+        [job, &buffers](vk::FrameGraph& graph)
+        {
+            listTouched(graph, job, buffers);
+            mergeRoots(graph, job, buffers);
+        });
     for (std::uint32_t level = 1; level < job.octree.grid.nodeLevels(); ++level)
     {
-        expandLevel(graph, job, buffers, level);
+        add("copy and merge a level",
+            [job, &buffers, level](vk::FrameGraph& graph) { expandLevel(graph, job, buffers, level); });
     }
     if (job.octree.hasAttributes())
     {
-        mergeAttributes(graph, job, buffers);
+        add("merge attributes", [job, &buffers](vk::FrameGraph& graph) { mergeAttributes(graph, job, buffers); });
     }
-    finish(graph, job, buffers);
 }
 
 void showRoot(vk::FrameGraph& graph, Octree& octree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)

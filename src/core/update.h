@@ -10,7 +10,7 @@
 #include "vk/frame_graph.h"
 
 #include <cstdint>
-#include <span>
+#include <vector>
 
 namespace zvo
 {
@@ -59,7 +59,7 @@ struct UpdateJob
 {
     Octree& octree;                              // with room for overlays behind the static part
     std::uint32_t base_root = 0;                 // node that is merged with the layers
-    std::span<const LayerBuffers* const> layers; // at most kLayersMax
+    std::vector<const LayerBuffers*> layers; // at most kLayersMax
     OverlayRegion region;
     MergeRule merge = MergeRule::Average;
     std::uint32_t sum_shift = 0;                // of the layers
@@ -67,17 +67,20 @@ struct UpdateJob
     const vk::BufferOf<gpu::MergeView>& view;   // [1]
     const vk::BufferOf<gpu::SceneView>& tables; // [1] of sRGB codes
     const FragmentSums& static_sums;
-    RootPlace last;          // the root that stays if something has no room
     std::uint32_t place = 0; // element of roots for this update's root
     vk::BufferOf<gpu::uint>& roots;
     vk::BufferOf<gpu::UpdateStatus>& results; // host-visible
     std::uint32_t result = 0;                 // element of results
 };
 
-/// Records the passes that merge layers with the static octree and show the result: copies of all paths to leaves that
-/// a layer has go to the region, merged with it, and nodes[0] becomes the new root. Nothing is read back.
+/// Adds the steps that merge layers with the static octree: copies of all paths to leaves that a layer has go to the
+/// region, merged with it. Nothing is shown yet, and nothing is read back. What job refers to must outlive the steps.
 /// Cost: touched nodes, and their children.
-void mergeLayers(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers);
+void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, std::vector<RecordedStep>& steps);
+
+/// Records the pass that ends a merge: nodes[0] becomes the overlay's root or, if something had no room, last;
+/// roots[place] tells which. results[result] becomes what the update came to.
+void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last);
 
 /// Records the pass that shows an earlier root again. Cost: constant.
 void showRoot(vk::FrameGraph& graph, Octree& octree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root);

@@ -30,50 +30,37 @@ std::uint64_t clampedCount(double value, std::uint64_t low, std::uint64_t high)
     return static_cast<std::uint64_t>(std::clamp(value, static_cast<double>(low), static_cast<double>(high)));
 }
 
-// Everything about a raster pass that does not depend on the mode.
-struct RasterJob
-{
-    const PlacedScene& scene;
-    const Grid& grid;
-    Coverage coverage;
-    VoxelizeBuffers& buffers;
-    const AttributeSums* sums; // null in coverage mode
-};
-
 // The kernels of all modes share their parameters: those that only read a buffer get a writable address, too.
 template <typename T> gpu::Ptr<T> access(vk::Pass& pass, vk::BufferOf<T>& buffer, bool writes)
 {
     return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
 }
 
-gpu::RasterParams rasterParams(vk::Pass& pass, const RasterJob& job, std::uint32_t material_class, std::uint32_t mode)
+gpu::RasterParams rasterParams(vk::Pass& pass, const RasterWalk& walk, std::uint32_t material_class)
 {
-    const bool covers = mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
-    VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
-    const vk::BufferOf<gpu::Chunk>& chunks = job.scene.uploaded().chunks[material_class];
+    const bool covers = walk.mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
+    VoxelizeBuffers::RowWork& rows = walk.buffers.rows[material_class];
     gpu::RasterParams params{};
-    params.scene = job.scene.read(pass);
-    params.chunks = pass.read(chunks);
-    params.bricks = access(pass, job.buffers.bricks, covers);
+    params.scene = walk.scene.read(pass);
+    params.bricks = access(pass, walk.buffers.bricks, covers);
     params.big_triangles = access(pass, rows.big_triangles, covers);
     params.row_blocks = access(pass, rows.row_blocks, covers);
     params.counters = access(pass, rows.counters, covers);
-    params.brick_counters = access(pass, job.buffers.counters, covers);
-    params.origin = job.grid.origin;
-    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(job.grid.voxel_size));
-    params.resolution = job.grid.resolution();
-    params.brick_mask = static_cast<std::uint32_t>(job.buffers.bricks.count() - 1);
-    params.chunk_count = static_cast<std::uint32_t>(chunks.count());
+    params.brick_counters = access(pass, walk.buffers.counters, covers);
+    params.origin = walk.grid.origin;
+    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.grid.voxel_size));
+    params.resolution = walk.grid.resolution();
+    params.brick_mask = static_cast<std::uint32_t>(walk.buffers.bricks.count() - 1);
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
     if (!covers)
     {
-        const bool emits = mode == gpu::kModeEmission;
-        params.nodes = pass.read(job.sums->leaves);
-        params.sums = access(pass, job.sums->sums, !emits);
-        params.emission_words = access(pass, job.sums->emission_words, !emits);
-        params.emission_sums = access(pass, job.sums->emission_sums, emits);
-        params.sum_shift = job.sums->sum_shift;
+        const bool emits = walk.mode == gpu::kModeEmission;
+        params.nodes = pass.read(walk.sums->leaves);
+        params.sums = access(pass, walk.sums->sums, !emits);
+        params.emission_words = access(pass, walk.sums->emission_words, !emits);
+        params.emission_sums = access(pass, walk.sums->emission_sums, emits);
+        params.sum_shift = walk.sums->sum_shift;
     }
     return params;
 }
@@ -91,43 +78,20 @@ void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
     pass.dispatch(1, params);
 }
 
-// Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
-void rasterize(vk::FrameGraph& graph, const RasterJob& job, std::uint32_t mode)
+vk::Specialization rasterVariant(const RasterWalk& walk, std::uint32_t material_class)
 {
-    const std::uint32_t coverage = job.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
-    const std::uint32_t emits = mode != gpu::kModeCoverage && job.scene.uploaded().emission_scale > 0.0F ? 1 : 0;
+    const std::uint32_t coverage = walk.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
+    const bool emits = walk.mode != gpu::kModeCoverage && walk.scene.uploaded().emission_scale > 0.0F;
+    return {coverage, walk.mode, material_class, emits ? 1U : 0U, hasWideKeys(walk.grid) ? 1U : 0U};
+}
+
+// Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
+void walkAll(vk::FrameGraph& graph, const RasterWalk& walk)
+{
     for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
     {
-        const std::uint64_t chunk_count = job.scene.uploaded().chunks[material_class].count();
-        if (chunk_count == 0)
-        {
-            continue;
-        }
-        VoxelizeBuffers::RowWork& rows = job.buffers.rows[material_class];
-        const vk::Specialization variant = {coverage, mode, material_class, emits, hasWideKeys(job.grid) ? 1U : 0U};
-        {
-            vk::Pass pass = graph.addPass("voxelize/triangles", variant);
-            const gpu::RasterParams params = rasterParams(pass, job, material_class, mode);
-            if (job.sums != nullptr && job.sums->triangle_args != nullptr)
-            {
-                pass.dispatchIndirect(*job.sums->triangle_args, material_class, params, chunk_count);
-            }
-            else
-            {
-                pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
-            }
-        }
-        if (mode == gpu::kModeCoverage)
-        {
-            sizeRowWork(graph, rows);
-            vk::Pass pass = graph.addPass("voxelize/bands", {coverage, mode, material_class});
-            pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, job, material_class, mode),
-                                  divideUp(rows.big_triangles.count(), gpu::kBandsGroup));
-            sizeRowWork(graph, rows);
-        }
-        vk::Pass pass = graph.addPass("voxelize/rows", variant);
-        pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, job, material_class, mode),
-                              divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
+        walkTriangles(graph, walk, material_class, 0, walk.scene.uploaded().chunks[material_class].count());
+        walkRows(graph, walk, material_class);
     }
 }
 
@@ -204,8 +168,7 @@ AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count
     }
 }
 
-void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
-                      VoxelizeBuffers& buffers)
+void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
 {
     graph.fill(buffers.bricks, 0);
     graph.fill(buffers.counters, 0);
@@ -216,19 +179,49 @@ void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Gri
             graph.fill(rows.counters, 0);
         }
     }
-    rasterize(graph, {scene, grid, coverage, buffers, nullptr}, gpu::kModeCoverage);
 }
 
-void addAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
-                   VoxelizeBuffers& buffers, const AttributeSums& sums)
+void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class,
+                   std::uint64_t first_chunk, std::uint64_t chunk_count)
 {
-    rasterize(graph, {scene, grid, coverage, buffers, &sums}, gpu::kModeAttributes);
+    if (chunk_count == 0)
+    {
+        return;
+    }
+    vk::Pass pass = graph.addPass("voxelize/triangles", rasterVariant(walk, material_class));
+    gpu::RasterParams params = rasterParams(pass, walk, material_class);
+    params.chunks = pass.read(walk.scene.uploaded().chunks[material_class]);
+    params.chunks.address += first_chunk * sizeof(gpu::Chunk);
+    params.chunk_count = static_cast<std::uint32_t>(chunk_count);
+    pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
 }
 
-void addEmission(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
-                 VoxelizeBuffers& buffers, const AttributeSums& sums)
+void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class)
 {
-    rasterize(graph, {scene, grid, coverage, buffers, &sums}, gpu::kModeEmission);
+    if (walk.scene.uploaded().chunks[material_class].count() == 0)
+    {
+        return;
+    }
+    VoxelizeBuffers::RowWork& rows = walk.buffers.rows[material_class];
+    const vk::Specialization variant = rasterVariant(walk, material_class);
+    if (walk.mode == gpu::kModeCoverage)
+    {
+        sizeRowWork(graph, rows);
+        vk::Pass pass = graph.addPass("voxelize/bands", {variant[0], variant[1], variant[2]});
+        pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, walk, material_class),
+                              divideUp(rows.big_triangles.count(), gpu::kBandsGroup));
+        sizeRowWork(graph, rows);
+    }
+    vk::Pass pass = graph.addPass("voxelize/rows", variant);
+    pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, walk, material_class),
+                          divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
+}
+
+void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+                      VoxelizeBuffers& buffers)
+{
+    clearCoverage(graph, buffers);
+    walkAll(graph, {scene, grid, coverage, buffers});
 }
 
 void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
@@ -241,7 +234,8 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverag
     {
         graph.fill(octree.emission_words, 0);
     }
-    addAttributes(graph, scene, octree.grid, coverage, buffers, sumsOf(attributes, octree));
+    const AttributeSums sums = sumsOf(attributes, octree);
+    walkAll(graph, {scene, octree.grid, coverage, buffers, gpu::kModeAttributes, &sums});
     {
         vk::Pass pass = graph.addPass("voxelize/resolve");
         gpu::ResolveParams params{};
@@ -265,7 +259,8 @@ void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, Coverage 
                       AttributeBuffers& attributes, Octree& octree)
 {
     graph.fill(attributes.emission_sums, 0);
-    addEmission(graph, scene, octree.grid, coverage, buffers, sumsOf(attributes, octree));
+    const AttributeSums sums = sumsOf(attributes, octree);
+    walkAll(graph, {scene, octree.grid, coverage, buffers, gpu::kModeEmission, &sums});
     vk::Pass pass = graph.addPass("voxelize/resolve_emission");
     gpu::ResolveEmissionParams params{};
     params.sums = pass.read(attributes.sums);

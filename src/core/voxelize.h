@@ -87,17 +87,32 @@ struct AttributeSums
     vk::BufferOf<gpu::uvec2>& emission_words; // empty unless something emits
     vk::BufferOf<gpu::EmissionSums>& emission_sums;
     std::uint32_t sum_shift = 0;
-    const vk::BufferOf<gpu::DispatchArgs>* triangle_args = nullptr; // [kClassCount]; null: over all triangles
 };
 
-/// Records the passes that add colours and normals of all fragments to sums.sums (cleared before), and set the bits of
-/// emissive voxels in sums.emission_words. The brick table must hold the first voxel of each leaf.
-void addAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
-                   VoxelizeBuffers& buffers, const AttributeSums& sums);
+/// A walk over all triangles of a scene: what it does with the voxels that they cover.
+struct RasterWalk
+{
+    PlacedScene scene;
+    const Grid& grid;
+    Coverage coverage;
+    VoxelizeBuffers& buffers;
+    std::uint32_t mode = gpu::kModeCoverage;
+    const AttributeSums* sums = nullptr; // in the other modes
+};
 
-/// Likewise emission to sums.emission_sums (cleared before), in the places that emission_words tells.
-void addEmission(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
-                 VoxelizeBuffers& buffers, const AttributeSums& sums);
+/// Records the pass over chunk_count chunks of a material class from first_chunk on. In coverage mode, it sets the bits
+/// of the voxels that small triangles cover and lists big ones (buffers cleared before). Then it adds up what fragments
+/// of small triangles look like: colours and normals to sums->sums, with the bits of emissive voxels in
+/// sums->emission_words (kModeAttributes), or emission to sums->emission_sums in the places that emission_words tells
+/// (kModeEmission); the brick table must hold the first voxel of each leaf, or index it in sums->leaves.
+void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class,
+                   std::uint64_t first_chunk, std::uint64_t chunk_count);
+
+/// Records the passes that do the same for the big triangles of a material class, after all its chunks.
+void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class);
+
+/// Records the passes that clear everything in buffers, before a walk in coverage mode.
+void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
 
 /// Records the coverage passes: clears the buffers, then sets the bit of every covered voxel in the brick table. Reads
 /// the scene; writes everything in buffers. What did not fit is counted, never written.

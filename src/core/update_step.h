@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/update_budget.h"
+#include "vk/frame_graph.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace zvo
+{
+
+/// A step of an update that can be recorded on its own.
+struct RecordedStep
+{
+    UpdateStep step;
+    std::function<void(vk::FrameGraph&, std::uint64_t first_unit, std::uint64_t unit_count)> record;
+};
+
+} // namespace zvo
