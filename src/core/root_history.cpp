@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
+#include <set>
 #include <utility>
 
 namespace zvo
@@ -11,7 +13,7 @@ namespace zvo
 RootHistory::RootHistory(OverlayArena& arena, const HistoryBounds& bounds) : m_arena(arena), m_bounds(bounds)
 {
     assert(bounds.steps_max > 0);
-    m_steps.push_back({0, std::make_shared<Root>()});
+    m_steps.push_back(std::make_shared<Step>());
 }
 
 RootHistory::~RootHistory()
@@ -33,24 +35,22 @@ std::optional<OverlayRegion> RootHistory::allocate(std::uint64_t nodes, std::uin
     std::size_t first = 1;
     while (!later.allocate(nodes, voxels))
     {
-        const OverlayRegion* freed = nullptr;
+        const Step* step = nullptr;
         if (end - 1 > m_current)
         {
-            --end;
-            freed = freedBy(end, end - 1);
+            step = m_steps[--end].get();
         }
         else if (first < m_current)
         {
-            freed = freedBy(first, first + 1);
-            ++first;
+            step = m_steps[first++].get();
         }
         else
         {
             return std::nullopt;
         }
-        if (freed != nullptr)
+        if (step->lease)
         {
-            later.release(*freed);
+            later.release(step->lease->region);
         }
     }
     for (std::size_t count = m_steps.size() - end + first - 1; count != 0; --count)
@@ -73,25 +73,19 @@ OverlayArena RootHistory::arenaLater() const
     {
         later.release(waiting.region);
     }
-    std::vector<const Lease*> leases;
+    std::set<const Step*> seen;
+    for (const auto& step : m_steps)
+    {
+        seen.insert(step.get());
+    }
     for (const Update& update : m_updates)
     {
-        leases.push_back(update.root->lease.get());
-        leases.push_back(update.fallback->lease.get());
-    }
-    std::sort(leases.begin(), leases.end());
-    leases.erase(std::unique(leases.begin(), leases.end()), leases.end());
-    std::vector<const Lease*> shown;
-    for (std::size_t i = 0; i < m_steps.size(); ++i)
-    {
-        shown.push_back(leaseOf(i));
-    }
-    std::sort(shown.begin(), shown.end());
-    for (const Lease* lease : leases)
-    {
-        if (lease != nullptr && !std::binary_search(shown.begin(), shown.end(), lease))
+        for (const auto& step : {update.step, update.fallback})
         {
-            later.release(lease->region);
+            if (seen.insert(step.get()).second && step->lease)
+            {
+                later.release(step->lease->region);
+            }
         }
     }
     return later;
@@ -111,42 +105,37 @@ void RootHistory::giveBack(const OverlayRegion& region)
 
 std::uint64_t RootHistory::push(const std::optional<OverlayRegion>& region, std::vector<LayerState> layers)
 {
-    const std::shared_ptr<Root> before = m_steps[m_current].root;
-    const auto root = std::make_shared<Root>();
-    root->layers = std::move(layers);
-    ++m_last_id;
+    const auto step = std::make_shared<Step>();
+    step->id = ++m_last_id;
+    step->layers = std::move(layers);
     if (region)
     {
-        root->lease = std::make_shared<Lease>(*this, *region);
-        root->pending = true;
-        m_updates.push_back({m_last_id, root, before});
+        step->lease.emplace(*this, *region);
+        step->pending = true;
+        m_updates.push_back({step, m_steps[m_current]});
     }
     m_steps.erase(m_steps.begin() + static_cast<std::ptrdiff_t>(m_current) + 1, m_steps.end());
-    m_steps.push_back({m_last_id, root});
+    m_steps.push_back(step);
     ++m_current;
-    while (m_steps.size() - 1 > m_bounds.steps_max || stepBytes() > m_bounds.bytes_max)
+    while ((m_steps.size() - 1 > m_bounds.steps_max || stepBytes() > m_bounds.bytes_max) && dropStep())
     {
-        if (!dropStep())
-        {
-            break;
-        }
     }
     return m_last_id;
 }
 
 RootHistory::Update RootHistory::endUpdate([[maybe_unused]] std::uint64_t id)
 {
-    assert(!m_updates.empty() && m_updates.front().id == id && "updates end once, in the order of pushes");
+    assert(!m_updates.empty() && m_updates.front().step->id == id && "updates end once, in the order of pushes");
     Update update = std::move(m_updates.front());
     m_updates.pop_front();
-    update.root->pending = false;
+    update.step->pending = false;
     return update;
 }
 
 void RootHistory::complete(std::uint64_t id, std::uint32_t nodes, std::uint32_t voxels)
 {
     const Update update = endUpdate(id);
-    OverlayRegion& region = update.root->lease->region;
+    OverlayRegion& region = update.step->lease->region;
     region = m_arena.shrink(region, nodes, voxels);
 }
 
@@ -154,18 +143,38 @@ void RootHistory::fail(std::uint64_t id)
 {
     const Update update = endUpdate(id);
     assert(!update.fallback->pending); // it was pushed earlier
-    update.root->lease = update.fallback->lease;
-    update.root->layers = update.fallback->layers;
+    for (Update& later : m_updates)
+    {
+        if (later.fallback == update.step)
+        {
+            later.fallback = update.fallback;
+        }
+    }
+    const auto place = std::find(m_steps.begin(), m_steps.end(), update.step);
+    if (place == m_steps.end())
+    {
+        return;
+    }
+    if (*std::prev(place) != update.fallback)
+    {
+        *place = update.fallback;
+        return;
+    }
+    if (m_current >= static_cast<std::size_t>(place - m_steps.begin()))
+    {
+        --m_current;
+    }
+    m_steps.erase(place);
 }
 
 std::optional<RootStep> RootHistory::undo()
 {
-    return undoCount() == 0 ? std::nullopt : std::optional(step(--m_current));
+    return undoCount() == 0 ? std::nullopt : std::optional(describe(--m_current));
 }
 
 std::optional<RootStep> RootHistory::redo()
 {
-    return redoCount() == 0 ? std::nullopt : std::optional(step(++m_current));
+    return redoCount() == 0 ? std::nullopt : std::optional(describe(++m_current));
 }
 
 void RootHistory::frameDone(std::uint64_t frame)
@@ -178,14 +187,12 @@ void RootHistory::frameDone(std::uint64_t frame)
     }
 }
 
-// A failed update's step stands behind the one whose region it shares: equal regions are neighbours.
 std::uint64_t RootHistory::stepBytes() const
 {
     std::uint64_t bytes = 0;
-    for (std::size_t i = 1; i < m_steps.size(); ++i)
+    for (const auto& step : m_steps)
     {
-        const OverlayRegion* region = freedBy(i, i - 1);
-        bytes += region != nullptr ? m_arena.bytes(*region) : 0;
+        bytes += step->lease ? m_arena.bytes(step->lease->region) : 0;
     }
     return bytes;
 }
@@ -195,17 +202,10 @@ std::uint64_t RootHistory::waitingBytes() const
     return m_arena.heldBytes() - arenaLater().heldBytes();
 }
 
-RootStep RootHistory::step(std::size_t index) const
+RootStep RootHistory::describe(std::size_t index) const
 {
-    const auto& [id, root] = m_steps[index];
-    return {id, root->lease ? std::optional(root->lease->region) : std::nullopt, root->layers, root->pending};
-}
-
-// The region of a step, unless it has none or shares it with that neighbour.
-const OverlayRegion* RootHistory::freedBy(std::size_t index, std::size_t neighbour) const
-{
-    const Lease* lease = leaseOf(index);
-    return lease == nullptr || lease == leaseOf(neighbour) ? nullptr : &lease->region;
+    const Step& step = *m_steps[index];
+    return {step.id, step.lease ? std::optional(step.lease->region) : std::nullopt, step.layers, step.pending};
 }
 
 bool RootHistory::dropStep()

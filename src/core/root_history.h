@@ -49,17 +49,17 @@ struct RootStep
 ///                      current
 ///
 /// *Updates* run on the device, and whether one had enough memory is known only frames later. Until then its step is
-/// pending, and the root that was current before it, to which it falls back, is kept. So an update that fails must
-/// leave in the root slot, and in what undo() and redo() would copy there for its step, the root before it; then
-/// whatever the device shows is a region that is kept. complete() or fail() must be called for every step that was
-/// pushed with a region, once, in the order of pushes, whether or not the step is still in the line.
+/// pending, and the step that it followed is kept, even where it fell off. An update that fails must leave in the root
+/// slot, and in what undo() and redo() would copy there for its step, the root before it; so whatever the device shows
+/// is a region that is kept. complete() or fail() must be called for every step that was pushed with a region, once, in
+/// the order of pushes, whether or not the step is still in the line.
 ///
 /// *Frames* in flight: the device may use a region as long as a frame is not done that began before the history dropped
 /// it. Such regions wait. Without beginFrame(), they do not: the caller then waits for the device himself.
 ///
-/// *Bounds*: after push() there are at most steps_max steps beside the first one, and their regions, each counted once,
-/// have at most bytes_max bytes, or there is only the pushed one. The oldest fall off for that. Regions that wait, or
-/// to which a pending step falls back, are held beyond that: waitingBytes().
+/// *Bounds*: after push() there are at most steps_max steps beside the first one, and their regions have at most
+/// bytes_max bytes, or there is only the pushed one. The oldest fall off for that. Regions that wait, or are kept for a
+/// pending step, are held beyond that: waitingBytes().
 ///
 /// undo(), redo() and current() take constant time, everything else at most n log n for n steps.
 class RootHistory
@@ -94,11 +94,11 @@ public:
     /// the region is free at once.
     void complete(std::uint64_t id, std::uint32_t nodes, std::uint32_t voxels);
 
-    /// The update of a step failed: the step now equals the one that it followed (region and layers), whether or not
-    /// that is still in the line.
+    /// The update of a step failed: where it stands now stands the step that it followed. So if that is still in the
+    /// line, the failed step is just gone, and if it had fallen off, it is back.
     void fail(std::uint64_t id);
 
-    [[nodiscard]] RootStep current() const { return step(m_current); }
+    [[nodiscard]] RootStep current() const { return describe(m_current); }
 
     /// The step before or behind the current one, which becomes the current one; nothing at the ends.
     std::optional<RootStep> undo();
@@ -112,12 +112,17 @@ public:
     /// The device is done with that frame and all before it.
     void frameDone(std::uint64_t frame);
 
-    /// Calls see with every layer state of every step, in any order.
+    /// Calls see with every layer state that current(), undo() and redo() may still return, in any order, some of them
+    /// twice: those of the steps, and of steps that are kept for a pending one.
     template <typename See> void forEachLayer(const See& see) const
     {
-        for (const Step& step : m_steps)
+        for (const auto& step : m_steps)
         {
-            std::ranges::for_each(step.root->layers, see);
+            std::ranges::for_each(step->layers, see);
+        }
+        for (const Update& update : m_updates)
+        {
+            std::ranges::for_each(update.fallback->layers, see);
         }
     }
 
@@ -125,7 +130,7 @@ public:
     [[nodiscard]] std::uint64_t waitingBytes() const; // of other regions that are held
 
 private:
-    // Sole or shared ownership of a region; the last owner leaves it to the frames in flight.
+    // Has a region until it is destroyed, which leaves the region to the frames in flight.
     struct Lease
     {
         Lease(RootHistory& h, const OverlayRegion& r) : history(h), region(r) {}
@@ -136,23 +141,18 @@ private:
         RootHistory& history;
         OverlayRegion region;
     };
-    // What a step shows. Shared with the update that makes it and with the update that falls back to it.
-    struct Root
+    // Shared by the line, the update that makes the step and those that fall back to it.
+    struct Step
     {
-        std::shared_ptr<Lease> lease; // null: the static octree
+        std::uint64_t id = 0;
+        std::optional<Lease> lease; // nothing: the static octree
         std::vector<LayerState> layers;
         bool pending = false;
     };
-    struct Step
-    {
-        std::uint64_t id;
-        std::shared_ptr<Root> root;
-    };
     struct Update
     {
-        std::uint64_t id;
-        std::shared_ptr<Root> root;
-        std::shared_ptr<const Root> fallback;
+        std::shared_ptr<Step> step;
+        std::shared_ptr<Step> fallback; // what it followed
     };
     struct Waiting
     {
@@ -160,10 +160,8 @@ private:
         OverlayRegion region;
     };
 
-    [[nodiscard]] RootStep step(std::size_t index) const;
+    [[nodiscard]] RootStep describe(std::size_t index) const;
     [[nodiscard]] OverlayArena arenaLater() const;
-    [[nodiscard]] const Lease* leaseOf(std::size_t index) const { return m_steps[index].root->lease.get(); }
-    [[nodiscard]] const OverlayRegion* freedBy(std::size_t index, std::size_t neighbour) const;
     Update endUpdate(std::uint64_t id);
     bool dropStep();
 
@@ -172,10 +170,10 @@ private:
     std::uint64_t m_frame = 0; // the last one that has begun
     std::uint64_t m_frame_done = 0;
     std::uint64_t m_last_id = 0;
-    std::deque<Waiting> m_waiting; // in order of frames
-    std::deque<Step> m_steps;      // [0]: the static octree
-    std::size_t m_current = 0;     // index in m_steps
-    std::deque<Update> m_updates;  // pending ones in order of pushes
+    std::deque<Waiting> m_waiting;             // in order of frames
+    std::deque<std::shared_ptr<Step>> m_steps; // the line; [0]: the static octree
+    std::size_t m_current = 0;                 // index in m_steps
+    std::deque<Update> m_updates;              // of pending steps, in order of pushes
 };
 
 } // namespace zvo

@@ -162,21 +162,39 @@ TEST_F(RootHistoryTest, CompleteUpdatesGiveTheirTailsBackAtOnce)
     EXPECT_EQ(history.stepBytes(), 3u);
 }
 
-TEST_F(RootHistoryTest, AFailedStepShowsWhatTheOneBeforeShows)
+TEST_F(RootHistoryTest, AFailedUpdateLeavesTheStepBeforeIt)
 {
     RootHistory history(m_arena, kUnbounded);
     push(history);
     const std::uint64_t failed = pushPending(history);
-    history.fail(failed);
     EXPECT_EQ(history.current().id, failed);
+    history.fail(failed);
+    EXPECT_EQ(history.current().id, 1u);
     EXPECT_EQ(history.current().region, (OverlayRegion{1, 10, 0, 0}));
     EXPECT_TRUE(shows(history.current(), 1));
+    EXPECT_EQ(history.undoCount(), 1u);
     EXPECT_EQ(m_arena.heldBytes(), 10u);
-    EXPECT_EQ(history.stepBytes(), 10u) << "two steps share the region";
-    push(history);
-    history.undo();
+    EXPECT_EQ(push(history), 3u);
     EXPECT_EQ(history.undo()->id, 1u);
-    EXPECT_EQ(m_arena.heldBytes(), 20u);
+}
+
+TEST_F(RootHistoryTest, StepsAreNotMovedByFailuresElsewhereInTheLine)
+{
+    RootHistory history(m_arena, kUnbounded);
+    push(history);
+    const std::uint64_t b = pushPending(history);
+    const std::uint64_t c = pushPending(history);
+    pushPending(history);
+    history.undo();
+    history.fail(b);
+    EXPECT_EQ(history.current().id, c);
+    EXPECT_TRUE(history.current().pending);
+    EXPECT_EQ(history.undoCount(), 2u);
+    EXPECT_EQ(history.redoCount(), 1u);
+    EXPECT_EQ(history.undo()->id, 1u) << "what c followed, now that b is gone";
+    history.fail(c);
+    EXPECT_EQ(history.current().id, 1u);
+    EXPECT_EQ(history.redo()->id, 4u);
 }
 
 TEST_F(RootHistoryTest, FailuresInARowFallBackToTheLastThatSucceeded)
@@ -202,7 +220,7 @@ TEST_F(RootHistoryTest, AFirstUpdateThatFailsShowsTheStaticOctree)
     EXPECT_EQ(m_arena.heldBytes(), 0u);
 }
 
-TEST_F(RootHistoryTest, TheLastCompleteRootIsKeptThoughItsStepFellOff)
+TEST_F(RootHistoryTest, TheLastCompleteStepComesBackThoughItFellOff)
 {
     RootHistory history(m_arena, {.steps_max = 1});
     push(history);
@@ -213,8 +231,10 @@ TEST_F(RootHistoryTest, TheLastCompleteRootIsKeptThoughItsStepFellOff)
     history.fail(b);
     EXPECT_EQ(history.waitingBytes(), 10u);
     history.fail(c);
-    EXPECT_TRUE(shows(history.current(), 1)) << "two updates failed";
+    EXPECT_EQ(history.current().id, 1u) << "two updates failed";
     EXPECT_EQ(history.current().region, (OverlayRegion{1, 10, 0, 0}));
+    EXPECT_TRUE(shows(history.current(), 1));
+    EXPECT_EQ(history.undoCount(), 1u);
     EXPECT_EQ(history.waitingBytes(), 0u);
 }
 
@@ -476,8 +496,12 @@ public:
         }
         else
         {
-            m_told[update.id] = m_told[update.before];
             m_history.fail(update.id);
+            for (Update& later : m_updates)
+            {
+                later.before = later.before == update.id ? update.before : later.before;
+            }
+            removeFailed(update);
         }
         RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
     }
@@ -528,6 +552,7 @@ public:
             RC_ASSERT(isIntact(m_truth[id].writer, m_truth[id].region));
         }
         m_frames.back().regions.emplace(m_shown.writer, m_shown.region); // traced
+        checkLayers();
     }
 
 private:
@@ -592,6 +617,23 @@ private:
             }
         }
         return writers;
+    }
+
+    // As if it had never been pushed, but for what fell off when it was.
+    void removeFailed(const Update& update)
+    {
+        for (std::size_t i = 0; i < m_steps.size(); ++i)
+        {
+            if (m_steps[i] == update.id && m_steps[i - 1] == update.before)
+            {
+                m_steps.erase(m_steps.begin() + static_cast<std::ptrdiff_t>(i));
+                m_current -= m_current >= i ? 1 : 0;
+            }
+            else if (m_steps[i] == update.id)
+            {
+                m_steps[i] = update.before;
+            }
+        }
     }
 
     [[nodiscard]] std::uint64_t bytesOfSteps()
@@ -696,6 +738,24 @@ private:
         {
             RC_ASSERT(m_shown.layers == told.layers); // what the device shows is what the host believes
         }
+    }
+
+    // None is forgotten that may be shown again, and none is kept for longer.
+    void checkLayers()
+    {
+        std::set<std::uint32_t> expected; // layers here have the numbers of their writers
+        for (const std::uint64_t id : m_steps)
+        {
+            expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
+        }
+        for (const Update& update : m_updates)
+        {
+            expected.insert(static_cast<std::uint32_t>(m_told[update.before].writer));
+        }
+        expected.erase(0);
+        std::set<std::uint32_t> seen;
+        m_history.forEachLayer([&](const LayerState& state) { seen.insert(state.layer); });
+        RC_ASSERT(seen == expected);
     }
 
     HistoryBounds m_bounds;
