@@ -362,7 +362,7 @@ TEST(UpdateBudget, CostsThatSlicingCannotShortenDoNotMakeSlicesShrinkToNothing)
 TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
 {
     zvo::test::checkProperty(
-        2000,
+        1000,
         []
         {
             const auto names =
