@@ -353,8 +353,9 @@ RootPlace DynamicOctree::rootOf(const RootStep& step) const
     return {step.region ? step.region->first_node : staticRoot(), 0};
 }
 
-// Everything that voxelizes the movers which changed. They count as voxelized from now on: the job is recorded, or dropped.
-void DynamicOctree::addMoverSteps(std::vector<RecordedStep>& steps)
+// Everything that voxelizes the movers which changed. They count as voxelized from now on: the job is recorded, or
+// dropped.
+void DynamicOctree::addMoverSteps(RecordedSteps& steps)
 {
     const LayerContents contents = {m_has_attributes, emits()};
     for (auto& [id, mover] : m_movers)
@@ -371,13 +372,13 @@ void DynamicOctree::addMoverSteps(std::vector<RecordedStep>& steps)
             mover.layer = std::make_unique<LayerBuffers>(m_device.device(), mover.capacities, scene, contents);
         }
         const auto report = static_cast<std::uint32_t>(m_report_count++ % m_reports.count());
-        steps.push_back({{"place a mover", scene.triangle_count},
-                         [this, &mover, id = id, version = mover.version, pose = m_poses.at(mover.version),
-                          report](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                         {
-                             placeMover(graph, mover.mesh->deform, *pose, mover.buffers);
-                             m_pending_layers.push_back({m_frame, id, version, report, mover.capacities});
-                         }});
+        addStep(steps, {"place a mover", scene.triangle_count},
+                [this, &mover, id = id, version = mover.version, pose = m_poses.at(mover.version),
+                 report](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                {
+                    placeMover(graph, mover.mesh->deform, *pose, mover.buffers);
+                    m_pending_layers.push_back({m_frame, id, version, report, mover.capacities});
+                });
         addLayerSteps({.scene = {scene, mover.buffers},
                        .grid = m_octree.grid,
                        .coverage = m_options.coverage,
@@ -491,7 +492,7 @@ bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
 
 void DynamicOctree::beginJob(vk::FrameGraph& graph)
 {
-    std::vector<RecordedStep> steps;
+    RecordedSteps steps;
     addMoverSteps(steps);
     const OverlayRegion region = allocateRegion(graph);
     prepareBuffers(region);

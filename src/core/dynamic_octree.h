@@ -93,8 +93,8 @@ public:
 
     /// Records an update: movers that changed are voxelized, all are merged with the static octree, and the result is
     /// shown. It becomes a step of the history. Under a budget of GPU time, as much of it as is thought to fit
-    /// (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of movers count for
-    /// the update after this one. 0: no bound. Returns whether the update is complete.
+    /// (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of movers count
+    /// for the update after this one. 0: no bound. Returns whether the update is complete.
     bool update(vk::FrameGraph& graph, double budget_ms = 0);
 
     /// Whether an update is under way that the next update() goes on with.
@@ -105,8 +105,8 @@ public:
     bool undo(vk::FrameGraph& graph);
     bool redo(vk::FrameGraph& graph);
 
-    /// The device is done with a frame and all before it: learns what its updates came to and, from the times of all its
-    /// passes, how much goes into a budget.
+    /// The device is done with a frame and all before it: learns what its updates came to and, from the times of all
+    /// its passes, how much goes into a budget.
     std::vector<UpdateReport> frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes = {});
 
     /// Whether what is missing has to be shown by another update(): one failed, and nothing was recorded since.
@@ -151,7 +151,7 @@ private:
     {
         UpdateJob merge;
         std::vector<LayerState> states; // of the movers that it shows
-        std::vector<RecordedStep> steps;
+        RecordedSteps steps;
         std::vector<UpdateStep> plan; // the same, as UpdateBudget takes them
         UpdateProgress progress;
     };
@@ -176,7 +176,7 @@ private:
     [[nodiscard]] std::vector<Mover*> presentMovers();
     void dropLayer(Mover& mover);
     void beginJob(vk::FrameGraph& graph);
-    void addMoverSteps(std::vector<RecordedStep>& steps);
+    void addMoverSteps(RecordedSteps& steps);
     void finishJob(vk::FrameGraph& graph);
     void dropJob();
     void prepareBuffers(const OverlayRegion& region);

@@ -130,8 +130,8 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     pass.dispatch(1, params);
 }
 
-// A walk over the triangles; walk() must stay the same from step to step.
-void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, std::vector<RecordedStep>& steps)
+// A walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
+void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, RecordedSteps& steps)
 {
     for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
     {
@@ -147,34 +147,32 @@ void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, std::vec
                                         job.sum_shift};
             record(RasterWalk{job.scene, job.grid, job.coverage, layer.voxelize, mode, &sums});
         };
-        steps.push_back({{name, chunk_count, true},
-                         [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count) {
-                             withWalk([&](const RasterWalk& walk)
-                                      { walkTriangles(graph, walk, material_class, first, count); });
-                         }});
-        steps.push_back({{fmt::format("{}, large triangles", name), chunk_count},
-                         [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                         { withWalk([&](const RasterWalk& walk) { walkRows(graph, walk, material_class); }); }});
+        addStep(steps, {name, chunk_count, true},
+                [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count) {
+                    withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); });
+                });
+        addStep(steps, {fmt::format("{}, large triangles", name), chunk_count},
+                [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                { withWalk([&](const RasterWalk& walk) { walkRows(graph, walk, material_class); }); });
     }
 }
 
 } // namespace
 
-void addLayerSteps(const LayerJob& job, std::vector<RecordedStep>& steps)
+void addLayerSteps(const LayerJob& job, RecordedSteps& steps)
 {
     const std::uint64_t capacity = job.layer.voxelize.bricks.count();
-    steps.push_back({{"clear a layer", capacity},
-                     [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                     { clearCoverage(graph, job.layer.voxelize); }});
+    addStep(steps, {"clear a layer", capacity},
+            [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearCoverage(graph, job.layer.voxelize); });
     addWalk(job, "cover voxels", gpu::kModeCoverage, steps);
-    steps.push_back({{"list leaves", capacity},
-                     [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { listLeaves(graph, job); }});
+    addStep(steps, {"list leaves", capacity},
+            [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { listLeaves(graph, job); });
     if (job.layer.sums.count() == 0)
     {
         return;
     }
-    steps.push_back({{"clear sums", job.layer.sums.count()},
-                     [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearSums(graph, job.layer); }});
+    addStep(steps, {"clear sums", job.layer.sums.count()},
+            [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearSums(graph, job.layer); });
     addWalk(job, "add colours and normals", gpu::kModeAttributes, steps);
     if (job.layer.emission_words.count() != 0)
     {

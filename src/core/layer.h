@@ -64,9 +64,9 @@ struct LayerJob
     std::uint32_t report = 0;                  // element of reports that becomes a copy of the layer's counters
 };
 
-/// Adds the steps that voxelize a mover into a layer: coverage, then sums of what its fragments look like. Nothing is read
-/// back; what does not fit is counted, and the layer then says that it failed. What job refers to must outlive the
+/// Adds the steps that voxelize a mover into a layer: coverage, then sums of what its fragments look like. Nothing is
+/// read back; what does not fit is counted, and the layer then says that it failed. What job refers to must outlive the
 /// steps. Cost: triangles plus fragments, and the layer's capacities, once, for clearing them.
-void addLayerSteps(const LayerJob& job, std::vector<RecordedStep>& steps);
+void addLayerSteps(const LayerJob& job, RecordedSteps& steps);
 
 } // namespace zvo

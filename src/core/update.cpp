@@ -257,12 +257,12 @@ std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities)
            capacities.records * sizeof(gpu::LayerLink) + capacities.overlay_nodes * sizeof(gpu::uint);
 }
 
-void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, std::vector<RecordedStep>& steps)
+void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& steps)
 {
     const std::uint64_t records = buffers.links.count();
-    const auto add = [&](const char* name, auto record)
-    {
-        steps.push_back({{name, records}, [record](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); }});
+    const auto add = [&](const char* name, const std::function<void(vk::FrameGraph&)>& record) {
+        addStep(steps, {name, records},
+                [record](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); });
     };
     add("list touched nodes",
         [job, &buffers](vk::FrameGraph& graph)

@@ -57,8 +57,8 @@ struct RootPlace
 /// One update: which layers are merged with which octree, and where the result goes.
 struct UpdateJob
 {
-    Octree& octree;                              // with room for overlays behind the static part
-    std::uint32_t base_root = 0;                 // node that is merged with the layers
+    Octree& octree;                          // with room for overlays behind the static part
+    std::uint32_t base_root = 0;             // node that is merged with the layers
     std::vector<const LayerBuffers*> layers; // at most kLayersMax
     OverlayRegion region;
     MergeRule merge = MergeRule::Average;
@@ -76,7 +76,7 @@ struct UpdateJob
 /// Adds the steps that merge layers with the static octree: copies of all paths to leaves that a layer has go to the
 /// region, merged with it. Nothing is shown yet, and nothing is read back. What job refers to must outlive the steps.
 /// Cost: touched nodes, and their children.
-void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, std::vector<RecordedStep>& steps);
+void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& steps);
 
 /// Records the pass that ends a merge: nodes[0] becomes the overlay's root or, if something had no room, last;
 /// roots[place] tells which. results[result] becomes what the update came to.

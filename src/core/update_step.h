@@ -6,6 +6,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
+#include <vector>
 
 namespace zvo
 {
@@ -16,5 +18,12 @@ struct RecordedStep
     UpdateStep step;
     std::function<void(vk::FrameGraph&, std::uint64_t first_unit, std::uint64_t unit_count)> record;
 };
+
+using RecordedSteps = std::vector<RecordedStep>;
+
+inline void addStep(RecordedSteps& steps, UpdateStep step, decltype(RecordedStep::record) record)
+{
+    steps.push_back({std::move(step), std::move(record)});
+}
 
 } // namespace zvo

@@ -10,6 +10,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -188,6 +189,77 @@ TEST(DynamicOctree, UndoAndRedoShowEarlierSteps)
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(2.5F, 3, 1), moved(0, 0, 0)})), "");
     EXPECT_FALSE(world.redo());
+}
+
+TEST(DynamicOctree, SpreadsAnUpdateOverFramesAndShowsTheLastRootMeanwhile)
+{
+    World world(6);
+    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
+    world.update();
+    const std::vector<Cell> before = world.rebuilt({moved(3, 4, 5)});
+    world.octree().place(mover, world.poseAt(moved(6, 2, 5)));
+    std::uint32_t frame_count = 0;
+    for (bool complete = false; !complete; ++frame_count)
+    {
+        ASSERT_LT(frame_count, 1000U);
+        EXPECT_EQ(test::difference(world.shown(), before), "");
+        if (frame_count == 2)
+        {
+            world.octree().place(mover, world.poseAt(moved(1, 1, 1))); // counts for the update after this one
+        }
+        const std::uint64_t frame = world.octree().beginFrame();
+        const std::vector<vk::PassTime> passes =
+            device().run([&](vk::FrameGraph& graph) { complete = world.octree().update(graph, 1e-6); });
+        world.octree().frameDone(frame, passes);
+        EXPECT_EQ(world.octree().isUpdating(), !complete);
+    }
+    EXPECT_GT(frame_count, 10U);
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(6, 2, 5)})), "");
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(1, 1, 1)})), "");
+}
+
+TEST(DynamicOctree, KeepsSeveralFramesInFlight)
+{
+    World world(6, {.frames_in_flight = 3});
+    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
+    world.update();
+    struct Flight
+    {
+        std::uint64_t frame;
+        vk::Submission submission;
+    };
+    std::deque<Flight> flights;
+    for (int i = 0; i < 12; ++i)
+    {
+        world.octree().place(mover, world.poseAt(moved(static_cast<float>(i), 2, 5)));
+        const std::uint64_t frame = world.octree().beginFrame();
+        flights.push_back({frame, device().submit(
+                                      [&](vk::FrameGraph& graph)
+                                      {
+                                          world.octree().update(graph);
+                                          graph.releaseToHost();
+                                      })});
+        if (flights.size() == 3)
+        {
+            flights.front().submission.wait();
+            for (const UpdateReport& report : world.octree().frameDone(flights.front().frame))
+            {
+                EXPECT_EQ(report.failed, 0U);
+            }
+            flights.pop_front();
+        }
+    }
+    for (Flight& flight : flights)
+    {
+        flight.submission.wait();
+        world.octree().frameDone(flight.frame);
+    }
+    if (world.octree().needsUpdate())
+    {
+        world.update();
+    }
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(11, 2, 5)})), "");
 }
 
 TEST(DynamicOctree, StartsWithRoomForOne)
