@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Every Vulkan call of a small run is made to fail once: an error that says so, and nothing left behind.
+#include "core/animation.h"
 #include "core/camera.h"
 #include "core/kernels.h"
+#include "core/mover.h"
 #include "core/pipeline.h"
 #include "core/trace.h"
 #include "support/device.h"
@@ -15,6 +17,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace zvo
 {
@@ -36,10 +39,25 @@ Job smallJob()
 
 Job wholeJob()
 {
-    return {test::materialsScene(10.0F), true, {64, 1, 1 << 10}}; // grows once
+    Scene scene = test::materialsScene(10.0F);
+    scene.primitives[0].morph_targets = {{scene.primitives[0].positions, {}}};
+    return {std::move(scene), true, {64, 1, 1 << 10}}; // grows once
 }
 
-/// Uploads, builds, traces and downloads; returns the octree's sum and the picture.
+/// The sum of the octree of gpu_scene, made of scene, when it has moved and, where it has morph targets, deformed.
+std::string workOnAMover(vk::HeadlessDevice& device, const Scene& scene, const GpuScene& gpu_scene, const Grid& grid)
+{
+    Pose pose = poseAt(scene, 0.0);
+    pose.transforms[1][3].x += 1.0F;
+    pose.morph_weights[0][0] = 0.25F;
+    const DeformMesh mesh = uploadDeformMesh(device, scene);
+    MoverBuffers mover = makeMover(device, scene, gpu_scene, mesh);
+    device.run([&](vk::FrameGraph& graph) { placeMover(graph, mesh, pose, mover); });
+    const BuildResult built = buildOctree(device, {gpu_scene, mover}, grid, {Coverage::Thin, false, {}});
+    return octreeSha256(device, built.octree);
+}
+
+/// Uploads, builds, traces and downloads; returns the octree's sum and the picture, of a whole job a mover's sum, too.
 std::string work(vk::HeadlessDevice& device, const Job& job)
 {
     constexpr std::uint32_t kEdge = 24;
@@ -66,6 +84,10 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
         for (const gpu::uint pixel : device.download(buffers.image))
         {
             result += fmt::format(" {:x}", pixel);
+        }
+        if (job.attributes)
+        {
+            result += workOnAMover(device, job.scene, gpu_scene, grid);
         }
     }
     catch (...)
