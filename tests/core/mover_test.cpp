@@ -322,7 +322,9 @@ TEST(Mover, WithoutWeightsStandsAsAtRest)
 TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
 {
     std::mt19937 random(25);
-    auto [scene, pose] = mixedScene(random);
+    const std::pair<Scene, Pose> made = mixedScene(random);
+    const Scene& scene = made.first;
+    const Pose& pose = made.second;
     const GpuScene posed = uploadScene(device(), posedScene(scene, pose), true);
     Mover mover(device(), scene);
     const VoxelizeCapacities capacities{1 << 15, 1 << 12, 1 << 16};
@@ -438,7 +440,9 @@ TEST(Mover, ComesBackToTheSameBytesInConstantMemory)
 TEST(Mover, TwoSetsOfBuffersOfOneSceneAreIndependent)
 {
     std::mt19937 random(28);
-    auto [scene, pose] = mixedScene(random);
+    const std::pair<Scene, Pose> made = mixedScene(random);
+    const Scene& scene = made.first;
+    const Pose& pose = made.second;
     Pose other = pose;
     test::changePose(random, other);
     Mover mover(device(), scene);
