@@ -12,6 +12,52 @@ layout(push_constant, scalar) uniform Push
 
 const uint kNoVoxel = ~0u;
 
+// Which leaf a thread works on, and the first of its voxels; the others are kMergeThreads apart.
+#define mergeItem() (threadIndex() / kMergeThreads)
+#define mergeFirst() (gl_LocalInvocationIndex % kMergeThreads)
+
+// A touched leaf, in the overlay and in the base octree.
+struct MergedLeaf
+{
+    Node node;
+    Node base;
+    bool has_base;
+    uint head;  // record + 1 of the first layer that has the leaf
+    uint count; // of its voxels
+};
+
+MergedLeaf mergedLeaf(uint item)
+{
+    MergedLeaf leaf = MergedLeaf(Node(0u, 0u, 0u, 0u), Node(0u, 0u, 0u, 0u), false, 0u, 0u);
+    LevelRange range = params.ranges.data[0];
+    if (item < range.count)
+    {
+        uint entry = params.items.data[range.first + item].entry;
+        TouchedNode touched = params.touched.data[entry];
+        leaf.node = params.nodes.data[touched.node];
+        leaf.has_base = touched.base != kNoNode;
+        if (leaf.has_base)
+            leaf.base = params.nodes.data[touched.base];
+        leaf.head = params.heads.data[entry];
+        leaf.count = bitCount(leaf.node.mask_lo) + bitCount(leaf.node.mask_hi);
+    }
+    return leaf;
+}
+
+// Number of the n-th set bit of mask, which has more than n.
+uint setBit(uint mask, uint n)
+{
+    uint bit = 0u;
+    [[unroll]] for (uint width = 16u; width != 0u; width >>= 1u)
+    {
+        uint below = bitCount(bitfieldExtract(mask, int(bit), int(width)));
+        bool above = below <= n;
+        n -= above ? below : 0u;
+        bit += above ? width : 0u;
+    }
+    return bit;
+}
+
 // A voxel of the overlay.
 struct MergedVoxel
 {
@@ -21,24 +67,16 @@ struct MergedVoxel
     uint head;  // record + 1 of the first layer that has the leaf
 };
 
-// The voxel in a cell of a touched leaf; false if there is none.
-bool findVoxel(uint item, uint cell, out MergedVoxel voxel)
+// The n-th voxel of a leaf.
+MergedVoxel mergedVoxel(MergedLeaf leaf, uint n)
 {
-    voxel = MergedVoxel(0u, kNoVoxel, cell, 0u);
-    LevelRange range = params.ranges.data[0];
-    if (item >= range.count)
-        return false;
-    uint entry = params.items.data[range.first + item].entry;
-    TouchedNode touched = params.touched.data[entry];
-    Node node = params.nodes.data[touched.node];
-    voxel.index = childIndex(node, cell);
-    voxel.head = params.heads.data[entry];
-    if (touched.base != kNoNode)
-    {
-        Node base = params.nodes.data[touched.base];
-        voxel.base = hasChild(base, cell) ? childIndex(base, cell) : kNoVoxel;
-    }
-    return hasChild(node, cell);
+    uint count_lo = bitCount(leaf.node.mask_lo);
+    MergedVoxel voxel;
+    voxel.index = leaf.node.base_lo + n;
+    voxel.cell = n < count_lo ? setBit(leaf.node.mask_lo, n) : 32u + setBit(leaf.node.mask_hi, n - count_lo);
+    voxel.head = leaf.head;
+    voxel.base = leaf.has_base && hasChild(leaf.base, voxel.cell) ? childIndex(leaf.base, voxel.cell) : kNoVoxel;
+    return voxel;
 }
 
 // What a layer has in the place of a voxel.

@@ -9,11 +9,8 @@
 
 layout(local_size_x = kUpdateGroup) in;
 
-void main()
+void mergeVoxel(MergedVoxel voxel)
 {
-    MergedVoxel voxel;
-    if (!findVoxel(workgroupIndex(), gl_LocalInvocationIndex, voxel))
-        return;
     SceneView_ConstPtr scene = params.view.data[0].scene;
     Attribute look = Attribute(0u, 0u);
     if (voxel.base != kNoVoxel)
@@ -46,4 +43,11 @@ void main()
     params.attributes.data[voxel.index] = look;
     if (kEmits && ((look.color >> 24) & kAttributeEmissive) != 0u)
         atomicOr(params.emission_words.data[voxel.index >> 5].x, 1u << (voxel.index & 31u));
+}
+
+void main()
+{
+    MergedLeaf leaf = mergedLeaf(mergeItem());
+    for (uint n = mergeFirst(); n < leaf.count; n += kMergeThreads)
+        mergeVoxel(mergedVoxel(leaf, n));
 }

@@ -15,11 +15,8 @@ uint emissionPlace(uint voxel)
     return word.y + bitCount(word.x & ((1u << (voxel & 31u)) - 1u));
 }
 
-void main()
+void mergeEmission(MergedVoxel voxel)
 {
-    MergedVoxel voxel;
-    if (!findVoxel(workgroupIndex(), gl_LocalInvocationIndex, voxel))
-        return;
     if (((params.attributes.data[voxel.index].color >> 24) & kAttributeEmissive) == 0u)
         return;
     bool base_emits = false;
@@ -55,4 +52,11 @@ void main()
         result = params.emission.data[emissionPlace(voxel.base)];
     }
     params.emission.data[emissionPlace(voxel.index)] = result;
+}
+
+void main()
+{
+    MergedLeaf leaf = mergedLeaf(mergeItem());
+    for (uint n = mergeFirst(); n < leaf.count; n += kMergeThreads)
+        mergeEmission(mergedVoxel(leaf, n));
 }

@@ -43,7 +43,9 @@ void main()
     uint touched = goes_on ? params.ranges.data[params.level_count - 1u - params.level].count : 0u; // of this level
     if (are_leaves)
     {
-        params.args.data[kArgsMerge] = foldedArgs(touched, params.max_groups_x);
+        const uint leaves_per_group = kUpdateGroup / kMergeThreads;
+        params.args.data[kArgsMerge] =
+            foldedArgs((touched + leaves_per_group - 1u) / leaves_per_group, params.max_groups_x);
     }
     else
     {

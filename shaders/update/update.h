@@ -24,9 +24,10 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kLayersMax = 1024u; // in one overlay
-const uint kNoNode = ~0u;      // in a base octree
-const uint kUpdateGroup = 64u; // threads of most workgroups: for a node's children, one each
+const uint kLayersMax = 1024u;  // in one overlay
+const uint kNoNode = ~0u;       // in a base octree
+const uint kUpdateGroup = 64u;  // threads of most workgroups: for a node's children, one each
+const uint kMergeThreads = 16u; // of a workgroup that take one leaf: mostly one for each of its voxels
 
 // Specialization constant of update/merge: what a voxel looks like that the base octree and layers have.
 const uint kMergeAverage = 0u; // the mean over the fragments of both
@@ -112,7 +113,7 @@ GPU_BUFFER(UpdateStatus, 4);
 // Elements of the indirect arguments of an update.
 const uint kArgsExpand = 0u; // a workgroup for each touched node of the level above
 const uint kArgsAssign = 1u; // for each kScanBlock nodes of the level
-const uint kArgsMerge = 2u;  // for each touched leaf
+const uint kArgsMerge = 2u;  // kMergeThreads for each touched leaf
 const uint kArgsCount = 3u;
 
 struct LayerLeavesParams // push constants of update/layer_leaves
@@ -240,7 +241,7 @@ struct MergeView
 };
 GPU_BUFFER(MergeView, 8);
 
-struct MergeParams // push constants of update/merge and update/merge_emission: a workgroup for each touched leaf
+struct MergeParams // push constants of update/merge and update/merge_emission
 {
     GPU_CONST_PTR(MergeView) view;
     GPU_CONST_PTR(WorkItem) items;
