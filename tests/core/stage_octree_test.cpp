@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The scenes that come with zvo, as time goes by: updated octrees and their pictures against ones built anew. By
+// default some frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and ZVO_TEST_STAGE_FRAMES ask for more
+// (scripts/check-dynamic).
+#include "core/camera.h"
+#include "core/kernels.h"
+#include "core/stage_octree.h"
+#include "core/trace.h"
+#include "support/device.h"
+#include "support/octree_contents.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+std::uint32_t numberFrom(const char* variable, std::uint32_t otherwise)
+{
+    const char* text = std::getenv(variable);
+    return text != nullptr ? static_cast<std::uint32_t>(std::stoul(text)) : otherwise;
+}
+
+std::vector<gpu::uint> pictureOf(const Octree& octree, const ViewCamera& view, TraceBuffers& buffers)
+{
+    BeamGrid beam(device().device());
+    TraceOptions options;
+    options.occlusion_rays = 2;
+    const TraceCamera camera = traceCamera(view, octree.grid, buffers.height);
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            buildBeam(graph, octree, beam);
+            trace(graph, octree, beam, camera, options, buffers);
+        });
+    return device().download(buffers.image);
+}
+
+class Stages : public testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(Stages, UpdatedIsRebuilt)
+{
+    const std::filesystem::path path = test::ownScene(std::string(GetParam()) + ".scene.json");
+    StageOptions folder;
+    if (const std::optional<std::filesystem::path> model = test::sharedScene("sponza.glb"))
+    {
+        folder.scenes_folder = model->parent_path();
+    }
+    else if (std::string(GetParam()) != "atrium_knot")
+    {
+        GTEST_SKIP() << "needs models that do not come with zvo";
+    }
+    const Stage stage = loadStage(path, folder);
+    const Bounds bounds = stageBounds(stage);
+    const Grid grid = Grid::around(bounds, numberFrom("ZVO_TEST_STAGE_DEPTH", 6));
+    const auto frame_count = static_cast<std::uint32_t>(std::lround(stage.seconds * stage.frames_per_second));
+    const std::uint32_t shown = std::min(frame_count, numberFrom("ZVO_TEST_STAGE_FRAMES", 4));
+    const float emission_scale = brightestEmission(stage);
+    const glm::dvec3 low(bounds.min);
+    const glm::dvec3 high(bounds.max);
+    const ViewCamera view = ViewCamera::lookAt(high + 0.7 * (high - low), 0.5 * (low + high), 0.8);
+    TraceBuffers buffers(device().device(), 160, 90);
+
+    StageOctree octree(device(), stage, grid, {});
+    const std::vector<gpu::Node> nodes_before =
+        device().download(octree.octree().nodes, 1, octree.staticPart().node_count);
+    for (std::uint32_t i = 0; i < shown; ++i)
+    {
+        const std::uint32_t frame = i * frame_count / shown;
+        SCOPED_TRACE(frame);
+        const double seconds = frameTime(stage, frame);
+        const StageUpdate update = octree.update(seconds);
+        EXPECT_GT(update.report.dynamic_count, 0U);
+        const GpuScene scene = uploadScene(device(), stageAt(stage, seconds), true, emission_scale);
+        const BuildResult rebuilt = buildOctree(device(), scene, grid, {});
+        ASSERT_EQ(test::difference(test::cellsOf(device(), octree.octree()), test::cellsOf(device(), rebuilt.octree)),
+                  "");
+        EXPECT_EQ(pictureOf(octree.octree(), view, buffers), pictureOf(rebuilt.octree, view, buffers));
+    }
+    const std::vector<gpu::Node> nodes_after =
+        device().download(octree.octree().nodes, 1, octree.staticPart().node_count);
+    EXPECT_EQ(std::memcmp(nodes_before.data(), nodes_after.data(), nodes_before.size() * sizeof(gpu::Node)), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Stages, testing::Values("atrium_knot", "buddha_dragon", "sponza_bunny"),
+                         [](const testing::TestParamInfo<const char*>& stage) { return std::string(stage.param); });
+
+} // namespace
+} // namespace zvo
