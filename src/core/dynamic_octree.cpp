@@ -79,14 +79,17 @@ DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, BuildResult built, cons
     {
         throw Error(ErrorCode::Usage, "movers can be averaged with a static octree only if its sums were kept");
     }
+    if (built.octree.emission.count() != 0 && built.octree.emission_scale != options.emission_scale)
+    {
+        throw Error(ErrorCode::Usage, "movers and the static scene need one emission scale");
+    }
     takeOver(built);
     vk::Device& d = device.device();
     m_merge_view = {d, "update/merge_view", 1};
     const std::uint64_t pending = std::uint64_t{options.frames_in_flight} * kUpdatesPerFrame;
     m_roots = {d, "update/roots", pending + 1};
     m_results = {d, "update/results", pending + 1, vk::MemoryKind::Readback};
-    m_reports = {d, "update/layer_reports", (std::uint64_t{options.frames_in_flight} + 1) * gpu::kLayersMax,
-                 vk::MemoryKind::Readback};
+    m_reports = {d, "update/layer_reports", (pending + 1) * gpu::kLayersMax, vk::MemoryKind::Readback};
 }
 
 // Copies the static octree to buffers with room behind it, which begin with the slot of the root that is shown. The
@@ -158,10 +161,9 @@ template <typename T> void DynamicOctree::retire(T&& what)
     m_retired.push_back({m_frame, std::make_shared<std::decay_t<T>>(std::forward<T>(what))});
 }
 
-// A longer buffer with the same contents.
-template <typename T> void DynamicOctree::lengthen(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, std::uint64_t count)
+template <typename T>
+void DynamicOctree::replace(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, vk::BufferOf<T>&& longer)
 {
-    vk::BufferOf<T> longer(m_device.device(), buffer.name(), count);
     if (buffer.count() != 0)
     {
         graph.copy(buffer, 0, longer, 0, buffer.bytes());
@@ -169,7 +171,8 @@ template <typename T> void DynamicOctree::lengthen(vk::FrameGraph& graph, vk::Bu
     retire(std::exchange(buffer, std::move(longer)));
 }
 
-// Room for a region of that many nodes and voxels, whatever else is held.
+// Room for a region of that many nodes and voxels, whatever else is held: longer buffers with the same contents. All of
+// them, or none and nothing is recorded.
 void DynamicOctree::growSpace(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels)
 {
     const OverlaySpace& space = m_arena->space();
@@ -189,17 +192,26 @@ void DynamicOctree::growSpace(vk::FrameGraph& graph, std::uint64_t nodes, std::u
             (m_has_attributes ? (node_capacity + voxel_capacity) * sizeof(gpu::Attribute) : 0) +
             (emits() ? voxel_capacity / kVoxelBlock * sizeof(gpu::uvec2) + emission * sizeof(gpu::uint) : 0),
         "room for overlays");
-    lengthen(graph, m_octree.nodes, node_capacity);
+    vk::Device& d = m_device.device();
+    const std::uint64_t attribute_nodes = m_has_attributes ? node_capacity : 0;
+    const std::uint64_t attribute_voxels = m_has_attributes ? voxel_capacity : 0;
+    const std::uint64_t emission_words = emits() ? voxel_capacity / kVoxelBlock : 0;
+    vk::BufferOf<gpu::Node> longer_nodes(d, m_octree.nodes.name(), node_capacity);
+    vk::BufferOf<gpu::Attribute> averages(d, m_octree.node_attributes.name(), attribute_nodes);
+    vk::BufferOf<gpu::Attribute> attributes(d, m_octree.voxel_attributes.name(), attribute_voxels);
+    vk::BufferOf<gpu::uvec2> words(d, m_octree.emission_words.name(), emission_words);
+    vk::BufferOf<gpu::uint> emission_values(d, m_octree.emission.name(), emission);
+    replace(graph, m_octree.nodes, std::move(longer_nodes));
     if (m_has_attributes)
     {
-        lengthen(graph, m_octree.node_attributes, node_capacity);
-        lengthen(graph, m_octree.voxel_attributes, voxel_capacity);
+        replace(graph, m_octree.node_attributes, std::move(averages));
+        replace(graph, m_octree.voxel_attributes, std::move(attributes));
     }
     if (emits())
     {
         const bool had_words = m_octree.emission_words.count() != 0;
-        lengthen(graph, m_octree.emission_words, voxel_capacity / kVoxelBlock);
-        lengthen(graph, m_octree.emission, emission);
+        replace(graph, m_octree.emission_words, std::move(words));
+        replace(graph, m_octree.emission, std::move(emission_values));
         if (!had_words) // nothing of the static octree emits
         {
             graph.fill(m_octree.emission_words, 0);
@@ -300,12 +312,16 @@ void DynamicOctree::forgetPoses()
     }
     std::set<std::uint64_t> versions;
     std::set<MoverId> shown;
-    m_history->forEachLayer(
-        [&](const LayerState& state)
-        {
-            versions.insert(state.version);
-            shown.insert(state.layer);
-        });
+    const auto see = [&](const LayerState& state)
+    {
+        versions.insert(state.version);
+        shown.insert(state.layer);
+    };
+    m_history->forEachLayer(see);
+    if (m_job != nullptr)
+    {
+        std::ranges::for_each(m_job->states, see);
+    }
     for (auto it = m_movers.begin(); it != m_movers.end();)
     {
         if (it->second.present || shown.contains(it->first))
@@ -353,11 +369,33 @@ RootPlace DynamicOctree::rootOf(const RootStep& step) const
     return {step.region ? step.region->first_node : staticRoot(), 0};
 }
 
+// Gives movers that changed and have no layer one.
+void DynamicOctree::makeLayers()
+{
+    const LayerContents contents = {m_has_attributes, emits()};
+    std::uint64_t voxelized_count = 0;
+    for (Mover* mover : presentMovers())
+    {
+        voxelized_count += mover->voxelized != mover->version ? 1 : 0;
+        if (mover->voxelized != mover->version && mover->layer == nullptr)
+        {
+            const GpuScene& scene = mover->mesh->uploaded;
+            m_device.device().memory().require(LayerBuffers::bytes(mover->capacities, scene, contents),
+                                               "the voxels of a mover");
+            mover->layer = std::make_unique<LayerBuffers>(m_device.device(), mover->capacities, scene, contents);
+        }
+    }
+    const std::uint64_t awaited = m_pending_layers.empty() ? 0 : m_report_count - m_pending_layers.front().report;
+    if (awaited + voxelized_count > m_reports.count())
+    {
+        throw Error(ErrorCode::Usage, "more updates are under way than frames in flight were announced");
+    }
+}
+
 // Everything that voxelizes the movers which changed. They count as voxelized from now on: the job is recorded, or
 // dropped.
 void DynamicOctree::addMoverSteps(RecordedSteps& steps)
 {
-    const LayerContents contents = {m_has_attributes, emits()};
     for (auto& [id, mover] : m_movers)
     {
         if (!mover.present || mover.voxelized == mover.version)
@@ -365,34 +403,29 @@ void DynamicOctree::addMoverSteps(RecordedSteps& steps)
             continue;
         }
         const GpuScene& scene = mover.mesh->uploaded;
-        if (mover.layer == nullptr)
-        {
-            m_device.device().memory().require(LayerBuffers::bytes(mover.capacities, scene, contents),
-                                               "the voxels of a mover");
-            mover.layer = std::make_unique<LayerBuffers>(m_device.device(), mover.capacities, scene, contents);
-        }
-        const auto report = static_cast<std::uint32_t>(m_report_count++ % m_reports.count());
+        const std::uint64_t report = m_report_count++;
         addStep(steps, {"place a mover", scene.triangle_count},
-                [this, &mover, id = id, version = mover.version, pose = m_poses.at(mover.version),
-                 report](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                {
-                    placeMover(graph, mover.mesh->deform, *pose, mover.buffers);
-                    m_pending_layers.push_back({m_frame, id, version, report, mover.capacities});
-                });
+                [&mover, pose = m_poses.at(mover.version)](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                { placeMover(graph, mover.mesh->deform, *pose, mover.buffers); });
         addLayerSteps({.scene = {scene, mover.buffers},
                        .grid = m_octree.grid,
                        .coverage = m_options.coverage,
                        .sum_shift = m_sum_shift,
                        .layer = *mover.layer,
                        .reports = m_reports,
-                       .report = report},
+                       .report = static_cast<std::uint32_t>(report % m_reports.count())},
                       steps);
+        // In the frame that writes the report, or one after it.
+        addStep(steps, {"await a report", 1},
+                [this, &mover, id = id, report](vk::FrameGraph&, std::uint64_t, std::uint64_t) {
+                    m_pending_layers.push_back({m_frame, id, report, mover.capacities});
+                });
         mover.voxelized = mover.version;
     }
 }
 
-// Makes the buffers of the update as large as its layers and its region ask for.
-void DynamicOctree::prepareBuffers(const OverlayRegion& region)
+// Makes the buffers of the update as large as its layers and its overlay ask for.
+void DynamicOctree::prepareBuffers()
 {
     UpdateCapacities needed = m_capacities;
     std::uint64_t records = 0;
@@ -404,9 +437,9 @@ void DynamicOctree::prepareBuffers(const OverlayRegion& region)
     {
         needed.records = withSlack(records);
     }
-    if (region.node_capacity > m_capacities.overlay_nodes)
+    if (m_likely_nodes > m_capacities.overlay_nodes)
     {
-        needed.overlay_nodes = withSlack(region.node_capacity);
+        needed.overlay_nodes = withSlack(m_likely_nodes);
     }
     needed.touched =
         std::max({needed.touched, m_touched_min, m_options.minimal_capacities ? 1 : std::bit_ceil(2 * records)});
@@ -426,31 +459,46 @@ void DynamicOctree::prepareBuffers(const OverlayRegion& region)
     }
 }
 
-OverlayRegion DynamicOctree::allocateRegion(vk::FrameGraph& graph)
+// How large the next overlay is thought to be, where none was measured.
+void DynamicOctree::guessOverlay()
 {
-    if (m_likely_nodes == 0)
+    if (m_likely_nodes != 0)
     {
-        std::uint64_t leaves = 0;
-        for (const Mover* mover : presentMovers())
-        {
-            leaves += mover->capacities.leaves;
-        }
-        m_likely_nodes = m_options.minimal_capacities ? 1 : 3 * leaves + 64; // with copies of what stands beside them
-        m_likely_voxels = m_options.minimal_capacities ? 1 : 32 * leaves + 64;
+        return;
     }
+    std::uint64_t leaves = 0;
+    for (const Mover* mover : presentMovers())
+    {
+        leaves += mover->capacities.leaves;
+    }
+    m_likely_nodes = m_options.minimal_capacities ? 1 : 3 * leaves + 64; // with copies of what stands beside them
+    m_likely_voxels = m_options.minimal_capacities ? 1 : 32 * leaves + 64;
+}
+
+// Nothing while frames in flight hold what is needed.
+std::optional<OverlayRegion> DynamicOctree::allocateRegion(vk::FrameGraph& graph)
+{
     if (const std::optional<OverlayRegion> region = m_arena->allocate(m_likely_nodes, m_likely_voxels))
     {
-        return *region;
+        return region;
     }
     try
     {
         growSpace(graph, m_likely_nodes, m_likely_voxels);
     }
-    catch (const Error&) // then steps of the history have to make room, if there are any
+    catch (const Error& error) // then steps of the history have to make room, if there are any
     {
+        if (error.code() != ErrorCode::Memory)
+        {
+            throw;
+        }
         if (const std::optional<OverlayRegion> region = m_history->allocate(m_likely_nodes, m_likely_voxels))
         {
-            return *region;
+            return region;
+        }
+        if (m_history->fitsLater(m_likely_nodes, m_likely_voxels))
+        {
+            return std::nullopt;
         }
         throw;
     }
@@ -463,17 +511,37 @@ bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
     {
         throw Error(ErrorCode::Usage, "more updates are under way than frames in flight were announced");
     }
-    m_needs_update = false;
     if (m_job == nullptr)
     {
         if (presentMovers().empty())
         {
             m_history->push(std::nullopt, {});
             showRoot(graph, m_octree, m_roots, {staticRoot(), 0});
+            m_needs_update = false;
             return true;
         }
-        beginJob(graph);
+        if (!beginJob(graph))
+        {
+            m_needs_update = true;
+            return false;
+        }
     }
+    try
+    {
+        recordJob(graph, budget_ms);
+    }
+    catch (...)
+    {
+        dropJob();
+        throw;
+    }
+    m_needs_update = false;
+    return m_job == nullptr;
+}
+
+// Records what fits the budget, and what ends the update if that is all.
+void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
+{
     std::vector<UpdateSlice> slices = m_budget.plan(m_job->plan, m_job->progress, budget_ms);
     for (UpdateSlice& slice : slices)
     {
@@ -482,20 +550,25 @@ bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
         slice.pass_end = graph.passCount();
     }
     m_pending_slices.push_back({m_frame, std::move(slices)});
-    if (m_job->progress.step != m_job->steps.size())
+    if (m_job->progress.step == m_job->steps.size())
+    {
+        finishJob(graph);
+    }
+}
+
+// What can fail for want of memory comes first, and changes nothing. False if the update has to wait for frames.
+bool DynamicOctree::beginJob(vk::FrameGraph& graph)
+{
+    makeLayers();
+    guessOverlay();
+    prepareBuffers();
+    const std::optional<OverlayRegion> region = allocateRegion(graph);
+    if (!region)
     {
         return false;
     }
-    finishJob(graph);
-    return true;
-}
-
-void DynamicOctree::beginJob(vk::FrameGraph& graph)
-{
     RecordedSteps steps;
     addMoverSteps(steps);
-    const OverlayRegion region = allocateRegion(graph);
-    prepareBuffers(region);
     const gpu::MergeView view = {{m_tables.view.address()},
                                  {m_static_sums.sums.address()},
                                  {m_static_sums.emission_sums.address()},
@@ -512,7 +585,7 @@ void DynamicOctree::beginJob(vk::FrameGraph& graph)
         .merge = {.octree = m_octree,
                   .base_root = staticRoot(),
                   .layers = std::move(layers),
-                  .region = region,
+                  .region = *region,
                   .merge = m_options.merge,
                   .sum_shift = m_sum_shift,
                   .emission_offset = static_cast<std::uint32_t>(m_static_emissive - firstOverlayVoxel()),
@@ -533,6 +606,7 @@ void DynamicOctree::beginJob(vk::FrameGraph& graph)
     {
         m_job->plan.push_back(step.step);
     }
+    return true;
 }
 
 void DynamicOctree::finishJob(vk::FrameGraph& graph)
@@ -553,6 +627,7 @@ void DynamicOctree::dropJob()
     }
     m_history->giveBack(m_job->merge.region);
     m_job.reset();
+    --m_result_count; // its result was not written
     for (auto& [id, mover] : m_movers)
     {
         mover.voxelized = 0;
@@ -567,6 +642,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, const std::optional<RootStep>& s
     }
     dropJob();
     showRoot(graph, m_octree, m_roots, rootOf(*step));
+    m_needs_update = false;
     for (auto& [id, mover] : m_movers)
     {
         const auto state = std::ranges::find(step->layers, id, &LayerState::layer);
@@ -593,6 +669,13 @@ bool DynamicOctree::redo(vk::FrameGraph& graph)
     return show(graph, m_history->redo());
 }
 
+// Drops the job for reasons of its own: another update has to begin.
+void DynamicOctree::giveUpJob()
+{
+    m_needs_update = m_needs_update || m_job != nullptr;
+    dropJob();
+}
+
 // Gives a layer that failed more room, and has it made again.
 void DynamicOctree::learnLayer(const PendingLayer& pending)
 {
@@ -601,7 +684,7 @@ void DynamicOctree::learnLayer(const PendingLayer& pending)
     {
         return; // gone, or larger already
     }
-    const gpu::LayerCounters counters = static_cast<const gpu::LayerCounters*>(m_reports.mapped())[pending.report];
+    const gpu::LayerCounters counters = m_reports.mappedData()[pending.report % m_reports.count()];
     if (counters.failed == 0)
     {
         return;
@@ -610,7 +693,7 @@ void DynamicOctree::learnLayer(const PendingLayer& pending)
     {
         throw Error(ErrorCode::Memory, "a mover makes more pieces than 32-bit numbers count; lower the resolution");
     }
-    dropJob();
+    giveUpJob();
     Mover& mover = found->second;
     mover.capacities = grown(pending.capacities, counters);
     dropLayer(mover);
@@ -618,7 +701,7 @@ void DynamicOctree::learnLayer(const PendingLayer& pending)
 
 UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
 {
-    const gpu::UpdateStatus status = static_cast<const gpu::UpdateStatus*>(m_results.mapped())[pending.result];
+    const gpu::UpdateStatus status = m_results.mappedData()[pending.result];
     if (status.failed == 0)
     {
         m_history->complete(pending.step, status.node_count, status.voxel_count);
@@ -627,8 +710,8 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
     }
     else
     {
+        m_needs_update = m_needs_update || m_history->current().id == pending.step;
         m_history->fail(pending.step);
-        m_needs_update = true;
         // Levels that were not reached are not counted: twice as much, if that is more.
         if ((status.failed & gpu::kFailedNodes) != 0)
         {
@@ -656,7 +739,7 @@ void DynamicOctree::raiseShift(std::uint32_t fragments)
 {
     m_sum_shift =
         std::max(m_sum_shift, static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
-    dropJob();
+    giveUpJob();
     for (auto& [id, mover] : m_movers)
     {
         mover.voxelized = 0;

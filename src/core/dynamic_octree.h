@@ -94,7 +94,11 @@ public:
     /// Records an update: movers that changed are voxelized, all are merged with the static octree, and the result is
     /// shown. It becomes a step of the history. Under a budget of GPU time, as much of it as is thought to fit
     /// (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of movers count
-    /// for the update after this one. 0: no bound. Returns whether the update is complete.
+    /// for the update after this one. 0: no bound. Returns whether the update is complete. While memory is short and
+    /// frames in flight hold what it takes, records nothing: needsUpdate() says so.
+    /// Throws Error{Memory} when the device's budget does not suffice, and Error{Usage} for more updates than
+    /// frames_in_flight allow: then nothing was recorded, and what was shown still is. After other errors the octree is
+    /// of no use.
     bool update(vk::FrameGraph& graph, double budget_ms = 0);
 
     /// Whether an update is under way that the next update() goes on with.
@@ -109,7 +113,8 @@ public:
     /// its passes, how much goes into a budget.
     std::vector<UpdateReport> frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes = {});
 
-    /// Whether what is missing has to be shown by another update(): one failed, and nothing was recorded since.
+    /// Whether what is missing has to be shown by another update(): one failed, was given up or had to wait, and none
+    /// was recorded since, nor undo() or redo().
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
 
     /// What to trace. Its node_count and voxel_count are those of the static octree.
@@ -142,8 +147,7 @@ private:
     {
         std::uint64_t frame;
         MoverId mover;
-        std::uint64_t version;
-        std::uint32_t report; // element of m_reports
+        std::uint64_t report; // counted: element of m_reports, a ring
         LayerCapacities capacities;
     };
     // An update under way.
@@ -168,19 +172,23 @@ private:
 
     void takeOver(BuildResult& built);
     void growSpace(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
-    template <typename T> void lengthen(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, std::uint64_t count);
+    template <typename T> void replace(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, vk::BufferOf<T>&& longer);
     template <typename T> void retire(T&& what);
     std::uint64_t addPose(const MoverMesh& mesh, Pose pose);
     void forgetPoses();
     [[nodiscard]] Mover& presentMover(MoverId id);
     [[nodiscard]] std::vector<Mover*> presentMovers();
     void dropLayer(Mover& mover);
-    void beginJob(vk::FrameGraph& graph);
+    bool beginJob(vk::FrameGraph& graph);
+    void makeLayers();
+    void guessOverlay();
+    void prepareBuffers();
+    std::optional<OverlayRegion> allocateRegion(vk::FrameGraph& graph);
     void addMoverSteps(RecordedSteps& steps);
+    void recordJob(vk::FrameGraph& graph, double budget_ms);
     void finishJob(vk::FrameGraph& graph);
     void dropJob();
-    void prepareBuffers(const OverlayRegion& region);
-    OverlayRegion allocateRegion(vk::FrameGraph& graph);
+    void giveUpJob();
     bool show(vk::FrameGraph& graph, const std::optional<RootStep>& step);
     void learnLayer(const PendingLayer& pending);
     UpdateReport learnUpdate(const PendingUpdate& pending);
