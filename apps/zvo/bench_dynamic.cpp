@@ -33,6 +33,7 @@ namespace
 constexpr std::uint32_t kWidth = 1280;
 constexpr std::uint32_t kHeight = 720;
 constexpr std::uint32_t kDepth = 9;
+constexpr std::uint32_t kTraceTurns = 3; // pictures of each octree for each rebuild
 
 // Least and greatest of some counts.
 struct Range
@@ -74,6 +75,8 @@ struct DynamicRow
     Spread dynamic_voxelize_ms;
     Spread update_ms;
     Spread rebuild_ms;
+    Spread rebuild_moving_ms; // of what moves alone
+    Spread enlarged_ms;       // dynamic voxelization and update in a grid four times as large, with the same voxels
     Spread trace_merged_ms;
     Spread trace_rebuilt_ms;
     std::uint32_t retry_count = 0;
@@ -95,7 +98,9 @@ const Columns<DynamicRow>& columns()
         {"build ms", 8, [](const DynamicRow& row) { return fmt::format("{:.2f}", row.build_ms); }},
         {"dynamic voxelize ms", 22, [](const DynamicRow& row) { return spreadText(row.dynamic_voxelize_ms); }},
         {"update ms", 22, [](const DynamicRow& row) { return spreadText(row.update_ms); }},
+        {"in 4x the grid ms", 22, [](const DynamicRow& row) { return spreadText(row.enlarged_ms); }},
         {"rebuild ms", 25, [](const DynamicRow& row) { return spreadText(row.rebuild_ms); }},
+        {"moving alone ms", 25, [](const DynamicRow& row) { return spreadText(row.rebuild_moving_ms); }},
         {"trace merged ms", 22, [](const DynamicRow& row) { return spreadText(row.trace_merged_ms); }},
         {"trace rebuilt ms", 22, [](const DynamicRow& row) { return spreadText(row.trace_rebuilt_ms); }},
     };
@@ -118,7 +123,9 @@ Json rowJson(const DynamicRow& row)
     json["frames"] = row.frame_count;
     json["dynamic_voxelize_ms"] = spreadJson(row.dynamic_voxelize_ms);
     json["update_ms"] = spreadJson(row.update_ms);
+    json["enlarged_grid_ms"] = spreadJson(row.enlarged_ms);
     json["rebuild_ms"] = spreadJson(row.rebuild_ms);
+    json["rebuild_moving_ms"] = spreadJson(row.rebuild_moving_ms);
     json["trace_merged_ms"] = spreadJson(row.trace_merged_ms);
     json["trace_rebuilt_ms"] = spreadJson(row.trace_rebuilt_ms);
     json["retries"] = row.retry_count;
@@ -162,21 +169,19 @@ public:
         }
         row.frame_count =
             static_cast<std::uint32_t>(std::max(1.0, std::round(stage.seconds * stage.frames_per_second)));
-        measureFrames(stage, octree, camera, row, progress);
-        measureRebuilds(stage, grid, camera, row, progress);
+        measureFrames(stage, octree, row, progress);
+        measureRebuilds(stage, octree, camera, row, progress);
+        measureEnlarged(stage, grid, row, progress);
         return row;
     }
 
 private:
     // Every frame once, after one that finds out how much room it takes.
-    void measureFrames(const Stage& stage, StageOctree& octree, const TraceCamera& camera, DynamicRow& row,
-                       Progress& progress)
+    void measureFrames(const Stage& stage, StageOctree& octree, DynamicRow& row, Progress& progress)
     {
         std::vector<double> voxelize_ms;
         std::vector<double> update_ms;
-        std::vector<double> trace_ms;
         octree.update(frameTime(stage, row.frame_count - 1));
-        traceMs(octree.octree(), camera);
         for (std::uint32_t frame = 0; frame < row.frame_count; ++frame)
         {
             progress.step(fmt::format("{} at {}: frame {}", row.scene, row.resolution, frame));
@@ -191,22 +196,26 @@ private:
                 (voxelizes(pass.name) ? voxelize_ms : update_ms).back() += pass.ms;
             }
             addPasses(row.passes, update.passes, row.frame_count);
-            trace_ms.push_back(traceMs(octree.octree(), camera));
         }
         row.dynamic_voxelize_ms = Spread::of(voxelize_ms);
         row.update_ms = Spread::of(update_ms);
-        row.trace_merged_ms = Spread::of(trace_ms);
     }
 
-    // At times spread evenly over the stage.
-    void measureRebuilds(const Stage& stage, const Grid& grid, const TraceCamera& camera, DynamicRow& row,
+    // At times spread evenly over the stage. Pictures of both octrees are traced in turns.
+    void measureRebuilds(const Stage& stage, StageOctree& octree, const TraceCamera& camera, DynamicRow& row,
                          Progress& progress)
     {
         std::vector<double> rebuild_ms;
-        std::vector<double> trace_ms;
+        std::vector<double> moving_ms;
+        std::vector<double> rebuilt_trace_ms;
+        std::vector<double> merged_trace_ms;
+        const Grid grid = octree.octree().grid;
+        Stage moving;
+        moving.movers = stage.movers;
         BuildOptions build;
         build.coverage = m_options.coverage;
         build.attributes = m_options.attributes;
+        const BuildOptions moving_build = build;
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
             progress.step(fmt::format("{} at {}: rebuild {}", row.scene, row.resolution, run));
@@ -216,10 +225,40 @@ private:
             const BuildResult built = buildOctree(m_device, scene, grid, build);
             build.capacities = built.capacities;
             rebuild_ms.push_back(sumMs(built.passes));
-            trace_ms.push_back(traceMs(built.octree, camera));
+            octree.update(frameTime(stage, frame));
+            for (std::uint32_t turn = 0; turn < kTraceTurns; ++turn)
+            {
+                merged_trace_ms.push_back(traceMs(octree.octree(), camera));
+                rebuilt_trace_ms.push_back(traceMs(built.octree, camera));
+            }
+            const GpuScene alone = uploadScene(m_device, stageAt(moving, frameTime(stage, frame)), m_options.attributes,
+                                               brightestEmission(stage));
+            moving_ms.push_back(sumMs(buildOctree(m_device, alone, grid, moving_build).passes));
         }
+        row.rebuild_moving_ms = Spread::of(moving_ms);
         row.rebuild_ms = Spread::of(rebuild_ms);
-        row.trace_rebuilt_ms = Spread::of(trace_ms);
+        row.trace_merged_ms = Spread::of(merged_trace_ms);
+        row.trace_rebuilt_ms = Spread::of(rebuilt_trace_ms);
+    }
+
+    // Some frames in a grid four times as large with voxels of the same size, and, to compare with, in the same runs.
+    void measureEnlarged(const Stage& stage, Grid grid, DynamicRow& row, Progress& progress)
+    {
+        grid.depth += 2;
+        if (grid.depth > Grid::kDepthMax)
+        {
+            return;
+        }
+        StageOctree octree(m_device, stage, grid, {m_options.coverage, m_options.attributes});
+        std::vector<double> enlarged_ms;
+        octree.update(0.0);
+        for (std::uint32_t run = 0; run < m_options.run_count; ++run)
+        {
+            progress.step(fmt::format("{} in {}: update {}", row.scene, grid.resolution(), run));
+            const std::uint32_t frame = run * row.frame_count / m_options.run_count;
+            enlarged_ms.push_back(sumMs(octree.update(frameTime(stage, frame)).passes));
+        }
+        row.enlarged_ms = Spread::of(enlarged_ms);
     }
 
     // The beam grid and primary rays.
@@ -241,10 +280,10 @@ private:
 
 std::string tableHead(const vk::DeviceReport& device, std::uint32_t run_count)
 {
-    return fmt::format(
-               "zvo {} on {} ({}, {}). GPU milliseconds: median (min-max), of all frames or, for rebuilds, of {}. "
-               "Trace: beam grid and primary rays, {}x{}.\n\n",
-               ZVO_VERSION, device.name, device.type, device.driver, run_count, kWidth, kHeight) +
+    return fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max), of all frames or, for rebuilds, "
+                       "pictures and the larger grid, of {}. "
+                       "Trace: beam grid and primary rays, {}x{}.\n\n",
+                       ZVO_VERSION, device.name, device.type, device.driver, run_count, kWidth, kHeight) +
            columnNames(columns());
 }
 
@@ -285,7 +324,8 @@ void benchDynamic(const BenchOptions& options)
         voxels.load = options.load;
         voxels.scenes_folder = options.scene_folder;
         stages.push_back(loadStageWithWarnings(voxels));
-        steps += static_cast<std::size_t>(stages.back().seconds * stages.back().frames_per_second) + options.run_count;
+        steps +=
+            static_cast<std::size_t>(stages.back().seconds * stages.back().frames_per_second) + 2 * options.run_count;
     }
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     Output table("-", true);
