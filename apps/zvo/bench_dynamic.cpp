@@ -323,7 +323,7 @@ void benchDynamic(const BenchOptions& options)
         voxels.scenes = {path};
         voxels.load = options.load;
         voxels.scenes_folder = options.scene_folder;
-        stages.push_back(loadStageWithWarnings(voxels));
+        stages.push_back(loadStageWithWarnings(voxels, true));
         steps +=
             static_cast<std::size_t>(stages.back().seconds * stages.back().frames_per_second) + 2 * options.run_count;
     }

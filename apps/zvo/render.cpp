@@ -344,7 +344,7 @@ void render(const RenderOptions& options)
 
     Progress progress(3 + pictures.count());
     progress.step("loading");
-    Stage stage = loadStageWithWarnings(options.voxels);
+    Stage stage = loadStageWithWarnings(options.voxels, options.frames || options.voxels.time);
     const bool moves = !stage.movers.empty();
     progress.expect(moves ? 1 + 3 * pictures.count() : 3 + pictures.count());
     checkPlaces(options.output, stage.files);

@@ -72,14 +72,6 @@ void checkStageOptions(const VoxelOptions& options)
     }
 }
 
-void warnOfIdleTime(const VoxelOptions& options, const Stage& stage)
-{
-    if (options.time && stage.movers.empty())
-    {
-        talk("warning: nothing moves in this scene, it is the same at every --time");
-    }
-}
-
 const char* ruleName(MergeRule rule)
 {
     return rule == MergeRule::DynamicWins ? "dynamic" : rule == MergeRule::StaticWins ? "static" : "average";
@@ -109,28 +101,40 @@ Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadO
     return scene;
 }
 
-Stage loadStageWithWarnings(const VoxelOptions& options)
+Stage loadStageWithWarnings(const VoxelOptions& options, bool in_motion)
 {
-    if (std::none_of(options.scenes.begin(), options.scenes.end(), isStageFile))
+    const bool is_stage_file = std::any_of(options.scenes.begin(), options.scenes.end(), isStageFile);
+    if (!is_stage_file && options.scenes_folder)
     {
-        if (options.scenes_folder)
-        {
-            throw Error(ErrorCode::Usage, "--scenes goes with a scene file (.scene.json)");
-        }
-        Stage stage;
-        stage.fixed = loadWithWarnings(options.scenes, options.load);
-        stage.files = options.scenes;
-        warnOfIdleTime(options, stage);
-        return stage;
+        throw Error(ErrorCode::Usage, "--scenes goes with a scene file (.scene.json)");
     }
-    checkStageOptions(options);
-    Stage stage = loadStage(options.scenes.front(), {options.scenes_folder});
+    Stage stage;
+    if (is_stage_file)
+    {
+        checkStageOptions(options);
+        stage = loadStage(options.scenes.front(), {options.scenes_folder, options.load});
+    }
+    else if (in_motion)
+    {
+        stage = stageOf(loadScene(options.scenes, options.load), options.scenes.front().stem().string());
+        stage.files = options.scenes;
+    }
+    else
+    {
+        stage.fixed = loadScene(options.scenes, options.load);
+        stage.files = options.scenes;
+        tellWarnings(stage.fixed.warnings);
+        tellWarnings(stage.fixed.rest_warnings);
+    }
+    tellWarnings(stage.warnings);
     const bool has_triangles = stage.fixed.triangleCount() != 0 ||
                                std::any_of(stage.movers.begin(), stage.movers.end(),
                                            [](const Mover& mover) { return mover.scene.triangleCount() != 0; });
-    tellWarnings(stage.warnings);
     warnOfNothing(has_triangles);
-    warnOfIdleTime(options, stage);
+    if (options.time && stage.movers.empty())
+    {
+        talk("warning: nothing moves in this scene, it is the same at every --time");
+    }
     if (stage.merge != MergeRule::Average)
     {
         talk(fmt::format("warning: everything is voxelized together, which averages where objects overlap; the scene "

@@ -21,9 +21,10 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
 /// Loads files as one scene and tells what was left out of it. Throws Error{Input}.
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options);
 
-/// What options name: a scene file with all that it names, or other files as one scene that stands still. Tells what
-/// was left out. Throws Error{Input}, and Error{Usage} for options that do not fit the files.
-Stage loadStageWithWarnings(const VoxelOptions& options);
+/// What options name: a scene file with all that it names, or other files as one scene. in_motion: whether times were
+/// asked for; without, other files stand at rest. Tells what was left out. Throws Error{Input}, and Error{Usage} for
+/// options that do not fit the files.
+Stage loadStageWithWarnings(const VoxelOptions& options, bool in_motion);
 
 /// The grid that options or else the stage ask for, or the one around bounds, the stage's.
 Grid placeGrid(const VoxelOptions& options, const Stage& stage, const Bounds& bounds);

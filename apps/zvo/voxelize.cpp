@@ -53,7 +53,7 @@ void voxelize(const VoxelizeOptions& options)
 
     Progress progress(4);
     progress.step("loading");
-    Stage stage = loadStageWithWarnings(options.voxels);
+    Stage stage = loadStageWithWarnings(options.voxels, options.voxels.time.has_value());
     checkPlaces(options.output, stage.files);
     const Grid grid = placeGrid(options.voxels, stage, stageBounds(stage));
     Scene scene = stageAt(std::move(stage), loopedTime(stage, options.voxels.time.value_or(0.0)));

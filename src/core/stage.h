@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/animation.h"
+#include "core/load_scene.h"
 #include "core/motion.h"
 #include "core/scene.h"
 #include "core/stage_file.h"
@@ -14,13 +16,14 @@
 namespace zvo
 {
 
-/// An object that moves.
+/// An object, or those parts of one, that move.
 struct Mover
 {
     std::string name;
-    Scene scene;           // as its file has it
+    Scene scene;           // at rest, as its file has it; without cameras
     glm::dmat4 place{1.0}; // of the scene before the motion; affine
     Motion motion;
+    bool deforms = false; // animations of the scene move or bend parts of it: placeAt() does not tell all
 };
 
 /// A scene in which something may move. Its time runs from 0 to seconds, where everything begins anew.
@@ -41,12 +44,17 @@ struct Stage
 struct StageOptions
 {
     std::optional<std::filesystem::path> scenes_folder; // where else the files of objects may lie
+    LoadOptions load = {};                              // of a file that is no scene file
 };
 
-/// Loads a scene file and what it names. The files of objects are looked for in the scene file's folder, then in
-/// scenes_folder, and lie in one of them or below, after all links. Throws Error{Input}, one line: what is wrong with
-/// the scene file is named by its path in the JSON.
+/// Loads a scene file and what it names, or any other file as stageOf does. The files of objects are looked for in the
+/// scene file's folder, then in scenes_folder, and lie in one of them or below, after all links. Throws Error{Input},
+/// one line: what is wrong with the scene file is named by its path in the JSON.
 Stage loadStage(const std::filesystem::path& path, const StageOptions& options = {});
+
+/// A stage of one scene: its animated instances are a mover, the others stand still, at rest. It lasts as long as the
+/// longest animation. Where nothing is animated there are no movers.
+Stage stageOf(Scene scene, const std::string& name);
 
 /// The stage's time of a frame, from 0 to below seconds. Where a stage is a whole number of frames long, frames that
 /// show the same have exactly the same time.
@@ -59,11 +67,16 @@ double loopedTime(const Stage& stage, double seconds);
 /// to single precision once, after the product with an instance's transform.
 glm::dmat4 placeAt(const Mover& mover, double seconds);
 
-/// Everything at a time of the stage, as one scene: first what is fixed, then each mover, in order.
+/// The pose of the mover's scene at a time of the stage: its motion after its animations.
+Pose moverPose(const Mover& mover, double seconds);
+
+/// Everything at a time of the stage, as one scene: first what is fixed, then each mover in its pose, in order. What a
+/// full rebuild voxelizes. Throws as posedScene().
 Scene stageAt(const Stage& stage, double seconds);
 Scene stageAt(Stage&& stage, double seconds);
 
-/// A box around everything at all times.
+/// A box around everything at all times; of a mover that deforms, at 64 times at least, and at every frame where there
+/// are at most 256.
 Bounds stageBounds(const Stage& stage);
 
 } // namespace zvo

@@ -53,7 +53,7 @@ StageOctree::StageOctree(vk::HeadlessDevice& device, const Stage& stage, const G
     {
         m_mover_triangle_count += mover.scene.triangleCount();
         m_movers.push_back(m_dynamic->add(uploadMover(device, mover.scene, options.attributes, emission_scale),
-                                          poseAt(mover.scene, 0.0, placeAt(mover, 0.0))));
+                                          moverPose(mover, 0.0)));
     }
 }
 
@@ -61,8 +61,7 @@ StageUpdate StageOctree::update(double seconds)
 {
     for (std::size_t i = 0; i < m_movers.size(); ++i)
     {
-        const Mover& mover = m_stage.movers[i];
-        m_dynamic->place(m_movers[i], poseAt(mover.scene, seconds, placeAt(mover, seconds)));
+        m_dynamic->place(m_movers[i], moverPose(m_stage.movers[i], seconds));
     }
     StageUpdate result;
     for (; result.retry_count < kAttemptsMax; ++result.retry_count)

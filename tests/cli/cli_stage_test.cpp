@@ -201,6 +201,38 @@ TEST_F(CliStage, FramesOfWhatStandsStillTurnTheCamera)
     EXPECT_TRUE(contains(idle.err, "warning: nothing moves in this scene")) << idle.err;
 }
 
+TEST_F(CliStage, AnimationsOfAFileRunWhereTimesAreAskedFor)
+{
+    GltfBuilder builder = colouredCube();
+    const std::size_t times = builder.addAccessor("SCALAR", kF32, 2, std::vector<float>{0.0F, 2.0F});
+    const std::size_t values = builder.addAccessor("VEC3", kF32, 2, std::vector<float>{1, 0, 0, 3, 0, 0});
+    const json sampler = {{"input", times}, {"output", values}};
+    const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}};
+    builder.add("animations", {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}});
+    m_dir.write("animated.glb", builder.glb());
+    const std::vector<std::string> grid = {"--grid", "0,0,0,0.125", "--resolution", "32", "-f", "-o"};
+    const auto voxelize = [&](std::vector<std::string> arguments, const char* output)
+    {
+        arguments.insert(arguments.begin(), "voxelize");
+        arguments.insert(arguments.end(), grid.begin(), grid.end());
+        arguments.emplace_back(output);
+        run(arguments);
+        return codes(output);
+    };
+    const std::set<std::uint64_t> rest = voxelize({"cube.glb"}, "rest.morton");
+    EXPECT_EQ(voxelize({"animated.glb"}, "a.morton"), rest) << "at rest";
+    builder.document["nodes"][0]["translation"] = {2.5, 0, 0};
+    m_dir.write("moved.glb", builder.glb());
+    EXPECT_EQ(voxelize({"animated.glb", "--time", "1.5"}, "a.morton"), voxelize({"moved.glb"}, "moved.morton"));
+    EXPECT_EQ(voxelize({"animated.glb", "--time", "3.5"}, "a.morton"), codes("moved.morton")) << "two seconds later";
+    run({"render", "animated.glb", "-o", "f_##.png", "--frames", "44..45", "--size", "64x48", "--resolution", "32",
+         "--camera", "front", "--bounds", "0,0,0,4,4,4"});
+    run({"render", "moved.glb", "-o", "moved.png", "--size", "64x48", "--resolution", "32", "--camera", "front",
+         "--bounds", "0,0,0,4,4,4"});
+    EXPECT_EQ(file("f_45.png"), file("moved.png"));
+    EXPECT_NE(file("f_44.png"), file("moved.png"));
+}
+
 TEST_F(CliStage, RulesThatARebuildCannotFollowAreToldOf)
 {
     json stage = json::parse(file("test.scene.json"));
