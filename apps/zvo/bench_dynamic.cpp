@@ -151,7 +151,7 @@ public:
     DynamicRow measure(const std::string& name, const Stage& stage, std::uint32_t depth, Progress& progress)
     {
         const Bounds bounds = stageBounds(stage);
-        const Grid grid = Grid::around(stage.grid_bounds.value_or(bounds), depth);
+        const Grid grid = stage.grid_bounds ? Grid::withCorner(*stage.grid_bounds, depth) : Grid::around(bounds, depth);
         const ViewCamera view =
             chooseCamera(m_options.camera, stage, subjectOf(bounds, grid), double{kWidth} / kHeight);
         const TraceCamera camera = traceCamera(view, grid, kHeight);

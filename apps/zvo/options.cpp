@@ -209,6 +209,9 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
              "pictures of a scene in which something moves, frame N at N / frames_per_second seconds; of any other "
              "scene, a camera that turns once around it; #### in the output's name becomes the frame's number")
         ->excludes("--time");
+    render->add_flag("--rebuild", options.rebuild,
+                     "voxelize everything anew for each picture of a scene in which something moves, instead of "
+                     "merging what moves with what stands still");
     addOutputOptions(*render, options.output, "the picture, a .png file; - is standard output");
     addDeviceOptions(*render, options.device);
     render->footer(kRenderFooter);

@@ -70,6 +70,7 @@ struct RenderOptions
     float exposure = 1.0F;
     float detail_pixels = 0.0F;                                    // rays stop at octree nodes up to this wide
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
+    bool rebuild = false; // what moves is not merged with what stands still: everything is voxelized for each picture
 };
 
 struct VoxelizeOptions

@@ -5,8 +5,10 @@
 #include "core/image_io.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "core/stage_octree.h"
 #include "core/trace.h"
 #include "output.h"
+#include "pictures.h"
 #include "progress.h"
 #include "report.h"
 #include "session.h"
@@ -26,73 +28,6 @@ namespace zvo::cli
 
 namespace
 {
-
-/// The pictures' files: one, or one for each frame.
-class Pictures
-{
-public:
-    /// Finds out now whether all of them can be written.
-    explicit Pictures(const RenderOptions& options) : m_options(options)
-    {
-        const std::string& path = options.output.path;
-        if (path != "-" && extensionOf(path) != ".png")
-        {
-            throw Error(ErrorCode::Usage, fmt::format("-o {}: pictures are PNG files; name it .png", path));
-        }
-        if (!options.frames)
-        {
-            m_first.emplace(path, options.output.overwrite);
-            return;
-        }
-        m_marker = path.find('#');
-        m_digits = m_marker == std::string::npos ? 0 : path.find_first_not_of('#', m_marker) - m_marker;
-        if (m_digits == 0)
-        {
-            throw Error(ErrorCode::Usage, fmt::format("-o {}: with --frames, the name needs a place for the frame's "
-                                                      "number, such as frame_####.png",
-                                                      path));
-        }
-        for (std::uint32_t i = 0; i < count(); ++i)
-        {
-            const Output look(pathOf(i), options.output.overwrite);
-        }
-    }
-
-    [[nodiscard]] std::uint32_t count() const
-    {
-        return m_options.frames ? m_options.frames->second - m_options.frames->first + 1 : 1;
-    }
-
-    // The number of a frame, 0 where none was asked for.
-    [[nodiscard]] std::uint32_t number(std::uint32_t index) const
-    {
-        return m_options.frames ? m_options.frames->first + index : 0;
-    }
-
-    void write(std::uint32_t index, std::span<const std::uint8_t> png)
-    {
-        if (!m_first)
-        {
-            m_first.emplace(pathOf(index), m_options.output.overwrite);
-        }
-        m_first->write(std::as_bytes(png));
-        m_first->finish();
-        m_first.reset();
-    }
-
-private:
-    [[nodiscard]] std::string pathOf(std::uint32_t index) const
-    {
-        const std::string& path = m_options.output.path;
-        return fmt::format("{}{:0{}}{}", path.substr(0, m_marker), number(index), m_digits,
-                           path.substr(m_marker + m_digits));
-    }
-
-    const RenderOptions& m_options;
-    std::size_t m_marker = 0; // where the frame's number goes
-    std::size_t m_digits = 0;
-    std::optional<Output> m_first; // opened already
-};
 
 // Times of one picture.
 struct PictureTimes
@@ -203,13 +138,41 @@ public:
         m_capped_rays = renderer.cappedRays();
     }
 
-    // Times of what moves, each voxelized on its own.
+    // What stands still is voxelized once, what moves is merged with it at each time.
     void play(const Stage& stage, const Grid& grid, const ViewCamera& camera)
+    {
+        m_progress.step("voxelizing what stands still");
+        StageOctree octree(m_device, stage, grid, {m_options.voxels.coverage, m_options.voxels.attributes});
+        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
+        {
+            m_progress.step("updating");
+            const double seconds = timeOf(stage, i);
+            const StageUpdate update = octree.update(seconds);
+            Renderer renderer(m_device, octree.octree(), m_options);
+            if (i == 0)
+            {
+                report(stage, octree, update);
+                m_beam_passes = renderer.beamPasses();
+            }
+            draw(i, renderer, camera);
+            m_capped_rays += renderer.cappedRays();
+            m_frames.push_back({{"frame", m_pictures.number(i)},
+                                {"seconds", seconds},
+                                {"voxels_dynamic", update.report.dynamic_count},
+                                {"nodes_dynamic", update.report.node_count},
+                                {"dynamic_ms", sumMs(update.passes)},
+                                {"retries", update.retry_count},
+                                {"trace_ms", m_times.back().trace_ms},
+                                {"shade_ms", m_times.back().shade_ms}});
+        }
+    }
+
+    // Everything is voxelized together, at each time anew.
+    void rebuild(const Stage& stage, const Grid& grid, const ViewCamera& camera)
     {
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
-            const double seconds = m_options.frames ? frameTime(stage, m_pictures.number(i))
-                                                    : loopedTime(stage, m_options.voxels.time.value_or(0.0));
+            const double seconds = timeOf(stage, i);
             const BuildResult result = voxelize(stageAt(stage, seconds), grid);
             Renderer renderer(m_device, result.octree, m_options);
             if (i == 0)
@@ -263,6 +226,12 @@ public:
     }
 
 private:
+    [[nodiscard]] double timeOf(const Stage& stage, std::uint32_t index) const
+    {
+        return m_options.frames ? frameTime(stage, m_pictures.number(index))
+                                : loopedTime(stage, m_options.voxels.time.value_or(0.0));
+    }
+
     BuildResult voxelize(Scene scene, const Grid& grid)
     {
         m_progress.step("copying to the device");
@@ -272,7 +241,7 @@ private:
         m_progress.step("voxelizing");
         BuildResult result =
             buildOctree(m_device, gpu_scene, grid, {m_options.voxels.coverage, m_options.voxels.attributes, {}});
-        m_has_warned = m_has_warned || warnOfDropped(result); // once, not for each frame
+        m_has_warned = m_has_warned || warnOfDropped(result.octree.voxel_count, result.dropped); // not for each frame
         return result;
     }
 
@@ -287,6 +256,41 @@ private:
             m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, m_triangle_count, result,
                                 octreeSha256(m_device, result.octree), 0);
         }
+    }
+
+    // What stands still, and the first update.
+    void report(const Stage& stage, StageOctree& octree, const StageUpdate& update)
+    {
+        const StaticPart& part = octree.staticPart();
+        const Grid& grid = octree.octree().grid;
+        const std::uint64_t triangle_count = part.triangle_count + octree.moverTriangleCount();
+        warnOfDropped(std::uint64_t{part.voxel_count} + update.report.dynamic_count, part.dropped);
+        const auto stageMs = [&part](const std::string& operation)
+        {
+            double ms = 0;
+            for (const vk::PassTime& pass : part.passes)
+            {
+                ms += pass.name.find(operation + "/") != std::string::npos ? pass.ms : 0.0;
+            }
+            return ms;
+        };
+        m_built = fmt::format("{} static and {} dynamic voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build "
+                              "{:.1f} ms, update {:.1f} ms",
+                              part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count,
+                              stageMs("voxelize"), stageMs("octree"), sumMs(update.passes));
+        m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
+        m_json["merge"] = mergeRuleName(stage.merge);
+        m_json["scene"] = {{"triangles_static", part.triangle_count},
+                           {"triangles_dynamic", octree.moverTriangleCount()},
+                           {"movers", stage.movers.size()},
+                           {"dropped", part.dropped}};
+        m_json["voxels_static"] = part.voxel_count;
+        m_json["nodes_static"] = part.node_count;
+        m_json["passes"] = passesJson(part.passes);
+        const Json more = passesJson(update.passes);
+        m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
+        m_json["voxelize_ms"] = stageMs("voxelize");
+        m_json["build_ms"] = stageMs("octree");
     }
 
     void reportFrame(std::uint32_t number, double seconds, const BuildResult& result)
@@ -346,7 +350,9 @@ void render(const RenderOptions& options)
     progress.step("loading");
     Stage stage = loadStageWithWarnings(options.voxels, options.frames || options.voxels.time);
     const bool moves = !stage.movers.empty();
-    progress.expect(moves ? 1 + 3 * pictures.count() : 3 + pictures.count());
+    progress.expect(!moves            ? 3 + pictures.count()
+                    : options.rebuild ? 1 + 3 * pictures.count()
+                                      : 2 + 2 * pictures.count());
     checkPlaces(options.output, stage.files);
     const Bounds bounds = stageBounds(stage);
     const Grid grid = placeGrid(options.voxels, stage, bounds);
@@ -355,7 +361,12 @@ void render(const RenderOptions& options)
         chooseCamera(options.camera, stage, subject, static_cast<double>(options.width) / options.height);
 
     Run run(options, pictures, progress);
-    if (moves)
+    if (moves && options.rebuild)
+    {
+        warnOfMergeRule(stage);
+        run.rebuild(stage, grid, camera);
+    }
+    else if (moves)
     {
         run.play(stage, grid, camera);
     }

@@ -15,17 +15,8 @@ Json deviceJson(const vk::DeviceReport& device)
             {"subgroup_size", device.subgroup_size}};
 }
 
-Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
-                std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
-                std::uint64_t peak_bytes)
+Json headJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options, const Grid& grid)
 {
-    const Octree& octree = result.octree;
-    const Grid& grid = octree.grid;
-    Json dropped = Json::object();
-    for (const auto& [reason, count] : result.dropped)
-    {
-        dropped[reason] = count;
-    }
     Json json;
     json["schema"] = schema;
     json["zvo"] = ZVO_VERSION;
@@ -37,6 +28,21 @@ Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const
     json["coverage"] = coverageName(options.coverage);
     json["attributes"] = options.attributes ? "full" : "none";
     json["snapping"] = "lattice256";
+    return json;
+}
+
+Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
+                std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
+                std::uint64_t peak_bytes)
+{
+    const Octree& octree = result.octree;
+    const Grid& grid = octree.grid;
+    Json dropped = Json::object();
+    for (const auto& [reason, count] : result.dropped)
+    {
+        dropped[reason] = count;
+    }
+    Json json = headJson(schema, device, options, grid);
     json["scene"] = {{"triangles", triangle_count}, {"dropped", dropped}};
     json["voxels"] = octree.voxel_count;
     json["bricks"] = octree.levels.empty() ? 0U : octree.levels.back().node_count;
@@ -97,6 +103,11 @@ std::string jsonText(const Json& json)
 const char* coverageName(Coverage coverage)
 {
     return coverage == Coverage::Thin ? "thin" : "conservative";
+}
+
+const char* mergeRuleName(MergeRule rule)
+{
+    return rule == MergeRule::DynamicWins ? "dynamic" : rule == MergeRule::StaticWins ? "static" : "average";
 }
 
 } // namespace zvo::cli

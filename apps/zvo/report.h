@@ -2,6 +2,7 @@
 // The numbers of a run as JSON. The names of the fields are an interface: they stay.
 #pragma once
 
+#include "core/merge_rule.h"
 #include "core/pipeline.h"
 #include "options.h"
 #include "vk/device.h"
@@ -20,8 +21,11 @@ using Json = nlohmann::ordered_json;
 /// Name, driver, type and subgroup size.
 Json deviceJson(const vk::DeviceReport& device);
 
-/// What `zvo render` and `zvo voxelize` report on the way from triangles to the octree; trace_ms is null. The numbers
-/// of the grid are single precision in the fewest digits of double precision that give them back bit for bit.
+/// How a report begins: schema, version, device, grid, and how it was voxelized. The numbers of the grid are single
+/// precision in the fewest digits of double precision that give them back bit for bit.
+Json headJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options, const Grid& grid);
+
+/// What `zvo render` and `zvo voxelize` report on the way from triangles to the octree; trace_ms is null.
 /// peak_bytes: device memory of the whole run.
 Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
                 std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
@@ -40,5 +44,8 @@ double sumMs(const std::vector<vk::PassTime>& passes);
 std::string jsonText(const Json& json);
 
 const char* coverageName(Coverage coverage);
+
+/// As scene files have it.
+const char* mergeRuleName(MergeRule rule);
 
 } // namespace zvo::cli

@@ -3,6 +3,7 @@
 
 #include "core/load_scene.h"
 #include "progress.h"
+#include "report.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -72,11 +73,6 @@ void checkStageOptions(const VoxelOptions& options)
     }
 }
 
-const char* ruleName(MergeRule rule)
-{
-    return rule == MergeRule::DynamicWins ? "dynamic" : rule == MergeRule::StaticWins ? "static" : "average";
-}
-
 } // namespace
 
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
@@ -135,12 +131,6 @@ Stage loadStageWithWarnings(const VoxelOptions& options, bool in_motion)
     {
         talk("warning: nothing moves in this scene, it is the same at every --time");
     }
-    if (stage.merge != MergeRule::Average)
-    {
-        talk(fmt::format("warning: everything is voxelized together, which averages where objects overlap; the scene "
-                         "file's merge, {}, has no effect",
-                         ruleName(stage.merge)));
-    }
     return stage;
 }
 
@@ -156,9 +146,9 @@ Grid placeGrid(const VoxelOptions& options, const Stage& stage, const Bounds& bo
     return wanted ? Grid::withCorner(*wanted, depth) : Grid::around(bounds, depth);
 }
 
-bool warnOfDropped(const BuildResult& result)
+bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped)
 {
-    bool told = result.octree.voxel_count == 0;
+    bool told = voxel_count == 0;
     if (told)
     {
         talk("warning: there are no voxels; the grid misses the scene, or its triangles have no area at this "
@@ -166,14 +156,24 @@ bool warnOfDropped(const BuildResult& result)
     }
     for (const char* reason : {"nonfinite", "out_of_range"})
     {
-        const auto dropped = result.dropped.find(reason);
-        if (dropped != result.dropped.end())
+        const auto count = dropped.find(reason);
+        if (count != dropped.end())
         {
-            talk(fmt::format("warning: {} triangles left out ({})", dropped->second, reason));
+            talk(fmt::format("warning: {} triangles left out ({})", count->second, reason));
             told = true;
         }
     }
     return told;
+}
+
+void warnOfMergeRule(const Stage& stage)
+{
+    if (!stage.movers.empty() && stage.merge != MergeRule::Average)
+    {
+        talk(fmt::format("warning: everything is voxelized together, which averages where objects overlap; the scene "
+                         "file's merge, {}, has no effect",
+                         mergeRuleName(stage.merge)));
+    }
 }
 
 void checkValidation(const vk::HeadlessDevice& device)

@@ -9,8 +9,11 @@
 #include "options.h"
 #include "vk/headless.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
+#include <string>
 
 namespace zvo::cli
 {
@@ -29,8 +32,12 @@ Stage loadStageWithWarnings(const VoxelOptions& options, bool in_motion);
 /// The grid that options or else the stage ask for, or the one around bounds, the stage's.
 Grid placeGrid(const VoxelOptions& options, const Stage& stage, const Bounds& bounds);
 
-/// Tells of triangles that were left out because their numbers make no sense. Whether there was something to tell.
-bool warnOfDropped(const BuildResult& result);
+/// Tells of voxels that are not there, and of triangles that were left out because their numbers make no sense;
+/// dropped: triangles by reason. Whether there was something to tell.
+bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped);
+
+/// Tells where a stage's rule of merging has no effect because everything is voxelized together.
+void warnOfMergeRule(const Stage& stage);
 
 /// Throws Error{Other} where the validation layers have said something.
 void checkValidation(const vk::HeadlessDevice& device);

@@ -55,6 +55,7 @@ void voxelize(const VoxelizeOptions& options)
     progress.step("loading");
     Stage stage = loadStageWithWarnings(options.voxels, options.voxels.time.has_value());
     checkPlaces(options.output, stage.files);
+    warnOfMergeRule(stage);
     const Grid grid = placeGrid(options.voxels, stage, stageBounds(stage));
     Scene scene = stageAt(std::move(stage), loopedTime(stage, options.voxels.time.value_or(0.0)));
     const std::uint64_t triangle_count = scene.triangleCount();
@@ -67,7 +68,7 @@ void voxelize(const VoxelizeOptions& options)
     progress.step("voxelizing");
     const BuildResult result =
         buildOctree(device, gpu_scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
-    warnOfDropped(result);
+    warnOfDropped(result.octree.voxel_count, result.dropped);
 
     progress.step("writing");
     format == "morton" ? writeMorton(device, result.octree, output) : writePly(device, result.octree, output);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <map>
 #include <numbers>
 #include <ostream>
 #include <set>
@@ -109,8 +110,13 @@ TEST_F(CliStage, FramesAreTimesAndBeginAnew)
         arguments.insert(arguments.end(), common.begin(), common.end());
         return run(arguments);
     };
-    render({"-o", "f_##.png", "--frames", "2..10", "--json", "frames.json"});
+    render({"-o", "f_##.png", "--frames", "2..10", "--json", "updated.json"});
+    render({"-o", "r_##.png", "--frames", "2..10", "--json", "frames.json", "--rebuild"});
     render({"-o", "start.png"});
+    for (const char* frame : {"02.png", "03.png", "04.png", "05.png", "06.png", "07.png", "08.png", "09.png", "10.png"})
+    {
+        EXPECT_EQ(file(std::string("f_") + frame), file(std::string("r_") + frame)) << "an update equals a rebuild";
+    }
     for (const int frame : {2, 5, 7})
     {
         render({"-o", "time.png", "-f", "--time", std::to_string(frame * 0.25)});
@@ -135,6 +141,48 @@ TEST_F(CliStage, FramesAreTimesAndBeginAnew)
         EXPECT_GT(frame["voxels"], 0);
         EXPECT_GT(frame["trace_ms"], 0);
     }
+    const json updated = json::parse(file("updated.json"));
+    EXPECT_EQ(updated["schema"], "zvo.render_dynamic/1");
+    EXPECT_EQ(updated["grid"], report["grid"]);
+    EXPECT_EQ(updated["merge"], "average");
+    EXPECT_EQ(updated["scene"]["triangles_static"], 12);
+    EXPECT_EQ(updated["scene"]["triangles_dynamic"], 12);
+    EXPECT_EQ(updated["scene"]["movers"], 1);
+    EXPECT_GT(updated["nodes_static"], 0);
+    run({"voxelize", "cube.glb", "--grid", gridText(report), "--resolution", "32", "-o", "cube.morton"});
+    EXPECT_EQ(updated["voxels_static"], codes("cube.morton").size());
+    ASSERT_EQ(updated["frames"].size(), 9U);
+    for (int i = 0; i < 9; ++i)
+    {
+        const json& frame = updated["frames"][i];
+        EXPECT_EQ(frame["frame"], i + 2);
+        EXPECT_EQ(frame["seconds"], (i + 2) % 8 * 0.25);
+        EXPECT_EQ(frame["voxels_dynamic"] > 0, i != 6) << "at the start the slab is outside";
+        EXPECT_GT(frame["nodes_dynamic"], 0) << "a root at least";
+        EXPECT_GT(frame["dynamic_ms"], 0);
+    }
+}
+
+TEST_F(CliStage, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
+{
+    // The slab, turned so that a green side is in front, shares voxels of the cube's blue front.
+    std::map<std::string, std::string> pictures;
+    for (const char* rule : {"average", "dynamic", "static"})
+    {
+        json stage = json::parse(file("test.scene.json"));
+        stage["merge"] = rule;
+        stage["objects"][1]["place"]["rotation"] = {{"axis", {1, 0, 0}}, {"degrees", 90}};
+        stage["objects"][1]["motion"]["line"] = {{"from", {0, 0.75, 0.25}}, {"to", {1, 0.75, 0.25}}};
+        m_dir.write("rule.scene.json", stage.dump());
+        const Outcome outcome =
+            run({"render", "rule.scene.json", "--scenes", "models", "-o", "rule.png", "-f", "--time", "0.5", "--size",
+                 "64x48", "--view", "albedo", "--camera", "3,3,4,0.5,0.5,0.5"});
+        EXPECT_FALSE(contains(outcome.err, "warning")) << outcome.err;
+        pictures[rule] = file("rule.png");
+    }
+    EXPECT_TRUE(pictures["average"] != pictures["dynamic"]);
+    EXPECT_TRUE(pictures["average"] != pictures["static"]);
+    EXPECT_TRUE(pictures["dynamic"] != pictures["static"]);
 }
 
 TEST_F(CliStage, TheCameraOfTheSceneFileStandsStill)
@@ -238,8 +286,14 @@ TEST_F(CliStage, RulesThatARebuildCannotFollowAreToldOf)
     json stage = json::parse(file("test.scene.json"));
     stage["merge"] = "dynamic";
     m_dir.write("rule.scene.json", stage.dump());
-    const Outcome outcome = run({"voxelize", "rule.scene.json", "--scenes", "models", "-o", "a.morton"});
-    EXPECT_TRUE(contains(outcome.err, "merge, dynamic, has no effect")) << outcome.err;
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"voxelize", "-o", "a.morton"},
+                                                      {"render", "-o", "a.png", "--size", "16x16", "--rebuild"}})
+    {
+        std::vector<std::string> all = arguments;
+        all.insert(all.end(), {"rule.scene.json", "--scenes", "models"});
+        const Outcome outcome = run(all);
+        EXPECT_TRUE(contains(outcome.err, "merge, dynamic, has no effect")) << outcome.err;
+    }
 }
 
 struct WrongUse

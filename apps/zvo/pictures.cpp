@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "pictures.h"
+
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+namespace zvo::cli
+{
+
+Pictures::Pictures(const RenderOptions& options) : m_options(options)
+{
+    const std::string& path = options.output.path;
+    if (path != "-" && extensionOf(path) != ".png")
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o {}: pictures are PNG files; name it .png", path));
+    }
+    if (!options.frames)
+    {
+        m_first.emplace(path, options.output.overwrite);
+        return;
+    }
+    m_marker = path.find('#');
+    m_digits = m_marker == std::string::npos ? 0 : path.find_first_not_of('#', m_marker) - m_marker;
+    if (m_digits == 0)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o {}: with --frames, the name needs a place for the frame's "
+                                                  "number, such as frame_####.png",
+                                                  path));
+    }
+    for (std::uint32_t i = 0; i < count(); ++i)
+    {
+        const Output look(pathOf(i), options.output.overwrite);
+    }
+}
+
+std::uint32_t Pictures::count() const
+{
+    return m_options.frames ? m_options.frames->second - m_options.frames->first + 1 : 1;
+}
+
+std::uint32_t Pictures::number(std::uint32_t index) const
+{
+    return m_options.frames ? m_options.frames->first + index : 0;
+}
+
+void Pictures::write(std::uint32_t index, std::span<const std::uint8_t> png)
+{
+    if (!m_first)
+    {
+        m_first.emplace(pathOf(index), m_options.output.overwrite);
+    }
+    m_first->write(std::as_bytes(png));
+    m_first->finish();
+    m_first.reset();
+}
+
+std::string Pictures::pathOf(std::uint32_t index) const
+{
+    const std::string& path = m_options.output.path;
+    return fmt::format("{}{:0{}}{}", path.substr(0, m_marker), number(index), m_digits,
+                       path.substr(m_marker + m_digits));
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "options.h"
+#include "output.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace zvo::cli
+{
+
+/// The pictures' files: one, or one for each frame.
+class Pictures
+{
+public:
+    /// Finds out now whether all of them can be written. Throws Error{Usage} for a name that will not do, Error{Output}
+    /// for a place that cannot be written to.
+    explicit Pictures(const RenderOptions& options);
+
+    [[nodiscard]] std::uint32_t count() const;
+
+    /// The number of a frame, 0 where none was asked for.
+    [[nodiscard]] std::uint32_t number(std::uint32_t index) const;
+
+    /// Writes the index-th picture.
+    void write(std::uint32_t index, std::span<const std::uint8_t> png);
+
+private:
+    [[nodiscard]] std::string pathOf(std::uint32_t index) const;
+
+    const RenderOptions& m_options;
+    std::size_t m_marker = 0; // where the frame's number goes
+    std::size_t m_digits = 0;
+    std::optional<Output> m_first; // opened already
+};
+
+} // namespace zvo::cli
