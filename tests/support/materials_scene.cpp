@@ -8,14 +8,14 @@
 namespace zvo::test
 {
 
-Scene materialsScene(float extent)
+Scene materialsScene(float extent, std::size_t count, std::uint32_t seed)
 {
-    std::mt19937 random(17);
+    std::mt19937 random(seed);
     std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
     Scene scene;
     for (std::uint32_t kind = 0; kind < 5; ++kind)
     {
-        Scene part = randomTriangles(40 + kind, 120, extent);
+        Scene part = randomTriangles(23 + seed + kind, count, extent);
         Material& material = part.materials[0];
         Primitive& primitive = part.primitives[0];
         material.base_color = {uniform(random), uniform(random), uniform(random), 0.6F};

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "support/dynamic_machine.h"
+
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <set>
+#include <utility>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+constexpr int kAttemptsMax = 64;
+constexpr std::uint32_t kUpdatesPerFrame = 4; // that DynamicOctree takes
+constexpr double kTinyBudgetMs = 1e-6;
+constexpr std::array kActionNames = {"add",  "place", "remove", "update", "slice",
+                                     "undo", "redo",  "submit", "wait",   "settle"};
+
+const Cell* findCell(const std::vector<Cell>& cells, const Cell& cell)
+{
+    const auto order = [](const Cell& c) { return std::pair(c.level, c.code); };
+    const auto found = std::ranges::lower_bound(cells, order(cell), {}, order);
+    return found != cells.end() && order(*found) == order(cell) ? &*found : nullptr;
+}
+
+template <typename T>
+void addWords(std::vector<gpu::uint>& words, vk::HeadlessDevice& device, const vk::BufferOf<T>& buffer,
+              std::uint64_t first, std::uint64_t count)
+{
+    if (count == 0)
+    {
+        return;
+    }
+    const std::vector<T> values = device.download(buffer, first, count);
+    const auto* begin = reinterpret_cast<const gpu::uint*>(values.data());
+    words.insert(words.end(), begin, begin + values.size() * sizeof(T) / sizeof(gpu::uint));
+}
+
+} // namespace
+
+std::ostream& operator<<(std::ostream& out, const Command& command)
+{
+    using Action = Command::Action;
+    out << kActionNames.at(static_cast<std::size_t>(command.action));
+    if (command.action == Action::Add)
+    {
+        out << " mesh " << command.item.mesh << " " << command.item.place;
+    }
+    if (command.action == Action::Remove || command.action == Action::Place)
+    {
+        out << " mover " << command.mover;
+    }
+    if (command.action == Action::Place)
+    {
+        out << " " << command.item.place;
+    }
+    return out;
+}
+
+DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, MoverScenery& scenery)
+    : m_device(device), m_setting(setting), m_scenery(scenery), m_line(setting.steps_max)
+{
+    BuildResult built = scenery.buildStatic(setting);
+    m_static_emissive = built.octree.emission.count();
+    m_static = staticBytes(built.octree);
+    m_octree = std::make_unique<DynamicOctree>(device, std::move(built), setting.options(scenery.emissionScale()));
+}
+
+void DynamicMachine::run(const Command& command)
+{
+    switch (command.action)
+    {
+    case Command::Action::Add:
+        add(command.item);
+        break;
+    case Command::Action::Submit:
+        submit();
+        break;
+    case Command::Action::Wait:
+        wait();
+        compare();
+        break;
+    case Command::Action::Settle:
+        settle();
+        break;
+    default:
+        if (m_update_count == kUpdatesPerFrame)
+        {
+            submit();
+        }
+        m_update_count += command.action == Command::Action::Update || command.action == Command::Action::Slice ? 1 : 0;
+        m_commands.push_back(command);
+    }
+}
+
+void DynamicMachine::finish()
+{
+    settle();
+    RC_ASSERT(staticBytes(m_octree->octree()) == m_static);
+}
+
+void DynamicMachine::add(const Item& item)
+{
+    submit();
+    if (m_wanted.size() < kMoversMax)
+    {
+        const MoverId id = m_octree->add(m_scenery.mover(item.mesh, m_setting.attributes), m_scenery.poseOf(item));
+        m_wanted[id] = item;
+    }
+}
+
+// Gives the device a frame of the commands so far; waits where too many are under way.
+void DynamicMachine::submit()
+{
+    if (m_commands.empty())
+    {
+        return;
+    }
+    if (m_flights.size() == m_setting.frames_in_flight)
+    {
+        waitForOldest();
+    }
+    const std::uint64_t frame = m_octree->beginFrame();
+    vk::Submission submission = m_device.submit(
+        [&](vk::FrameGraph& graph)
+        {
+            for (const Command& command : m_commands)
+            {
+                record(graph, command);
+            }
+            graph.releaseToHost();
+        });
+    m_flights.push_back({frame, std::move(submission)});
+    m_commands.clear();
+    m_update_count = 0;
+}
+
+void DynamicMachine::record(vk::FrameGraph& graph, const Command& command)
+{
+    const auto mover =
+        m_wanted.empty() ? m_wanted.end() : std::next(m_wanted.begin(), command.mover % std::ssize(m_wanted));
+    switch (command.action)
+    {
+    case Command::Action::Place:
+        if (mover != m_wanted.end())
+        {
+            mover->second.place = command.item.place;
+            m_octree->place(mover->first, m_scenery.poseOf(mover->second));
+        }
+        break;
+    case Command::Action::Remove:
+        if (mover != m_wanted.end())
+        {
+            m_octree->remove(mover->first);
+            m_wanted.erase(mover);
+            m_is_owed = false; // what was under way is given up
+        }
+        break;
+    case Command::Action::Update:
+        update(graph, 0);
+        break;
+    case Command::Action::Slice:
+        update(graph, kTinyBudgetMs);
+        break;
+    case Command::Action::Undo:
+    case Command::Action::Redo:
+        show(graph, command.action == Command::Action::Undo);
+        break;
+    default:
+        break;
+    }
+}
+
+void DynamicMachine::update(vk::FrameGraph& graph, double budget_ms)
+{
+    if (!m_octree->isUpdating())
+    {
+        m_under_way = m_wanted;
+    }
+    const bool is_complete = m_octree->update(graph, budget_ms);
+    RC_ASSERT(is_complete == !m_octree->isUpdating());
+    RC_ASSERT(is_complete || budget_ms != 0);
+    m_is_owed = !is_complete;
+    if (is_complete)
+    {
+        m_line.push(m_under_way, !m_under_way.empty());
+    }
+}
+
+void DynamicMachine::show(vk::FrameGraph& graph, bool undo)
+{
+    const bool moved = m_line.move(undo ? -1 : 1);
+    RC_ASSERT((undo ? m_octree->undo(graph) : m_octree->redo(graph)) == moved);
+    if (moved)
+    {
+        m_is_owed = false;
+        m_wanted = m_line.shown();
+    }
+}
+
+void DynamicMachine::waitForOldest()
+{
+    const std::vector<vk::PassTime> passes = m_flights.front().submission.wait();
+    for (const UpdateReport& report : m_octree->frameDone(m_flights.front().frame, passes))
+    {
+        m_is_owed = m_is_owed || (report.failed != 0 && report.step == m_line.current());
+        m_line.end(report.step, report.failed != 0);
+    }
+    m_flights.pop_front();
+    RC_ASSERT(!m_is_owed || m_octree->isUpdating() || m_octree->needsUpdate());
+}
+
+void DynamicMachine::wait()
+{
+    submit();
+    while (!m_flights.empty())
+    {
+        waitForOldest();
+    }
+    RC_ASSERT(!m_line.isPending());
+}
+
+void DynamicMachine::settle()
+{
+    wait();
+    Command update;
+    update.action = Command::Action::Update;
+    for (int attempt = 0; attempt < kAttemptsMax; ++attempt)
+    {
+        m_commands.push_back(update);
+        wait();
+        compare();
+        if (!m_octree->needsUpdate() && m_line.shown() == m_wanted)
+        {
+            return;
+        }
+    }
+    RC_FAIL("no update succeeded");
+}
+
+void DynamicMachine::compare()
+{
+    RC_ASSERT(m_octree->history().undoCount() == m_line.undoCount());
+    RC_ASSERT(m_octree->history().redoCount() == m_line.redoCount());
+    std::multiset<Item> items;
+    for (const auto& [id, item] : m_line.shown())
+    {
+        items.insert(item);
+    }
+    std::vector<Cell> actual = cellsOf(m_device, m_octree->octree());
+    std::vector<Cell> expected = *m_scenery.rebuilt(m_setting, true, items);
+    if (m_setting.merge != MergeRule::Average && m_setting.attributes)
+    {
+        applyRule(expected, actual, *m_scenery.rebuilt(m_setting, true, {}),
+                  *m_scenery.rebuilt(m_setting, false, items));
+    }
+    RC_ASSERT(difference(actual, expected) == "");
+}
+
+// Gives the cells of everything the looks that they have in one of its two parts. Nodes that both have are left out of
+// the comparison: what is below them is in it.
+void DynamicMachine::applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
+                               const std::vector<Cell>& moving) const
+{
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+        const Cell* in_fixed = findCell(fixed, expected[i]);
+        const Cell* in_moving = findCell(moving, expected[i]);
+        RC_ASSERT(in_fixed != nullptr || in_moving != nullptr);
+        if (in_fixed == nullptr || in_moving == nullptr)
+        {
+            expected[i] = in_fixed != nullptr ? *in_fixed : *in_moving;
+        }
+        else if (expected[i].level == m_setting.grid().nodeLevels())
+        {
+            expected[i] = m_setting.merge == MergeRule::DynamicWins ? *in_moving : *in_fixed;
+        }
+        else
+        {
+            expected[i].attribute = {};
+            if (i < actual.size())
+            {
+                actual[i].attribute = {};
+            }
+        }
+    }
+}
+
+// What of an octree belongs to the static part, but for the slot of the root that is shown.
+std::vector<gpu::uint> DynamicMachine::staticBytes(const Octree& octree) const
+{
+    std::vector<gpu::uint> words;
+    const std::uint64_t below_root = std::max(octree.node_count, 1U) - 1;
+    addWords(words, m_device, octree.nodes, 1, below_root);
+    if (octree.hasAttributes())
+    {
+        addWords(words, m_device, octree.node_attributes, 1, below_root);
+        addWords(words, m_device, octree.voxel_attributes, 0, octree.voxel_count);
+    }
+    if (m_static_emissive != 0)
+    {
+        addWords(words, m_device, octree.emission_words, 0, (octree.voxel_count + 31) / 32);
+        addWords(words, m_device, octree.emission, 0, m_static_emissive);
+    }
+    return words;
+}
+
+} // namespace zvo::test

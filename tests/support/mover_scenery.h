@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// A small scene with things to move in it, and what voxelizing all of it at once gives.
+#pragma once
+
+#include "core/dynamic_octree.h"
+#include "support/octree_contents.h"
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <ostream>
+#include <set>
+#include <tuple>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// Where a mover is.
+struct Place
+{
+    enum class Kind
+    {
+        Inside, // or across the grid's border
+        Outside,
+        Point,
+        Flat,
+        Mirrored,
+        Turned,
+        Nan,
+        Huge // overflows single precision
+    };
+
+    Kind kind = Kind::Inside;
+    std::array<int, 3> at{}; // 0 to 3 inside
+
+    auto operator<=>(const Place&) const = default;
+
+    [[nodiscard]] glm::mat4 transform() const;
+};
+
+std::ostream& operator<<(std::ostream& out, const Place& place);
+
+/// A mesh in its place.
+struct Item
+{
+    std::uint32_t mesh = 0; // less than MoverScenery::kMeshCount
+    Place place;
+
+    auto operator<=>(const Item&) const = default;
+};
+
+/// What octrees of the scenery are like, and the movers in them.
+struct DynamicSetting
+{
+    static constexpr std::uint32_t kWideDepth = 13; // keys of its leaves do not fit 32 bits
+
+    std::uint32_t depth = 5;
+    Coverage coverage = Coverage::Thin;
+    MergeRule merge = MergeRule::Average;
+    bool attributes = true;
+    bool emits = true;
+    bool has_static = true;
+    bool minimal_capacities = false;
+    std::uint32_t frames_in_flight = 2;
+    std::uint32_t steps_max = 16;
+
+    /// The scene's extent takes 64 voxels at most; a deeper grid has it in its farthest corner, where all bits of codes
+    /// count.
+    [[nodiscard]] Grid grid() const;
+
+    [[nodiscard]] DynamicOptions options(float emission_scale) const;
+};
+
+std::ostream& operator<<(std::ostream& out, const DynamicSetting& setting);
+
+/// Meshes of a few dozen triangles with textures, alpha and, if they are to, emission. Must not outlive the device.
+class MoverScenery
+{
+public:
+    static constexpr std::size_t kMeshCount = 2;
+
+    MoverScenery(vk::HeadlessDevice& device, bool emits);
+
+    [[nodiscard]] float emissionScale() const { return m_scale; }
+
+    /// The static part, or without one the octree of nothing.
+    [[nodiscard]] BuildResult buildStatic(const DynamicSetting& setting) const;
+
+    [[nodiscard]] std::shared_ptr<const MoverMesh> mover(std::uint32_t mesh, bool attributes);
+    [[nodiscard]] Pose poseOf(const Item& item) const;
+
+    /// The cells of the octree that is made of items and, if that is asked for, the static part. The last few are kept.
+    std::shared_ptr<const std::vector<Cell>> rebuilt(const DynamicSetting& setting, bool with_static,
+                                                     const std::multiset<Item>& items);
+
+private:
+    using Key = std::tuple<std::uint32_t, Coverage, bool, bool, std::multiset<Item>>;
+
+    [[nodiscard]] GpuScene upload(const Scene& scene, bool attributes) const;
+
+    vk::HeadlessDevice& m_device;
+    Scene m_static;
+    std::array<Scene, kMeshCount> m_meshes;
+    float m_scale = 0;
+    std::map<std::pair<std::uint32_t, bool>, std::shared_ptr<const MoverMesh>> m_uploaded;
+    std::map<Key, std::shared_ptr<const std::vector<Cell>>> m_rebuilt;
+};
+
+} // namespace zvo::test
