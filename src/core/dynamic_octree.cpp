@@ -33,6 +33,12 @@ std::uint64_t withSlack(std::uint64_t needed)
     return needed + needed / 4 + 64;
 }
 
+// The most that was needed, of late: what leaves the grid and comes back finds room at once.
+std::uint64_t recentMost(std::uint64_t most, std::uint64_t needed)
+{
+    return std::max(needed, most - divideUp(most, 1024)); // half in 700 updates
+}
+
 // What a layer that failed needs, as far as it tells: counts past a capacity are exact unless the table was full.
 LayerCapacities grown(const LayerCapacities& tried, const gpu::LayerCounters& counters)
 {
@@ -705,8 +711,10 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
     if (status.failed == 0)
     {
         m_history->complete(pending.step, status.node_count, status.voxel_count);
-        m_likely_nodes = withSlack(status.node_count);
-        m_likely_voxels = withSlack(status.voxel_count);
+        m_most_nodes = recentMost(m_most_nodes, status.node_count);
+        m_most_voxels = recentMost(m_most_voxels, status.voxel_count);
+        m_likely_nodes = withSlack(m_most_nodes);
+        m_likely_voxels = withSlack(m_most_voxels);
     }
     else
     {

@@ -224,6 +224,8 @@ private:
     std::uint64_t m_touched_min = 0;  // entries that the table of the next update has at least
     std::uint64_t m_likely_nodes = 0; // of the next overlay
     std::uint64_t m_likely_voxels = 0;
+    std::uint64_t m_most_nodes = 0; // of overlays of late
+    std::uint64_t m_most_voxels = 0;
 
     vk::BufferOf<gpu::uint> m_roots;
     vk::BufferOf<gpu::UpdateStatus> m_results;  // host-visible, a ring
