@@ -83,7 +83,7 @@ rc::Gen<DynamicSetting> anySetting()
 TEST(DynamicSequences, ShowWhatARebuildShows)
 {
     std::array sceneries = {test::MoverScenery(device(), false), test::MoverScenery(device(), true)};
-    const auto any_commands = rc::gen::scale(0.3, rc::gen::container<std::vector<Command>>(anyCommand()));
+    const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
     test::checkProperty(150,
                         [&]
                         {
