@@ -17,7 +17,7 @@ void main()
     LayerCounters counters = params.counters.data[0];
     counters.overflow_count = params.brick_counters.data[0].overflow_count;
     for (uint i = 0u; i < kClassCount; ++i)
-        if (params.has_class[i] != 0u)
+        if (uint64_t(params.rasters[i]) != 0ul)
         {
             RasterCounters raster = params.rasters[i].data[0];
             counters.big_count = max(counters.big_count, raster.big_count);

@@ -49,8 +49,9 @@ void main()
         BrickEntry brick = params.bricks.data[entry];
         uint middle = first.y + bitCount(brick.mask_lo);
         uint end = middle + bitCount(brick.mask_hi);
-        bool fits = first.x < params.leaf_capacity && end <= params.voxel_capacity;
-        if (first.x < params.leaf_capacity)
+        bool has_place = first.x < params.leaf_capacity;
+        bool fits = has_place && end <= params.voxel_capacity && end >= first.y;
+        if (has_place)
         {
             params.keys.data[first.x] = keyOf(brick);
             params.leaves.data[first.x] =
@@ -59,9 +60,11 @@ void main()
         if (!fits)
             params.bricks.data[entry].mask_hi = 0u;
         if (kWideKeys || !fits) // wide: the leaf's number
-            params.bricks.data[entry].mask_lo = kWideKeys && first.x < params.leaf_capacity ? first.x : 0u;
+            params.bricks.data[entry].mask_lo = kWideKeys && has_place ? first.x : 0u;
         if (!kWideKeys)
             params.bricks.data[entry].base = fits ? first.y : 0u;
+        else if (!has_place) // half a key, which nobody finds
+            params.bricks.data[entry].base = 0u;
         ++first.x;
         first.y = end;
     }

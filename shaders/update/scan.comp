@@ -19,6 +19,7 @@ void main()
     OverlayLevel level = params.levels.data[params.level];
     uint block_count = (level.node_count + kScanBlock - 1u) / kScanBlock;
     uint carry = 0u;
+    bool wrapped = false; // past 2^32
     for (uint first = 0u; first < block_count; first += kScanGroup)
     {
         uint i = first + gl_LocalInvocationIndex;
@@ -27,15 +28,18 @@ void main()
         uint before = workgroupExclusiveAdd(value, total);
         if (i < block_count)
             params.partials.data[params.first_partial + i] = carry + before;
+        wrapped = wrapped || carry + total < carry;
         carry += total;
     }
     if (gl_LocalInvocationIndex != 0u)
         return;
+    wrapped = wrapped || params.status.data[0].node_count + carry < carry;
     bool are_leaves = params.level + 1u == params.level_count;
     uint node_count = params.status.data[0].node_count + (are_leaves ? 0u : carry);
     uint voxel_count = are_leaves ? carry : 0u;
-    uint failed = params.status.data[0].failed | (node_count > params.node_capacity ? kFailedNodes : 0u) |
-                  (voxel_count > params.voxel_capacity ? kFailedVoxels : 0u);
+    uint failed = params.status.data[0].failed |
+                  (node_count > params.node_capacity || (wrapped && !are_leaves) ? kFailedNodes : 0u) |
+                  (voxel_count > params.voxel_capacity || (wrapped && are_leaves) ? kFailedVoxels : 0u);
     bool goes_on = failed == 0u;
     params.status.data[0].failed = failed;
     params.status.data[0].node_count = node_count;

@@ -133,7 +133,6 @@ struct LayerCheckParams // push constants of update/layer_check
     GPU_PTR(LayerCounters) reports; // copies that the host can read
     GPU_CONST_PTR(BrickCounters) brick_counters;
     GPU_CONST_PTR(RasterCounters) rasters[3]; // of each material class, or null
-    uint has_class[3];                        // whether it is not null
     uint leaf_capacity;
     uint voxel_capacity;
     uint big_capacity;
@@ -237,7 +236,6 @@ struct MergeView
     GPU_CONST_PTR(VoxelSums) sums;             // of the static octree's voxels; kMergeAverage only
     GPU_CONST_PTR(EmissionSums) emission_sums; // of its emissive voxels; likewise
     uint base_shift;                           // bits that these sums have more than those of the layers
-    uint reserved;
 };
 GPU_BUFFER(MergeView, 8);
 

@@ -277,11 +277,10 @@ PoseBuffers::PoseBuffers(vk::Device& device, const DeformMesh& mesh)
 {
 }
 
-void updatePose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, PoseBuffers& buffers)
+void checkPose(const DeformMesh& mesh, const Pose& pose)
 {
-    for (std::size_t i = 0; i < mesh.parts.size(); ++i)
+    for (const DeformMesh::Part& part : mesh.parts)
     {
-        const DeformMesh::Part& part = mesh.parts[i];
         const bool has_joints = part.joint_count != 0 && part.instance < pose.joint_matrices.size();
         const std::size_t joint_count = has_joints ? pose.joint_matrices[part.instance].size() : 0;
         const std::size_t weight_count =
@@ -294,12 +293,21 @@ void updatePose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose,
         {
             throwForeignPose(part, "morph weights", weight_count, part.target_count);
         }
-        for (std::size_t joint = 0; joint < joint_count; ++joint)
+    }
+}
+
+void updatePose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, PoseBuffers& buffers)
+{
+    checkPose(mesh, pose);
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i)
+    {
+        const DeformMesh::Part& part = mesh.parts[i];
+        for (std::size_t joint = 0; joint < part.joint_count; ++joint)
         {
             buffers.host_joint_matrices[part.first_joint + joint] =
                 withoutTiny(pose.joint_matrices[part.instance][joint]);
         }
-        if (weight_count != 0)
+        if (part.target_count != 0)
         {
             const std::span targets = std::span(mesh.targets).subspan(part.first_target, part.target_count);
             gpu::MorphTerm* const terms = buffers.host_morph_terms.data() + part.first_term;

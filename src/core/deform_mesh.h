@@ -97,6 +97,9 @@ struct PoseBuffers
     static std::uint64_t bytesOf(const DeformMesh& mesh);
 };
 
+/// Throws Error{Usage} when pose has not as many joint matrices and morph weights as the scene of mesh.
+void checkPose(const DeformMesh& mesh, const Pose& pose);
+
 /// Records the writing of pose to buffers: its values travel inside the command buffer, nothing is allocated and
 /// nothing waits. Throws Error{Usage} when pose does not fit the scene of mesh.
 void updatePose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, PoseBuffers& buffers);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstring>
 #include <set>
 #include <utility>
 
@@ -60,6 +61,30 @@ LayerCapacities grown(const LayerCapacities& tried, const gpu::LayerCounters& co
     return result;
 }
 
+// Throws Error{Usage} for a pose that does not fit.
+void checkPose(const MoverMesh& mesh, const Pose& pose)
+{
+    if (pose.transforms.size() != mesh.scene.instances.size())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a mover of {} instances was given {} transforms",
+                                                  mesh.scene.instances.size(), pose.transforms.size()));
+    }
+    checkPose(mesh.deform, pose);
+}
+
+template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+// By their bits: what is not a number equals itself.
+bool isSame(const Pose& a, const Pose& b)
+{
+    const auto same = [](const auto& x, const auto& y) { return isSame(x, y); };
+    return isSame(a.transforms, b.transforms) && std::ranges::equal(a.joint_matrices, b.joint_matrices, same) &&
+           std::ranges::equal(a.morph_weights, b.morph_weights, same);
+}
+
 } // namespace
 
 std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene scene, bool attributes,
@@ -68,6 +93,7 @@ std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene s
     auto mesh = std::make_shared<MoverMesh>();
     mesh->uploaded = uploadScene(device, scene, attributes, emission_scale);
     mesh->deform = uploadDeformMesh(device, scene);
+    mesh->emits = brightestEmission(scene) > 0;
     scene.images.clear();
     mesh->scene = std::move(scene);
     return mesh;
@@ -111,7 +137,6 @@ void DynamicOctree::takeOver(BuildResult& built)
     m_octree.grid = from.grid;
     m_octree.node_count = m_static_nodes;
     m_octree.voxel_count = m_static_voxels;
-    m_octree.levels = std::move(from.levels);
     m_octree.emission_scale = emits() ? m_options.emission_scale : 1.0F;
     m_static_sums = std::move(built.sums);
     m_sum_shift = m_static_sums.sum_shift;
@@ -241,7 +266,8 @@ MoverId DynamicOctree::add(std::shared_ptr<const MoverMesh> mesh, Pose pose)
         throw Error(ErrorCode::Usage, "the mover was uploaded without attributes, the static octree has them");
     }
     Mover mover;
-    mover.version = addPose(*mesh, std::move(pose));
+    checkPose(*mesh, pose);
+    mover.version = addPose(std::move(pose));
     mover.buffers = makeMover(m_device, mesh->scene, mesh->uploaded, mesh->deform);
     mover.capacities = m_options.minimal_capacities ? LayerCapacities{{1, 0, 0}, 1, 1}
                                                     : LayerCapacities::estimate(mesh->uploaded, m_octree.grid);
@@ -253,7 +279,11 @@ MoverId DynamicOctree::add(std::shared_ptr<const MoverMesh> mesh, Pose pose)
 void DynamicOctree::place(MoverId mover, Pose pose)
 {
     Mover& m = presentMover(mover);
-    m.version = addPose(*m.mesh, std::move(pose));
+    checkPose(*m.mesh, pose);
+    if (!isSame(pose, *m_poses.at(m.version)))
+    {
+        m.version = addPose(std::move(pose));
+    }
 }
 
 void DynamicOctree::remove(MoverId mover)
@@ -297,13 +327,8 @@ void DynamicOctree::dropLayer(Mover& mover)
     }
 }
 
-std::uint64_t DynamicOctree::addPose(const MoverMesh& mesh, Pose pose)
+std::uint64_t DynamicOctree::addPose(Pose pose)
 {
-    if (pose.transforms.size() != mesh.scene.instances.size())
-    {
-        throw Error(ErrorCode::Usage, fmt::format("a mover of {} instances was given {} transforms",
-                                                  mesh.scene.instances.size(), pose.transforms.size()));
-    }
     forgetPoses();
     m_poses.emplace(m_next_version, std::make_shared<const Pose>(std::move(pose)));
     return m_next_version++;
@@ -378,7 +403,10 @@ RootPlace DynamicOctree::rootOf(const RootStep& step) const
 // Gives movers that changed and have no layer one.
 void DynamicOctree::makeLayers()
 {
-    const LayerContents contents = {m_has_attributes, emits()};
+    if (std::ranges::any_of(presentMovers(), &Mover::is_hopeless))
+    {
+        throw Error(ErrorCode::Memory, "a mover makes more pieces than 32-bit numbers count; lower the resolution");
+    }
     std::uint64_t voxelized_count = 0;
     for (Mover* mover : presentMovers())
     {
@@ -386,6 +414,7 @@ void DynamicOctree::makeLayers()
         if (mover->voxelized != mover->version && mover->layer == nullptr)
         {
             const GpuScene& scene = mover->mesh->uploaded;
+            const LayerContents contents = {m_has_attributes, emits() && mover->mesh->emits};
             m_device.device().memory().require(LayerBuffers::bytes(mover->capacities, scene, contents),
                                                "the voxels of a mover");
             mover->layer = std::make_unique<LayerBuffers>(m_device.device(), mover->capacities, scene, contents);
@@ -400,10 +429,12 @@ void DynamicOctree::makeLayers()
 
 // Everything that voxelizes the movers which changed. They count as voxelized from now on: the job is recorded, or
 // dropped.
-void DynamicOctree::addMoverSteps(RecordedSteps& steps)
+void DynamicOctree::addMoverSteps(RecordedSteps& steps, std::vector<Mover*>& voxelized)
 {
-    for (auto& [id, mover] : m_movers)
+    for (auto& entry : m_movers)
     {
+        const MoverId id = entry.first;
+        Mover& mover = entry.second;
         if (!mover.present || mover.voxelized == mover.version)
         {
             continue;
@@ -423,10 +454,11 @@ void DynamicOctree::addMoverSteps(RecordedSteps& steps)
                       steps);
         // In the frame that writes the report, or one after it.
         addStep(steps, {"await a report", 1},
-                [this, &mover, id = id, report](vk::FrameGraph&, std::uint64_t, std::uint64_t) {
+                [this, &mover, id, report](vk::FrameGraph&, std::uint64_t, std::uint64_t) {
                     m_pending_layers.push_back({m_frame, id, report, mover.capacities});
                 });
         mover.voxelized = mover.version;
+        voxelized.push_back(&mover);
     }
 }
 
@@ -560,6 +592,7 @@ void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
     {
         finishJob(graph);
     }
+    graph.releaseToHost(); // what frameDone() reads
 }
 
 // What can fail for want of memory comes first, and changes nothing. False if the update has to wait for frames.
@@ -574,12 +607,12 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
         return false;
     }
     RecordedSteps steps;
-    addMoverSteps(steps);
+    std::vector<Mover*> voxelized;
+    addMoverSteps(steps, voxelized);
     const gpu::MergeView view = {{m_tables.view.address()},
                                  {m_static_sums.sums.address()},
                                  {m_static_sums.emission_sums.address()},
-                                 m_sum_shift - m_static_sums.sum_shift,
-                                 0};
+                                 m_sum_shift - m_static_sums.sum_shift};
     graph.update(m_merge_view, 0, std::span(&view, 1));
     std::vector<const LayerBuffers*> layers;
     for (const Mover* mover : presentMovers())
@@ -603,6 +636,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
                   .results = m_results,
                   .result = result},
         .states = layerStates(),
+        .voxelized = std::move(voxelized),
         .steps = std::move(steps),
         .plan = {},
         .progress = {},
@@ -620,7 +654,7 @@ void DynamicOctree::finishJob(vk::FrameGraph& graph)
     const RootPlace last = rootOf(m_history->current());
     showOverlay(graph, m_job->merge, *m_update, last);
     const std::uint64_t step = m_history->push(m_job->merge.region, std::move(m_job->states));
-    m_pending_updates.push_back({m_frame, step, m_job->merge.result});
+    m_pending_updates.push_back({m_frame, step, m_job->merge.result, m_job->merge.region, m_capacities.touched});
     m_job.reset();
 }
 
@@ -632,12 +666,12 @@ void DynamicOctree::dropJob()
         return;
     }
     m_history->giveBack(m_job->merge.region);
+    for (Mover* mover : m_job->voxelized)
+    {
+        mover->voxelized = 0;
+    }
     m_job.reset();
     --m_result_count; // its result was not written
-    for (auto& [id, mover] : m_movers)
-    {
-        mover.voxelized = 0;
-    }
 }
 
 bool DynamicOctree::show(vk::FrameGraph& graph, const std::optional<RootStep>& step)
@@ -691,16 +725,16 @@ void DynamicOctree::learnLayer(const PendingLayer& pending)
         return; // gone, or larger already
     }
     const gpu::LayerCounters counters = m_reports.mappedData()[pending.report % m_reports.count()];
+    Mover& mover = found->second;
+    mover.dropped = counters;
     if (counters.failed == 0)
     {
         return;
     }
-    if (counters.blocks_exceeded != 0 || pending.capacities.voxelize.bricks >= VoxelizeCapacities::kBricksMax)
-    {
-        throw Error(ErrorCode::Memory, "a mover makes more pieces than 32-bit numbers count; lower the resolution");
-    }
+    mover.is_hopeless =
+        counters.blocks_exceeded != 0 ||
+        (counters.overflow_count != 0 && pending.capacities.voxelize.bricks >= VoxelizeCapacities::kBricksMax);
     giveUpJob();
-    Mover& mover = found->second;
     mover.capacities = grown(pending.capacities, counters);
     dropLayer(mover);
 }
@@ -723,7 +757,8 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
         // Levels that were not reached are not counted: twice as much, if that is more.
         if ((status.failed & gpu::kFailedNodes) != 0)
         {
-            m_likely_nodes = std::max<std::uint64_t>(2 * m_likely_nodes, withSlack(status.node_count));
+            m_likely_nodes = std::max<std::uint64_t>(
+                {m_likely_nodes, std::uint64_t{2} * pending.region.node_capacity, withSlack(status.node_count)});
         }
         if ((status.failed & gpu::kFailedVoxels) != 0)
         {
@@ -731,22 +766,41 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
         }
         if ((status.failed & gpu::kFailedTable) != 0)
         {
-            m_touched_min = 2 * m_capacities.touched;
+            m_touched_min = std::max(m_touched_min, 2 * pending.touched);
         }
         if ((status.failed & gpu::kFailedFragments) != 0)
         {
             raiseShift(status.max_fragments);
         }
     }
-    return {pending.step,       status.failed,        status.node_count,
-            status.voxel_count, status.touched_count, status.dynamic_count};
+    return {pending.step,         status.failed,        status.node_count, status.voxel_count,
+            status.touched_count, status.dynamic_count, droppedTriangles()};
+}
+
+// Of all movers, as they were voxelized last.
+std::map<std::string, std::uint64_t> DynamicOctree::droppedTriangles()
+{
+    std::map<std::string, std::uint64_t> dropped;
+    for (const Mover* mover : presentMovers())
+    {
+        dropped["nonfinite"] += mover->dropped.nonfinite;
+        dropped["out_of_range"] += mover->dropped.out_of_range;
+        dropped["outside"] += mover->dropped.outside;
+        dropped["zero_area"] += mover->dropped.zero_area;
+    }
+    std::erase_if(dropped, [](const auto& entry) { return entry.second == 0; });
+    return dropped;
 }
 
 // Drops value bits of the layers' sums, so that so many fragments fit; all layers are made again.
 void DynamicOctree::raiseShift(std::uint32_t fragments)
 {
-    m_sum_shift =
-        std::max(m_sum_shift, static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
+    const auto shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
+    if (shift <= m_sum_shift) // an update that was recorded before the last rise
+    {
+        return;
+    }
+    m_sum_shift = shift;
     giveUpJob();
     for (auto& [id, mover] : m_movers)
     {

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace zvo
@@ -30,7 +31,7 @@ struct DynamicOptions
 {
     Coverage coverage = Coverage::Thin; // of the movers; as the static octree's
     MergeRule merge = MergeRule::Average;
-    std::uint32_t frames_in_flight = 2; // updates that may be recorded before frameDone() was told of the first
+    std::uint32_t frames_in_flight = 2; // that may be recorded before frameDone() was told of the first
     HistoryBounds history = {1, UINT64_MAX};
     float emission_scale = 0;        // common to the static scene and all movers; 0: nothing emits light
     bool attributes = true;          // of an empty static octree, which does not say
@@ -43,6 +44,7 @@ struct MoverMesh
     Scene scene; // without its images
     GpuScene uploaded;
     DeformMesh deform;
+    bool emits = false; // any of its materials
 };
 
 /// Uploads scene as a mover and waits; emission_scale: the common one. Throws as uploadScene and uploadDeformMesh.
@@ -56,20 +58,24 @@ using MoverId = std::uint32_t;
 struct UpdateReport
 {
     std::uint64_t step = 0;
-    std::uint32_t failed = 0;        // bits kFailed*; 0: its root is shown
-    std::uint32_t node_count = 0;    // of the overlay
-    std::uint32_t voxel_count = 0;   // with attributes of their own in the overlay
-    std::uint32_t touched_count = 0; // nodes of the overlay that are not mere copies
-    std::uint32_t dynamic_count = 0; // voxels that movers cover
+    std::uint32_t failed = 0;                          // bits kFailed*; 0: its root is shown
+    std::uint32_t node_count = 0;                      // of the overlay
+    std::uint32_t voxel_count = 0;                     // with attributes of their own in the overlay
+    std::uint32_t touched_count = 0;                   // nodes of the overlay that are not mere copies
+    std::uint32_t dynamic_count = 0;                   // voxels that movers cover
+    std::map<std::string, std::uint64_t> dropped = {}; // movers' triangles that were left out, by reason
 };
 
 /// A static octree into which moving meshes are merged, frame by frame. The static octree never changes: an update
 /// copies the paths that movers touch behind it, and shows the copy; undo shows an older one.
 ///
-/// Every frame: beginFrame(), then any of update(), undo() and redo() and the tracing of octree() into a command buffer
-/// that is submitted after those of earlier frames, then, once the device is done with it, frameDone(). Nothing waits
-/// for the device. What an update needs beyond the memory there is, it reports; the frame then shows the last root that
-/// is complete, and a later update has more memory.
+/// Every frame: beginFrame(), then at most four of update(), undo() and redo(), and the tracing of octree() into a
+/// command buffer, then, once the device is done with it, frameDone(). Frames share buffers: a command buffer is
+/// submitted after those of earlier frames and begins behind a full memory barrier. Nothing waits for the device.
+/// Whatever was made of the octree before (a BeamGrid, addresses of its buffers) is out of date after each of the three
+/// calls. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an update needs
+/// beyond the memory there is, it reports; the frame then shows the last root that is complete, and a later update has
+/// more memory.
 class DynamicOctree
 {
 public:
@@ -79,13 +85,15 @@ public:
 
     /// Adds a mover in a pose of its mesh's scene; may wait for the device. Shown from the next update() on, as all
     /// changes are. Throws Error{Usage} for more than kLayersMax movers, a mesh with another emission scale or a pose
-    /// that does not fit the mesh.
+    /// that does not fit the mesh, and Error{Memory}.
     MoverId add(std::shared_ptr<const MoverMesh> mesh, Pose pose);
 
-    /// Puts the mover into another pose. Where that is not finite, triangles are left out. Throws as add().
+    /// Puts the mover into another pose: nothing changes where it is the same, bit for bit. Where it is not finite,
+    /// triangles are left out and counted. Throws as add().
     void place(MoverId mover, Pose pose);
 
-    /// Takes the mover away. Throws Error{Usage} for one that is not there, as place() does.
+    /// Takes the mover away; gives up an update that is under way. Throws Error{Usage} for one that is not there, as
+    /// place() does.
     void remove(MoverId mover);
 
     /// Numbers the frame that is to be recorded.
@@ -104,8 +112,8 @@ public:
     /// Whether an update is under way that the next update() goes on with.
     [[nodiscard]] bool isUpdating() const { return m_job != nullptr; }
 
-    /// Records that the step before, or behind, the one that is shown is shown again. Movers are where they were then.
-    /// False if there is none.
+    /// Records that the step before, or behind, the one that is shown is shown again. Movers are where they were then;
+    /// an update under way is given up. False if there is none.
     bool undo(vk::FrameGraph& graph);
     bool redo(vk::FrameGraph& graph);
 
@@ -117,13 +125,13 @@ public:
     /// was recorded since, nor undo() or redo().
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
 
-    /// What to trace. Its node_count and voxel_count are those of the static octree.
+    /// What to trace. Its node_count and voxel_count are those of the static octree (1 node for an empty one). It has
+    /// no levels: what goes through those (octreeSha256, voxelCodes) tells nothing of it.
     [[nodiscard]] const Octree& octree() const { return m_octree; }
 
     [[nodiscard]] const RootHistory& history() const { return *m_history; }
-    [[nodiscard]] std::uint32_t staticNodeCount() const { return m_static_nodes; }
 
-    /// Node that is the static octree's root, untouched by what is shown.
+    /// Number of the static octree's nodes, and of the node behind them: its root, untouched by what is shown.
     [[nodiscard]] std::uint32_t staticRoot() const { return m_static_nodes; }
 
 private:
@@ -133,15 +141,19 @@ private:
         MoverBuffers buffers;
         LayerCapacities capacities;
         std::unique_ptr<LayerBuffers> layer;
-        bool present = true;         // or taken away, for as long as a step shows it
-        std::uint64_t version = 0;   // of the pose that it is to be in
-        std::uint64_t voxelized = 0; // version that layer shows; 0: none
+        bool present = true;          // or taken away, for as long as a step shows it
+        std::uint64_t version = 0;    // of the pose that it is to be in
+        std::uint64_t voxelized = 0;  // version that layer shows; 0: none
+        gpu::LayerCounters dropped{}; // as it was voxelized last
+        bool is_hopeless = false;     // no layer is large enough
     };
     struct PendingUpdate
     {
         std::uint64_t frame;
         std::uint64_t step;
         std::uint32_t result; // element of m_results
+        OverlayRegion region;
+        std::uint64_t touched; // entries that its table had
     };
     struct PendingLayer
     {
@@ -155,6 +167,7 @@ private:
     {
         UpdateJob merge;
         std::vector<LayerState> states; // of the movers that it shows
+        std::vector<Mover*> voxelized;  // by it
         RecordedSteps steps;
         std::vector<UpdateStep> plan; // the same, as UpdateBudget takes them
         UpdateProgress progress;
@@ -174,7 +187,7 @@ private:
     void growSpace(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
     template <typename T> void replace(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, vk::BufferOf<T>&& longer);
     template <typename T> void retire(T&& what);
-    std::uint64_t addPose(const MoverMesh& mesh, Pose pose);
+    std::uint64_t addPose(Pose pose);
     void forgetPoses();
     [[nodiscard]] Mover& presentMover(MoverId id);
     [[nodiscard]] std::vector<Mover*> presentMovers();
@@ -184,7 +197,7 @@ private:
     void guessOverlay();
     void prepareBuffers();
     std::optional<OverlayRegion> allocateRegion(vk::FrameGraph& graph);
-    void addMoverSteps(RecordedSteps& steps);
+    void addMoverSteps(RecordedSteps& steps, std::vector<Mover*>& voxelized);
     void recordJob(vk::FrameGraph& graph, double budget_ms);
     void finishJob(vk::FrameGraph& graph);
     void dropJob();
@@ -193,6 +206,7 @@ private:
     void learnLayer(const PendingLayer& pending);
     UpdateReport learnUpdate(const PendingUpdate& pending);
     void raiseShift(std::uint32_t fragments);
+    [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
     [[nodiscard]] bool emits() const { return m_has_attributes && m_options.emission_scale > 0; }
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;
     [[nodiscard]] std::uint32_t firstOverlayVoxel() const;

@@ -123,7 +123,6 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     {
         const VoxelizeBuffers::RowWork& rows = voxelize.rows[i];
         params.rasters[i] = pass.read(rows.counters);
-        params.has_class[i] = rows.counters.count() != 0 ? 1 : 0;
         params.big_capacity = std::max(params.big_capacity, static_cast<std::uint32_t>(rows.big_triangles.count()));
         params.block_capacity = std::max(params.block_capacity, static_cast<std::uint32_t>(rows.row_blocks.count()));
     }

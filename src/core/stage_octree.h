@@ -48,9 +48,11 @@ struct StageUpdate
 class StageOctree
 {
 public:
-    /// Uploads and builds everything but the movers' voxels. Throws Error{Memory} when the device's budget does not
-    /// suffice.
+    /// Uploads and builds everything but the movers' voxels. stage must outlive this. Throws Error{Memory} when the
+    /// device's budget does not suffice.
     StageOctree(vk::HeadlessDevice& device, const Stage& stage, const Grid& grid, const StageOctreeOptions& options);
+    StageOctree(vk::HeadlessDevice& device, Stage&& stage, const Grid& grid,
+                const StageOctreeOptions& options) = delete;
 
     /// Merges the movers as they are at a time of the stage. Throws Error{Memory} as above.
     StageUpdate update(double seconds);

@@ -81,7 +81,7 @@ void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
 vk::Specialization rasterVariant(const RasterWalk& walk, std::uint32_t material_class)
 {
     const std::uint32_t coverage = walk.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
-    const bool emits = walk.mode != gpu::kModeCoverage && walk.scene.uploaded().emission_scale > 0.0F;
+    const bool emits = walk.mode != gpu::kModeCoverage && walk.sums->emission_words.count() != 0;
     return {coverage, walk.mode, material_class, emits ? 1U : 0U, hasWideKeys(walk.grid) ? 1U : 0U};
 }
 

@@ -5,6 +5,7 @@
 #include "octree/octree.h"
 #include "support/spirv_structs.h"
 #include "trace/trace.h"
+#include "update/update.h"
 #include "voxelize/voxelize.h"
 
 #include <gtest/gtest.h>
