@@ -1,0 +1,460 @@
+// SPDX-License-Identifier: MIT
+// Dynamic updates at their limits: a result that is defined, or an error that says what is wrong.
+#include "core/dynamic_octree.h"
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/mover_scenery.h"
+#include "support/scenes.h"
+#include "zvo/error.h"
+
+#include <glm/ext/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <regex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::Cell;
+using test::DynamicSetting;
+using test::Item;
+using test::MoverScenery;
+using test::Place;
+using Kind = Place::Kind;
+
+constexpr std::uint64_t kLimitBytes = 256 << 20;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+vk::HeadlessOptions limitedOptions()
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.memory_budget_bytes = kLimitBytes;
+    return options;
+}
+
+void expectError(ErrorCode code, const std::string& message, const std::function<void()>& call)
+{
+    try
+    {
+        call();
+        FAIL() << "no error: " << message;
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), code);
+        EXPECT_TRUE(std::regex_search(error.what(), std::regex(message))) << error.what();
+    }
+}
+
+// An octree, and movers by their places.
+class World
+{
+public:
+    World(vk::HeadlessDevice& device, const DynamicSetting& setting, const HistoryBounds& history = {16, UINT64_MAX})
+        : m_device(device), m_setting(setting), m_scenery(device, true)
+    {
+        DynamicOptions options = setting.options(m_scenery.emissionScale());
+        options.history = history;
+        m_octree = std::make_unique<DynamicOctree>(device, m_scenery.buildStatic(setting), options);
+    }
+
+    DynamicOctree& octree() { return *m_octree; }
+    MoverScenery& scenery() { return m_scenery; }
+
+    MoverId add(const Item& item) { return m_octree->add(m_scenery.mover(item.mesh, true), m_scenery.poseOf(item)); }
+    void place(MoverId mover, const Item& item) { m_octree->place(mover, m_scenery.poseOf(item)); }
+
+    // Updates until everything is shown.
+    UpdateReport update()
+    {
+        for (int attempt = 0; attempt < 64; ++attempt)
+        {
+            const std::uint64_t frame = m_octree->beginFrame();
+            m_device.run([&](vk::FrameGraph& graph) { m_octree->update(graph); });
+            const std::vector<UpdateReport> reports = m_octree->frameDone(frame);
+            if (!m_octree->needsUpdate())
+            {
+                return reports.empty() ? UpdateReport{} : reports.back();
+            }
+        }
+        throw std::runtime_error("no update succeeded");
+    }
+
+    bool show(bool undo)
+    {
+        const std::uint64_t frame = m_octree->beginFrame();
+        bool shown = false;
+        m_device.run([&](vk::FrameGraph& graph) { shown = undo ? m_octree->undo(graph) : m_octree->redo(graph); });
+        m_octree->frameDone(frame);
+        return shown;
+    }
+
+    std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->octree()); }
+    std::vector<Cell> rebuilt(const std::multiset<Item>& items) { return *m_scenery.rebuilt(m_setting, true, items); }
+
+private:
+    vk::HeadlessDevice& m_device;
+    DynamicSetting m_setting;
+    MoverScenery m_scenery;
+    std::unique_ptr<DynamicOctree> m_octree;
+};
+
+constexpr std::uint64_t kPieceBytes = 4096;
+
+// Takes what the limit leaves, whole blocks and what is free in them: nothing is left, but for pieces that are not
+// taken.
+std::vector<vk::BufferOf<gpu::uint>> ballast(vk::HeadlessDevice& device, std::size_t pieces_left)
+{
+    std::vector<vk::BufferOf<gpu::uint>> pieces;
+    for (std::uint64_t bytes = device.device().memory().roomBytes(); bytes != 0;)
+    {
+        try
+        {
+            pieces.emplace_back(device.device(), "ballast", bytes / sizeof(gpu::uint));
+        }
+        catch (const Error&)
+        {
+            bytes = bytes > (1 << 20) ? 1 << 20 : bytes > kPieceBytes ? kPieceBytes : 0;
+        }
+    }
+    pieces.resize(pieces.size() - std::min(pieces_left, pieces.size()));
+    return pieces;
+}
+
+constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
+
+// With less memory than an update needs, whatever it is that finds none.
+TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
+{
+    vk::HeadlessDevice limited(limitedOptions(), zvoKernels());
+    std::set<std::string> needs;
+    for (std::size_t pieces_left = 0; pieces_left < 200; pieces_left += 1 + pieces_left / 6)
+    {
+        SCOPED_TRACE(pieces_left);
+        World world(limited, {.depth = 5, .minimal_capacities = true});
+        const bool new_layer = pieces_left % 2 != 0;
+        world.add(kMiddle);
+        const MoverId mover = world.add(kMiddle);
+        world.update(); // has one of two overlapping movers' nodes
+        const std::vector<Cell> before = world.shown();
+        const Item apart = {0, {Kind::Mirrored, {2, 0, 2}}};
+        std::multiset<Item> items = {kMiddle, apart};
+        world.place(mover, apart);
+        if (new_layer)
+        {
+            items.insert(apart);
+            world.add(apart);
+        }
+        auto rest = ballast(limited, pieces_left);
+        bool is_enough = true;
+        for (int i = 0; i < 2 && is_enough; ++i)
+        {
+            try
+            {
+                world.update();
+            }
+            catch (const Error& error)
+            {
+                is_enough = false;
+                EXPECT_EQ(error.code(), ErrorCode::Memory);
+                EXPECT_NE(std::string(error.what()).find("but the limit is 268435456: raise the limit"),
+                          std::string::npos)
+                    << error.what();
+                needs.insert(std::string(error.what()).substr(0, std::string(error.what()).find(" needs ")));
+            }
+        }
+        EXPECT_FALSE(world.octree().isUpdating());
+        rest.clear();
+        if (!is_enough)
+        {
+            EXPECT_EQ(test::difference(world.shown(), before), "");
+        }
+        world.update();
+        EXPECT_EQ(test::difference(world.shown(), world.rebuilt(items)), "");
+    }
+    EXPECT_TRUE(needs.contains("room for overlays"));
+    EXPECT_TRUE(needs.contains("the voxels of a mover"));
+}
+
+// Fills the room for overlays with frames in flight: the next update waits, and what is complete is shown.
+TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
+{
+    vk::HeadlessDevice limited(limitedOptions(), zvoKernels());
+    World world(limited, {.depth = 6, .frames_in_flight = 64}, {1, UINT64_MAX});
+    const std::array items = {kMiddle, Item{0, {Kind::Turned, {1, 1, 1}}}};
+    const MoverId mover = world.add(items[0]);
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+        world.place(mover, items[i % 2]);
+        world.update();
+    }
+    const std::array expected = {world.rebuilt({items[0]}), world.rebuilt({items[1]})};
+    auto rest = ballast(limited, 0);
+    struct Flight
+    {
+        std::uint64_t frame;
+        vk::Submission submission;
+    };
+    std::deque<Flight> flights;
+    std::size_t complete_count = 0;
+    for (bool is_complete = true; is_complete; ++complete_count)
+    {
+        ASSERT_LT(flights.size(), 60U) << "the room for overlays never ended";
+        world.place(mover, items[complete_count % 2]);
+        const std::uint64_t frame = world.octree().beginFrame();
+        flights.push_back({frame, limited.submit(
+                                      [&](vk::FrameGraph& graph)
+                                      {
+                                          is_complete = world.octree().update(graph);
+                                          graph.releaseToHost();
+                                      })});
+    }
+    --complete_count; // the last one was not
+    ASSERT_GT(complete_count, 0U);
+    EXPECT_TRUE(world.octree().needsUpdate());
+    EXPECT_FALSE(world.octree().isUpdating());
+    for (Flight& flight : flights)
+    {
+        flight.submission.wait();
+        for (const UpdateReport& report : world.octree().frameDone(flight.frame))
+        {
+            EXPECT_EQ(report.failed, 0U);
+        }
+    }
+    EXPECT_TRUE(world.octree().needsUpdate());
+    rest.clear();
+    EXPECT_EQ(test::difference(world.shown(), expected.at((complete_count - 1) % 2)), "");
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), expected.at(complete_count % 2)), "");
+}
+
+TEST(DynamicEdges, MoversThatCoverNothingShowTheStaticOctree)
+{
+    World world(device(), {.depth = 5});
+    const std::vector<Cell> expected = world.rebuilt({});
+    const MoverId mover = world.add(kMiddle);
+    for (const Kind kind : {Kind::Outside, Kind::Point, Kind::Nan, Kind::Huge})
+    {
+        SCOPED_TRACE(static_cast<int>(kind));
+        world.place(mover, {0, {kind, {1, 2, 1}}});
+        const UpdateReport report = world.update();
+        EXPECT_EQ(report.failed, 0U);
+        EXPECT_EQ(report.dynamic_count, 0U);
+        EXPECT_EQ(report.node_count, 1U);
+        EXPECT_EQ(test::difference(world.shown(), expected), "");
+    }
+}
+
+// A mover of 70,000 triangles in a point covers voxels only in conservative coverage, with that many fragments each.
+TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
+{
+    constexpr std::uint32_t kCount = 70'000;
+    for (const bool on_static : {false, true})
+    {
+        SCOPED_TRACE(on_static);
+        Scene fixed = test::boxScene(glm::vec3(1.1F), glm::vec3(2.9F));
+        fixed.materials[0].base_color = {0.9F, 0.1F, 0.4F, 1.0F};
+        Scene dot = test::randomTriangles(5, kCount, 1.0F);
+        dot.materials[0].base_color = {0.1F, 0.6F, 0.3F, 1.0F};
+        const glm::mat4 place =
+            glm::scale(glm::translate(glm::mat4(1.0F), glm::vec3(on_static ? 1.1F : 12.3F)), glm::vec3(0.0F));
+        const Grid grid = {.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 4};
+        BuildOptions build;
+        build.coverage = Coverage::Conservative;
+        build.keep_sums = true;
+        DynamicOctree octree(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build),
+                             {.coverage = Coverage::Conservative});
+        const std::vector<Cell> before = test::cellsOf(device(), octree.octree());
+        const MoverId mover = octree.add(uploadMover(device(), dot, true, 0), {{place}, {}, {}});
+        std::uint32_t failed = 0;
+        const auto update = [&]
+        {
+            do
+            {
+                const std::uint64_t frame = octree.beginFrame();
+                device().run([&](vk::FrameGraph& graph) { octree.update(graph); });
+                for (const UpdateReport& report : octree.frameDone(frame))
+                {
+                    failed |= report.failed;
+                }
+            } while (octree.needsUpdate());
+        };
+        update();
+        EXPECT_NE(failed & gpu::kFailedFragments, 0U);
+
+        Scene all = fixed;
+        dot.instances[0].transform = place;
+        all.append(std::move(dot));
+        const std::vector<Cell> expected =
+            test::cellsOf(device(), buildOctree(device(), uploadScene(device(), all, true), grid, build).octree);
+        const std::vector<Cell> shown = test::cellsOf(device(), octree.octree());
+        ASSERT_EQ(shown.size(), expected.size());
+        for (std::size_t i = 0; i < shown.size(); ++i)
+        {
+            ASSERT_EQ(shown[i].level, expected[i].level);
+            ASSERT_EQ(shown[i].code, expected[i].code);
+            for (std::uint32_t shift = 0; shift < 24; shift += 8) // what the static sums keep is dropped in a rebuild
+            {
+                EXPECT_NEAR((shown[i].attribute.color >> shift) & 255U, (expected[i].attribute.color >> shift) & 255U,
+                            1);
+            }
+        }
+        octree.remove(mover);
+        update();
+        EXPECT_EQ(test::difference(test::cellsOf(device(), octree.octree()), before), "");
+    }
+}
+
+TEST(DynamicEdges, ManyLayersAtOnceAreWhatARebuildIs)
+{
+    World world(device(), {.depth = 5}, {1, UINT64_MAX});
+    std::multiset<Item> items;
+    for (int i = 0; i < 256; ++i)
+    {
+        const Item item = {i % 8 == 0 ? 0U : 1U,
+                           {i % 5 == 0 ? Kind::Turned : Kind::Inside, {i % 4, i / 4 % 4, i / 16 % 4}}};
+        items.insert(item);
+        world.add(item);
+    }
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt(items)), "");
+    while (items.size() < gpu::kLayersMax)
+    {
+        items.insert(kMiddle);
+        world.add(kMiddle);
+    }
+    expectError(ErrorCode::Usage, "takes 1024 movers at most", [&] { world.add(kMiddle); });
+}
+
+TEST(DynamicEdges, TheHistoryKeepsAsManyStepsAsItMay)
+{
+    World world(device(), {.depth = 4}, {3, UINT64_MAX});
+    const MoverId mover = world.add(kMiddle);
+    std::vector<std::vector<Cell>> shown;
+    for (int i = 0; i < 8; ++i)
+    {
+        world.place(mover, {0, {Kind::Inside, {i % 4, 1, i / 4}}});
+        world.update();
+        shown.push_back(world.shown());
+    }
+    EXPECT_EQ(world.octree().history().undoCount(), 3U);
+    for (const std::size_t step : {6U, 5U})
+    {
+        EXPECT_TRUE(world.show(true));
+        EXPECT_EQ(test::difference(world.shown(), shown[step]), "");
+    }
+    EXPECT_TRUE(world.show(true)); // the oldest is always the static octree
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
+    EXPECT_FALSE(world.show(true));
+    for (const std::size_t step : {5U, 6U, 7U})
+    {
+        EXPECT_TRUE(world.show(false));
+        EXPECT_EQ(test::difference(world.shown(), shown[step]), "");
+    }
+    EXPECT_FALSE(world.show(false));
+}
+
+TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)
+{
+    for (const std::uint64_t bytes_max : {std::uint64_t{1}, std::uint64_t{100'000}})
+    {
+        SCOPED_TRACE(bytes_max);
+        World world(device(), {.depth = 5}, {1000, bytes_max});
+        const MoverId mover = world.add(kMiddle);
+        std::size_t steps = 0;
+        for (int i = 0; i < 24; ++i)
+        {
+            world.place(mover, {0, {Kind::Inside, {i % 4, 1, i / 4 % 4}}});
+            world.update();
+            const RootHistory& history = world.octree().history();
+            EXPECT_TRUE(history.stepBytes() <= bytes_max || history.undoCount() == 1) << history.stepBytes();
+            steps = std::max(steps, history.undoCount());
+        }
+        EXPECT_EQ(test::difference(world.shown(), world.rebuilt({{0, {Kind::Inside, {3, 1, 1}}}})), "");
+        EXPECT_EQ(steps > 1, bytes_max > 1);
+        EXPECT_LT(steps, 24U);
+    }
+}
+
+TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
+{
+    World world(device(), {.depth = 3});
+    const MoverId mover = world.add(kMiddle);
+    world.update();
+    const Pose pose = world.scenery().poseOf(kMiddle);
+    Pose shorter = pose;
+    shorter.transforms.pop_back();
+    const std::shared_ptr<const MoverMesh> mesh = world.scenery().mover(0, true);
+    expectError(ErrorCode::Usage, "5 instances was given 4 transforms", [&] { world.octree().place(mover, shorter); });
+    expectError(ErrorCode::Usage, "5 instances was given 0 transforms", [&] { world.octree().add(mesh, {}); });
+    expectError(ErrorCode::Usage, "no mover 7", [&] { world.octree().place(7, pose); });
+    expectError(ErrorCode::Usage, "no mover 0", [&] { world.octree().remove(0); });
+    expectError(ErrorCode::Usage, "without attributes",
+                [&] { world.octree().add(world.scenery().mover(0, false), pose); });
+    Scene morphed = test::boxScene(glm::vec3(1.0F), glm::vec3(2.0F));
+    morphed.primitives[0].morph_targets = {{std::vector<glm::vec3>(morphed.primitives[0].positions.size()), {}}};
+    const auto morphed_mesh = uploadMover(device(), morphed, true, world.scenery().emissionScale());
+    expectError(ErrorCode::Usage, "0 morph weights for instance 0",
+                [&] {
+                    world.octree().add(morphed_mesh, {{glm::mat4(1.0F)}, {}, {}});
+                });
+    world.octree().remove(mover);
+    expectError(ErrorCode::Usage, "no mover 1", [&] { world.octree().remove(mover); });
+    EXPECT_EQ(world.update().step, 0U); // nothing but the static octree
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
+
+    const DynamicSetting setting = {.depth = 3};
+    const float scale = world.scenery().emissionScale();
+    const auto make = [&](const DynamicOptions& options)
+    { return DynamicOctree(device(), world.scenery().buildStatic(setting), options); };
+    DynamicOptions options = setting.options(scale);
+    options.frames_in_flight = 0;
+    expectError(ErrorCode::Usage, "a frame in flight", [&] { make(options); });
+    options = setting.options(scale);
+    options.history.steps_max = 0;
+    expectError(ErrorCode::Usage, "a step of history", [&] { make(options); });
+    expectError(ErrorCode::Usage, "one emission scale", [&] { make(setting.options(2 * scale)); });
+    DynamicSetting other = setting;
+    other.merge = MergeRule::DynamicWins; // keeps no sums
+    expectError(ErrorCode::Usage, "sums were kept",
+                [&] { DynamicOctree(device(), world.scenery().buildStatic(other), setting.options(scale)); });
+}
+
+TEST(DynamicEdges, MoreUpdatesThanFramesInFlightAreRefused)
+{
+    World world(device(), {.depth = 3, .frames_in_flight = 1});
+    world.add(kMiddle);
+    world.update();
+    const std::uint64_t frame = world.octree().beginFrame();
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            for (int i = 0; i < 4; ++i)
+            {
+                EXPECT_TRUE(world.octree().update(graph));
+            }
+            expectError(ErrorCode::Usage, "frames in flight", [&] { world.octree().update(graph); });
+        });
+    EXPECT_EQ(world.octree().frameDone(frame).size(), 4U);
+    world.update();
+    EXPECT_EQ(test::difference(world.shown(), world.rebuilt({kMiddle})), "");
+}
+
+} // namespace
+} // namespace zvo
