@@ -7,6 +7,7 @@
 #include <array>
 #include <iterator>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace zvo::test
@@ -259,7 +260,11 @@ void DynamicMachine::compare()
         applyRule(expected, actual, *m_scenery.rebuilt(m_setting, true, {}),
                   *m_scenery.rebuilt(m_setting, false, items));
     }
-    RC_ASSERT(difference(actual, expected) == "");
+    const std::string what = difference(actual, expected);
+    if (!what.empty())
+    {
+        RC_FAIL(what);
+    }
 }
 
 // Gives the cells of everything the looks that they have in one of its two parts. Nodes that both have are left out of
