@@ -8,7 +8,6 @@
 #include "zvo/error.h"
 
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <initializer_list>
@@ -57,8 +56,8 @@ struct GltfBuilder
         {
             view["byteStride"] = stride;
         }
-        bin.resize(bin.size() + byte_count);
-        std::memcpy(bin.data() + bin.size() - byte_count, data, byte_count);
+        const auto* first = static_cast<const std::uint8_t*>(data); // may be null for none
+        bin.insert(bin.end(), first, first + byte_count);
         return add("bufferViews", view);
     }
 
