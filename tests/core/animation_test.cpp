@@ -375,21 +375,27 @@ TEST(Animation, ScenesAreTurnedToTheirPlaceInTheWorld)
 
 TEST(Animation, TransformsThatOverflowAreNotFiniteButAffine)
 {
-    for (const std::uint32_t node_count : {2U, 20U}) // more than single, more than double precision holds
+    constexpr float kInfinite = std::numeric_limits<float>::infinity(); // a file's 1e300
+    for (const auto& [node_count, scale] : {std::pair(2U, 3e38F), std::pair(20U, 3e38F), std::pair(2U, kInfinite)})
     {
         Scene scene = movedBy({.path = ChannelPath::Scale, .times = {0}, .values = {3e38F, 1, 1}});
         scene.nodes.resize(node_count);
         for (std::uint32_t i = 1; i < node_count; ++i)
         {
             scene.nodes[i].parent = i - 1;
-            scene.nodes[i].scale = {3e38F, 1, 1};
+            scene.nodes[i].scale = {scale, 1, 1};
         }
+        scene.instances.push_back({0, glm::mat4(1.0F), kNone, 0}); // with the last node as joint
         scene.instances[0].node = node_count - 1;
-        const glm::mat4 transform = transformAt(scene, 0);
-        EXPECT_FALSE(std::isfinite(transform[0].x));
-        for (int column = 0; column < 4; ++column)
+        scene.skins.push_back({{node_count - 1}, {glm::mat4(1.0F)}});
+        const Pose pose = poseAt(scene, 0);
+        for (const glm::mat4& transform : {pose.transforms.at(0), pose.joint_matrices.at(1).at(0)})
         {
-            EXPECT_EQ(transform[column].w, column == 3 ? 1.0F : 0.0F);
+            EXPECT_FALSE(std::isfinite(transform[0].x));
+            for (int column = 0; column < 4; ++column)
+            {
+                EXPECT_EQ(transform[column].w, column == 3 ? 1.0F : 0.0F);
+            }
         }
     }
 }
