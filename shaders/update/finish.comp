@@ -18,7 +18,7 @@ void main()
         return;
     UpdateStatus status = params.status.data[0];
     status.touched_count = params.counters.data[0].node_count;
-    if (status.max_fragments != 0u)
+    if ((status.max_fragments >> params.sum_shift) > kFragmentsMax)
         status.failed |= kFailedFragments;
     uint root = params.root;
     if (status.failed != 0u)

@@ -36,7 +36,7 @@ void mergeVoxel(MergedVoxel voxel)
             addSums(sums, params.view.data[0].sums.data[voxel.base], params.view.data[0].base_shift);
             flags |= look.color >> 24;
         }
-        if ((sums.fragments >> params.sum_shift) > kFragmentsMax)
+        if (sums.fragments > kFragmentsMax)
             atomicMax(params.status.data[0].max_fragments, sums.fragments);
         look = resolveSums(scene, sums, params.sum_shift, flags);
     }

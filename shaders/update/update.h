@@ -106,7 +106,7 @@ struct UpdateStatus
     uint voxel_count;   // attributes of the overlay
     uint touched_count; // nodes in the table
     uint dynamic_count; // voxels of the layers' union
-    uint max_fragments; // the most fragments of a voxel, if too many for sum_shift, else 0
+    uint max_fragments; // the most fragments of a merged voxel, if they are more than kFragmentsMax, else 0
 };
 GPU_BUFFER(UpdateStatus, 4);
 
@@ -280,8 +280,9 @@ struct FinishParams // push constants of update/finish
     uint root;                     // of the overlay
     uint last_root;                // the one that stays if the update failed, or kNoNode: roots[last_place]
     uint last_place;
-    uint place;  // element of roots that this root goes to
-    uint result; // element of results
+    uint place;     // element of roots that this root goes to
+    uint result;    // element of results
+    uint sum_shift; // of the layers
 };
 
 struct ShowParams // push constants of update/show

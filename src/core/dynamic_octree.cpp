@@ -768,10 +768,10 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
         {
             m_touched_min = std::max(m_touched_min, 2 * pending.touched);
         }
-        if ((status.failed & gpu::kFailedFragments) != 0)
-        {
-            raiseShift(status.max_fragments);
-        }
+    }
+    if ((status.failed & ~gpu::kFailedFragments) == 0) // it came as far as to count them
+    {
+        setShift(status.max_fragments);
     }
     return {pending.step,         status.failed,        status.node_count, status.voxel_count,
             status.touched_count, status.dynamic_count, droppedTriangles()};
@@ -792,11 +792,13 @@ std::map<std::string, std::uint64_t> DynamicOctree::droppedTriangles()
     return dropped;
 }
 
-// Drops value bits of the layers' sums, so that so many fragments fit; all layers are made again.
-void DynamicOctree::raiseShift(std::uint32_t fragments)
+// Drops as many value bits of the layers' sums as it takes for so many fragments, and no more: where that changes, all
+// layers are made again. One update is merged with too few bits after the fragments have become fewer.
+void DynamicOctree::setShift(std::uint32_t fragments)
 {
-    const auto shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
-    if (shift <= m_sum_shift) // an update that was recorded before the last rise
+    const std::uint32_t shift = std::max(
+        m_static_sums.sum_shift, static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
+    if (shift == m_sum_shift)
     {
         return;
     }

@@ -205,7 +205,7 @@ private:
     bool show(vk::FrameGraph& graph, const std::optional<RootStep>& step);
     void learnLayer(const PendingLayer& pending);
     UpdateReport learnUpdate(const PendingUpdate& pending);
-    void raiseShift(std::uint32_t fragments);
+    void setShift(std::uint32_t fragments);
     [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
     [[nodiscard]] bool emits() const { return m_has_attributes && m_options.emission_scale > 0; }
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;

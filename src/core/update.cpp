@@ -236,6 +236,7 @@ void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.last_place = last.place;
     params.place = job.place;
     params.result = job.result;
+    params.sum_shift = job.sum_shift;
     pass.dispatch(1, params);
 }
 

@@ -318,6 +318,18 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         octree.remove(mover);
         update();
         EXPECT_EQ(test::difference(test::cellsOf(device(), octree.octree()), before), "");
+
+        // Fewer fragments: from the second update on, bit for bit again.
+        const Scene box = test::boxScene(glm::vec3(2.2F), glm::vec3(4.4F));
+        octree.add(uploadMover(device(), box, true, 0), {{glm::mat4(1.0F)}, {}, {}});
+        update();
+        update();
+        fixed.append(Scene(box));
+        EXPECT_EQ(
+            test::difference(
+                test::cellsOf(device(), octree.octree()),
+                test::cellsOf(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build).octree)),
+            "");
     }
 }
 
