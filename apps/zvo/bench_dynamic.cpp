@@ -262,7 +262,7 @@ private:
         }
         StageOctree octree(m_device, stage, grid, {m_options.coverage, m_options.attributes});
         std::vector<double> enlarged_ms;
-        octree.update(0.0);
+        octree.update(frameTime(stage, row.frame_count - 1));
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
             progress.step(fmt::format("{} in {}: update {}", row.scene, grid.resolution(), run));
