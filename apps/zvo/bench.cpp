@@ -148,11 +148,7 @@ void bench(const BenchOptions& options)
     }
     const std::vector<fs::path> paths = benchScenes(options);
     const std::vector<std::uint32_t> depths = options.depths.value_or(std::vector{8U, 9U, 10U});
-    std::optional<Output> report;
-    if (!options.output.json.empty())
-    {
-        report.emplace(options.output.json, options.output.overwrite);
-    }
+    std::optional<Output> report = openReport(options.output);
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     Output table("-", true);
     const bool show_table = options.output.json != "-";

@@ -351,11 +351,7 @@ void benchBalance(const BenchOptions& options)
         paths = benchScenes(options);
     }
     const std::vector<std::uint32_t> depths = options.depths.value_or(std::vector{9U, 10U, 11U});
-    std::optional<Output> report;
-    if (!options.output.json.empty())
-    {
-        report.emplace(options.output.json, options.output.overwrite);
-    }
+    std::optional<Output> report = openReport(options.output);
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     Output table("-", true);
     const bool show_table = options.output.json != "-";

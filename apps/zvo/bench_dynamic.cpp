@@ -321,11 +321,7 @@ Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, con
 
 void benchDynamic(const BenchOptions& options)
 {
-    std::optional<Output> report;
-    if (!options.output.json.empty())
-    {
-        report.emplace(options.output.json, options.output.overwrite);
-    }
+    std::optional<Output> report = openReport(options.output);
     std::vector<Stage> stages;
     std::size_t steps = 0;
     for (const std::filesystem::path& path : options.scenes)

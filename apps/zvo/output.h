@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,9 @@ public:
 private:
     std::unique_ptr<AtomicFile> m_file; // null: standard output
 };
+
+/// Where the report goes, if one was asked for.
+std::optional<Output> openReport(const OutputOptions& options);
 
 /// Throws Error{Usage} if two results go to one place, or if one would overwrite an input.
 void checkPlaces(const OutputOptions& options, std::span<const std::filesystem::path> inputs);

@@ -340,11 +340,7 @@ void render(const RenderOptions& options)
 {
     checkPlaces(options.output, options.voxels.scenes);
     Pictures pictures(options);
-    std::optional<Output> report;
-    if (!options.output.json.empty())
-    {
-        report.emplace(options.output.json, options.output.overwrite);
-    }
+    std::optional<Output> report = openReport(options.output);
 
     Progress progress(3 + pictures.count());
     progress.step("loading");

@@ -45,11 +45,7 @@ void voxelize(const VoxelizeOptions& options)
     checkPlaces(options.output, options.voxels.scenes);
     const std::string format = formatOf(options);
     Output output(options.output.path, options.output.overwrite);
-    std::optional<Output> report;
-    if (!options.output.json.empty())
-    {
-        report.emplace(options.output.json, options.output.overwrite);
-    }
+    std::optional<Output> report = openReport(options.output);
 
     Progress progress(4);
     progress.step("loading");

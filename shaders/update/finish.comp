@@ -27,5 +27,5 @@ void main()
     params.nodes.data[0] = params.nodes.data[root];
     if (kAttributes)
         params.node_attributes.data[0] = params.node_attributes.data[root];
-    params.results.data[params.result] = status;
+    params.results.data[params.place] = status;
 }

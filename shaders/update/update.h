@@ -280,8 +280,7 @@ struct FinishParams // push constants of update/finish
     uint root;                     // of the overlay
     uint last_root;                // the one that stays if the update failed, or kNoNode: roots[last_place]
     uint last_place;
-    uint place;     // element of roots that this root goes to
-    uint result;    // element of results
+    uint place;     // element of roots and of results for this update
     uint sum_shift; // of the layers
 };
 

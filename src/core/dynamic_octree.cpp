@@ -74,7 +74,7 @@ void checkPose(const MoverMesh& mesh, const Pose& pose)
 
 template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>& b)
 {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 // By their bits: what is not a number equals itself.
@@ -633,8 +633,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
                   .static_sums = m_static_sums,
                   .place = result,
                   .roots = m_roots,
-                  .results = m_results,
-                  .result = result},
+                  .results = m_results},
         .states = layerStates(),
         .voxelized = std::move(voxelized),
         .steps = std::move(steps),
@@ -654,7 +653,7 @@ void DynamicOctree::finishJob(vk::FrameGraph& graph)
     const RootPlace last = rootOf(m_history->current());
     showOverlay(graph, m_job->merge, *m_update, last);
     const std::uint64_t step = m_history->push(m_job->merge.region, std::move(m_job->states));
-    m_pending_updates.push_back({m_frame, step, m_job->merge.result, m_job->merge.region, m_capacities.touched});
+    m_pending_updates.push_back({m_frame, step, m_job->merge.place, m_job->merge.region, m_capacities.touched});
     m_job.reset();
 }
 

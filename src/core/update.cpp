@@ -3,7 +3,6 @@
 
 #include "core/divide_up.h"
 
-#include <array>
 #include <vector>
 
 namespace zvo
@@ -55,8 +54,6 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     graph.fill(buffers.bricks, 0);
     graph.fill(buffers.heads, 0);
     graph.fill(buffers.partials, 0);
-    if (!layers.empty())
-    {
         graph.update(buffers.layers, 0, layers);
         vk::Pass pass = graph.addPass("update/insert", {hasWideKeys(job.octree.grid) ? 1U : 0U});
         gpu::InsertParams params{};
@@ -71,7 +68,6 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         params.record_count = record_count;
         params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
         pass.dispatch(record_count, params);
-    }
     listAncestors(graph, job.octree.grid, buffers.bricks, buffers.counters, buffers.work);
 }
 
@@ -235,7 +231,6 @@ void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.last_root = last.root;
     params.last_place = last.place;
     params.place = job.place;
-    params.result = job.result;
     params.sum_shift = job.sum_shift;
     pass.dispatch(1, params);
 }
@@ -266,7 +261,7 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
                 [record](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); });
     };
     add("list touched nodes",
-        [job, &buffers](vk::FrameGraph& graph)
+        [&job, &buffers](vk::FrameGraph& graph)
         {
             listTouched(graph, job, buffers);
             mergeRoots(graph, job, buffers);
@@ -274,11 +269,11 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
     for (std::uint32_t level = 1; level < job.octree.grid.nodeLevels(); ++level)
     {
         add("copy and merge a level",
-            [job, &buffers, level](vk::FrameGraph& graph) { expandLevel(graph, job, buffers, level); });
+            [&job, &buffers, level](vk::FrameGraph& graph) { expandLevel(graph, job, buffers, level); });
     }
     if (job.octree.hasAttributes())
     {
-        add("merge attributes", [job, &buffers](vk::FrameGraph& graph) { mergeAttributes(graph, job, buffers); });
+        add("merge attributes", [&job, &buffers](vk::FrameGraph& graph) { mergeAttributes(graph, job, buffers); });
     }
 }
 

@@ -67,19 +67,18 @@ struct UpdateJob
     const vk::BufferOf<gpu::MergeView>& view;   // [1]
     const vk::BufferOf<gpu::SceneView>& tables; // [1] of sRGB codes
     const FragmentSums& static_sums;
-    std::uint32_t place = 0; // element of roots for this update's root
+    std::uint32_t place = 0; // element of roots, and of results, for this update
     vk::BufferOf<gpu::uint>& roots;
     vk::BufferOf<gpu::UpdateStatus>& results; // host-visible
-    std::uint32_t result = 0;                 // element of results
 };
 
 /// Adds the steps that merge layers with the static octree: copies of all paths to leaves that a layer has go to the
-/// region, merged with it. Nothing is shown yet, and nothing is read back. What job refers to must outlive the steps.
+/// region, merged with it. Nothing is shown yet, and nothing is read back. job and what it refers to must outlive the steps.
 /// Cost: touched nodes, and their children.
 void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& steps);
 
 /// Records the pass that ends a merge: nodes[0] becomes the overlay's root or, if something had no room, last;
-/// roots[place] tells which. results[result] becomes what the update came to.
+/// roots[place] tells which. results[place] becomes what the update came to.
 void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last);
 
 /// Records the pass that shows an earlier root again. Cost: constant.

@@ -437,10 +437,9 @@ TEST_P(OwnStage, IsWhole)
 {
     const fs::path path = ownScene(std::string(GetParam()) + ".scene.json");
     const fs::path models = ZVO_SHARED_SCENES_DIR;
-    if (std::string(GetParam()) != "atrium_knot" &&
-        !(fs::exists(models / "dragon.glb") && fs::exists(models / "sponza.glb")))
+    if (const std::string model = missingModelOf(GetParam()); !model.empty())
     {
-        GTEST_SKIP() << "the models of " << path << " are not at hand";
+        GTEST_SKIP() << model << " is not there";
     }
     const Stage stage = loadStage(path, {models});
     EXPECT_GT(stage.fixed.triangleCount(), 0U);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "support/scenes.h"
 
+#include <map>
 #include <numbers>
 #include <random>
+#include <vector>
 
 namespace zvo::test
 {
@@ -107,6 +109,23 @@ std::optional<std::filesystem::path> sharedScene(const std::string& name)
 {
     const std::filesystem::path path = std::filesystem::path(ZVO_SHARED_SCENES_DIR) / name;
     return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
+}
+
+std::string missingModelOf(const std::string& stage)
+{
+    static const std::map<std::string, std::vector<std::string>> models = {
+        {"atrium_knot", {}},
+        {"buddha_dragon", {"buddha_113k.glb", "dragon.glb"}},
+        {"sponza_bunny", {"sponza.glb", "bunny.glb"}},
+    };
+    for (const std::string& model : models.at(stage))
+    {
+        if (!sharedScene(model))
+        {
+            return model;
+        }
+    }
+    return "";
 }
 
 std::filesystem::path ownScene(const std::string& name)

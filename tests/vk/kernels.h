@@ -3,6 +3,7 @@
 
 #include "kernels/test/params.h"
 #include "support/device.h"
+#include "vk/frame_graph.h"
 
 namespace zvo
 {
@@ -18,6 +19,29 @@ namespace zvo::test
 inline vk::HeadlessDevice& device()
 {
     return sharedDevice(testKernels());
+}
+
+using Words = vk::BufferOf<gpu::uint>;
+
+/// Records the pass that sets values to 0, 1, 2 and so on.
+inline void iota(vk::FrameGraph& graph, Words& values)
+{
+    vk::Pass pass = graph.addPass("test/iota");
+    const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(values.count())};
+    pass.dispatch(values.count(), params);
+}
+
+/// Records the pass that sets destination to source times factor.
+inline void scale(vk::FrameGraph& graph, const Words& source, Words& destination, gpu::uint factor)
+{
+    vk::Pass pass = graph.addPass("test/scale");
+    const gpu::CopyParams params = {
+        .source = pass.read(source),
+        .destination = pass.write(destination),
+        .count = static_cast<gpu::uint>(source.count()),
+        .factor = factor,
+    };
+    pass.dispatch(source.count(), params);
 }
 
 } // namespace zvo::test

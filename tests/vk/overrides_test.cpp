@@ -13,6 +13,7 @@ namespace
 {
 
 using namespace zvo;
+using test::iota;
 using test::device;
 
 std::vector<gpu::uint> counting(std::uint64_t count)
@@ -20,13 +21,6 @@ std::vector<gpu::uint> counting(std::uint64_t count)
     std::vector<gpu::uint> values(count);
     std::iota(values.begin(), values.end(), 0U);
     return values;
-}
-
-void iota(vk::FrameGraph& graph, vk::BufferOf<gpu::uint>& values)
-{
-    vk::Pass pass = graph.addPass("test/iota");
-    const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(values.count())};
-    pass.dispatch(values.count(), params);
 }
 
 std::string refusalOf(const vk::DeviceOverrides& overrides)

@@ -17,28 +17,11 @@ namespace
 
 using namespace zvo;
 using test::device;
-using Words = vk::BufferOf<gpu::uint>;
+using test::iota;
+using test::scale;
+using test::Words;
 
 constexpr gpu::uint kCount = 2049;
-
-void iota(vk::FrameGraph& graph, Words& values)
-{
-    vk::Pass pass = graph.addPass("test/iota");
-    const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(values.count())};
-    pass.dispatch(values.count(), params);
-}
-
-void scale(vk::FrameGraph& graph, const Words& source, Words& destination, gpu::uint factor)
-{
-    vk::Pass pass = graph.addPass("test/scale");
-    const gpu::CopyParams params = {
-        .source = pass.read(source),
-        .destination = pass.write(destination),
-        .count = static_cast<gpu::uint>(source.count()),
-        .factor = factor,
-    };
-    pass.dispatch(source.count(), params);
-}
 
 std::vector<gpu::uint> multiples(gpu::uint factor)
 {

@@ -8,13 +8,7 @@ namespace
 
 using namespace zvo;
 using test::device;
-
-void iota(vk::FrameGraph& graph, vk::BufferOf<gpu::uint>& values)
-{
-    vk::Pass pass = graph.addPass("test/iota");
-    const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(values.count())};
-    pass.dispatch(values.count(), params);
-}
+using test::iota;
 
 TEST(TimerPool, TimesHaveTheNamesOfThePassesInOrder)
 {
