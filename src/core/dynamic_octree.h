@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/animation.h"
 #include "core/coverage.h"
-#include "core/deform_mesh.h"
-#include "core/layer.h"
-#include "core/mover.h"
+#include "core/mover_set.h"
 #include "core/octree.h"
-#include "core/overlay_arena.h"
+#include "core/overlay_octree.h"
 #include "core/pipeline.h"
 #include "core/root_history.h"
 #include "core/update.h"
 #include "vk/headless.h"
+#include "vk/retired.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -37,22 +34,6 @@ struct DynamicOptions
     bool attributes = true;          // of an empty static octree, which does not say
     bool minimal_capacities = false; // everything starts with room for one: for tests
 };
-
-/// A mesh that can move, in device memory. Several movers may share it.
-struct MoverMesh
-{
-    Scene scene; // without its images
-    GpuScene uploaded;
-    DeformMesh deform;
-    bool emits = false; // any of its materials
-};
-
-/// Uploads scene as a mover and waits; emission_scale: the common one. Throws as uploadScene and uploadDeformMesh.
-std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene scene, bool attributes,
-                                             float emission_scale);
-
-/// Number of a mover, for as long as its DynamicOctree lives.
-using MoverId = std::uint32_t;
 
 /// What an update came to, known once the device is done with its frame.
 struct UpdateReport
@@ -82,6 +63,8 @@ public:
     /// Takes over a static octree (and, for MergeRule::Average, the sums it was made of: BuildOptions::keep_sums).
     /// Throws Error{Usage} where those are missing, Error{Memory} when the device's budget does not suffice.
     DynamicOctree(vk::HeadlessDevice& device, BuildResult built, const DynamicOptions& options);
+    DynamicOctree(const DynamicOctree&) = delete;
+    DynamicOctree& operator=(const DynamicOctree&) = delete;
 
     /// Adds a mover in a pose of its mesh's scene; may wait for the device. Shown from the next update() on, as all
     /// changes are. Throws Error{Usage} for more than kLayersMax movers, a mesh with another emission scale or a pose
@@ -127,26 +110,14 @@ public:
 
     /// What to trace. Its node_count and voxel_count are those of the static octree (1 node for an empty one). It has
     /// no levels: what goes through those (octreeSha256, voxelCodes) tells nothing of it.
-    [[nodiscard]] const Octree& octree() const { return m_octree; }
+    [[nodiscard]] const Octree& octree() const { return m_overlays.octree(); }
 
-    [[nodiscard]] const RootHistory& history() const { return *m_history; }
+    [[nodiscard]] const RootHistory& history() const { return m_history; }
 
     /// Number of the static octree's nodes, and of the node behind them: its root, untouched by what is shown.
-    [[nodiscard]] std::uint32_t staticRoot() const { return m_static_nodes; }
+    [[nodiscard]] std::uint32_t staticRoot() const { return m_overlays.staticRoot(); }
 
 private:
-    struct Mover
-    {
-        std::shared_ptr<const MoverMesh> mesh;
-        MoverBuffers buffers;
-        LayerCapacities capacities;
-        std::unique_ptr<LayerBuffers> layer;
-        bool present = true;          // or taken away, for as long as a step shows it
-        std::uint64_t version = 0;    // of the pose that it is to be in
-        std::uint64_t voxelized = 0;  // version that layer shows; 0: none
-        gpu::LayerCounters dropped{}; // as it was voxelized last
-        bool is_hopeless = false;     // no layer is large enough
-    };
     struct PendingUpdate
     {
         std::uint64_t frame;
@@ -155,19 +126,12 @@ private:
         OverlayRegion region;
         std::uint64_t touched; // entries that its table had
     };
-    struct PendingLayer
-    {
-        std::uint64_t frame;
-        MoverId mover;
-        std::uint64_t report; // counted: element of m_reports, a ring
-        LayerCapacities capacities;
-    };
     // An update under way.
     struct Job
     {
         UpdateJob merge;
         std::vector<LayerState> states; // of the movers that it shows
-        std::vector<Mover*> voxelized;  // by it
+        std::vector<MoverId> voxelized; // by it
         RecordedSteps steps;
         std::vector<UpdateStep> plan; // the same, as UpdateBudget takes them
         UpdateProgress progress;
@@ -177,82 +141,48 @@ private:
         std::uint64_t frame;
         std::vector<UpdateSlice> slices;
     };
-    struct Retired
-    {
-        std::uint64_t frame;
-        std::shared_ptr<void> what;
-    };
 
-    void takeOver(BuildResult& built);
-    void growSpace(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
-    template <typename T> void replace(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, vk::BufferOf<T>&& longer);
-    template <typename T> void retire(T&& what);
-    std::uint64_t addPose(Pose pose);
     void forgetPoses();
-    [[nodiscard]] Mover& presentMover(MoverId id);
-    [[nodiscard]] std::vector<Mover*> presentMovers();
-    void dropLayer(Mover& mover);
     bool beginJob(vk::FrameGraph& graph);
-    void makeLayers();
     void guessOverlay();
     void prepareBuffers();
     std::optional<OverlayRegion> allocateRegion(vk::FrameGraph& graph);
-    void addMoverSteps(RecordedSteps& steps, std::vector<Mover*>& voxelized);
     void recordJob(vk::FrameGraph& graph, double budget_ms);
     void finishJob(vk::FrameGraph& graph);
     void dropJob();
     void giveUpJob();
     bool show(vk::FrameGraph& graph, const std::optional<RootStep>& step);
-    void learnLayer(const PendingLayer& pending);
     UpdateReport learnUpdate(const PendingUpdate& pending);
     void setShift(std::uint32_t fragments);
-    [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
-    [[nodiscard]] bool emits() const { return m_has_attributes && m_options.emission_scale > 0; }
-    [[nodiscard]] std::uint32_t voxelBlockBytes() const;
-    [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
-    [[nodiscard]] std::vector<LayerState> layerStates() const;
     [[nodiscard]] RootPlace rootOf(const RootStep& step) const;
 
     vk::HeadlessDevice& m_device;
     DynamicOptions m_options;
-    Octree m_octree;
-    FragmentSums m_static_sums;
+    vk::Retired m_retired; // knows the frame
+    OverlayOctree m_overlays;
+    MoverSet m_movers;
+    RootHistory m_history;
     GpuScene m_tables; // a scene of nothing: the tables of sRGB codes
     vk::BufferOf<gpu::MergeView> m_merge_view;
-    std::uint32_t m_static_nodes = 0;
-    std::uint32_t m_static_voxels = 0;
-    std::uint64_t m_static_emissive = 0;
-    bool m_has_attributes = false;
-    std::uint32_t m_sum_shift = 0;
+    std::uint32_t m_sum_shift; // of the layers
 
-    std::map<MoverId, Mover> m_movers;
-    MoverId m_next_mover = 1;
-    std::uint64_t m_next_version = 1;
-    std::map<std::uint64_t, std::shared_ptr<const Pose>> m_poses; // by version
-    std::size_t m_poses_max = 1024;                               // until those that are not used are dropped
-
-    std::unique_ptr<OverlayArena> m_arena;
-    std::unique_ptr<RootHistory> m_history;
     std::unique_ptr<UpdateBuffers> m_update;
-    UpdateCapacities m_capacities;
-    std::uint64_t m_touched_min = 0;  // entries that the table of the next update has at least
-    std::uint64_t m_likely_nodes = 0; // of the next overlay
+    UpdateCapacities m_capacities;      // of m_update
+    std::uint64_t m_touched_min = 0;    // entries that the table of the next update has at least
+    std::uint64_t m_guessed_leaves = 0; // of movers that m_likely_nodes and m_likely_voxels know of
+    std::uint64_t m_likely_nodes = 0;   // of the next overlay
     std::uint64_t m_likely_voxels = 0;
-    std::uint64_t m_most_nodes = 0; // of overlays of late
+    std::uint64_t m_most_records = 0; // of updates of late, as the next two
+    std::uint64_t m_most_nodes = 0;
     std::uint64_t m_most_voxels = 0;
 
     vk::BufferOf<gpu::uint> m_roots;
-    vk::BufferOf<gpu::UpdateStatus> m_results;  // host-visible, a ring
-    vk::BufferOf<gpu::LayerCounters> m_reports; // host-visible, a ring
+    vk::BufferOf<gpu::UpdateStatus> m_results; // host-visible, a ring
     std::uint64_t m_result_count = 0;
-    std::uint64_t m_report_count = 0;
-    std::uint64_t m_frame = 0;
     std::deque<PendingUpdate> m_pending_updates;
-    std::deque<PendingLayer> m_pending_layers;
     std::deque<PendingSlices> m_pending_slices;
     std::unique_ptr<Job> m_job;
     UpdateBudget m_budget;
-    std::deque<Retired> m_retired;
     bool m_needs_update = false;
 };
 

@@ -54,20 +54,20 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     graph.fill(buffers.bricks, 0);
     graph.fill(buffers.heads, 0);
     graph.fill(buffers.partials, 0);
-        graph.update(buffers.layers, 0, layers);
-        vk::Pass pass = graph.addPass("update/insert", {hasWideKeys(job.octree.grid) ? 1U : 0U});
-        gpu::InsertParams params{};
-        params.layers = readLayers(pass, job, buffers);
-        params.bricks = pass.readWrite(buffers.bricks);
-        params.heads = pass.readWrite(buffers.heads);
-        params.links = pass.write(buffers.links);
-        params.items = pass.write(buffers.work.items);
-        params.counters = pass.readWrite(buffers.counters);
-        params.status = pass.readWrite(buffers.status);
-        params.layer_count = static_cast<std::uint32_t>(layers.size());
-        params.record_count = record_count;
-        params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
-        pass.dispatch(record_count, params);
+    graph.update(buffers.layers, 0, layers);
+    vk::Pass pass = graph.addPass("update/insert", {hasWideKeys(job.octree.grid) ? 1U : 0U});
+    gpu::InsertParams params{};
+    params.layers = readLayers(pass, job, buffers);
+    params.bricks = pass.readWrite(buffers.bricks);
+    params.heads = pass.readWrite(buffers.heads);
+    params.links = pass.write(buffers.links);
+    params.items = pass.write(buffers.work.items);
+    params.counters = pass.readWrite(buffers.counters);
+    params.status = pass.readWrite(buffers.status);
+    params.layer_count = static_cast<std::uint32_t>(layers.size());
+    params.record_count = record_count;
+    params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
+    pass.dispatch(record_count, params);
     listAncestors(graph, job.octree.grid, buffers.bricks, buffers.counters, buffers.work);
 }
 

@@ -73,8 +73,8 @@ struct UpdateJob
 };
 
 /// Adds the steps that merge layers with the static octree: copies of all paths to leaves that a layer has go to the
-/// region, merged with it. Nothing is shown yet, and nothing is read back. job and what it refers to must outlive the steps.
-/// Cost: touched nodes, and their children.
+/// region, merged with it. Nothing is shown yet, and nothing is read back. job and what it refers to must outlive the
+/// steps. Cost: touched nodes, and their children.
 void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& steps);
 
 /// Records the pass that ends a merge: nodes[0] becomes the overlay's root or, if something had no room, last;

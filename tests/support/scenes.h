@@ -26,8 +26,8 @@ Scene sphereScene(const glm::vec3& centre, float radius, std::uint32_t rings);
 /// Path of one of the big scenes that do not come with the project (scenes/README.md), if it is there.
 std::optional<std::filesystem::path> sharedScene(const std::string& name);
 
-/// The first model that one of the project's scene files ("atrium_knot" and so on) needs and that is not there; empty if
-/// all are.
+/// The first model that one of the project's scene files ("atrium_knot" and so on) needs and that is not there; empty
+/// if all are.
 std::string missingModelOf(const std::string& stage);
 
 /// Path of one of the project's own scenes.

@@ -13,8 +13,8 @@ namespace
 {
 
 using namespace zvo;
-using test::iota;
 using test::device;
+using test::iota;
 
 std::vector<gpu::uint> counting(std::uint64_t count)
 {

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/animation.h"
+#include "core/coverage.h"
+#include "core/deform_mesh.h"
+#include "core/layer.h"
+#include "core/mover.h"
+#include "core/root_history.h"
+#include "core/update_step.h"
+#include "vk/headless.h"
+#include "vk/retired.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// A mesh that can move, in device memory. Several movers may share it.
+struct MoverMesh
+{
+    Scene scene; // without its images
+    GpuScene uploaded;
+    DeformMesh deform;
+    bool emits = false; // any of its materials
+};
+
+/// Uploads scene as a mover and waits; emission_scale: the common one. Throws as uploadScene and uploadDeformMesh.
+std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene scene, bool attributes,
+                                             float emission_scale);
+
+/// Number of a mover, for as long as its octree lives.
+using MoverId = std::uint32_t;
+
+/// How movers are voxelized.
+struct MoverOptions
+{
+    Coverage coverage = Coverage::Thin;
+    LayerContents contents;          // of the octree that they are merged with
+    float emission_scale = 0;        // common to the static scene and all movers
+    std::uint32_t updates_max = 1;   // that may be under way on the device
+    bool minimal_capacities = false; // everything starts with room for one
+};
+
+/// The movers of an octree: where each is to be, and its layer, the voxels of where it was last. Poses have versions,
+/// so that a step of the history names its movers' states by numbers. Knows nothing of merging and of what is shown.
+class MoverSet
+{
+public:
+    /// What retires goes to retired, which outlives this.
+    MoverSet(vk::HeadlessDevice& device, const Grid& grid, const MoverOptions& options, vk::Retired& retired);
+
+    /// See DynamicOctree.
+    MoverId add(std::shared_ptr<const MoverMesh> mesh, Pose pose);
+    void place(MoverId mover, Pose pose);
+    void remove(MoverId mover);
+
+    /// Movers, present ones only, and their poses become those of an earlier time.
+    void bringBack(std::span<const LayerState> states);
+
+    [[nodiscard]] bool isEmpty() const; // no mover is present
+    [[nodiscard]] std::vector<LayerState> states() const;
+    [[nodiscard]] std::vector<const LayerBuffers*> layers();
+    [[nodiscard]] std::uint64_t leafCapacity(); // of all layers
+
+    /// Gives movers that changed and have no layer one. Throws Error{Memory} when the device's budget does not suffice
+    /// or a layer can never be large enough, Error{Usage} where more updates are under way than were announced.
+    void makeLayers();
+
+    /// Adds everything that voxelizes the movers which changed; they count as voxelized from now on. Returns them. What
+    /// is recorded must be recorded before a mover of them is removed.
+    std::vector<MoverId> addSteps(std::uint32_t sum_shift, RecordedSteps& steps);
+
+    /// What was voxelized into their layers does not count: they are voxelized again.
+    void forgetLayers(std::span<const MoverId> movers);
+    void forgetLayers();
+
+    /// The device is done with a frame and all before it. Layers that turned out too small get more room and are to be
+    /// made again: returns whether there are any.
+    bool frameDone(std::uint64_t frame);
+
+    /// Triangles left out, by reason, of all movers as they were voxelized last.
+    [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
+
+    /// Whether so many poses are kept that forgetPoses() is worth its time.
+    [[nodiscard]] bool hasManyPoses() const { return m_poses.size() >= m_poses_max; }
+
+    /// Drops the poses, and the movers, that are not present and not in states.
+    void forgetPoses(std::span<const LayerState> states);
+
+private:
+    struct Mover
+    {
+        std::shared_ptr<const MoverMesh> mesh;
+        MoverBuffers buffers;
+        LayerCapacities capacities;
+        std::unique_ptr<LayerBuffers> layer;
+        bool present = true;          // or taken away, for as long as a step shows it
+        std::uint64_t version = 0;    // of the pose that it is to be in
+        std::uint64_t voxelized = 0;  // version that layer shows; 0: none
+        gpu::LayerCounters dropped{}; // as it was voxelized last
+        bool is_hopeless = false;     // no layer is large enough
+    };
+    struct PendingLayer
+    {
+        std::uint64_t frame;
+        MoverId mover;
+        std::uint64_t report; // counted: element of m_reports, a ring
+        LayerCapacities capacities;
+    };
+
+    std::uint64_t addPose(Pose pose);
+    [[nodiscard]] Mover& presentMover(MoverId id);
+    [[nodiscard]] std::vector<Mover*> presentMovers();
+    void dropLayer(Mover& mover);
+    bool learn(const PendingLayer& pending);
+
+    vk::HeadlessDevice& m_device;
+    const Grid& m_grid;
+    MoverOptions m_options;
+    vk::Retired& m_retired;
+    std::map<MoverId, Mover> m_movers;
+    MoverId m_next_mover = 1;
+    std::uint64_t m_next_version = 1;
+    std::map<std::uint64_t, std::shared_ptr<const Pose>> m_poses; // by version
+    std::size_t m_poses_max = 1024;                               // until those that are not used are dropped
+    vk::BufferOf<gpu::LayerCounters> m_reports;                   // host-visible, a ring
+    std::uint64_t m_report_count = 0;
+    std::deque<PendingLayer> m_pending; // in order of frames
+};
+
+} // namespace zvo

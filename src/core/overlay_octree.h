@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/octree.h"
+#include "core/overlay_arena.h"
+#include "core/pipeline.h"
+#include "vk/headless.h"
+#include "vk/retired.h"
+
+#include <cstdint>
+
+namespace zvo
+{
+
+/// What the overlays of an OverlayOctree have.
+struct OverlayContents
+{
+    bool attributes = true;   // where the static octree is empty and does not say
+    float emission_scale = 0; // 0: nothing emits light
+};
+
+/// A static octree in buffers with room for overlays behind it:
+///
+///     nodes       | slot | static nodes ... | static root | overlays and room
+///     attributes  | static voxels ...       | overlays and room
+///
+/// nodes[0] is the root that is traced. Nothing static is ever written again. When the buffers grow their addresses
+/// change, and all contents stay.
+class OverlayOctree
+{
+public:
+    /// Takes over a static octree and the sums that it was made of. Waits. room: nodes, and voxels, that there is room
+    /// for at first. Throws Error{Memory} when the device's budget does not suffice.
+    OverlayOctree(vk::HeadlessDevice& device, BuildResult built, const OverlayContents& contents, std::uint64_t room);
+
+    /// Makes room for one more region of that many nodes and voxels, whatever is held: records the copies to longer
+    /// buffers, and leaves the old ones to retired. Throws Error{Memory} when the device's budget does not suffice:
+    /// then nothing was recorded and nothing has changed.
+    void grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels, vk::Retired& retired);
+
+    /// Its counts are those of the static octree (1 node for an empty one).
+    [[nodiscard]] const Octree& octree() const { return m_octree; }
+    [[nodiscard]] Octree& octree() { return m_octree; }
+
+    [[nodiscard]] OverlayArena& arena() { return m_arena; }
+    [[nodiscard]] const FragmentSums& sums() const { return m_sums; }
+    [[nodiscard]] bool hasAttributes() const { return m_has_attributes; }
+    [[nodiscard]] bool emits() const { return m_emits; }
+
+    /// Index of the static root, untouched by what is shown.
+    [[nodiscard]] std::uint32_t staticRoot() const { return m_octree.node_count; }
+
+    /// From the index of an overlay's voxel to its place in octree().emission, modulo 2^32.
+    [[nodiscard]] std::uint32_t emissionOffset() const;
+
+private:
+    [[nodiscard]] std::uint32_t voxelBlockBytes() const;
+    [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
+    [[nodiscard]] OverlaySpace staticSpace() const;
+
+    vk::HeadlessDevice& m_device;
+    bool m_is_empty;
+    bool m_has_attributes;
+    bool m_emits;
+    std::uint64_t m_static_emissive; // voxels
+    FragmentSums m_sums;
+    Octree m_octree;
+    OverlayArena m_arena;
+};
+
+} // namespace zvo

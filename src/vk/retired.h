@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace zvo::vk
+{
+
+/// Things that frames in flight may still use: kept until the device is done with the frame in which they were put
+/// away. Frames are numbered by the caller, upwards.
+class Retired
+{
+public:
+    /// What is kept from now on may be used by that frame and those before it.
+    void beginFrame(std::uint64_t frame) { m_frame = frame; }
+
+    [[nodiscard]] std::uint64_t frame() const { return m_frame; }
+
+    template <typename T> void keep(T&& thing)
+    {
+        m_things.push_back({m_frame, std::make_shared<std::decay_t<T>>(std::forward<T>(thing))});
+    }
+
+    /// The device is done with that frame and all before it.
+    void frameDone(std::uint64_t frame)
+    {
+        while (!m_things.empty() && m_things.front().frame <= frame)
+        {
+            m_things.pop_front();
+        }
+    }
+
+private:
+    struct Thing
+    {
+        std::uint64_t frame;
+        std::shared_ptr<void> thing;
+    };
+
+    std::uint64_t m_frame = 0;
+    std::deque<Thing> m_things; // in order of frames
+};
+
+} // namespace zvo::vk
