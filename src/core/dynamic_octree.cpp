@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/dynamic_octree.h"
 
-#include "core/divide_up.h"
-#include "core/with_slack.h"
 #include "zvo/error.h"
 
 #include <algorithm>
@@ -18,13 +16,6 @@ namespace
 constexpr std::uint64_t kCountMax = UINT32_MAX; // kernels count in 32 bits
 constexpr std::uint32_t kUpdatesPerFrame = 4;
 constexpr std::uint64_t kRoomMin = 1024; // nodes, and voxels, that overlays have at first
-constexpr std::uint64_t kTooLarge = 4;   // times what is needed: then buffers are made anew
-
-// The most that was needed, of late: what leaves the grid and comes back finds room at once.
-std::uint64_t recentMost(std::uint64_t most, std::uint64_t needed)
-{
-    return std::max(needed, most - divideUp(most, 1024)); // half in 700 updates
-}
 
 // What was built, if it can be merged as options say. Throws Error{Usage} where not.
 BuildResult checked(BuildResult built, const DynamicOptions& options)
@@ -59,7 +50,7 @@ DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, BuildResult built, cons
                 options.minimal_capacities},
                m_retired),
       m_history(m_overlays.arena(), options.history), m_tables(uploadScene(device, Scene{}, true)),
-      m_sum_shift(m_overlays.sums().sum_shift)
+      m_sum_shift(m_overlays.sums().sum_shift), m_sizes(options.minimal_capacities)
 {
     vk::Device& d = device.device();
     m_merge_view = {d, "update/merge_view", 1};
@@ -120,73 +111,39 @@ RootPlace DynamicOctree::rootOf(const RootStep& step) const
     return {step.region ? step.region->first_node : staticRoot(), 0};
 }
 
-// Makes the buffers of the update as large as its layers and its overlay ask for, or smaller where they have been far
-// too large for a while.
+// Makes the buffers of the update as large as its layers and its overlay ask for.
 void DynamicOctree::prepareBuffers()
 {
-    const std::uint64_t records = m_movers.leafCapacity();
-    m_most_records = recentMost(m_most_records, records);
-    const bool is_too_large = m_capacities.records > kTooLarge * withSlack(m_most_records) ||
-                              m_capacities.overlay_nodes > kTooLarge * withSlack(m_likely_nodes);
-    if (is_too_large)
+    const UpdateCapacities needed = m_sizes.fitting(m_capacities);
+    if (m_update != nullptr && needed == m_capacities)
     {
-        m_touched_min = 0;
+        return;
     }
-    UpdateCapacities needed = is_too_large ? UpdateCapacities{} : m_capacities;
-    if (records > needed.records)
+    if (needed.touched > VoxelizeCapacities::kBricksMax || needed.records > kCountMax)
     {
-        needed.records = withSlack(records);
+        throw Error(ErrorCode::Memory, "movers touch more nodes than 32-bit numbers count; lower the resolution");
     }
-    if (m_likely_nodes > needed.overlay_nodes)
+    m_device.device().memory().require(UpdateBuffers::bytes(needed), "merging movers");
+    if (m_update != nullptr)
     {
-        needed.overlay_nodes = withSlack(m_likely_nodes);
+        m_retired.keep(std::move(m_update));
     }
-    needed.touched =
-        std::max({needed.touched, m_touched_min, m_options.minimal_capacities ? 1 : std::bit_ceil(2 * records)});
-    if (m_update == nullptr || needed != m_capacities)
-    {
-        if (needed.touched > VoxelizeCapacities::kBricksMax || needed.records > kCountMax)
-        {
-            throw Error(ErrorCode::Memory, "movers touch more nodes than 32-bit numbers count; lower the resolution");
-        }
-        m_device.device().memory().require(UpdateBuffers::bytes(needed), "merging movers");
-        if (m_update != nullptr)
-        {
-            m_retired.keep(std::move(m_update));
-        }
-        m_update = std::make_unique<UpdateBuffers>(m_device.device(), needed, octree().grid);
-        m_capacities = needed;
-    }
-}
-
-// How large the next overlay is thought to be, where movers were added that no update has measured.
-void DynamicOctree::guessOverlay()
-{
-    const std::uint64_t leaves = m_movers.leafCapacity();
-    const std::uint64_t added = leaves - std::min(leaves, m_guessed_leaves);
-    m_guessed_leaves = leaves;
-    if (m_options.minimal_capacities)
-    {
-        m_likely_nodes = std::max<std::uint64_t>(m_likely_nodes, 1);
-        m_likely_voxels = std::max<std::uint64_t>(m_likely_voxels, 1);
-    }
-    else if (added != 0)
-    {
-        m_likely_nodes += 3 * added + 64; // with copies of what stands beside them
-        m_likely_voxels += 32 * added + 64;
-    }
+    m_update = std::make_unique<UpdateBuffers>(m_device.device(), needed, octree().grid);
+    m_capacities = needed;
 }
 
 // Nothing while frames in flight hold what is needed.
 std::optional<OverlayRegion> DynamicOctree::allocateRegion(vk::FrameGraph& graph)
 {
-    if (const std::optional<OverlayRegion> region = m_overlays.arena().allocate(m_likely_nodes, m_likely_voxels))
+    const std::uint64_t nodes = m_sizes.likelyNodes();
+    const std::uint64_t voxels = m_sizes.likelyVoxels();
+    if (const std::optional<OverlayRegion> region = m_overlays.arena().allocate(nodes, voxels))
     {
         return region;
     }
     try
     {
-        m_overlays.grow(graph, m_likely_nodes, m_likely_voxels, m_retired);
+        m_overlays.grow(graph, nodes, voxels, m_retired);
     }
     catch (const Error& error) // then steps of the history have to make room, if there are any
     {
@@ -194,17 +151,17 @@ std::optional<OverlayRegion> DynamicOctree::allocateRegion(vk::FrameGraph& graph
         {
             throw;
         }
-        if (const std::optional<OverlayRegion> region = m_history.allocate(m_likely_nodes, m_likely_voxels))
+        if (const std::optional<OverlayRegion> region = m_history.allocate(nodes, voxels))
         {
             return region;
         }
-        if (m_history.fitsLater(m_likely_nodes, m_likely_voxels))
+        if (m_history.fitsLater(nodes, voxels))
         {
             return std::nullopt;
         }
         throw;
     }
-    return m_overlays.arena().allocate(m_likely_nodes, m_likely_voxels).value();
+    return m_overlays.arena().allocate(nodes, voxels).value();
 }
 
 bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
@@ -263,7 +220,7 @@ void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
 bool DynamicOctree::beginJob(vk::FrameGraph& graph)
 {
     m_movers.makeLayers();
-    guessOverlay();
+    m_sizes.begin(m_movers.leafCapacity());
     prepareBuffers();
     const std::optional<OverlayRegion> region = allocateRegion(graph);
     if (!region)
@@ -361,32 +318,15 @@ void DynamicOctree::giveUpJob()
 UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
 {
     const gpu::UpdateStatus status = m_results.mappedData()[pending.result];
+    m_sizes.learn(status, pending.region, pending.touched);
     if (status.failed == 0)
     {
         m_history.complete(pending.step, status.node_count, status.voxel_count);
-        m_most_nodes = recentMost(m_most_nodes, status.node_count);
-        m_most_voxels = recentMost(m_most_voxels, status.voxel_count);
-        m_likely_nodes = withSlack(m_most_nodes);
-        m_likely_voxels = withSlack(m_most_voxels);
     }
     else
     {
         m_needs_update = m_needs_update || m_history.current().id == pending.step;
         m_history.fail(pending.step);
-        // Levels that were not reached are not counted: twice as much, if that is more.
-        if ((status.failed & gpu::kFailedNodes) != 0)
-        {
-            m_likely_nodes = std::max<std::uint64_t>(
-                {m_likely_nodes, std::uint64_t{2} * pending.region.node_capacity, withSlack(status.node_count)});
-        }
-        if ((status.failed & gpu::kFailedVoxels) != 0)
-        {
-            m_likely_voxels = std::max<std::uint64_t>(m_likely_voxels, withSlack(status.voxel_count));
-        }
-        if ((status.failed & gpu::kFailedTable) != 0)
-        {
-            m_touched_min = std::max(m_touched_min, 2 * pending.touched);
-        }
     }
     if ((status.failed & ~gpu::kFailedFragments) == 0) // it came as far as to count them
     {

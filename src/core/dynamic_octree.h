@@ -8,6 +8,7 @@
 #include "core/pipeline.h"
 #include "core/root_history.h"
 #include "core/update.h"
+#include "core/update_sizes.h"
 #include "vk/headless.h"
 #include "vk/retired.h"
 
@@ -144,7 +145,6 @@ private:
 
     void forgetPoses();
     bool beginJob(vk::FrameGraph& graph);
-    void guessOverlay();
     void prepareBuffers();
     std::optional<OverlayRegion> allocateRegion(vk::FrameGraph& graph);
     void recordJob(vk::FrameGraph& graph, double budget_ms);
@@ -167,14 +167,8 @@ private:
     std::uint32_t m_sum_shift; // of the layers
 
     std::unique_ptr<UpdateBuffers> m_update;
-    UpdateCapacities m_capacities;      // of m_update
-    std::uint64_t m_touched_min = 0;    // entries that the table of the next update has at least
-    std::uint64_t m_guessed_leaves = 0; // of movers that m_likely_nodes and m_likely_voxels know of
-    std::uint64_t m_likely_nodes = 0;   // of the next overlay
-    std::uint64_t m_likely_voxels = 0;
-    std::uint64_t m_most_records = 0; // of updates of late, as the next two
-    std::uint64_t m_most_nodes = 0;
-    std::uint64_t m_most_voxels = 0;
+    UpdateCapacities m_capacities; // of m_update
+    UpdateSizes m_sizes;
 
     vk::BufferOf<gpu::uint> m_roots;
     vk::BufferOf<gpu::UpdateStatus> m_results; // host-visible, a ring
