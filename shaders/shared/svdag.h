@@ -7,9 +7,9 @@
 //     nodes, level by level from the root on | lists: words, those of the root first | zeros up to a whole node
 //
 // A half of a node with kChildList in its base has a list: child c of it is node
-// pool_words[(base & ~kChildList) + popcount(mask & bits below c)]. Without, its children stand together, as an octree's
-// do. Inner nodes of a DAG have one list for both halves: base_hi = base_lo + popcount(mask_lo). In leaves base_lo is 0
-// and base_hi popcount(mask_lo): what would be a child is the voxel's number in the leaf.
+// pool_words[(base & ~kChildList) + popcount(mask & bits below c)]. Without, its children stand together, as an
+// octree's do. Inner nodes of a DAG have one list for both halves: base_hi = base_lo + popcount(mask_lo). In leaves
+// base_lo is 0 and base_hi popcount(mask_lo): what would be a child is the voxel's number in the leaf.
 //
 // Nodes of a level stand in the order in which they first occur in the octree; lists in the order of their nodes.
 //
