@@ -3,7 +3,6 @@
 #include "core/kernels.h"
 #include "deform/deform.h"
 #include "octree/octree.h"
-#include "shared/svdag.h"
 #include "support/spirv_structs.h"
 #include "trace/trace.h"
 #include "update/update.h"
