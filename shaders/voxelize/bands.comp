@@ -7,6 +7,7 @@
 #define EDGE_INT int64_t
 #define EDGE_IVEC3 i64vec3
 #include "lib/dispatch.glsl"
+#include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/big_triangle.glsl"
 

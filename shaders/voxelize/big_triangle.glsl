@@ -9,10 +9,8 @@ RasterTriangle setupBigTriangle(BigTriangle big, out i64vec3 normal)
     normal = a.yzx * b.zxy - a.zxy * b.yzx;
     ivec3 low = ((min(big.v0, min(big.v1, big.v2)) + (kVoxelLattice - 1)) >> kVoxelLatticeLog2) - 1;
     ivec3 high = max(big.v0, max(big.v1, big.v2)) >> kVoxelLatticeLog2;
-    low = max(low, ivec3(0));
-    high = min(high, ivec3(int(params.resolution) - 1));
-    return setupTriangle(big.v0, big.v1, big.v2, normal, majorAxis(normal, low, high), low, high,
-                         int(params.resolution));
+    clipToWindow(low, high);
+    return setupTriangle(big.v0, big.v1, big.v2, normal, majorAxis(normal, low, high), low, high, gridResolution());
 }
 
 // Shrinks an interval of columns to where value + step * column >= 0, estimated in floating point and widened by a

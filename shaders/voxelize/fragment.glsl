@@ -13,7 +13,7 @@ struct BrickCursor
 // Level of the leaves among the nodes' levels.
 uint leafLevel()
 {
-    return uint(findMSB(params.resolution) - 1) / 2u;
+    return uint(gridDepth() - 1) / 2u;
 }
 
 BrickCursor noBrick()

@@ -11,6 +11,7 @@
 #define BRICKS_CONSTANT_ID 4
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
+#include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/big_triangle.glsl"
 #include "voxelize/shading.glsl"

@@ -9,6 +9,7 @@
 #define BRICKS_CONSTANT_ID 4
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
+#include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"
@@ -30,7 +31,7 @@ struct SnappedTriangle
     ivec3 v1;
     ivec3 v2;
     i64vec3 normal;
-    ivec3 low; // touched voxels, inside the grid
+    ivec3 low; // touched voxels, inside the window
     ivec3 high;
     uint fate;
 };
@@ -56,9 +57,10 @@ SnappedTriangle snapTriangle(Draw draw, uvec3 vertices)
     // A closed range [min, max] touches the closed voxels from ceil(min / 256) - 1 to floor(max / 256).
     ivec3 low = ((min(t.v0, min(t.v1, t.v2)) + (kVoxelLattice - 1)) >> kVoxelLatticeLog2) - 1;
     ivec3 high = max(t.v0, max(t.v1, t.v2)) >> kVoxelLatticeLog2;
-    t.low = max(low, ivec3(0));
-    t.high = min(high, ivec3(int(params.resolution) - 1));
-    bool outside = any(greaterThan(t.low, t.high));
+    bool outside = any(lessThan(high, ivec3(0))) || any(greaterThanEqual(low, ivec3(gridResolution())));
+    t.low = low;
+    t.high = high;
+    clipToWindow(t.low, t.high);
     bool flat_out = kCoverage == kCoverageThin && t.normal == i64vec3(0);
     t.fate = !finite ? kNonfinite : (!in_range ? kOutOfRange : (outside ? kOutside : (flat_out ? kZeroArea : kKept)));
     return t;
@@ -178,7 +180,7 @@ void main()
     uvec2 extent = rasterExtent(snapped, axis);
     ivec3 size = max(snapped.v0, max(snapped.v1, snapped.v2)) - min(snapped.v0, min(snapped.v1, snapped.v2));
     bool small = max(size.x, max(size.y, size.z)) <= kSmallExtent && extent.x * extent.y <= kSmallColumns;
-    bool kept = snapped.fate == kKept;
+    bool kept = snapped.fate == kKept && all(lessThanEqual(snapped.low, snapped.high));
     if (kMode == kModeCoverage)
     {
         countDropped(snapped.fate);
@@ -186,7 +188,7 @@ void main()
             listBigTriangle(snapped, chunk.draw, triangle, axis);
     }
     RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, ivec3(snapped.normal), axis, snapped.low,
-                                     snapped.high, int(params.resolution));
+                                     snapped.high, gridResolution());
     Surface surface = loadSurface(draw, vertices, vec3(snapped.normal), float(t.n_w));
     if (kCoverage == kCoverageThin)
         rasterizeThin(t, surface, extent, kept && small);

@@ -136,7 +136,7 @@ struct Coverings
 };
 
 // The coverings, with what result tells of them, or what was too small.
-std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
+std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
                                            Coverage coverage, BuildResult& result)
 {
     device.device().memory().require(coverageBytes(result.capacities, scene.uploaded()), "voxelization");
@@ -145,8 +145,8 @@ std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const Pla
     std::vector<vk::PassTime> passes = device.run(
         [&](vk::FrameGraph& graph)
         {
-            voxelizeCoverage(graph, scene, grid, coverage, coverings.voxelize);
-            listNodes(graph, grid, coverings.voxelize, coverings.work);
+            voxelizeCoverage(graph, scene, tile, coverage, coverings.voxelize);
+            listNodes(graph, tile.grid, coverings.voxelize, coverings.work);
         });
     coverings.counters = device.download(coverings.voxelize.counters).front();
     std::vector<gpu::RasterCounters> rasters;
@@ -170,12 +170,12 @@ std::variant<Coverings, Growth> tryToCover(vk::HeadlessDevice& device, const Pla
     return coverings;
 }
 
-Coverings coverVoxels(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+Coverings coverVoxels(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
                       BuildResult& result)
 {
     for (; result.retry_count < kRetriesMax; ++result.retry_count)
     {
-        std::variant<Coverings, Growth> outcome = tryToCover(device, scene, grid, coverage, result);
+        std::variant<Coverings, Growth> outcome = tryToCover(device, scene, tile, coverage, result);
         if (auto* coverings = std::get_if<Coverings>(&outcome))
         {
             return std::move(*coverings);
@@ -210,8 +210,8 @@ void allocateNodes(vk::HeadlessDevice& device, const Coverings& coverings, Octre
     octree.nodes = {device.device(), "octree/nodes", octree.node_count};
 }
 
-void makeEmission(vk::HeadlessDevice& device, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& voxelize,
-                  AttributeBuffers& attributes, BuildResult& result)
+void makeEmission(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+                  VoxelizeBuffers& voxelize, AttributeBuffers& attributes, BuildResult& result)
 {
     Octree& octree = result.octree;
     octree.emission_scale = scene.uploaded().emission_scale;
@@ -223,14 +223,15 @@ void makeEmission(vk::HeadlessDevice& device, const PlacedScene& scene, Coverage
     }
     attributes.emission_sums = {device.device(), "voxelize/emission_sums", emissive_count};
     octree.emission = {device.device(), "octree/emission", emissive_count};
-    append(result.passes, device.run([&](vk::FrameGraph& graph)
-                                     { voxelizeEmission(graph, scene, coverage, voxelize, attributes, octree); }));
+    append(result.passes,
+           device.run([&](vk::FrameGraph& graph)
+                      { voxelizeEmission(graph, scene, tile, coverage, voxelize, attributes, octree); }));
 }
 
 // Voxel attributes, and emission; voxelize is used up. The sums are many times larger than what becomes of them: they
 // and the brick table go before the attributes of inner nodes come.
-void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, const BuildOptions& options,
-                         VoxelizeBuffers& voxelize, BuildResult& result)
+void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
+                         const BuildOptions& options, VoxelizeBuffers& voxelize, BuildResult& result)
 {
     const Coverage coverage = options.coverage;
     Octree& octree = result.octree;
@@ -244,8 +245,9 @@ void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, c
     AttributeBuffers attributes(device.device(), octree.voxel_count, emission);
     for (bool too_many = true; too_many;)
     {
-        std::vector<vk::PassTime> passes = device.run(
-            [&](vk::FrameGraph& graph) { voxelizeAttributes(graph, scene, coverage, voxelize, attributes, octree); });
+        std::vector<vk::PassTime> passes =
+            device.run([&](vk::FrameGraph& graph)
+                       { voxelizeAttributes(graph, scene, tile, coverage, voxelize, attributes, octree); });
         const std::uint32_t fragments = device.download(attributes.max_fragments).front();
         too_many = fragments != 0;
         if (too_many) // drop as many value bits as the largest sum has too many
@@ -260,7 +262,7 @@ void makeVoxelAttributes(vk::HeadlessDevice& device, const PlacedScene& scene, c
     }
     if (emission)
     {
-        makeEmission(device, scene, coverage, voxelize, attributes, result);
+        makeEmission(device, scene, tile, coverage, voxelize, attributes, result);
     }
     voxelize.bricks = {};
     voxelize.rows = {};
@@ -303,13 +305,20 @@ double BuildResult::stageMs(const std::string& operation) const
     return ms;
 }
 
-BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
+BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
                         const BuildOptions& options)
 {
+    const Grid& grid = tile.grid;
     if (grid.depth < 1 || grid.depth > Grid::kDepthMax)
     {
         throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} is out of range: 1 to {} (resolution 2 to {})",
                                                   grid.depth, Grid::kDepthMax, 1U << Grid::kDepthMax));
+    }
+    const std::uint32_t places = tile.depth <= grid.depth ? 1U << (grid.depth - tile.depth) : 0;
+    if (places > GridTile::kPlacesMax || glm::any(glm::greaterThanEqual(tile.place, glm::uvec3(places))))
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} has no tile ({}, {}, {}) of depth {}", grid.depth,
+                                                  tile.place.x, tile.place.y, tile.place.z, tile.depth));
     }
     if (options.attributes && !scene.uploaded().has_attributes)
     {
@@ -318,7 +327,7 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, co
     BuildResult result;
     result.octree.grid = grid;
     result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid)));
-    Coverings coverings = coverVoxels(device, scene, grid, options.coverage, result);
+    Coverings coverings = coverVoxels(device, scene, tile, options.coverage, result);
     if (!options.attributes)
     {
         coverings.voxelize.rows = {};
@@ -334,7 +343,7 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, co
     coverings.work.partials = {};
     if (options.attributes)
     {
-        makeVoxelAttributes(device, scene, options, coverings.voxelize, result);
+        makeVoxelAttributes(device, scene, tile, options, coverings.voxelize, result);
         makeNodeAttributes(device, scene.uploaded(), result);
     }
     return result;

@@ -42,8 +42,10 @@ struct BuildResult
 /// Runs all of the static half on device: voxelize, build, attributes. Waits between the operations to learn sizes;
 /// what turns out too small grows, and the operation runs again. Throws Error{Memory} when the device's budget does not
 /// suffice and Error{Usage} for a depth outside 1 to Grid::kDepthMax. A scene without triangles in the grid gives an
-/// octree without nodes.
-BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
+/// octree without nodes. Of a tile (GridTile), an octree of the whole grid with what lies in it: its voxels and their
+/// attributes are a slice, in Morton order, of what the whole grid gives, as long as no voxel has more than 65,535
+/// fragments. dropped is that of the whole grid.
+BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
                         const BuildOptions& options);
 
 /// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have

@@ -36,6 +36,15 @@ template <typename T> gpu::Ptr<T> access(vk::Pass& pass, vk::BufferOf<T>& buffer
     return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
 }
 
+std::uint32_t packWindow(const GridTile& tile)
+{
+    static_assert(GridTile::kPlacesMax == 1U << gpu::kWindowPlaceBits);
+    const auto place = [&](std::uint32_t value, std::uint32_t axis)
+    { return value << (2 * gpu::kWindowDepthBits + axis * gpu::kWindowPlaceBits); };
+    return tile.grid.depth | (tile.depth << gpu::kWindowDepthBits) | place(tile.place.x, 0) | place(tile.place.y, 1) |
+           place(tile.place.z, 2);
+}
+
 gpu::RasterParams rasterParams(vk::Pass& pass, const RasterWalk& walk, std::uint32_t material_class)
 {
     const bool covers = walk.mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
@@ -47,9 +56,9 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterWalk& walk, std::uint
     params.row_blocks = access(pass, rows.row_blocks, covers);
     params.counters = access(pass, rows.counters, covers);
     params.brick_counters = access(pass, walk.buffers.counters, covers);
-    params.origin = walk.grid.origin;
-    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.grid.voxel_size));
-    params.resolution = walk.grid.resolution();
+    params.origin = walk.tile.grid.origin;
+    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.tile.grid.voxel_size));
+    params.window = packWindow(walk.tile);
     params.brick_mask = static_cast<std::uint32_t>(walk.buffers.bricks.count() - 1);
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
@@ -82,7 +91,7 @@ vk::Specialization rasterVariant(const RasterWalk& walk, std::uint32_t material_
 {
     const std::uint32_t coverage = walk.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
     const bool emits = walk.mode != gpu::kModeCoverage && walk.sums->emission_words.count() != 0;
-    return {coverage, walk.mode, material_class, emits ? 1U : 0U, hasWideKeys(walk.grid) ? 1U : 0U};
+    return {coverage, walk.mode, material_class, emits ? 1U : 0U, hasWideKeys(walk.tile.grid) ? 1U : 0U};
 }
 
 // Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
@@ -217,15 +226,15 @@ void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t mater
                           divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
 }
 
-void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
                       VoxelizeBuffers& buffers)
 {
     clearCoverage(graph, buffers);
-    walkAll(graph, {scene, grid, coverage, buffers});
+    walkAll(graph, {scene, tile, coverage, buffers});
 }
 
-void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
-                        AttributeBuffers& attributes, Octree& octree)
+void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree)
 {
     const bool emission = octree.emission_words.count() != 0;
     graph.fill(attributes.sums, 0);
@@ -235,7 +244,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverag
         graph.fill(octree.emission_words, 0);
     }
     const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {scene, octree.grid, coverage, buffers, gpu::kModeAttributes, &sums});
+    walkAll(graph, {scene, tile, coverage, buffers, gpu::kModeAttributes, &sums});
     {
         vk::Pass pass = graph.addPass("voxelize/resolve");
         gpu::ResolveParams params{};
@@ -255,12 +264,12 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverag
     }
 }
 
-void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
-                      AttributeBuffers& attributes, Octree& octree)
+void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree)
 {
     graph.fill(attributes.emission_sums, 0);
     const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {scene, octree.grid, coverage, buffers, gpu::kModeEmission, &sums});
+    walkAll(graph, {scene, tile, coverage, buffers, gpu::kModeEmission, &sums});
     vk::Pass pass = graph.addPass("voxelize/resolve_emission");
     gpu::ResolveEmissionParams params{};
     params.sums = pass.read(attributes.sums);

@@ -93,7 +93,7 @@ struct AttributeSums
 struct RasterWalk
 {
     PlacedScene scene;
-    const Grid& grid;
+    GridTile tile;
     Coverage coverage;
     VoxelizeBuffers& buffers;
     std::uint32_t mode = gpu::kModeCoverage;
@@ -115,20 +115,21 @@ void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t mater
 void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
 
 /// Records the coverage passes: clears the buffers, then sets the bit of every covered voxel in the brick table. Reads
-/// the scene; writes everything in buffers. What did not fit is counted, never written.
+/// the scene; writes everything in buffers. What did not fit is counted, never written. Of a tile, voxels are those of
+/// the whole grid that lie in it.
 /// Cost: triangles plus covered voxels (and the capacity of the table, once, for clearing it).
-void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Grid& grid, Coverage coverage,
+void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
                       VoxelizeBuffers& buffers);
 
 /// Records the passes that average colour and normal of each voxel's fragments into octree.voxel_attributes, and
 /// mark emissive voxels in octree.emission_words. The brick table must hold the first voxel of each leaf (numberNodes).
 /// Cost: triangles plus fragments plus voxels.
-void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
-                        AttributeBuffers& attributes, Octree& octree);
+void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree);
 
 /// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
 /// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.
-void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, Coverage coverage, VoxelizeBuffers& buffers,
-                      AttributeBuffers& attributes, Octree& octree);
+void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree);
 
 } // namespace zvo

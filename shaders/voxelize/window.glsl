@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The part of the grid that is voxelized: a cube of it, or all.
+
+int gridDepth()
+{
+    return int(params.window & ((1u << kWindowDepthBits) - 1u));
+}
+
+int gridResolution()
+{
+    return 1 << gridDepth();
+}
+
+// Keeps to the window what a triangle touches; low > high where it touches nothing of it.
+void clipToWindow(inout ivec3 low, inout ivec3 high)
+{
+    int depth = int(bitfieldExtract(params.window, int(kWindowDepthBits), int(kWindowDepthBits)));
+    uvec3 places = uvec3(params.window) >> (2u * kWindowDepthBits + kWindowPlaceBits * uvec3(0u, 1u, 2u));
+    ivec3 first = ivec3(places & ((1u << kWindowPlaceBits) - 1u)) << depth;
+    low = max(low, first);
+    high = min(high, first + ((1 << depth) - 1));
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// Tiles of a grid are slices of it: voxels and attributes, bit for bit.
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "support/device.h"
+#include "support/materials_scene.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+/// What one can see of an octree, in Morton order.
+struct Contents
+{
+    std::vector<std::uint64_t> codes;
+    std::vector<gpu::Attribute> attributes;
+    std::vector<gpu::uint> emission;
+};
+
+Contents contentsOf(const Octree& octree)
+{
+    if (octree.node_count == 0)
+    {
+        return {};
+    }
+    return {voxelCodes(device(), octree), device().download(octree.voxel_attributes),
+            device().download(octree.emission)};
+}
+
+template <typename T> void append(std::vector<T>& all, const std::vector<T>& more)
+{
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// The place of tile number `code` in Morton order.
+glm::uvec3 tilePlace(std::uint32_t code)
+{
+    glm::uvec3 place{0};
+    for (std::uint32_t bit = 0; code >> (3 * bit) != 0; ++bit)
+    {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            place[axis] |= (code >> (3 * bit + axis) & 1) << bit;
+        }
+    }
+    return place;
+}
+
+void expectTilesMakeTheWhole(const Scene& scene, const Grid& grid, std::uint32_t tile_depth, Coverage coverage)
+{
+    const GpuScene uploaded = uploadScene(device(), scene, true);
+    const BuildOptions options = {coverage, true, {}};
+    const BuildResult whole = buildOctree(device(), uploaded, grid, options);
+    const Contents expected = contentsOf(whole.octree);
+    ASSERT_GT(expected.codes.size(), 100U);
+
+    Contents tiles;
+    std::size_t occupied = 0;
+    for (std::uint32_t code = 0; code >> (3 * (grid.depth - tile_depth)) == 0; ++code)
+    {
+        const BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, tilePlace(code)}, options);
+        EXPECT_EQ(built.dropped, whole.dropped);
+        const Contents contents = contentsOf(built.octree);
+        for (const std::uint64_t voxel : contents.codes)
+        {
+            ASSERT_EQ(voxel >> (3 * tile_depth), code) << "a voxel outside of its tile";
+        }
+        occupied += contents.codes.empty() ? 0 : 1;
+        append(tiles.codes, contents.codes);
+        append(tiles.attributes, contents.attributes);
+        append(tiles.emission, contents.emission);
+    }
+    EXPECT_GT(occupied, 1U);
+    EXPECT_EQ(tiles.codes, expected.codes);
+    EXPECT_TRUE(isSame(tiles.attributes, expected.attributes));
+    EXPECT_TRUE(isSame(tiles.emission, expected.emission));
+}
+
+class Tiles : public testing::TestWithParam<Coverage>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Coverages, Tiles, testing::Values(Coverage::Conservative, Coverage::Thin),
+                         [](const auto& c) { return c.param == Coverage::Thin ? "Thin" : "Conservative"; });
+
+TEST_P(Tiles, OfEveryMaterialMakeTheWhole)
+{
+    const Scene scene = test::materialsScene(1.0F);
+    for (const std::uint32_t tile_depth : {4U, 5U})
+    {
+        expectTilesMakeTheWhole(scene, Grid::around(scene.bounds(), 6), tile_depth, GetParam());
+    }
+}
+
+// Large triangles, parts of them beyond the grid; wide keys.
+TEST_P(Tiles, OfLargeTrianglesMakeTheWhole)
+{
+    const Scene scene = test::materialsScene(100.0F, 3);
+    const Grid grid = {glm::vec3(-10.0F, 5.0F, 0.25F), 90.0F / 1024, 10};
+    expectTilesMakeTheWhole(scene, grid, 9, GetParam());
+}
+
+// A root node of which only an octant is the grid, and tiles that are not whole nodes.
+TEST_P(Tiles, OfAnOddDepthMakeTheWhole)
+{
+    const Scene scene = test::materialsScene(1.0F);
+    expectTilesMakeTheWhole(scene, Grid::around(scene.bounds(), 7), 5, GetParam());
+}
+
+TEST(Tile, OutsideOfTheGridIsRefused)
+{
+    const Scene scene = test::materialsScene(1.0F);
+    const GpuScene uploaded = uploadScene(device(), scene, false);
+    const Grid grid = Grid::around(scene.bounds(), 6);
+    const BuildOptions options = {Coverage::Thin, false, {}};
+    EXPECT_THROW(buildOctree(device(), uploaded, {grid, 5, {2, 0, 0}}, options), Error);
+    EXPECT_THROW(buildOctree(device(), uploaded, {grid, 7, {0, 0, 0}}, options), Error);
+}
+
+} // namespace
+} // namespace zvo
