@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The sparse voxel DAG of an octree, made with plain maps on the host, and what a DAG stands for.
+#pragma once
+
+#include "oracle/octree_check.h"
+#include "shared/svdag.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo::oracle
+{
+
+/// A DAG as shaders/shared/svdag.h lays it out.
+struct ReferenceDag
+{
+    std::vector<gpu::Node> pool;
+    std::vector<NodeRange> levels; // of unique nodes; none for an octree without nodes
+    std::uint32_t node_count = 0;  // unique ones
+    std::uint32_t octree_node_count = 0;
+    std::uint64_t entry_count = 0;
+    std::uint64_t long_entry_count = 0;
+    std::vector<gpu::BeforeChild> before;      // [long_entry_count]
+    std::vector<gpu::uint> voxels_before_leaf; // [ceil((entry_count - long_entry_count) / 2)]
+    std::vector<std::uint32_t> depth_first;    // [octree_node_count] the octree's nodes in depth-first order
+};
+
+/// Compresses an octree that checkOctree() accepts.
+ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels);
+
+constexpr std::uint64_t kNoRank = ~std::uint64_t{0};
+
+/// A voxel or a node of the octree that a DAG stands for.
+struct DagPlace
+{
+    std::uint32_t level = 0; // of nodes; the number of levels for a voxel
+    std::uint64_t code = 0;  // Morton code among the cells of its level
+    std::uint64_t rank = 0;  // as the sums along its path say: of voxels in Morton order, of nodes depth first
+
+    friend bool operator==(const DagPlace&, const DagPlace&) = default;
+};
+
+struct DagContents
+{
+    std::vector<DagPlace> voxels;        // in Morton order
+    std::vector<DagPlace> nodes;         // depth first
+    std::vector<std::string> violations; // empty: the DAG is as shaders/shared/svdag.h says. At most kViolationsMax
+};
+
+/// Walks all paths of a DAG from its root. Children must be nodes of the next level; what is not is a violation, and
+/// the walk goes on without it. Ranks come from before and voxels_before_leaf; they are kNoRank where both are empty
+/// though there are entries. pool holds node_count nodes and entry_count words behind them, long_entry_count of them
+/// long.
+DagContents expandDag(std::span<const gpu::Node> pool, std::span<const NodeRange> levels, std::uint64_t entry_count,
+                      std::uint64_t long_entry_count, std::span<const gpu::BeforeChild> before,
+                      std::span<const gpu::uint> voxels_before_leaf);
+
+} // namespace zvo::oracle

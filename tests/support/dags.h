@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// DAGs in device memory that the oracle has made.
+#pragma once
+
+#include "core/svdag.h"
+#include "oracle/dag.h"
+#include "vk/headless.h"
+
+namespace zvo::test
+{
+
+/// The octree's nodes, compressed by the oracle. octree must have its levels.
+oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const Octree& octree);
+
+/// The DAG of octree, with copies of its attributes, those of nodes in depth-first order.
+Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree);
+Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, const oracle::ReferenceDag& reference);
+
+/// Voxels and nodes of dag and what is wrong with it.
+oracle::DagContents contentsOf(vk::HeadlessDevice& device, const Svdag& dag);
+
+} // namespace zvo::test
