@@ -4,6 +4,7 @@
 #include "deform/deform.h"
 #include "octree/octree.h"
 #include "support/spirv_structs.h"
+#include "svdag/svdag.h"
 #include "trace/trace.h"
 #include "update/update.h"
 #include "voxelize/voxelize.h"

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The sparse voxel DAG in device memory: an octree whose equal subtrees are stored once (V. Kaempe, E. Sintorn,
+// U. Assarsson, High Resolution Sparse Voxel DAGs, 2013), with the nodes of shared/octree.h.
+//
+// Nodes and lists share one buffer, the pool:
+//
+//     nodes, level by level from the root on | lists: words, those of the root first | zeros up to a whole node
+//
+// A half of a node with kChildList in its base has a list: child c of it is node
+// pool_words[(base & ~kChildList) + popcount(mask & bits below c)]. Without, its children stand together, as an
+// octree's do. Inner nodes of a DAG have one list for both halves: base_hi = base_lo + popcount(mask_lo). In leaves
+// base_lo is 0 and base_hi popcount(mask_lo): what would be a child is the voxel's number in the leaf.
+//
+// Nodes of a level stand in the order in which they first occur in the octree; lists in the order of their nodes.
+//
+// Voxels, and their attributes, have the octree's numbers, in Morton order: the sum, over the path to a voxel, of the
+// voxels before each child in its node, and the voxel's number in its leaf (D. Dolonius, E. Sintorn, V. Kaempe,
+// U. Assarsson, Compressing Color Data for Voxelized Surface Geometry, 2017). Words of lists, from the first one on,
+// are entries: long ones, those of nodes above the parents of leaves, come first.
+#ifndef ZVO_SHADERS_SHARED_SVDAG_H
+#define ZVO_SHADERS_SHARED_SVDAG_H
+
+#include "shared/octree.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kChildList = 0x80000000u; // flag in Node::base_lo and base_hi
+
+/// Of a long entry: what the octree has below the node's children before this one. (Entries of parents of leaves have
+/// 16 bits each, two to a word, the lower half first: voxels before the leaf.)
+struct BeforeChild
+{
+    uint voxels;
+    uint nodes;
+};
+GPU_BUFFER(BeforeChild, 8);
+
+GPU_NAMESPACE_END
+
+#endif

@@ -1,0 +1,39 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Takes the attributes of an octree's nodes from breadth-first to depth-first order: those of the children of a level's
+// nodes. Levels go from the root down; the root's rank is 0.
+#extension GL_GOOGLE_include_directive : require
+#include "svdag/svdag.h"
+#define LISTS_CONSTANT_ID 0
+#include "lib/dispatch.glsl"
+#include "svdag/candidate.glsl"
+
+layout(constant_id = 1) const bool kAboveLeaves = false; // the children are leaves
+
+layout(local_size_x = kSvdagGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    DepthFirstParams params;
+};
+
+void main()
+{
+    uint index = threadIndex();
+    if (index >= params.node_count)
+        return;
+    uint self = params.first_node + index;
+    Node node = params.nodes.data[self];
+    uint count = childCount(node);
+    uint rank = params.ranks.data[self];
+    params.to.data[rank] = params.from.data[self];
+    uint first_entry = params.first_entries.data[params.classes.data[self]];
+    for (uint i = 0u; i < count; ++i)
+    {
+        uint child = childPlace(node, i);
+        uint child_rank = rank + 1u + (kAboveLeaves ? i : params.before.data[first_entry + i].nodes);
+        if (kAboveLeaves)
+            params.to.data[child_rank] = params.from.data[child];
+        else
+            params.ranks.data[child] = child_rank;
+    }
+}

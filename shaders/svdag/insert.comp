@@ -1,0 +1,72 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Puts every node of a level into the table of classes, unless one equal to it is there; the slot keeps the first of the
+// class. Lock-free and exact: a slot that is taken stays with its class, so whoever passes a slot passes it for good,
+// and all nodes of a class stop at the same one, in any order of threads. Which slot that is depends on the order; the
+// class does not.
+#extension GL_GOOGLE_include_directive : require
+#include "svdag/svdag.h"
+#define LISTS_CONSTANT_ID 0
+#include "lib/dispatch.glsl"
+#include "svdag/candidate.glsl"
+#include "svdag/class_hash.glsl"
+
+layout(constant_id = 1) const bool kLeaves = false; // of the level: equal masks are enough
+
+layout(local_size_x = kSvdagGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    ClassInsertParams params;
+};
+
+// Of inner nodes with equal masks.
+bool haveEqualChildren(Node a, Node b, bool equal)
+{
+    uint count = equal ? childCount(a) : 0u;
+    for (uint i = 0u; equal && i < count; ++i)
+    {
+        equal = params.classes.data[childAt(a, params.words, i)] == params.classes.data[childAt(b, params.words, i)];
+    }
+    return equal;
+}
+
+void main()
+{
+    uint index = threadIndex();
+    if (index >= params.node_count)
+        return;
+    uint self = params.first_node + index;
+    Node node = params.nodes.data[self];
+    uvec2 hash = kLeaves ? uvec2(hashMask(node.mask_lo, node.mask_hi), 0u) : params.hashes.data[index];
+    uint place = hash.x & params.slot_mask;
+    uint first = self; // of the class
+    bool searching = true;
+    for (uint probe = 0u; searching && probe < kClassProbesMax; ++probe)
+    {
+        first = params.table.data[params.first_slot + place];
+        if (first == kEmptySlot)
+        {
+            first = atomicCompSwap(params.table.data[params.first_slot + place], kEmptySlot, self);
+            first = first == kEmptySlot ? self : first;
+        }
+        Node other = params.nodes.data[first];
+        bool equal = other.mask_lo == node.mask_lo && other.mask_hi == node.mask_hi;
+        if (!kLeaves)
+        {
+            equal = equal && params.hashes.data[first - params.first_node] == hash;
+            equal = haveEqualChildren(node, other, equal && first != self) || first == self;
+        }
+        searching = !equal;
+        place = searching ? (place + 1u) & params.slot_mask : place;
+    }
+    if (searching)
+    {
+        atomicAdd(params.sizes.data[0].overflow_counts[params.level], 1u);
+        place = (place - 1u) & params.slot_mask; // joins a class, if a wrong one: no more classes than slots
+    }
+    else if (self < first)
+    {
+        atomicMin(params.table.data[params.first_slot + place], self);
+    }
+    params.classes.data[self] = params.first_slot + place;
+}

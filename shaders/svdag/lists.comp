@@ -1,0 +1,68 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Writes the unique inner nodes of a level with their lists and, for attributes, what is before each child. Levels go
+// from the leaves up, as what is below a node is the sum of what is below its children.
+#extension GL_GOOGLE_include_directive : require
+#include "svdag/svdag.h"
+#define LISTS_CONSTANT_ID 0
+#include "lib/dispatch.glsl"
+#include "svdag/candidate.glsl"
+
+layout(constant_id = 1) const bool kBefore = false;       // there are attributes
+layout(constant_id = 2) const bool kAboveLeaves = false;  // the children are leaves
+
+layout(local_size_x = kSvdagGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    UniqueListsParams params;
+};
+
+// Voxels below a node, and nodes, itself included.
+BeforeChild belowOf(uint number)
+{
+    if (kAboveLeaves)
+        return BeforeChild(childCount(params.pool.data[number]), 1u);
+    return params.below.data[number];
+}
+
+void setBefore(uint entry, BeforeChild before)
+{
+    if (kAboveLeaves)
+    {
+        uint leaf_entry = entry - params.long_entry_count; // two lists may share a word
+        atomicOr(params.voxels_before_leaf.data[leaf_entry / 2u], before.voxels << (16u * (leaf_entry & 1u)));
+    }
+    else
+    {
+        params.before.data[entry] = before;
+    }
+}
+
+void main()
+{
+    uint index = threadIndex();
+    if (index >= params.node_count)
+        return;
+    uint number = params.first_node + index;
+    uint candidate = params.unique_nodes.data[number];
+    Node node = params.nodes.data[candidate];
+    uint first_entry = params.first_entries.data[candidate];
+    uint count = childCount(node);
+    BeforeChild before = BeforeChild(0u, 0u);
+    for (uint i = 0u; i < count; ++i)
+    {
+        uint child = params.numbers.data[params.classes.data[childAt(node, params.words, i)]];
+        params.pool_words.data[params.first_word + first_entry + i] = child;
+        if (kBefore)
+        {
+            setBefore(first_entry + i, before);
+            BeforeChild below = belowOf(child);
+            before.voxels += below.voxels;
+            before.nodes += below.nodes;
+        }
+    }
+    if (kBefore)
+        params.below.data[number] = BeforeChild(before.voxels, before.nodes + 1u);
+    uint base = kChildList | (params.first_word + first_entry);
+    params.pool.data[number] = Node(node.mask_lo, base, node.mask_hi, base + bitCount(node.mask_lo));
+}

@@ -1,0 +1,21 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// From the slot of each node of a level to its class.
+#extension GL_GOOGLE_include_directive : require
+#include "svdag/svdag.h"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = kSvdagGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    ClassResolveParams params;
+};
+
+void main()
+{
+    uint index = threadIndex();
+    if (index >= params.node_count)
+        return;
+    uint self = params.first_node + index;
+    params.classes.data[self] = params.table.data[params.classes.data[self]];
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// What the kernels that compress an octree share with the host (docs/svdag.md). Candidates are the nodes of what is
+// compressed, an octree, or a DAG in which equal nodes may stand several times. The class of a candidate is the first
+// candidate of its level with equal subtrees below.
+#ifndef ZVO_SHADERS_SVDAG_SVDAG_H
+#define ZVO_SHADERS_SVDAG_SVDAG_H
+
+#include "octree/octree.h"
+#include "shared/svdag.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kSvdagGroup = 64u;      // threads of a workgroup where one thread takes one node
+const uint kClassProbesMax = 256u; // slots an insert looks at before the table counts as full
+const uint kEmptySlot = ~0u; // of the table of classes: otherwise the first candidate of a class, as far as is known
+
+/// What the host learns.
+struct ClassSizes
+{
+    uint node_count;                      // unique nodes
+    uint entry_count;                     // words of lists
+    uint first_nodes[kNodeLevelsMax];     // of each level
+    uint first_entries[kNodeLevelsMax];   // of each level but that of the leaves
+    uint overflow_counts[kNodeLevelsMax]; // nodes of each level that found no slot
+};
+GPU_BUFFER(ClassSizes, 4);
+
+struct ClassHashParams // push constants of svdag/hash
+{
+    GPU_CONST_PTR(Node) nodes;   // the candidates
+    GPU_CONST_PTR(uint) words;   // the same, as words: lists
+    GPU_CONST_PTR(uint) classes; // [candidates] of the levels below
+    GPU_PTR(uvec2) hashes;       // [node_count]
+    uint first_node;
+    uint node_count;
+};
+
+struct ClassInsertParams // push constants of svdag/insert
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uint) words;
+    GPU_CONST_PTR(uvec2) hashes; // [node_count]; not for leaves
+    GPU_PTR(uint) classes;       // [candidates] gets the level's slots
+    GPU_PTR(uint) table;         // slots of all levels
+    GPU_PTR(ClassSizes) sizes;   // [1]
+    uint first_node;
+    uint node_count;
+    uint first_slot; // of the level
+    uint slot_mask;  // its slots, a power of two, less one
+    uint level;
+};
+
+struct ClassResolveParams // push constants of svdag/resolve
+{
+    GPU_PTR(uint) classes; // [candidates] slots of a level become classes
+    GPU_CONST_PTR(uint) table;
+    uint first_node;
+    uint node_count;
+};
+
+struct ClassCountParams // push constants of svdag/count
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uint) classes;
+    GPU_PTR(uint) node_partials;  // [ceil(candidates / kScanBlock)] unique nodes
+    GPU_PTR(uint) entry_partials; // likewise: words of their lists
+    uint node_count;              // candidates
+    uint inner_count;             // those above the leaves
+};
+
+struct ClassNumberParams // push constants of svdag/number
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uint) classes;
+    GPU_CONST_PTR(uint) node_partials;  // scanned
+    GPU_CONST_PTR(uint) entry_partials; // likewise
+    GPU_PTR(uint) numbers;              // [candidates] unique nodes before a candidate: the number of a unique one
+    GPU_PTR(uint) first_entries;        // [inner candidates] entries before
+    GPU_PTR(uint) unique_nodes;         // [unique nodes] the candidates that they are
+    uint node_count;
+    uint inner_count;
+};
+
+struct UniqueLeavesParams // push constants of svdag/leaves
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uint) unique_nodes;
+    GPU_PTR(Node) pool;
+    uint first_node; // of the DAG
+    uint node_count;
+};
+
+struct UniqueListsParams // push constants of svdag/lists
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uint) words;
+    GPU_CONST_PTR(uint) classes;
+    GPU_CONST_PTR(uint) numbers;
+    GPU_CONST_PTR(uint) unique_nodes;
+    GPU_CONST_PTR(uint) first_entries;
+    GPU_PTR(Node) pool;
+    GPU_PTR(uint) pool_words;         // the same, as words
+    GPU_PTR(BeforeChild) below;       // [inner nodes of the DAG] voxels below, nodes below and itself
+    GPU_PTR(BeforeChild) before;      // [long entries]
+    GPU_PTR(uint) voxels_before_leaf; // [ceil(other entries / 2)] zeros
+    uint first_node;                  // of the DAG
+    uint node_count;
+    uint first_word;       // of the lists
+    uint long_entry_count; // entries before those of the parents of leaves
+};
+
+struct DepthFirstParams // push constants of svdag/depth_first
+{
+    GPU_CONST_PTR(Node) nodes; // of the octree
+    GPU_CONST_PTR(uint) classes;
+    GPU_CONST_PTR(uint) first_entries;
+    GPU_CONST_PTR(BeforeChild) before;
+    GPU_CONST_PTR(Attribute) from; // [nodes of the octree] breadth first
+    GPU_PTR(Attribute) to;         // [nodes of the octree] depth first
+    GPU_PTR(uint) ranks;           // [nodes of the octree] in depth-first order; the level's are known
+    uint first_node;
+    uint node_count;
+};
+
+GPU_NAMESPACE_END
+
+#endif

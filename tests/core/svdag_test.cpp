@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+// Compression against the oracle, byte for byte: so the result does not depend on threads, subgroups or tables either.
+#include "core/svdag.h"
+
+#include "core/gltf_loader.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "support/dag_compare.h"
+#include "support/dags.h"
+#include "support/device.h"
+#include "support/octree_access.h"
+#include "support/scenes.h"
+#include "support/trace_octrees.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <random>
+#include <span>
+
+namespace zvo
+{
+namespace
+{
+
+using test::Codes;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+/// octree compressed, checked against what the oracle makes of it.
+CompressResult compressedAsExpected(Octree octree, const CompressOptions& options = {})
+{
+    const Svdag expected = test::svdagOf(device(), octree);
+    std::vector<std::uint32_t> candidate_counts;
+    for (const Octree::Level& level : octree.levels)
+    {
+        candidate_counts.push_back(level.node_count);
+    }
+    CompressResult result = compress(device(), std::move(octree), options);
+    EXPECT_EQ(test::difference(device(), result.dag, expected), "");
+    EXPECT_EQ(result.candidate_counts, candidate_counts);
+    return result;
+}
+
+/// The same, without attributes and with arbitrary ones.
+void expectCompressed(const Codes& codes, std::uint32_t depth)
+{
+    compressedAsExpected(test::octreeOf(device(), codes, depth));
+    Octree octree = test::octreeOf(device(), codes, depth);
+    test::addAttributes(device(), octree);
+    compressedAsExpected(std::move(octree));
+}
+
+/// dag holds the voxels of octree (which has not been compressed) with their ranks, and all nodes.
+void expectExpandsTo(const Svdag& dag, const std::vector<std::uint64_t>& codes)
+{
+    const oracle::DagContents contents = test::contentsOf(device(), dag);
+    EXPECT_EQ(contents.violations, std::vector<std::string>{});
+    ASSERT_EQ(contents.voxels.size(), codes.size());
+    ASSERT_EQ(contents.nodes.size(), dag.octree_node_count);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < codes.size(); ++i)
+    {
+        const std::uint64_t rank =
+            dag.before.count() + dag.voxels_before_leaf.count() != 0 ? i : contents.voxels[i].rank;
+        wrong += contents.voxels[i].code != codes[i] || contents.voxels[i].rank != rank ? 1 : 0;
+    }
+    EXPECT_EQ(wrong, 0U) << "of " << codes.size() << " voxels";
+}
+
+TEST(Svdag, OfRandomVoxelsIsTheOracles)
+{
+    std::mt19937 random(1);
+    for (std::uint32_t depth = 1; depth <= Grid::kDepthMax; ++depth)
+    {
+        for (const std::uint32_t count : {1U, 27U, 2049U})
+        {
+            SCOPED_TRACE(testing::Message() << count << " voxels at depth " << depth);
+            expectCompressed(test::randomCodes(depth, count, random), depth);
+        }
+    }
+}
+
+TEST(Svdag, OfNothingHasNoNodes)
+{
+    for (const std::uint32_t depth : {1U, 4U, 17U})
+    {
+        Octree octree;
+        octree.grid.depth = depth;
+        const CompressResult result = compress(device(), std::move(octree));
+        EXPECT_EQ(result.dag.tree.grid.depth, depth);
+        EXPECT_EQ(result.dag.tree.node_count, 0U);
+        EXPECT_EQ(result.dag.octree_node_count, 0U);
+        EXPECT_EQ(result.dag.geometryBytes(), 0U);
+        EXPECT_TRUE(result.dag.tree.levels.empty());
+        EXPECT_TRUE(result.passes.empty());
+    }
+}
+
+TEST(Svdag, OfOneVoxelIsAPath)
+{
+    std::mt19937 random(2);
+    for (std::uint32_t depth = 1; depth <= Grid::kDepthMax; ++depth)
+    {
+        SCOPED_TRACE(depth);
+        const std::uint64_t last = (std::uint64_t{1} << (3 * depth)) - 1;
+        for (const std::uint64_t code : {std::uint64_t{0}, last, last & (std::uint64_t{random()} << 20 | random())})
+        {
+            expectCompressed({code}, depth);
+        }
+    }
+}
+
+TEST(Svdag, OfAFullGridHasANodeALevel)
+{
+    for (std::uint32_t depth = 1; depth <= 7; ++depth)
+    {
+        SCOPED_TRACE(depth);
+        const Codes codes = test::codesWhere(depth, [](const glm::uvec3&) { return true; });
+        expectCompressed(codes, depth);
+        Octree octree = test::octreeOf(device(), codes, depth);
+        const Svdag dag = compress(device(), std::move(octree)).dag;
+        EXPECT_EQ(dag.tree.node_count, dag.tree.grid.nodeLevels());
+    }
+}
+
+TEST(Svdag, OfACheckerboardHasANodeALevel)
+{
+    for (std::uint32_t depth = 2; depth <= 7; ++depth)
+    {
+        SCOPED_TRACE(depth);
+        const Codes codes = test::codesWhere(depth, [](const glm::uvec3& v) { return ((v.x + v.y + v.z) & 1U) != 0; });
+        expectCompressed(codes, depth);
+        Octree octree = test::octreeOf(device(), codes, depth);
+        const Svdag dag = compress(device(), std::move(octree)).dag;
+        EXPECT_EQ(dag.tree.node_count, dag.tree.grid.nodeLevels());
+    }
+}
+
+TEST(Svdag, OfNoiseIsTheOctree)
+{
+    for (const std::uint32_t depth : {5U, 6U, 7U})
+    {
+        SCOPED_TRACE(depth);
+        std::mt19937 random(depth);
+        const Codes codes = test::codesWhere(depth, [&](const glm::uvec3&) { return (random() >> 7 & 1U) != 0; });
+        expectCompressed(codes, depth);
+        Octree octree = test::octreeOf(device(), codes, depth);
+        const std::uint32_t node_count = octree.node_count;
+        EXPECT_EQ(compress(device(), std::move(octree)).dag.tree.node_count, node_count);
+    }
+}
+
+TEST(Svdag, OfLeavesThatDifferInOneVoxelKeepsThemApart)
+{
+    // Each leaf lacks one of 64 voxels, and the leaves stand in all orders: masks and children differ as little as can
+    // be.
+    const std::uint32_t depth = 6;
+    std::mt19937 random(3);
+    Codes codes;
+    for (std::uint64_t leaf = 0; leaf < std::uint64_t{1} << (3 * depth - 6); ++leaf)
+    {
+        const std::uint64_t missing = random() % 64;
+        for (std::uint64_t voxel = 0; voxel < 64; ++voxel)
+        {
+            if (voxel != missing)
+            {
+                codes.push_back(leaf << 6 | voxel);
+            }
+        }
+    }
+    expectCompressed(codes, depth);
+    const Svdag dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
+    EXPECT_EQ(dag.tree.levels.back().node_count, 64U);
+}
+
+TEST(Svdag, OfEqualBlocksIsOneOfThem)
+{
+    // The same 16^3 voxels everywhere: noise within, so that nothing in it is equal.
+    std::mt19937 random(4);
+    std::vector<bool> block(16 * 16 * 16);
+    std::generate(block.begin(), block.end(), [&] { return (random() >> 9 & 1U) != 0; });
+    const std::uint32_t depth = 7;
+    Codes codes;
+    for (std::uint64_t code = 0; code < std::uint64_t{1} << (3 * depth); ++code)
+    {
+        if (block[code % block.size()])
+        {
+            codes.push_back(code);
+        }
+    }
+    expectCompressed(codes, depth);
+    const Svdag dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
+    EXPECT_EQ(dag.tree.node_count, 1U + 1 + 1 + 64); // leaves, the block, eight of them in 64, four of those
+}
+
+TEST(Svdag, OfShapesIsTheOracles)
+{
+    expectCompressed(test::spongeCodes(6), 6);
+    expectCompressed(test::sphereShell(7, 60.0), 7);
+    expectCompressed(test::sphereShell(6, 20.0), 6);
+}
+
+TEST(Svdag, TablesOfOneSlotGrowAndGiveTheSameBytes)
+{
+    for (const std::uint64_t slots : {1U, 2U, 100U})
+    {
+        SCOPED_TRACE(slots);
+        Octree octree = test::octreeOf(device(), test::sphereShell(7, 50.0), 7);
+        test::addAttributes(device(), octree);
+        EXPECT_GT(compressedAsExpected(std::move(octree), {.table_slots = slots}).retry_count, 0U);
+    }
+    EXPECT_EQ(compressedAsExpected(test::octreeOf(device(), test::sphereShell(7, 50.0), 7)).retry_count, 0U);
+}
+
+/// The DAG of octree's nodes that shares nothing: every node has a list of its own children.
+Svdag listedOctree(const Octree& octree)
+{
+    std::vector<gpu::Node> pool = device().download(octree.nodes);
+    std::vector<gpu::uint> words;
+    for (std::size_t i = 0; i < pool.size(); ++i)
+    {
+        gpu::Node& node = pool[i];
+        if (i >= octree.levels.back().first_node)
+        {
+            node.base_lo = 0;
+            node.base_hi = static_cast<gpu::uint>(std::popcount(node.mask_lo));
+            continue;
+        }
+        const auto count = static_cast<std::uint32_t>(std::popcount(node.mask_lo) + std::popcount(node.mask_hi));
+        const auto word = static_cast<std::uint32_t>(4 * pool.size() + words.size());
+        for (std::uint32_t child = 0; child < count; ++child)
+        {
+            words.push_back(node.base_lo + child);
+        }
+        if (i % 3 != 0) // the others stay direct: both occur in one DAG
+        {
+            node.base_lo = gpu::kChildList | word;
+            node.base_hi = node.base_lo + static_cast<gpu::uint>(std::popcount(node.mask_lo));
+        }
+    }
+    Svdag dag;
+    dag.octree_node_count = octree.node_count;
+    dag.entry_count = words.size();
+    dag.tree.grid = octree.grid;
+    dag.tree.node_count = octree.node_count;
+    dag.tree.voxel_count = octree.voxel_count;
+    dag.tree.levels = octree.levels;
+    for (std::size_t i = 0; i < words.size(); i += 4)
+    {
+        gpu::Node four{};
+        std::memcpy(&four, &words[i], std::min<std::size_t>(words.size() - i, 4) * sizeof(gpu::uint));
+        pool.push_back(four);
+    }
+    dag.tree.nodes = device().makeBuffer("pool", std::span<const gpu::Node>(pool));
+    return dag;
+}
+
+TEST(Svdag, OfADagWithEqualNodesSharesThem)
+{
+    std::mt19937 random(5);
+    struct Case
+    {
+        Codes codes;
+        std::uint32_t depth;
+    };
+    const Case cases[] = {{test::spongeCodes(6), 6},
+                          {test::sphereShell(7, 60.0), 7},
+                          {test::randomCodes(17, 500, random), 17},
+                          {test::randomCodes(2, 20, random), 2},
+                          {test::randomCodes(3, 100, random), 3}};
+    for (const Case& c : cases)
+    {
+        SCOPED_TRACE(c.depth);
+        Octree octree = test::octreeOf(device(), c.codes, c.depth);
+        test::addAttributes(device(), octree);
+        const Svdag expected = test::svdagOf(device(), octree);
+        Svdag listed = listedOctree(octree);
+        Svdag again = compress(device(), std::move(octree)).dag;
+        listed.tree.voxel_attributes =
+            device().makeBuffer<gpu::Attribute>("a", device().download(expected.tree.voxel_attributes));
+        listed.tree.node_attributes =
+            device().makeBuffer<gpu::Attribute>("a", device().download(expected.tree.node_attributes));
+        listed.tree.emission_words =
+            device().makeBuffer<gpu::uvec2>("w", device().download(expected.tree.emission_words));
+        listed.tree.emission = device().makeBuffer<gpu::uint>("e", device().download(expected.tree.emission));
+        EXPECT_EQ(test::difference(device(), compress(device(), std::move(listed)).dag, expected), "");
+        EXPECT_EQ(test::difference(device(), compress(device(), std::move(again)).dag, expected), "");
+    }
+}
+
+TEST(Svdag, DoesNotDependOnTheOrderOfTriangles)
+{
+    const Scene scene = test::randomTriangles(11, 300, 64.0F);
+    Scene shuffled = scene;
+    for (Primitive& primitive : shuffled.primitives)
+    {
+        std::shuffle(primitive.triangles.begin(), primitive.triangles.end(), std::mt19937(1));
+    }
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 0.5F, .depth = 7};
+    std::vector<Svdag> dags;
+    for (const Scene* each : std::array<const Scene*, 2>{&scene, &shuffled})
+    {
+        const GpuScene gpu_scene = uploadScene(device(), *each, true);
+        dags.push_back(compressedAsExpected(buildOctree(device(), gpu_scene, grid, {}).octree).dag);
+    }
+    EXPECT_EQ(test::difference(device(), dags[0], dags[1]), "");
+}
+
+TEST(Svdag, OfAnOctreeWithoutLevelsIsRefused)
+{
+    Octree octree = test::octreeOf(device(), Codes{1, 2, 3}, 4);
+    octree.levels.clear();
+    EXPECT_THROW(compress(device(), std::move(octree)), Error);
+}
+
+struct SceneCase
+{
+    const char* scene;
+    std::uint32_t depth;
+};
+
+class SvdagOfScenes : public testing::TestWithParam<SceneCase>
+{
+};
+
+std::string sceneCaseName(const testing::TestParamInfo<SceneCase>& info)
+{
+    const std::string scene = info.param.scene;
+    return scene.substr(0, scene.find('.')) + "_" + std::to_string(1U << info.param.depth);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SvdagOfScenes,
+                         testing::Values(SceneCase{"atrium.glb", 8}, SceneCase{"cornell_box.glb", 7},
+                                         SceneCase{"knot.glb", 9}, SceneCase{"bunny.glb", 9},
+                                         SceneCase{"dragon.glb", 9}, SceneCase{"sponza.glb", 9}),
+                         sceneCaseName);
+// Minutes, and gigabytes: scripts/check-big.
+INSTANTIATE_TEST_SUITE_P(DISABLED_Scenes, SvdagOfScenes,
+                         testing::Values(SceneCase{"bunny.glb", 10}, SceneCase{"dragon.glb", 10},
+                                         SceneCase{"sponza.glb", 10}),
+                         sceneCaseName);
+
+TEST_P(SvdagOfScenes, IsTheOctree)
+{
+    const auto [name, depth] = GetParam();
+    const auto path = test::findScene(name);
+    if (!path)
+    {
+        GTEST_SKIP() << name << " is not there";
+    }
+    const Scene scene = loadGltf(*path);
+    const GpuScene gpu_scene = uploadScene(device(), scene, true);
+    Octree octree = buildOctree(device(), gpu_scene, Grid::around(scene.bounds(), depth), {}).octree;
+    const std::vector<std::uint64_t> codes = voxelCodes(device(), octree);
+    const CompressResult result = compressedAsExpected(std::move(octree));
+    EXPECT_EQ(result.retry_count, 0U);
+    expectExpandsTo(result.dag, codes);
+}
+
+} // namespace
+} // namespace zvo

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "support/dag_compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+template <typename T>
+std::string bufferDifference(vk::HeadlessDevice& device, const vk::BufferOf<T>& actual, const vk::BufferOf<T>& expected,
+                             const char* what)
+{
+    const std::vector<T> a = device.download(actual);
+    const std::vector<T> b = device.download(expected);
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    {
+        if (std::memcmp(&a[i], &b[i], sizeof(T)) != 0)
+        {
+            return fmt::format("{} differ from element {} of {} on", what, i, b.size());
+        }
+    }
+    return a.size() == b.size() ? "" : fmt::format("{} {} in place of {}", a.size(), what, b.size());
+}
+
+std::string numbersOf(const Svdag& dag)
+{
+    const Octree& tree = dag.tree;
+    std::string text = fmt::format(
+        "depth {} origin {} {} {} voxels of {}, {} voxels, {} nodes for {}, {} entries, {} long, emission of "
+        "{}, levels:",
+        tree.grid.depth, tree.grid.origin.x, tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size,
+        tree.voxel_count, tree.node_count, dag.octree_node_count, dag.entry_count, dag.long_entry_count,
+        tree.emission_scale);
+    for (const Octree::Level& level : tree.levels)
+    {
+        text += fmt::format(" {}+{}", level.first_node, level.node_count);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string difference(vk::HeadlessDevice& device, const Svdag& actual, const Svdag& expected)
+{
+    if (numbersOf(actual) != numbersOf(expected))
+    {
+        return numbersOf(actual) + "\nin place of\n" + numbersOf(expected);
+    }
+    const Octree& a = actual.tree;
+    const Octree& b = expected.tree;
+    for (const std::string& found :
+         {bufferDifference(device, a.nodes, b.nodes, "nodes and lists"),
+          bufferDifference(device, actual.before, expected.before, "long entries"),
+          bufferDifference(device, actual.voxels_before_leaf, expected.voxels_before_leaf, "words of short entries"),
+          bufferDifference(device, a.voxel_attributes, b.voxel_attributes, "voxel attributes"),
+          bufferDifference(device, a.node_attributes, b.node_attributes, "node attributes"),
+          bufferDifference(device, a.emission_words, b.emission_words, "emission words"),
+          bufferDifference(device, a.emission, b.emission, "emissions")})
+    {
+        if (!found.empty())
+        {
+            return found;
+        }
+    }
+    return "";
+}
+
+} // namespace zvo::test

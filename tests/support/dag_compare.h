@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/svdag.h"
+#include "vk/headless.h"
+
+#include <string>
+
+namespace zvo::test
+{
+
+/// What tells two DAGs apart: the first difference in numbers or bytes, or "" for none.
+std::string difference(vk::HeadlessDevice& device, const Svdag& actual, const Svdag& expected);
+
+} // namespace zvo::test
