@@ -7,8 +7,11 @@
 #include "core/grid.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "core/svdag.h"
 #include "core/trace.h"
 #include "oracle/voxelizer.h"
+#include "support/dag_compare.h"
+#include "support/dags.h"
 #include "support/device.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
@@ -194,6 +197,21 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage)
     return names;
 }
 
+// The octree as a DAG, by tables that are too small at first, and that DAG once more, of which nothing can be shared.
+Names compressOctree(Octree octree)
+{
+    Names names;
+    const Svdag expected = test::svdagOf(device(), octree);
+    CompressResult once = compress(device(), std::move(octree), {.table_slots = 2});
+    addNames(names, once.passes);
+    EXPECT_GT(once.retry_count, 0U);
+    EXPECT_EQ(test::difference(device(), once.dag, expected), "");
+    const CompressResult twice = compress(device(), std::move(once.dag));
+    addNames(names, twice.passes);
+    EXPECT_EQ(test::difference(device(), twice.dag, expected), "");
+    return names;
+}
+
 TEST(EveryKernel, RunsOnASmallScene)
 {
     const Scene scene = smallScene();
@@ -212,7 +230,7 @@ TEST(EveryKernel, RunsOnASmallScene)
     for (const Case& c : cases)
     {
         const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = c.voxel_size, .depth = c.depth};
-        const BuildResult built = buildOctree(device(), gpu_scene, grid, {c.coverage});
+        BuildResult built = buildOctree(device(), gpu_scene, grid, {c.coverage});
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, c.coverage).codes);
         addNames(names, built.passes);
         if (c.pictures)
@@ -220,6 +238,7 @@ TEST(EveryKernel, RunsOnASmallScene)
             names.merge(mergeMovers(scene, grid, c.coverage));
             names.merge(tracePictures(built.octree));
         }
+        names.merge(compressOctree(std::move(built.octree)));
     }
     for (const vk::EmbeddedKernel& kernel : zvoKernels())
     {
