@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Children of a node (shared/octree.h).
-#include "shared/octree.h"
+// Children of a node (shared/octree.h, shared/svdag.h).
+#include "shared/svdag.h"
 
 bool hasChild(Node node, uint cell)
 {
     return (((cell < 32u ? node.mask_lo : node.mask_hi) >> (cell & 31u)) & 1u) != 0u;
 }
 
-// Where the child in a cell stands, or, in a leaf, the voxel's attribute; or would, if it existed.
+// Where the child in a cell stands, or, in a leaf, the voxel's attribute; or would, if it existed. For a list, kChildList
+// and the word that names the child.
 uint childIndex(Node node, uint cell)
 {
     uint below = (1u << (cell & 31u)) - 1u;
     return cell < 32u ? node.base_lo + bitCount(node.mask_lo & below) : node.base_hi + bitCount(node.mask_hi & below);
+}
+
+// The child that childIndex() found, and that exists, of a node in a pool where kChildList may occur.
+uint listedChild(Node_ConstPtr pool, uint place)
+{
+    uint child = place;
+    if ((place & kChildList) != 0u)
+        child = uint_ConstPtr(uint64_t(pool)).data[place & ~kChildList];
+    return child;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loads of half nodes for lib/traverse.glsl from a buffer of Node. main() sets g_halves first: read from the push
+// Loads of half nodes and lists for lib/traverse.glsl from a buffer of Node. main() sets g_halves first: read from the push
 // constants inside of the traversal's loop, the address would be loaded again in every iteration.
 
 uint64_t_ConstPtr g_halves; // the nodes as 64-bit words, which lavapipe loads faster than pairs of 32-bit words
@@ -7,4 +7,9 @@ uint64_t_ConstPtr g_halves; // the nodes as 64-bit words, which lavapipe loads f
 uvec2 loadHalf(uint half_index)
 {
     return unpackUint2x32(g_halves.data[half_index]);
+}
+
+uint loadListed(uint word)
+{
+    return uint_ConstPtr(uint64_t(g_halves)).data[word];
 }

@@ -19,13 +19,14 @@
 //
 // The includer includes shared/trace.h and defines before:
 //   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
+//   uint loadListed(uint word)         word `word` of the nodes' buffer; with kLists (shared/svdag.h)
 //   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
 //                                      kStackShared
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail or
 //                                      fewer than four levels. Then also, as trace/trace.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
-//   TRAVERSE_CONSTANT_ID               first of four constant_ids, 0 by default
+//   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
 
 #ifndef TRAVERSE_CONSTANT_ID
 #define TRAVERSE_CONSTANT_ID 0
@@ -35,6 +36,7 @@ layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of th
 layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const uint kStack = kStackRegisters;
 layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const bool kDetail = false; // stop at small nodes
 layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kStepsMax = kTraceStepsMax;
+layout(constant_id = TRAVERSE_CONSTANT_ID + 4) const bool kLists = false; // of children: the nodes are those of a DAG
 
 const uint kMantissaBits = 23u;
 const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
@@ -47,7 +49,8 @@ struct Traversal
     bool unfinished; // gave up after its last iteration: (t, face) is the last event, from which it can go on
     uint iterations; // loop bodies
     float t;         // of a hit: of the entry, or t_min; of the last event otherwise
-    uint index;      // of a hit: attribute index of the voxel; node where a level of detail stopped
+    uint index;      // of a hit: attribute index of the voxel, of a DAG its number in the leaf; node where a level of
+                     // detail stopped, undefined for a DAG
     uint face;       // axis of the face, or kFaceInside
     uint level;      // of a hit: of nodes; kNodeLevels for a voxel
     uvec3 cell;      // of a hit: coordinates among the cells of that level
@@ -231,6 +234,10 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         uvec3 around = uvec3(x_first ? leave_plane : corner.x, y_first ? leave_plane : corner.y,
                              z_first ? leave_plane : corner.z) & (~0u << (around_shift + 2u));
         uint around_node = around_shift == shift ? node : savedNode(around_shift);
+
+        if (kLists)
+            if (occupied && (child & kChildList) != 0u)
+                child = loadListed(child & ~kChildList);
 
         // Down, or on.
         if (kStack != kStackRegisters && occupied)

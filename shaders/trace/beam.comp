@@ -11,9 +11,9 @@
 #include "lib/dispatch.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const bool kBeam = true;   // false: every tile lives from kTraceTimeMin on
-layout(constant_id = 6) const bool kEmpty = false; // every tile is dead
+layout(constant_id = 5) const bool kOrthographic = false;
+layout(constant_id = 6) const bool kBeam = true;   // false: every tile lives from kTraceTimeMin on
+layout(constant_id = 7) const bool kEmpty = false; // every tile is dead
 
 layout(local_size_x = kBlockTiles) in;
 layout(push_constant, scalar) uniform Push

@@ -5,6 +5,9 @@
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
+#include "lib/node.glsl"
+
+layout(constant_id = 0) const bool kLists = false; // of children: the nodes are those of a DAG
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -39,8 +42,10 @@ void main()
             uint mask = c < 32u ? n.mask_lo : n.mask_hi;
             uint below = c & 31u;
             block = present ? rowOfBlock(uvec2(mask, below)) : 0u;
-            present = present && ((mask >> below) & 1u) != 0u;
-            node = (c < 32u ? n.base_lo : n.base_hi) + bitCount(mask & ((1u << below) - 1u));
+            present = present && hasChild(n, c);
+            node = childIndex(n, c);
+            if (kLists && present)
+                node = listedChild(params.nodes, node);
         }
         bits |= uint64_t(block) << cell.x;
     }

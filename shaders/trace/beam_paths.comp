@@ -5,6 +5,9 @@
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
+#include "lib/node.glsl"
+
+layout(constant_id = 0) const bool kLists = false; // of children: the nodes are those of a DAG, which stand by levels
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -37,10 +40,11 @@ void main()
     {
         uint c = cellInBlock(cell >> (2u * (kPathLevels - 1u - level)));
         Node n = params.octree.data[present ? node : 0u];
-        uint mask = c < 32u ? n.mask_lo : n.mask_hi;
-        present = present && ((mask >> (c & 31u)) & 1u) != 0u;
-        node = (c < 32u ? n.base_lo : n.base_hi) + bitCount(mask & ((1u << (c & 31u)) - 1u));
+        present = present && hasChild(n, c);
+        node = childIndex(n, c);
+        if (kLists && present)
+            node = listedChild(params.octree, node);
         path[level] = present ? node : 0u;
     }
-    params.paths.data[i] = packPath(path, params.octree.data[0].base_lo - 1u);
+    params.paths.data[i] = packPath(path, kLists ? 0u : params.octree.data[0].base_lo - 1u);
 }

@@ -6,6 +6,9 @@
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
+#include "lib/node.glsl"
+
+layout(constant_id = 0) const bool kLists = false; // of children: the nodes are those of a DAG
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -56,9 +59,10 @@ uvec2 fourthLevelMask(ivec3 at)
     {
         uint c = cellInBlock(uvec3(at) >> (2u * (2u - level)));
         Node n = params.octree.data[present ? node : 0u];
-        uint mask = c < 32u ? n.mask_lo : n.mask_hi;
-        present = present && ((mask >> (c & 31u)) & 1u) != 0u;
-        node = (c < 32u ? n.base_lo : n.base_hi) + bitCount(mask & ((1u << (c & 31u)) - 1u));
+        present = present && hasChild(n, c);
+        node = childIndex(n, c);
+        if (kLists && present)
+            node = listedChild(params.octree, node);
     }
     Node n = params.octree.data[present ? node : 0u];
     return present ? uvec2(n.mask_lo, n.mask_hi) : uvec2(0u);

@@ -12,9 +12,9 @@
 #include "lib/ray.glsl"
 #include "lib/surface_normal.glsl"
 
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const bool kAttributes = true;
-layout(constant_id = 6) const bool kShadows = true; // trace/shadow has run
+layout(constant_id = 5) const bool kOrthographic = false;
+layout(constant_id = 6) const bool kAttributes = true;
+layout(constant_id = 7) const bool kShadows = true; // trace/shadow has run
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push

@@ -7,8 +7,8 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 4) const bool kContinue = false; // only rays that the round before left unfinished
-layout(constant_id = 5) const bool kMore = false;     // another round follows
+layout(constant_id = 5) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 6) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kRaysGroup) in;
 layout(push_constant, scalar) uniform Push

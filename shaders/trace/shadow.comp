@@ -11,10 +11,10 @@
 #include "lib/ray.glsl"
 #include "lib/surface_normal.glsl"
 
-layout(constant_id = 4) const bool kOrthographic = false;
-layout(constant_id = 5) const bool kAttributes = true;
-layout(constant_id = 6) const bool kContinue = false; // only rays that the round before left unfinished
-layout(constant_id = 7) const bool kMore = false;     // another round follows
+layout(constant_id = 5) const bool kOrthographic = false;
+layout(constant_id = 6) const bool kAttributes = true;
+layout(constant_id = 7) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 8) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push

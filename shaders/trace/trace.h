@@ -3,7 +3,7 @@
 #ifndef ZVO_SHADERS_TRACE_TRACE_H
 #define ZVO_SHADERS_TRACE_TRACE_H
 
-#include "shared/octree.h"
+#include "shared/svdag.h"
 #include "shared/trace.h"
 
 GPU_NAMESPACE_BEGIN
@@ -125,6 +125,32 @@ struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell
 {
     GPU_CONST_PTR(Node) octree;
     GPU_PTR(uint64_t) paths; // [kPathCells^3]
+};
+
+/// What ranks in a DAG are summed up from (shared/svdag.h).
+struct RankSource
+{
+    GPU_CONST_PTR(Node) pool;
+    GPU_CONST_PTR(BeforeChild) before;      // [long_entry_count]
+    GPU_CONST_PTR(uint) voxels_before_leaf; // two entries a word
+    uint first_word;                        // of the lists in the pool
+    uint long_entry_count;
+};
+
+struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
+{
+    RankSource source;
+    GPU_PTR(uint64_t) ranks; // [kPathCells^3] node of level kPathLevels, voxels before it; 0 where there is none
+};
+
+struct RanksParams // push constants of trace/ranks
+{
+    RankSource source;
+    GPU_CONST_PTR(uint64_t) ranks; // of trace/beam_ranks; kTable only
+    GPU_CONST_PTR(uvec2) live;     // kTiles only
+    GPU_PTR(Hit) hits;
+    uint width; // of the picture, or how many hits there are
+    uint height;
 };
 
 struct BeamParams // push constants of trace/beam: one thread a tile

@@ -2,6 +2,7 @@
 #include "core/trace.h"
 
 #include "core/divide_up.h"
+#include "core/trace_ranks.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -50,32 +51,34 @@ bool hasPaths(const Octree& octree)
 }
 
 // Whether the nodes stand level by level, with nothing behind them: what no update has changed.
-bool standsByLevels(const Octree& octree)
+bool standsByLevels(const TreeView& tree)
 {
+    const Octree& octree = tree.octree();
     if (octree.levels.empty())
     {
         return false;
     }
     const Octree::Level& last = octree.levels.back();
-    return std::uint64_t{last.first_node} + last.node_count == octree.nodes.count();
-}
-
-bool hasDetail(const TraceOptions& options)
-{
-    return options.detail_pixels > 0.0F || options.detail_level != UINT32_MAX;
+    const std::uint64_t node_count = tree.hasLists() ? octree.node_count : octree.nodes.count();
+    return std::uint64_t{last.first_node} + last.node_count == node_count;
 }
 
 // Attributes for every hit that can occur.
 bool usesAttributes(const Octree& octree, const TraceOptions& options)
 {
-    return octree.hasAttributes() && (!hasDetail(options) || octree.node_attributes.count() != 0);
+    return octree.hasAttributes() && (!options.hasDetail() || octree.node_attributes.count() != 0);
+}
+
+bool showsAttributes(const TraceOptions& options)
+{
+    return options.view == View::Color || options.view == View::Albedo || options.view == View::Normal;
 }
 
 // The constants that every kernel with lib/traverse.glsl begins with.
-vk::Specialization traverseConstants(const Octree& octree, const TraceOptions& options)
+vk::Specialization traverseConstants(const TreeView& tree, const TraceOptions& options)
 {
-    return {octree.grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), hasDetail(options) ? 1U : 0U,
-            options.steps_max};
+    return {tree.octree().grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), options.hasDetail() ? 1U : 0U,
+            options.steps_max, tree.hasLists() ? 1U : 0U};
 }
 
 vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more)
@@ -209,7 +212,7 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
     const vk::Specialization constants =
         withFlags({gpu::kBeamLevels + (fine ? 1 : 0), static_cast<std::uint32_t>(options.stack), fine ? 1U : 0U,
                    gpu::kTraceStepsMax},
-                  {camera.orthographic, options.beam, isEmpty(octree)});
+                  {false, camera.orthographic, options.beam, isEmpty(octree)});
     vk::Pass pass = graph.addPass("trace/beam", constants);
     gpu::BeamParams params{};
     params.nodes = pass.read(beam.nodes);
@@ -226,10 +229,10 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
 
 } // namespace
 
-BeamGrid::BeamGrid(vk::Device& device)
+BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
     : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
       masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes),
-      paths(device, "paths", kPathCellCount)
+      paths(device, "paths", kPathCellCount), ranks(device, "path ranks", for_dag ? kPathCellCount : 0)
 {
 }
 
@@ -253,16 +256,18 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
     image = {device, "image", pixel_count};
 }
 
-void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam)
+void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
 {
+    const Octree& octree = tree.octree();
     if (isEmpty(octree))
     {
         return;
     }
     const std::uint32_t levels = std::min(octree.grid.nodeLevels(), gpu::kBeamLevels);
     const std::uint32_t cells = 1U << (2 * levels);
+    const vk::Specialization lists = {tree.hasLists() ? 1U : 0U};
     {
-        vk::Pass pass = graph.addPass("trace/beam_mark");
+        vk::Pass pass = graph.addPass("trace/beam_mark", lists);
         const gpu::BeamMarkParams params = {pass.read(octree.nodes), pass.write(beam.occupied), levels, cells};
         pass.dispatch(cells * cells, params);
     }
@@ -280,28 +285,33 @@ void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam)
     }
     if (hasFineBeam(octree))
     {
-        vk::Pass pass = graph.addPass("trace/beam_refine");
+        vk::Pass pass = graph.addPass("trace/beam_refine", lists);
         const gpu::BeamRefineParams params = {pass.read(octree.nodes), pass.read(beam.masks),
                                               pass.readWrite(beam.nodes)};
         pass.dispatch(gpu::kBeamRows * gpu::kBeamGroup, params);
     }
     if (hasPaths(octree))
     {
-        vk::Pass pass = graph.addPass("trace/beam_paths");
+        vk::Pass pass = graph.addPass("trace/beam_paths", lists);
         const gpu::BeamPathsParams params = {pass.read(octree.nodes), pass.write(beam.paths)};
         pass.dispatch(kPathCellCount, params);
     }
+    if (tree.hasLists() && octree.hasAttributes())
+    {
+        buildRankTable(graph, *tree.svdag(), beam);
+    }
 }
 
-void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers)
 {
+    const Octree& octree = tree.octree();
     traceBeam(graph, octree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
-    const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !hasDetail(options);
+    const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !options.hasDetail();
     const vk::Specialization constants =
-        withFlags(traverseConstants(octree, options),
-                  {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(octree)});
+        withFlags(traverseConstants(tree, options),
+                  {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree)});
     const auto declare = [&](vk::Pass& pass)
     {
         gpu::PrimaryParams params{};
@@ -319,13 +329,18 @@ void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& b
     };
     addRounds<gpu::PrimaryParams>(graph, "trace/primary", constants, roundsFor(octree, options), buffers.rounds,
                                   buffers.live.count(), declare, dispatchLive(buffers));
+    if (tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options))
+    {
+        rankTiles(graph, *tree.svdag(), beam, options, buffers);
+    }
 }
 
-void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
                 TraceBuffers& buffers)
 {
+    const Octree& octree = tree.octree();
     const vk::Specialization constants =
-        withFlags(traverseConstants(octree, options), {camera.orthographic, usesAttributes(octree, options)});
+        withFlags(traverseConstants(tree, options), {camera.orthographic, usesAttributes(octree, options)});
     if (options.shadows)
     {
         const gpu::vec3 to_sun = sunDirection(options);
@@ -352,9 +367,10 @@ void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& 
     }
 }
 
-void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers)
 {
+    const Octree& octree = tree.octree();
     const gpu::vec3 to_sun = sunDirection(options);
     if (options.view == View::Color)
     {
@@ -402,21 +418,22 @@ void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camer
     pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
 }
 
-void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+void trace(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers)
 {
-    tracePrimary(graph, octree, beam, camera, options, buffers);
+    tracePrimary(graph, tree, beam, camera, options, buffers);
     if (needsLight(options))
     {
-        traceLight(graph, octree, camera, options, buffers);
+        traceLight(graph, tree, camera, options, buffers);
     }
-    shade(graph, octree, camera, options, buffers);
+    shade(graph, tree, camera, options, buffers);
 }
 
-void traceRays(vk::FrameGraph& graph, const Octree& octree, const vk::BufferOf<gpu::Ray>& rays,
+void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<gpu::Ray>& rays,
                vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
                vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options)
 {
+    const Octree& octree = tree.octree();
     if (isEmpty(octree))
     {
         graph.fill(hits, gpu::kHitMiss);
@@ -434,10 +451,14 @@ void traceRays(vk::FrameGraph& graph, const Octree& octree, const vk::BufferOf<g
         return params;
     };
     const std::uint64_t groups = divideUp(rays.count(), gpu::kRaysGroup);
-    addRounds<gpu::RaysParams>(graph, "trace/rays", traverseConstants(octree, options), roundsFor(octree, options),
+    addRounds<gpu::RaysParams>(graph, "trace/rays", traverseConstants(tree, options), roundsFor(octree, options),
                                rounds, divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
                                [&](vk::Pass& pass, const gpu::RaysParams& params)
                                { pass.dispatch(rays.count(), params); });
+    if (tree.hasLists() && octree.hasAttributes())
+    {
+        rankHits(graph, *tree.svdag(), options, hits);
+    }
 }
 
 } // namespace zvo

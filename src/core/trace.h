@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/camera.h"
-#include "core/octree.h"
+#include "core/tree_view.h"
 #include "trace/trace.h"
 #include "vk/frame_graph.h"
 
@@ -47,18 +47,22 @@ struct TraceOptions
     float detail_pixels = 0.0F;              // stop at nodes that are at most this many pixels wide; 0: go on to voxels
     std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
     std::uint32_t steps_max = gpu::kTraceStepsMax; // iterations of an invocation: fewer only to test what comes then
+
+    [[nodiscard]] bool hasDetail() const { return detail_pixels > 0.0F || detail_level != UINT32_MAX; }
 };
 
 /// A coarse octree over a dilated octree (trace/trace.h), by which the beam pass finds out what rays can skip.
 struct BeamGrid
 {
-    explicit BeamGrid(vk::Device& device);
+    /// for_dag: with the table that makes the ranks of hits in a DAG cheaper. Without, they are the same.
+    explicit BeamGrid(vk::Device& device, bool for_dag = false);
 
     vk::BufferOf<uint64_t> occupied; // [kBeamRows]
     vk::BufferOf<uint64_t> rows;     // [kBeamRows]
     vk::BufferOf<uint64_t> masks;    // [kBeamMasks]
     vk::BufferOf<gpu::Node> nodes;   // [kBeamNodes]
     vk::BufferOf<uint64_t> paths;    // [kPathCells^3]
+    vk::BufferOf<uint64_t> ranks;    // [kPathCells^3] or empty
 };
 
 /// What the passes for a picture of width x height pixels write. Pixels are stored row by row from the top left.
@@ -80,29 +84,29 @@ struct TraceBuffers
 
 /// Records the passes that make the beam grid of octree: once for each octree. Cost: constant, and the cells
 /// that the octree touches in the beam grid.
-void buildBeam(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam);
+void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam);
 
 /// Records the passes that find what each pixel's ray hits first: fills buffers.starts, live, args, status, hits (and
 /// light with iteration counts for View::Iterations). Cost: pixels of tiles that are near something.
-void tracePrimary(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers);
 
 /// Records the passes that options ask for to find how much light of sun and sky arrives at hits: fills buffers.light.
-void traceLight(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
                 TraceBuffers& buffers);
 
 /// Records the passes that make buffers.image from hits and, as far as options ask for it, light.
-void shade(vk::FrameGraph& graph, const Octree& octree, const TraceCamera& camera, const TraceOptions& options,
+void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers);
 
 /// Records all passes from a camera to a picture.
-void trace(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+void trace(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers);
 
 /// Records the pass that traces a list of rays in octree's unit space: hits[i] is what rays[i] hits first. hits has
 /// room for as many. Rays with components that are NaN, infinite or (inverse directions) too small to be normal hit
 /// nothing. rounds has kTraceRoundsMax elements, for rays that need more than one round. Adds to status[0].capped_rays.
-void traceRays(vk::FrameGraph& graph, const Octree& octree, const vk::BufferOf<gpu::Ray>& rays,
+void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<gpu::Ray>& rays,
                vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
                vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options);
 

@@ -88,13 +88,13 @@ std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, co
 }
 
 // Pictures by every path of the tracer.
-Names tracePictures(const Octree& octree)
+Names tracePictures(const TreeView& tree)
 {
     Names names;
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    BeamGrid beam(device().device());
+    BeamGrid beam(device().device(), tree.hasLists());
     TraceBuffers buffers(device().device(), 17, 9);
-    addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, beam); }));
+    addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); }));
     for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
     {
         for (const View shown : {View::Color, View::Iterations})
@@ -104,9 +104,9 @@ Names tracePictures(const Octree& octree)
             options.stack = stack;
             options.occlusion_rays = 2;
             options.beam = stack != TraceStack::Private;
-            const TraceCamera camera = traceCamera(view, octree.grid, buffers.height);
-            addNames(names, device().run([&](vk::FrameGraph& graph)
-                                         { trace(graph, octree, beam, camera, options, buffers); }));
+            const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
+            addNames(names,
+                     device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, options, buffers); }));
         }
     }
     const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
@@ -118,7 +118,7 @@ Names tracePictures(const Octree& octree)
                         [&](vk::FrameGraph& graph)
                         {
                             graph.fill(status, 0);
-                            traceRays(graph, octree, rays, hits, rounds, status, {});
+                            traceRays(graph, tree, rays, hits, rounds, status, {});
                         }));
     return names;
 }
@@ -237,6 +237,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         {
             names.merge(mergeMovers(scene, grid, c.coverage));
             names.merge(tracePictures(built.octree));
+            names.merge(tracePictures(test::svdagOf(device(), built.octree)));
         }
         names.merge(compressOctree(std::move(built.octree)));
     }

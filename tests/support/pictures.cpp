@@ -4,7 +4,7 @@
 namespace zvo::test
 {
 
-Picture takePicture(vk::HeadlessDevice& device, const Octree& octree, BeamGrid& beam, const TraceCamera& camera,
+Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, BeamGrid& beam, const TraceCamera& camera,
                     TraceBuffers& buffers, const TraceOptions& options)
 {
     device.run(
@@ -12,20 +12,20 @@ Picture takePicture(vk::HeadlessDevice& device, const Octree& octree, BeamGrid& 
         {
             graph.fill(buffers.hits, gpu::kHitMiss);
             graph.fill(buffers.light, 0);
-            buildBeam(graph, octree, beam);
-            trace(graph, octree, beam, camera, options, buffers);
+            buildBeam(graph, tree, beam);
+            trace(graph, tree, beam, camera, options, buffers);
         });
     const gpu::TraceStatus status = device.download(buffers.status).at(0);
     return {device.download(buffers.image), device.download(buffers.hits), device.download(buffers.light),
             status.live_tiles, status.capped_rays};
 }
 
-Picture takePicture(vk::HeadlessDevice& device, const Octree& octree, const TraceCamera& camera, std::uint32_t width,
+Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, const TraceCamera& camera, std::uint32_t width,
                     std::uint32_t height, const TraceOptions& options)
 {
-    BeamGrid beam(device.device());
+    BeamGrid beam(device.device(), tree.hasLists());
     TraceBuffers buffers(device.device(), width, height);
-    return takePicture(device, octree, beam, camera, buffers, options);
+    return takePicture(device, tree, beam, camera, buffers, options);
 }
 
 std::uint32_t hitCount(const Picture& picture)

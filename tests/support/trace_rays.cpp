@@ -35,7 +35,7 @@ gpu::Ray deviceRay(const oracle::Ray& ray, float t_max)
     return {ray.origin, ray.t_min, ray.inv, t_max};
 }
 
-std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const Octree& octree, const std::vector<gpu::Ray>& rays,
+std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const TreeView& tree, const std::vector<gpu::Ray>& rays,
                                     const TraceOptions& options, std::uint32_t capped_count)
 {
     const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(rays));
@@ -46,7 +46,7 @@ std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const Octree& oc
         [&](vk::FrameGraph& graph)
         {
             graph.fill(status, 0);
-            traceRays(graph, octree, ray_buffer, hits, rounds, status, options);
+            traceRays(graph, tree, ray_buffer, hits, rounds, status, options);
         });
     EXPECT_EQ(device.download(status).at(0).capped_rays, capped_count);
     return device.download(hits);
@@ -101,20 +101,21 @@ oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes&
     return oracle::makeRay(origin, direction, std::max(t_min, gpu::kTraceTimeMin));
 }
 
-void expectEqualsReference(vk::HeadlessDevice& device, const Octree& octree, const Codes& codes, std::uint32_t count,
+void expectEqualsReference(vk::HeadlessDevice& device, const TreeView& tree, const Codes& codes, std::uint32_t count,
                            const TraceOptions& options, bool very_far)
 {
-    const std::uint32_t depth = octree.grid.depth;
+    const Grid& grid = tree.octree().grid;
+    const std::uint32_t depth = grid.depth;
     const oracle::VoxelTracer tracer(codes, depth);
     std::mt19937 random(depth * 1000 + count);
     std::vector<oracle::Ray> rays;
     std::vector<gpu::Ray> device_rays;
     for (std::uint32_t i = 0; i < count; ++i)
     {
-        rays.push_back(pickRay(random, octree.grid.rootResolution(), codes, very_far));
+        rays.push_back(pickRay(random, grid.rootResolution(), codes, very_far));
         device_rays.push_back(deviceRay(rays.back()));
     }
-    const std::vector<gpu::Hit> hits = traceOnDevice(device, octree, device_rays, options);
+    const std::vector<gpu::Hit> hits = traceOnDevice(device, tree, device_rays, options);
     std::uint32_t hit_count = 0;
     for (std::uint32_t i = 0; i < count; ++i)
     {
@@ -132,7 +133,7 @@ void expectEqualsReference(vk::HeadlessDevice& device, const Octree& octree, con
         ASSERT_EQ(std::bit_cast<std::uint32_t>(hit->t), std::bit_cast<std::uint32_t>(expected->t))
             << "depth " << depth << " ray " << i;
         ASSERT_EQ(hit->face, expected->face) << "depth " << depth << " ray " << i;
-        ASSERT_EQ(hit->level, octree.grid.nodeLevels());
+        ASSERT_EQ(hit->level, grid.nodeLevels());
     }
     EXPECT_GE(hit_count, count / 10) << "depth " << depth;
 }

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Ranks in a DAG (shared/svdag.h): of voxels in Morton order, of the octree's nodes depth first. Both are sums along the
+// path from the root. The includer includes trace/trace.h before.
+
+// A node of the octree by its path.
+struct RankedNode
+{
+    uint node;   // of the DAG
+    uint voxels; // before those below it
+    uint rank;   // depth first
+};
+
+// Number in the pool of the word of a list that names the child in a cell.
+uint listWord(RankSource source, uint node, uint cell)
+{
+    uvec2 half_node = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.pool)).data[2u * node + (cell >> 5)]);
+    return (half_node.y & ~kChildList) + bitCount(half_node.x & ((1u << (cell & 31u)) - 1u));
+}
+
+// From a node above the parents of leaves to the child in a cell.
+void descend(RankSource source, uint cell, inout RankedNode at)
+{
+    uint word = listWord(source, at.node, cell);
+    uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[word - source.first_word]);
+    at.node = uint_ConstPtr(uint64_t(source.pool)).data[word];
+    at.voxels += before.x;
+    at.rank += 1u + before.y;
+}
+
+// From a parent of leaves to the leaf in a cell, whose node is not looked up. Returns the word that names it.
+uint descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNode at)
+{
+    uint word = listWord(source, at.node, cell);
+    uint entry = word - source.first_word - source.long_entry_count;
+    at.voxels += bitfieldExtract(source.voxels_before_leaf.data[entry >> 1], int(16u * (entry & 1u)), 16);
+    if (with_rank)
+        at.rank += 1u + word - listWord(source, at.node, 0u);
+    return word;
+}

@@ -1,0 +1,38 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Where the ranks of hits in a DAG begin: for each cell of a grid over the root cube, the node of level kPathLevels that
+// contains it, and how many voxels come before those below that node.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/dispatch.glsl"
+#include "lib/morton.glsl"
+#include "lib/node.glsl"
+#include "lib/ranks.glsl"
+
+layout(constant_id = 0) const bool kLeaves = false; // the nodes of level kPathLevels are leaves
+
+layout(local_size_x = kBeamGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    BeamRanksParams params;
+};
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= kPathCells * kPathCells * kPathCells)
+        return;
+    uvec3 cell = uvec3(i, i >> kPathCellBits, i >> (2u * kPathCellBits)) & (kPathCells - 1u);
+    RankedNode at = RankedNode(0u, 0u, 0u);
+    bool present = true;
+    for (uint level = 0u; level < kPathLevels; ++level)
+    {
+        uint c = cellInBlock(cell >> (2u * (kPathLevels - 1u - level)));
+        present = present && hasChild(params.source.pool.data[at.node], c);
+        if (present && kLeaves && level + 1u == kPathLevels)
+            descendToLeaf(params.source, c, false, at);
+        else if (present)
+            descend(params.source, c, at);
+    }
+    params.ranks.data[i] = present ? packUint2x32(uvec2(at.node, at.voxels)) : 0ul;
+}
