@@ -122,6 +122,19 @@ struct DepthFirstParams // push constants of svdag/depth_first
     uint node_count;
 };
 
+struct AppendParams // push constants of svdag/append: one thread a node
+{
+    GPU_CONST_PTR(Node) from;
+    GPU_CONST_PTR(uint) from_words; // the same, as words
+    GPU_PTR(Node) to;
+    GPU_PTR(uint) to_words;
+    uint first_from;
+    uint first_to;
+    uint node_count;
+    uint word_shift;  // from the word of a list to its copy, modulo 2^32 as the next one
+    uint child_shift; // from the number of a child to that of its copy
+};
+
 GPU_NAMESPACE_END
 
 #endif

@@ -84,7 +84,7 @@ Classes classify(vk::HeadlessDevice& device, const Candidates& candidates, const
 }
 
 // Sizes dag from what the classes came to.
-void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::ClassSizes& sizes, bool has_attributes,
+void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::ClassSizes& sizes, bool has_ranks,
                   Svdag& dag)
 {
     dag.tree.node_count = sizes.node_count;
@@ -101,9 +101,9 @@ void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::C
     {
         throwTooBig(words);
     }
-    const std::uint64_t before_count = has_attributes ? dag.long_entry_count : 0;
-    const std::uint64_t leaf_word_count = has_attributes ? divideUp(dag.entry_count - dag.long_entry_count, 2) : 0;
-    const std::uint64_t below_count = has_attributes ? dag.tree.levels.back().first_node : 0;
+    const std::uint64_t before_count = has_ranks ? dag.long_entry_count : 0;
+    const std::uint64_t leaf_word_count = has_ranks ? divideUp(dag.entry_count - dag.long_entry_count, 2) : 0;
+    const std::uint64_t below_count = has_ranks ? dag.tree.levels.back().first_node : 0;
     device.memory().require(divideUp(words, kNodeWords) * sizeof(gpu::Node) +
                                 (before_count + below_count) * sizeof(gpu::BeforeChild) +
                                 leaf_word_count * sizeof(gpu::uint),
@@ -187,7 +187,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const Octree& octree, ClassBuffers& 
 }
 
 // All of the DAG but attributes and what of an octree stays as it is.
-Classes compressNodes(vk::HeadlessDevice& device, const Candidates& candidates, bool has_attributes,
+Classes compressNodes(vk::HeadlessDevice& device, const Candidates& candidates, bool has_ranks,
                       const CompressOptions& options, CompressResult& result)
 {
     for (const Octree::Level& level : candidates.levels())
@@ -197,9 +197,9 @@ Classes compressNodes(vk::HeadlessDevice& device, const Candidates& candidates, 
     Classes classes = classify(device, candidates, options, result);
     classes.buffers.hashes = {};
     Svdag& dag = result.dag;
-    allocatePool(device.device(), candidates, classes.sizes, has_attributes, dag);
+    allocatePool(device.device(), candidates, classes.sizes, has_ranks, dag);
     vk::BufferOf<gpu::BeforeChild> below(device.device(), "svdag/below",
-                                         has_attributes ? dag.tree.levels.back().first_node : 0);
+                                         has_ranks ? dag.tree.levels.back().first_node : 0);
     append(result.passes,
            device.run([&](vk::FrameGraph& graph) { writePool(graph, candidates, classes.buffers, below, dag); }));
     return classes;
@@ -244,7 +244,8 @@ CompressResult compress(vk::HeadlessDevice& device, Octree octree, const Compres
     dag.octree_node_count = octree.node_count;
     if (octree.node_count != 0)
     {
-        Classes classes = compressNodes(device, {octree, false}, octree.hasAttributes(), options, result);
+        Classes classes =
+            compressNodes(device, {octree, false}, octree.hasAttributes() || options.ranks, options, result);
         classes.buffers.table = {};
         if (octree.levels.size() < 2) // one node
         {
@@ -268,7 +269,7 @@ CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOpt
     result.dag.octree_node_count = dag.octree_node_count;
     if (dag.tree.node_count != 0)
     {
-        compressNodes(device, {dag.tree, true}, dag.tree.hasAttributes(), options, result);
+        compressNodes(device, {dag.tree, true}, dag.tree.hasAttributes() || options.ranks, options, result);
     }
     moveVoxels(dag.tree, result.dag.tree);
     result.dag.tree.node_attributes = std::move(dag.tree.node_attributes);

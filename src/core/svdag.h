@@ -32,10 +32,11 @@ struct Svdag
     }
 };
 
-/// How an octree is compressed. The result does not depend on it.
+/// How an octree is compressed.
 struct CompressOptions
 {
     std::uint64_t table_slots = 0; // of each level's table of classes at first; 0: as many as are likely to suffice
+    bool ranks = false;            // before and voxels_before_leaf even without attributes
 };
 
 /// A DAG and how it came about.

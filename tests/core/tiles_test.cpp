@@ -4,6 +4,7 @@
 #include "core/pipeline.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
+#include "support/morton_place.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -50,20 +51,6 @@ template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>&
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// The place of tile number `code` in Morton order.
-glm::uvec3 tilePlace(std::uint32_t code)
-{
-    glm::uvec3 place{0};
-    for (std::uint32_t bit = 0; code >> (3 * bit) != 0; ++bit)
-    {
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            place[axis] |= (code >> (3 * bit + axis) & 1) << bit;
-        }
-    }
-    return place;
-}
-
 void expectTilesMakeTheWhole(const Scene& scene, const Grid& grid, std::uint32_t tile_depth, Coverage coverage)
 {
     const GpuScene uploaded = uploadScene(device(), scene, true);
@@ -76,7 +63,7 @@ void expectTilesMakeTheWhole(const Scene& scene, const Grid& grid, std::uint32_t
     std::size_t occupied = 0;
     for (std::uint32_t code = 0; code >> (3 * (grid.depth - tile_depth)) == 0; ++code)
     {
-        const BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, tilePlace(code)}, options);
+        const BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, test::mortonPlace(code)}, options);
         EXPECT_EQ(built.dropped, whole.dropped);
         const Contents contents = contentsOf(built.octree);
         for (const std::uint64_t voxel : contents.codes)

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include "core/svdag_forest.h"
+
+#include "core/divide_up.h"
+#include "svdag/svdag.h"
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <span>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kCellBits = 6; // of a code, for each level of nodes
+constexpr std::uint64_t kNodeWords = sizeof(gpu::Node) / sizeof(gpu::uint);
+constexpr std::uint64_t kUnmergedMin = 1 << 16; // nodes that may stand unmerged, whatever the rest has
+
+std::uint64_t maskOf(const gpu::Node& node)
+{
+    return node.mask_lo | std::uint64_t{node.mask_hi} << 32;
+}
+
+// The nodes above the roots of tiles, and their lists.
+struct Top
+{
+    std::vector<Octree::Level> levels;
+    std::vector<gpu::Node> nodes;
+    std::vector<gpu::uint> lists;
+};
+
+// Codes of the nodes above nodes with these codes, both ascending.
+std::vector<std::uint64_t> parentCodes(std::span<const std::uint64_t> codes)
+{
+    std::vector<std::uint64_t> parents;
+    for (const std::uint64_t code : codes)
+    {
+        if (parents.empty() || parents.back() != code >> kCellBits)
+        {
+            parents.push_back(code >> kCellBits);
+        }
+    }
+    return parents;
+}
+
+// roots: numbers of the tiles' roots. first_word: of the lists.
+Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> roots, std::size_t level_count,
+          std::uint64_t first_word)
+{
+    std::vector<std::vector<std::uint64_t>> codes_of = {{codes.begin(), codes.end()}}; // by level, the tiles first
+    for (std::size_t i = 0; i < level_count; ++i)
+    {
+        codes_of.push_back(parentCodes(codes_of.back()));
+    }
+    std::ranges::reverse(codes_of);
+    assert(codes_of.front().size() == 1);
+    Top top;
+    for (std::size_t level = 0; level < level_count; ++level)
+    {
+        top.levels.push_back(
+            {static_cast<std::uint32_t>(top.nodes.size()), static_cast<std::uint32_t>(codes_of[level].size())});
+        const std::size_t first_child = top.nodes.size() + codes_of[level].size();
+        const std::vector<std::uint64_t>& children = codes_of[level + 1];
+        std::size_t child = 0;
+        for (const std::uint64_t code : codes_of[level])
+        {
+            std::uint64_t mask = 0;
+            const auto base = static_cast<std::uint32_t>(first_word + top.lists.size());
+            for (; child < children.size() && children[child] >> kCellBits == code; ++child)
+            {
+                mask |= std::uint64_t{1} << (children[child] & ((1U << kCellBits) - 1));
+                top.lists.push_back(level + 1 == level_count ? roots[child]
+                                                             : static_cast<std::uint32_t>(first_child + child));
+            }
+            const auto low = static_cast<std::uint32_t>(mask);
+            const auto in_low = static_cast<std::uint32_t>(std::popcount(low));
+            top.nodes.push_back({low, gpu::kChildList | base, static_cast<std::uint32_t>(mask >> 32),
+                                 gpu::kChildList | (base + in_low)});
+        }
+    }
+    return top;
+}
+
+// Words as the nodes that they fill, zeros behind.
+std::vector<gpu::Node> asNodes(std::vector<gpu::uint> words)
+{
+    words.resize(divideUp(words.size(), kNodeWords) * kNodeWords);
+    std::vector<gpu::Node> nodes;
+    for (std::size_t i = 0; i < words.size(); i += kNodeWords)
+    {
+        nodes.push_back({words[i], words[i + 1], words[i + 2], words[i + 3]});
+    }
+    return nodes;
+}
+
+// A part's place in the pool of all.
+struct PartPlace
+{
+    std::vector<std::uint64_t> first_nodes; // of each level
+    std::uint64_t first_word = 0;           // of its lists
+};
+
+void appendLevel(vk::FrameGraph& graph, const Octree& from, std::size_t level, const PartPlace& place, Octree& to)
+{
+    const auto [first_node, node_count] = from.levels[level];
+    if (level + 1 == from.levels.size())
+    {
+        graph.copy(from.nodes, first_node * sizeof(gpu::Node), to.nodes, place.first_nodes[level] * sizeof(gpu::Node),
+                   node_count * sizeof(gpu::Node));
+        return;
+    }
+    vk::Pass pass = graph.addPass("svdag/append");
+    gpu::AppendParams params{};
+    params.from = pass.read(from.nodes);
+    params.from_words = {params.from.address};
+    params.to = pass.readWrite(to.nodes);
+    params.to_words = {params.to.address};
+    params.first_from = first_node;
+    params.first_to = static_cast<std::uint32_t>(place.first_nodes[level]);
+    params.node_count = node_count;
+    params.word_shift = static_cast<std::uint32_t>(place.first_word - from.node_count * kNodeWords);
+    params.child_shift = static_cast<std::uint32_t>(place.first_nodes[level + 1] - from.levels[level + 1].first_node);
+    pass.dispatch(node_count, params);
+}
+
+} // namespace
+
+SvdagForest::SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint32_t tile_depth)
+    : m_device(device), m_grid(grid), m_top_levels(grid.nodeLevels() - tile_depth / 2)
+{
+    assert(tile_depth % 2 == 0 && tile_depth < grid.depth);
+}
+
+void SvdagForest::add(std::uint64_t code, Svdag dag)
+{
+    assert(m_parts.empty() || m_parts.back().tiles.back().code < code);
+    dag.tree.voxel_attributes = {};
+    dag.tree.node_attributes = {};
+    dag.tree.emission_words = {};
+    dag.tree.emission = {};
+    dag.before = {};
+    dag.voxels_before_leaf = {};
+    Part part;
+    part.tiles = {{code, dag.tree.levels[m_top_levels].first_node}};
+    part.dag = std::move(dag);
+    m_parts.push_back(std::move(part));
+
+    // What is not merged is at most as much as what is, so that all merges together cost a few times the result.
+    std::uint64_t unmerged = 0;
+    for (std::size_t i = 1; i < m_parts.size(); ++i)
+    {
+        unmerged += m_parts[i].dag.tree.node_count;
+    }
+    if (unmerged > std::max<std::uint64_t>(m_parts.front().dag.tree.node_count, kUnmergedMin))
+    {
+        merge(false);
+    }
+}
+
+std::uint64_t SvdagForest::topNodeCount() const
+{
+    std::vector<std::uint64_t> codes;
+    for (const Part& part : m_parts)
+    {
+        for (const Tile& tile : part.tiles)
+        {
+            codes.push_back(tile.code);
+        }
+    }
+    std::uint64_t count = 0;
+    for (std::size_t level = 0; level < m_top_levels; ++level)
+    {
+        codes = parentCodes(codes);
+        count += codes.size();
+    }
+    return count;
+}
+
+// All parts in one pool, below common nodes; equal nodes stand as often as before.
+SvdagForest::Part SvdagForest::joined() const
+{
+    const std::size_t level_count = m_grid.nodeLevels();
+    Part all;
+    std::vector<std::uint64_t> codes;
+    for (const Part& part : m_parts)
+    {
+        for (const Tile& tile : part.tiles)
+        {
+            codes.push_back(tile.code);
+            all.tiles.push_back(tile);
+        }
+    }
+    const std::vector<std::uint32_t> no_roots(codes.size());
+    Top top = topOf(codes, no_roots, m_top_levels, 0); // for its size
+
+    std::vector<PartPlace> places(m_parts.size());
+    std::uint64_t node_count = top.nodes.size();
+    std::vector<Octree::Level> levels = top.levels;
+    for (std::size_t level = m_top_levels; level < level_count; ++level)
+    {
+        const std::uint64_t first_node = node_count;
+        for (std::size_t i = 0; i < m_parts.size(); ++i)
+        {
+            places[i].first_nodes.resize(level_count);
+            places[i].first_nodes[level] = node_count;
+            node_count += m_parts[i].dag.tree.levels[level].node_count;
+        }
+        levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
+    }
+    std::uint64_t word_count = node_count * kNodeWords + divideUp(top.lists.size(), kNodeWords) * kNodeWords;
+    for (std::size_t i = 0; i < m_parts.size(); ++i)
+    {
+        places[i].first_word = word_count;
+        word_count += m_parts[i].dag.entry_count;
+    }
+    if (word_count >= gpu::kChildList)
+    {
+        throw Error(ErrorCode::Memory, "the tiles' nodes and lists take more words than 31-bit numbers count; lower "
+                                       "the resolution");
+    }
+
+    std::vector<std::uint32_t> roots;
+    std::size_t tile = 0;
+    for (std::size_t i = 0; i < m_parts.size(); ++i)
+    {
+        const std::uint32_t first_root = m_parts[i].dag.tree.levels[m_top_levels].first_node;
+        for (const Tile& of_part : m_parts[i].tiles)
+        {
+            all.tiles[tile].root =
+                static_cast<std::uint32_t>(places[i].first_nodes[m_top_levels] + (of_part.root - first_root));
+            roots.push_back(all.tiles[tile++].root);
+        }
+    }
+    top = topOf(codes, roots, m_top_levels, node_count * kNodeWords);
+
+    Octree& tree = all.dag.tree;
+    tree.grid = m_grid;
+    tree.node_count = static_cast<std::uint32_t>(node_count);
+    tree.levels = std::move(levels);
+    all.dag.entry_count = word_count - node_count * kNodeWords;
+    const std::uint64_t pool_nodes = divideUp(word_count, kNodeWords);
+    m_device.device().memory().require(pool_nodes * sizeof(gpu::Node), "joining the tiles");
+    tree.nodes = {m_device.device(), "svdag/forest", pool_nodes};
+    m_device.upload(tree.nodes, std::span<const gpu::Node>(top.nodes));
+    m_device.upload(tree.nodes, std::span<const gpu::Node>(asNodes(std::move(top.lists))), node_count);
+    m_device.run(
+        [&](vk::FrameGraph& graph)
+        {
+            for (std::size_t i = 0; i < m_parts.size(); ++i)
+            {
+                for (std::size_t level = m_top_levels; level < level_count; ++level)
+                {
+                    appendLevel(graph, m_parts[i].dag.tree, level, places[i], tree);
+                }
+            }
+        });
+    return all;
+}
+
+// Finds the tiles' roots in a DAG in which equal ones have become one.
+void SvdagForest::learnRoots(Part& part) const
+{
+    const Octree& tree = part.dag.tree;
+    const std::vector<gpu::Node> nodes = m_device.download(tree.nodes, 0, tree.levels[m_top_levels].first_node);
+    std::uint64_t entry_count = 0;
+    for (const gpu::Node& node : nodes)
+    {
+        entry_count += static_cast<std::uint64_t>(std::popcount(maskOf(node)));
+    }
+    const std::vector<gpu::Node> lists =
+        m_device.download(tree.nodes, tree.node_count, divideUp(entry_count, kNodeWords));
+    const auto childOf = [&](const gpu::Node& node, std::uint64_t cell)
+    {
+        const auto before = static_cast<std::uint64_t>(std::popcount(maskOf(node) & ((std::uint64_t{1} << cell) - 1)));
+        const std::uint64_t word = (node.base_lo & ~gpu::kChildList) - tree.node_count * kNodeWords + before;
+        return std::bit_cast<std::array<gpu::uint, kNodeWords>>(lists[word / kNodeWords])[word % kNodeWords];
+    };
+    for (Tile& tile : part.tiles)
+    {
+        tile.root = 0;
+        for (std::size_t level = 0; level < m_top_levels; ++level)
+        {
+            const auto shift = static_cast<std::uint32_t>(kCellBits * (m_top_levels - 1 - level));
+            tile.root = childOf(nodes[tile.root], tile.code >> shift & ((1U << kCellBits) - 1));
+        }
+    }
+}
+
+void SvdagForest::merge(bool ranks)
+{
+    Part all = joined();
+    m_parts.clear();
+    CompressResult result = compress(m_device, std::move(all.dag), {.table_slots = 0, .ranks = ranks});
+    m_ms += result.ms();
+    all.dag = std::move(result.dag);
+    learnRoots(all);
+    m_parts.push_back(std::move(all));
+}
+
+Svdag SvdagForest::finish(bool ranks)
+{
+    if (m_parts.empty())
+    {
+        Svdag empty;
+        empty.tree.grid = m_grid;
+        return empty;
+    }
+    merge(ranks);
+    Svdag dag = std::move(m_parts.front().dag);
+    m_parts.clear();
+    return dag;
+}
+
+} // namespace zvo

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// DAGs of tiles become, byte for byte, the DAG of the whole.
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/svdag_forest.h"
+#include "support/device.h"
+#include "support/materials_scene.h"
+#include "support/morton_place.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+template <typename T> void expectSame(const vk::BufferOf<T>& a, const vk::BufferOf<T>& b, const char* what)
+{
+    ASSERT_EQ(a.count(), b.count()) << what;
+    const std::vector<T> of_a = device().download(a);
+    const std::vector<T> of_b = device().download(b);
+    EXPECT_TRUE(of_a.empty() || std::memcmp(of_a.data(), of_b.data(), of_a.size() * sizeof(T)) == 0) << what;
+}
+
+void expectSame(const Svdag& a, const Svdag& b)
+{
+    ASSERT_EQ(a.tree.node_count, b.tree.node_count);
+    EXPECT_EQ(a.entry_count, b.entry_count);
+    EXPECT_EQ(a.long_entry_count, b.long_entry_count);
+    ASSERT_EQ(a.tree.levels.size(), b.tree.levels.size());
+    for (std::size_t level = 0; level < a.tree.levels.size(); ++level)
+    {
+        EXPECT_EQ(a.tree.levels[level].first_node, b.tree.levels[level].first_node);
+        EXPECT_EQ(a.tree.levels[level].node_count, b.tree.levels[level].node_count);
+    }
+    expectSame(a.tree.nodes, b.tree.nodes, "nodes and lists");
+    expectSame(a.before, b.before, "before");
+    expectSame(a.voxels_before_leaf, b.voxels_before_leaf, "voxels before leaves");
+}
+
+void expectTilesMakeTheWhole(const Scene& scene, std::uint32_t depth, std::uint32_t tile_depth, bool ranks)
+{
+    const GpuScene uploaded = uploadScene(device(), scene, false);
+    const BuildOptions options = {Coverage::Thin, false, {}};
+    const Grid grid = Grid::around(scene.bounds(), depth);
+    BuildResult whole = buildOctree(device(), uploaded, grid, options);
+    std::uint32_t top_nodes = 0;
+    for (std::size_t level = 0; level < grid.nodeLevels() - tile_depth / 2; ++level)
+    {
+        top_nodes += whole.octree.levels[level].node_count;
+    }
+    const Svdag expected = std::move(compress(device(), std::move(whole.octree), {.ranks = ranks}).dag);
+
+    SvdagForest forest(device(), grid, tile_depth);
+    std::uint32_t tile_count = 0;
+    for (std::uint32_t code = 0; code >> (3 * (depth - tile_depth)) == 0; ++code)
+    {
+        BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, test::mortonPlace(code)}, options);
+        if (built.octree.node_count != 0)
+        {
+            forest.add(code, std::move(compress(device(), std::move(built.octree)).dag));
+            ++tile_count;
+        }
+    }
+    EXPECT_GT(tile_count, 1U);
+    EXPECT_EQ(forest.topNodeCount(), top_nodes);
+    const Svdag dag = forest.finish(ranks);
+    EXPECT_EQ(dag.before.count() != 0, ranks && grid.nodeLevels() > 2);
+    expectSame(dag, expected);
+}
+
+TEST(SvdagForest, OfTilesIsTheDagOfTheWhole)
+{
+    const Scene scene = test::materialsScene(1.0F);
+    expectTilesMakeTheWhole(scene, 6, 4, true);
+    expectTilesMakeTheWhole(scene, 6, 4, false);
+    expectTilesMakeTheWhole(scene, 7, 4, true); // the grid is an octant of the root
+    expectTilesMakeTheWhole(scene, 7, 6, true);
+}
+
+// So many nodes that parts are merged on the way.
+TEST(SvdagForest, MergesOnTheWay)
+{
+    expectTilesMakeTheWhole(test::sphereScene({0, 0, 0}, 1.0F, 64), 10, 8, true);
+    expectTilesMakeTheWhole(test::randomTriangles(7, 300, 1.0F), 9, 6, true);
+}
+
+// Tiles of which each is one node, below several levels.
+TEST(SvdagForest, OfTheSmallestTilesIsTheDagOfTheWhole)
+{
+    expectTilesMakeTheWhole(test::sphereScene({0, 0, 0}, 1.0F, 16), 5, 2, true);
+}
+
+TEST(SvdagForest, OfNothingIsEmpty)
+{
+    const Svdag dag = SvdagForest(device(), Grid{{}, 1.0F, 6}, 4).finish(true);
+    EXPECT_EQ(dag.tree.node_count, 0U);
+}
+
+} // namespace
+} // namespace zvo
