@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "core/tree_data.h"
+
+#include "core/divide_up.h"
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <span>
+
+namespace zvo
+{
+
+namespace
+{
+
+template <typename T> std::uint64_t bytesOf(const std::vector<T>& values)
+{
+    return values.size() * sizeof(T);
+}
+
+void requireAsBuilt(const Octree& octree, std::uint64_t pool_nodes)
+{
+    const bool has_levels = octree.levels.empty() == (octree.node_count == 0);
+    if (!has_levels || octree.nodes.count() != pool_nodes)
+    {
+        throw Error(ErrorCode::Usage, "a tree that something was merged into cannot be copied to the host; rebuild it");
+    }
+}
+
+// What octrees and DAGs have in common.
+TreeData downloadCommon(vk::HeadlessDevice& device, const Octree& octree)
+{
+    TreeData tree;
+    tree.grid = octree.grid;
+    tree.voxel_count = octree.voxel_count;
+    tree.levels = octree.levels;
+    tree.nodes = device.download(octree.nodes, 0, octree.node_count);
+    tree.voxel_attributes = device.download(octree.voxel_attributes);
+    tree.node_attributes = device.download(octree.node_attributes);
+    tree.emission_words = device.download(octree.emission_words);
+    tree.emission = device.download(octree.emission);
+    tree.emission_scale = octree.emission_scale;
+    return tree;
+}
+
+template <typename T>
+vk::BufferOf<T> uploadVector(vk::HeadlessDevice& device, const char* name, const std::vector<T>& values)
+{
+    return values.empty() ? vk::BufferOf<T>() : device.makeBuffer(name, std::span(values));
+}
+
+Octree uploadCommon(vk::HeadlessDevice& device, const TreeData& tree)
+{
+    Octree octree;
+    octree.grid = tree.grid;
+    octree.voxel_count = tree.voxel_count;
+    octree.node_count = static_cast<std::uint32_t>(tree.nodes.size());
+    octree.levels = tree.levels;
+    octree.voxel_attributes = uploadVector(device, "octree/voxel_attributes", tree.voxel_attributes);
+    octree.node_attributes = uploadVector(device, "octree/node_attributes", tree.node_attributes);
+    octree.emission_words = uploadVector(device, "octree/emission_words", tree.emission_words);
+    octree.emission = uploadVector(device, "octree/emission", tree.emission);
+    octree.emission_scale = tree.emission_scale;
+    return octree;
+}
+
+constexpr std::uint64_t kWordsOfNode = sizeof(gpu::Node) / sizeof(gpu::uint);
+
+// As many nodes as nodes and lists take in a pool.
+std::uint64_t poolNodes(std::uint64_t node_count, std::uint64_t entry_count)
+{
+    return node_count + divideUp(entry_count, kWordsOfNode);
+}
+
+gpu::Node nodeOfWords(std::span<const gpu::uint> words)
+{
+    std::array<gpu::uint, kWordsOfNode> whole{};
+    std::copy(words.begin(), words.end(), whole.begin());
+    return std::bit_cast<gpu::Node>(whole);
+}
+
+vk::BufferOf<gpu::Node> uploadPool(vk::HeadlessDevice& device, const TreeData& tree)
+{
+    vk::BufferOf<gpu::Node> pool(device.device(), "svdag/pool", poolNodes(tree.nodes.size(), tree.lists.size()));
+    device.upload(pool, std::span(tree.nodes));
+    std::vector<gpu::Node> lists;
+    lists.reserve(divideUp(tree.lists.size(), kWordsOfNode));
+    for (std::span<const gpu::uint> rest = tree.lists; !rest.empty();)
+    {
+        const std::size_t count = std::min<std::size_t>(rest.size(), kWordsOfNode);
+        lists.push_back(nodeOfWords(rest.first(count)));
+        rest = rest.subspan(count);
+    }
+    device.upload(pool, std::span<const gpu::Node>(lists), tree.nodes.size());
+    return pool;
+}
+
+} // namespace
+
+const char* structureName(TreeStructure structure)
+{
+    return structure == TreeStructure::Svo ? "svo" : "svdag";
+}
+
+std::uint64_t TreeData::geometryBytes() const
+{
+    return bytesOf(nodes) + bytesOf(lists) + bytesOf(before) + bytesOf(voxels_before_leaf);
+}
+
+std::uint64_t TreeData::attributeBytes() const
+{
+    return bytesOf(voxel_attributes) + bytesOf(node_attributes) + bytesOf(emission_words) + bytesOf(emission);
+}
+
+TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree)
+{
+    requireAsBuilt(octree, octree.node_count);
+    TreeData tree = downloadCommon(device, octree);
+    tree.octree_node_count = octree.node_count;
+    return tree;
+}
+
+TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag)
+{
+    requireAsBuilt(dag.tree, poolNodes(dag.tree.node_count, dag.entry_count));
+    TreeData tree = downloadCommon(device, dag.tree);
+    tree.structure = TreeStructure::Svdag;
+    tree.octree_node_count = dag.octree_node_count;
+    tree.long_entry_count = dag.long_entry_count;
+    const std::vector<gpu::Node> lists = device.download(dag.tree.nodes, dag.tree.node_count);
+    tree.lists.reserve(lists.size() * kWordsOfNode);
+    for (const gpu::Node& node : lists)
+    {
+        const auto words = std::bit_cast<std::array<gpu::uint, kWordsOfNode>>(node);
+        tree.lists.insert(tree.lists.end(), words.begin(), words.end());
+    }
+    tree.lists.resize(dag.entry_count);
+    tree.before = device.download(dag.before);
+    tree.voxels_before_leaf = device.download(dag.voxels_before_leaf);
+    return tree;
+}
+
+DeviceTree uploadTree(vk::HeadlessDevice& device, const TreeData& tree)
+{
+    const std::uint64_t pool_bytes = poolNodes(tree.nodes.size(), tree.lists.size()) * sizeof(gpu::Node);
+    device.device().memory().require(
+        pool_bytes + bytesOf(tree.before) + bytesOf(tree.voxels_before_leaf) + tree.attributeBytes(), "the tree");
+    Octree octree = uploadCommon(device, tree);
+    if (tree.structure == TreeStructure::Svo)
+    {
+        octree.nodes = uploadVector(device, "octree/nodes", tree.nodes);
+        return octree;
+    }
+    Svdag dag;
+    dag.tree = std::move(octree);
+    dag.tree.nodes = tree.nodes.empty() ? vk::BufferOf<gpu::Node>() : uploadPool(device, tree);
+    dag.octree_node_count = tree.octree_node_count;
+    dag.entry_count = tree.lists.size();
+    dag.long_entry_count = tree.long_entry_count;
+    dag.before = uploadVector(device, "svdag/before", tree.before);
+    dag.voxels_before_leaf = uploadVector(device, "svdag/voxels_before_leaf", tree.voxels_before_leaf);
+    return dag;
+}
+
+void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t code)>& what)
+{
+    struct Open // a node with children still to come
+    {
+        const gpu::Node* node;
+        std::uint64_t rest; // cells
+        std::uint32_t rank; // of the next child
+        std::uint64_t code;
+    };
+    std::vector<Open> path;
+    const auto open = [&](std::uint32_t index, std::uint64_t code) {
+        path.push_back({&tree.nodes[index], cellMask(tree.nodes[index]), 0, code});
+    };
+    if (!tree.nodes.empty())
+    {
+        open(0, 0);
+    }
+    while (!path.empty())
+    {
+        Open& last = path.back();
+        if (last.rest == 0)
+        {
+            path.pop_back();
+            continue;
+        }
+        const std::uint64_t code = last.code << 6 | static_cast<std::uint64_t>(std::countr_zero(last.rest));
+        last.rest &= last.rest - 1;
+        if (path.size() == tree.levels.size())
+        {
+            what(code);
+        }
+        else
+        {
+            open(tree.child(*last.node, last.rank++), code);
+        }
+    }
+}
+
+std::optional<CellBox> voxelBox(const TreeData& tree)
+{
+    if (tree.nodes.empty())
+    {
+        return std::nullopt;
+    }
+    std::vector<CellBox> below; // of the nodes of the level below, from their corners
+    std::uint32_t edge = 1;     // voxels, of a cell
+    for (std::size_t level = tree.levels.size(); level-- > 0; edge *= 4)
+    {
+        std::vector<CellBox> boxes(tree.levels[level].node_count);
+        for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        {
+            const gpu::Node& node = tree.nodes[tree.levels[level].first_node + i];
+            std::uint32_t rank = 0;
+            for (std::uint64_t rest = cellMask(node); rest != 0; rest &= rest - 1, ++rank)
+            {
+                const auto cell = static_cast<std::uint32_t>(std::countr_zero(rest));
+                const glm::uvec3 corner =
+                    edge * glm::uvec3((cell & 1U) | (cell >> 2 & 2U), (cell >> 1 & 1U) | (cell >> 3 & 2U),
+                                      (cell >> 2 & 1U) | (cell >> 4 & 2U));
+                CellBox inner = {glm::uvec3(0U), glm::uvec3(1U)};
+                if (!below.empty())
+                {
+                    inner = below[tree.child(node, rank) - tree.levels[level + 1].first_node];
+                }
+                boxes[i].min = glm::min(boxes[i].min, corner + inner.min);
+                boxes[i].max = glm::max(boxes[i].max, corner + inner.max);
+            }
+        }
+        below = std::move(boxes);
+    }
+    return below.front();
+}
+
+} // namespace zvo

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/octree.h"
+#include "core/svdag.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace zvo
+{
+
+/// How the nodes of a tree hang together. The values are those of files (docs/file-format.md).
+enum class TreeStructure : std::uint32_t
+{
+    Svo = 1,  ///< each node has its own children, one behind the other
+    Svdag = 2 ///< equal subtrees are one, children stand in lists
+};
+
+/// "svo" or "svdag".
+const char* structureName(TreeStructure structure);
+
+/// A whole octree or DAG in the host's memory: what files hold. Arrays are those of Octree and Svdag, whose layout
+/// shaders/shared/octree.h and svdag.h document; nodes and lists of a DAG's pool are apart.
+struct TreeData
+{
+    TreeStructure structure = TreeStructure::Svo;
+    Grid grid;
+    std::uint32_t voxel_count = 0;
+    std::uint32_t octree_node_count = 0; // of the octree: nodes.size(), unless equal subtrees are one
+    std::uint64_t long_entry_count = 0;  // entries of lists above the parents of leaves
+
+    std::vector<Octree::Level> levels;            // grid.nodeLevels() of them, or none without voxels
+    std::vector<gpu::Node> nodes;                 // the root first
+    std::vector<gpu::uint> lists;                 // [entries] node numbers; a Svdag's
+    std::vector<gpu::BeforeChild> before;         // [long_entry_count] a Svdag's with attributes
+    std::vector<gpu::uint> voxels_before_leaf;    // [ceil((entries - long_entry_count) / 2)] likewise
+    std::vector<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty
+    std::vector<gpu::Attribute> node_attributes;  // [octree_node_count] in the structure's order, or empty
+    std::vector<gpu::uvec2> emission_words;       // [ceil(voxel_count / 32)], or empty where nothing emits
+    std::vector<gpu::uint> emission;              // [emissive voxels]
+    float emission_scale = 1.0F;
+
+    [[nodiscard]] bool hasAttributes() const { return !voxel_attributes.empty(); }
+
+    /// Bytes of nodes, lists and what stands beside the lists; bytes of everything that tells how voxels look.
+    [[nodiscard]] std::uint64_t geometryBytes() const;
+    [[nodiscard]] std::uint64_t attributeBytes() const;
+
+    /// The rank-th child of an inner node, in a tree that checkTree accepts.
+    [[nodiscard]] std::uint32_t child(const gpu::Node& node, std::uint32_t rank) const
+    {
+        return structure == TreeStructure::Svo ? node.base_lo + rank
+                                               : lists[(node.base_lo & ~gpu::kChildList) - firstListWord() + rank];
+    }
+
+    /// The number of the first list's first word in the pool.
+    [[nodiscard]] std::uint64_t firstListWord() const { return nodes.size() * (sizeof(gpu::Node) / sizeof(gpu::uint)); }
+};
+
+/// Which cells of a node are occupied, bit by bit.
+inline std::uint64_t cellMask(const gpu::Node& node)
+{
+    return node.mask_lo | std::uint64_t{node.mask_hi} << 32;
+}
+
+/// Copies an octree, or a DAG, to the host and waits. An octree must have levels, and its nodes must stand as they were
+/// built: not the enlarged one of a dynamic update. Throws Error{Usage} for one that does not.
+TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree);
+TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag);
+
+/// A tree in device memory, whichever structure it has.
+using DeviceTree = std::variant<Octree, Svdag>;
+
+/// Copies a tree that checkTree accepts to the device and waits. Throws Error{Memory} when the device's budget does not
+/// suffice.
+DeviceTree uploadTree(vk::HeadlessDevice& device, const TreeData& tree);
+
+/// Calls what with the Morton code of every voxel, ascending: the i-th call is about voxel i.
+void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t code)>& what);
+
+/// Corners of the smallest box of voxels that encloses all of them: the lowest cell, and the one past the highest.
+/// Nothing without voxels. Cost: nodes.
+struct CellBox
+{
+    glm::uvec3 min{UINT32_MAX};
+    glm::uvec3 max{0U};
+};
+std::optional<CellBox> voxelBox(const TreeData& tree);
+
+} // namespace zvo

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// `.zvo` files: a tree with its attributes, as docs/file-format.md documents them byte by byte. This is the document's
+// counterpart: structs as they stand in the file, little-endian.
+//
+//     ZvoHeader 128 bytes | ZvoSection 48 bytes each | zeros up to 64 | section | zeros up to 64 | section ...
+#pragma once
+
+#include "core/tree_data.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// The first bytes of a file. What transfers of text do to bytes (line ends, the eighth bit, an end at 26) shows here.
+inline constexpr std::array<char, 8> kZvoMagic = {'\x8a', 'Z', 'V', 'O', '\r', '\n', '\x1a', '\n'};
+
+inline constexpr std::uint32_t kZvoByteOrder = 0x01020304U;
+inline constexpr std::uint16_t kZvoVersionMajor = 1; // readers refuse others
+inline constexpr std::uint16_t kZvoVersionMinor = 0; // readers accept others
+inline constexpr std::uint64_t kZvoAlignment = 64;   // of sections, in bytes
+inline constexpr std::uint32_t kZvoSectionsMax = 1024;
+
+/// What sections hold. Ids are never used again.
+enum class ZvoSectionId : std::uint32_t
+{
+    Levels = 1,           ///< number of nodes of each level, 64-bit
+    Nodes = 2,            ///< gpu::Node
+    Lists = 3,            ///< 32-bit
+    Before = 4,           ///< gpu::BeforeChild
+    VoxelsBeforeLeaf = 5, ///< 16-bit, two to a word
+    VoxelAttributes = 6,  ///< as ZvoFormat says
+    NodeAttributes = 7,   ///< as ZvoFormat says
+    EmissionWords = 8,    ///< two 32-bit words for 32 voxels
+    Emission = 9,         ///< RGB9E5
+};
+
+/// The form of a section's elements. Others than Plain are for attributes alone; 2 (4 bytes) and 3 (blocks) are taken.
+enum class ZvoFormat : std::uint32_t
+{
+    Plain = 1, ///< as in device memory; attributes: gpu::Attribute, 8 bytes
+};
+
+/// Flag of a section: who does not know its id or format must refuse the file.
+inline constexpr std::uint32_t kZvoMustUnderstand = 1;
+
+/// Byte 0 of a file.
+struct ZvoHeader
+{
+    std::array<char, 8> magic = kZvoMagic;
+    std::uint32_t byte_order = kZvoByteOrder;
+    std::uint16_t version_major = kZvoVersionMajor;
+    std::uint16_t version_minor = kZvoVersionMinor;
+    std::uint32_t header_bytes = 128;
+    std::uint32_t section_count = 0;
+    std::uint32_t structure = 0; // TreeStructure
+    std::uint32_t reserved_0 = 0;
+    std::uint64_t file_bytes = 0;
+    std::array<float, 3> origin{};
+    float voxel_size = 0;
+    std::uint32_t depth = 0;
+    float emission_scale = 0;
+    std::uint64_t voxel_count = 0;
+    std::uint64_t node_count = 0;        // that are stored
+    std::uint64_t octree_node_count = 0; // before equal subtrees became one
+    std::uint64_t entry_count = 0;
+    std::uint64_t long_entry_count = 0;
+    std::uint64_t reserved_1 = 0;
+    std::uint64_t table_checksum = 0;  // crc64 of the section table
+    std::uint64_t header_checksum = 0; // crc64 of the bytes before
+};
+static_assert(sizeof(ZvoHeader) == 128);
+
+/// One line of the section table.
+struct ZvoSection
+{
+    std::uint32_t id = 0;     // ZvoSectionId, ascending
+    std::uint32_t format = 0; // ZvoFormat
+    std::uint32_t flags = 0;
+    std::uint32_t reserved = 0;
+    std::uint64_t offset = 0; // from the file's first byte
+    std::uint64_t bytes = 0;
+    std::uint64_t count = 0;    // elements
+    std::uint64_t checksum = 0; // crc64
+};
+static_assert(sizeof(ZvoSection) == 48);
+
+/// A section's name in messages and listings; "section N" for those that this version does not know.
+std::string sectionName(std::uint32_t id);
+
+/// What a file holds.
+struct ZvoFile
+{
+    ZvoHeader header;
+    std::vector<ZvoSection> sections;
+    TreeData tree;
+};
+
+/// Whether a file, by its first bytes, or else its name, means to be one of these.
+bool isZvoFile(const std::filesystem::path& path);
+
+/// Reads a file and checks everything in it: sizes, checksums, and the tree (core/tree_check.h). Takes memory only for
+/// what the file has. Throws Error{Input}, one line with the path.
+ZvoFile readZvo(const std::filesystem::path& path);
+
+/// The same for a file that is in memory; name: what messages call it.
+ZvoFile readZvo(std::span<const std::byte> bytes, const std::filesystem::path& name);
+
+/// Hands the bytes of a file to write, piece by piece from the first on. Equal trees give equal bytes.
+void writeZvo(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write);
+
+} // namespace zvo

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "support/tree_samples.h"
+
+#include "oracle/octree_check.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <random>
+#include <utility>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+// What makes subtrees equal: the cells, and what the children are.
+using Subtree = std::pair<std::uint64_t, std::vector<std::uint32_t>>;
+
+// The nodes of one level of a DAG.
+struct DagLevel
+{
+    std::vector<Subtree> nodes;         // children as numbers in their level
+    std::vector<std::uint32_t> classes; // of the octree's nodes of this level
+};
+
+std::vector<DagLevel> dagLevels(const TreeData& octree)
+{
+    std::vector<DagLevel> levels(octree.levels.size());
+    for (std::size_t level = levels.size(); level-- > 0;)
+    {
+        std::map<Subtree, std::uint32_t> known;
+        std::uint32_t child = 0;
+        for (std::uint32_t i = 0; i < octree.levels[level].node_count; ++i)
+        {
+            Subtree subtree = {cellMask(octree.nodes[octree.levels[level].first_node + i]), {}};
+            for (int c = 0; c < std::popcount(subtree.first) && level + 1 < levels.size(); ++c)
+            {
+                subtree.second.push_back(levels[level + 1].classes[child++]);
+            }
+            const auto [entry, is_new] = known.emplace(subtree, static_cast<std::uint32_t>(levels[level].nodes.size()));
+            if (is_new)
+            {
+                levels[level].nodes.push_back(std::move(subtree));
+            }
+            levels[level].classes.push_back(entry->second);
+        }
+    }
+    return levels;
+}
+
+gpu::BeforeChild below(const std::vector<DagLevel>& levels, std::size_t level, std::uint32_t number)
+{
+    const Subtree& subtree = levels[level].nodes[number];
+    if (subtree.second.empty())
+    {
+        return {static_cast<std::uint32_t>(std::popcount(subtree.first)), 1};
+    }
+    gpu::BeforeChild sum = {0, 1};
+    for (const std::uint32_t child : subtree.second)
+    {
+        const gpu::BeforeChild part = below(levels, level + 1, child);
+        sum = {sum.voxels + part.voxels, sum.nodes + part.nodes};
+    }
+    return sum;
+}
+
+// Numbers of an octree's nodes, depth first.
+void listDepthFirst(const TreeData& octree, std::size_t level, std::uint32_t index, std::vector<std::uint32_t>& order)
+{
+    order.push_back(index);
+    const gpu::Node& node = octree.nodes[index];
+    for (std::uint32_t i = 0;
+         level + 1 < octree.levels.size() && i < static_cast<std::uint32_t>(std::popcount(cellMask(node))); ++i)
+    {
+        listDepthFirst(octree, level + 1, node.base_lo + i, order);
+    }
+}
+
+template <typename T> bool sameBytes(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+} // namespace
+
+TreeData octreeOf(std::span<const std::uint64_t> codes, std::uint32_t depth)
+{
+    oracle::ReferenceOctree reference = oracle::referenceOctree(codes, depth);
+    TreeData tree;
+    tree.grid.depth = depth;
+    tree.voxel_count = static_cast<std::uint32_t>(codes.size());
+    tree.octree_node_count = static_cast<std::uint32_t>(reference.nodes.size());
+    for (const oracle::NodeRange& range : reference.levels)
+    {
+        tree.levels.push_back({range.first_node, range.node_count});
+    }
+    tree.nodes = std::move(reference.nodes);
+    return tree;
+}
+
+void addAttributes(TreeData& octree)
+{
+    std::mt19937 random(octree.voxel_count);
+    octree.emission_words.resize((octree.voxel_count + 31) / 32, gpu::uvec2(0));
+    for (std::uint32_t i = 0; i < octree.voxel_count; ++i)
+    {
+        const bool emissive = random() % 7 == 0;
+        const auto color = static_cast<std::uint32_t>(random() & 0xFFFFFF);
+        octree.voxel_attributes.push_back(
+            {color | (emissive ? gpu::kAttributeEmissive << 24 : 0), static_cast<gpu::uint>(random())});
+        octree.emission_words[i / 32].y =
+            i % 32 == 0 ? static_cast<gpu::uint>(octree.emission.size()) : octree.emission_words[i / 32].y;
+        if (emissive)
+        {
+            octree.emission_words[i / 32].x |= 1U << (i % 32);
+            octree.emission.push_back(static_cast<gpu::uint>(random() % (1U << 27)) | 16U << 27);
+        }
+    }
+    for (std::size_t i = 0; i < octree.nodes.size(); ++i)
+    {
+        octree.node_attributes.push_back(
+            {static_cast<gpu::uint>(random() & 0xFFFFFF), static_cast<gpu::uint>(random())});
+    }
+    octree.emission_scale = 2.5F;
+}
+
+TreeData dagOf(const TreeData& octree)
+{
+    TreeData dag = octree;
+    dag.structure = TreeStructure::Svdag;
+    dag.levels.clear();
+    dag.nodes.clear();
+    dag.node_attributes.clear();
+    const std::vector<DagLevel> levels = dagLevels(octree);
+    std::uint32_t node_count = 0;
+    for (const DagLevel& level : levels)
+    {
+        dag.levels.push_back({node_count, static_cast<std::uint32_t>(level.nodes.size())});
+        node_count += dag.levels.back().node_count;
+    }
+    std::vector<std::uint32_t> short_counts;
+    for (std::size_t level = 0; level < levels.size(); ++level)
+    {
+        const bool is_long = level + 2 < levels.size();
+        for (const Subtree& subtree : levels[level].nodes)
+        {
+            const auto mask_lo = static_cast<std::uint32_t>(subtree.first);
+            const auto mask_hi = static_cast<std::uint32_t>(subtree.first >> 32);
+            const auto lower = static_cast<std::uint32_t>(std::popcount(mask_lo));
+            const bool is_leaf = level + 1 == levels.size();
+            const std::uint32_t base =
+                is_leaf ? 0 : gpu::kChildList + 4 * node_count + static_cast<std::uint32_t>(dag.lists.size());
+            dag.nodes.push_back({mask_lo, base, mask_hi, base + lower});
+            gpu::BeforeChild before = {0, 0};
+            for (const std::uint32_t child : subtree.second)
+            {
+                dag.lists.push_back(dag.levels[level + 1].first_node + child);
+                if (is_long)
+                {
+                    dag.before.push_back(before);
+                }
+                else
+                {
+                    short_counts.push_back(before.voxels);
+                }
+                const gpu::BeforeChild part = below(levels, level + 1, child);
+                before = {before.voxels + part.voxels, before.nodes + part.nodes};
+            }
+        }
+    }
+    dag.long_entry_count = dag.before.size();
+    dag.before.resize(octree.hasAttributes() ? dag.before.size() : 0);
+    dag.voxels_before_leaf.resize(octree.hasAttributes() ? (short_counts.size() + 1) / 2 : 0);
+    for (std::size_t i = 0; i < short_counts.size() && octree.hasAttributes(); ++i)
+    {
+        dag.voxels_before_leaf[i / 2] |= short_counts[i] << (i % 2 * 16);
+    }
+    std::vector<std::uint32_t> order;
+    if (octree.hasAttributes())
+    {
+        listDepthFirst(octree, 0, 0, order);
+    }
+    for (const std::uint32_t node : order)
+    {
+        dag.node_attributes.push_back(octree.node_attributes[node]);
+    }
+    return dag;
+}
+
+std::vector<TreeSample> treeSamples()
+{
+    std::vector<TreeSample> samples;
+    const auto add = [&samples](const std::string& name, const std::vector<std::uint64_t>& codes, std::uint32_t depth)
+    {
+        TreeData octree = octreeOf(codes, depth);
+        octree.grid.origin = {-3.5F, 2.0F, 0.125F};
+        octree.grid.voxel_size = 0.1F;
+        samples.push_back({name, octree});
+        samples.push_back({name + "_dag", dagOf(octree)});
+        if (!codes.empty())
+        {
+            addAttributes(octree);
+            samples.push_back({name + "_with_attributes", octree});
+            samples.push_back({name + "_with_attributes_dag", dagOf(octree)});
+        }
+    };
+    add("nothing", {}, 5);
+    add("one_voxel", {0}, 1);
+    add("far_corner", {0777777}, 6);
+    std::vector<std::uint64_t> full(1 << 9);
+    std::iota(full.begin(), full.end(), 0);
+    add("full_8", full, 3);
+    full.resize(1 << 6);
+    add("full_4", full, 2);
+    std::mt19937 random(5);
+    for (const std::uint32_t depth : {1U, 2U, 3U, 4U, 5U, 6U})
+    {
+        std::vector<std::uint64_t> codes(60 * depth);
+        std::generate(codes.begin(), codes.end(), [&] { return random() & ((std::uint64_t{1} << (3 * depth)) - 1); });
+        std::sort(codes.begin(), codes.end());
+        codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+        add("random_" + std::to_string(depth), codes, depth);
+    }
+    std::vector<std::uint64_t> checkers;
+    for (std::uint64_t code = 0; code < 1U << 15; ++code)
+    {
+        if (std::popcount(code & 7) % 2 == 0)
+        {
+            checkers.push_back(code);
+        }
+    }
+    add("checkers", checkers, 5);
+    return samples;
+}
+
+std::string treeDifference(const TreeData& actual, const TreeData& expected)
+{
+    const auto sameLevels = [](const Octree::Level& a, const Octree::Level& b)
+    { return a.first_node == b.first_node && a.node_count == b.node_count; };
+    const std::pair<const char*, bool> parts[] = {
+        {"structure", actual.structure == expected.structure},
+        {"origin", actual.grid.origin == expected.grid.origin},
+        {"voxel size", actual.grid.voxel_size == expected.grid.voxel_size},
+        {"depth", actual.grid.depth == expected.grid.depth},
+        {"voxel count", actual.voxel_count == expected.voxel_count},
+        {"octree node count", actual.octree_node_count == expected.octree_node_count},
+        {"long entry count", actual.long_entry_count == expected.long_entry_count},
+        {"levels", std::equal(actual.levels.begin(), actual.levels.end(), expected.levels.begin(),
+                              expected.levels.end(), sameLevels)},
+        {"nodes", sameBytes(actual.nodes, expected.nodes)},
+        {"lists", actual.lists == expected.lists},
+        {"before", sameBytes(actual.before, expected.before)},
+        {"voxels before leaf", actual.voxels_before_leaf == expected.voxels_before_leaf},
+        {"voxel attributes", sameBytes(actual.voxel_attributes, expected.voxel_attributes)},
+        {"node attributes", sameBytes(actual.node_attributes, expected.node_attributes)},
+        {"emission words", sameBytes(actual.emission_words, expected.emission_words)},
+        {"emission", actual.emission == expected.emission},
+        {"emission scale", actual.emission_scale == expected.emission_scale},
+    };
+    for (const auto& [name, is_same] : parts)
+    {
+        if (!is_same)
+        {
+            return name;
+        }
+    }
+    return "";
+}
+
+} // namespace zvo::test
