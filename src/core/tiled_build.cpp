@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+#include "core/tiled_build.h"
+
+#include "core/octree_build.h"
+#include "core/pipeline.h"
+#include "core/svdag_forest.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kCellBits = 6;      // of a code, for each level of nodes
+constexpr std::uint32_t kTileDepthMin = 4;  // smaller tiles would take no less memory
+constexpr std::uint32_t kVoxelsOfWord = 32; // of the emission table
+
+template <typename T> void append(std::vector<T>& to, const std::vector<T>& from, std::size_t first = 0)
+{
+    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+}
+
+// The cube of a grid with a Morton code.
+glm::uvec3 placeOf(std::uint64_t code)
+{
+    glm::uvec3 place{0};
+    for (std::uint32_t bit = 0; code >> (3 * bit) != 0; ++bit)
+    {
+        for (std::uint32_t axis = 0; axis < 3; ++axis)
+        {
+            place[static_cast<int>(axis)] |= static_cast<std::uint32_t>(code >> (3 * bit + axis) & 1) << bit;
+        }
+    }
+    return place;
+}
+
+// What the voxels of a part of the grid look like.
+class Looks
+{
+public:
+    std::uint64_t voxel_count = 0;
+    std::uint64_t octree_node_count = 0;          // those above the part included
+    std::vector<gpu::Attribute> voxel_attributes; // [voxel_count]
+    std::vector<gpu::Attribute> node_attributes;  // [octree_node_count] depth first
+    std::vector<std::uint32_t> emissive;          // [ceil(voxel_count / 32)] bits, or fewer with zeros behind
+    std::vector<gpu::uint> emission;
+
+    // Adds voxels behind those that there are.
+    void appendVoxels(const Looks& more)
+    {
+        append(voxel_attributes, more.voxel_attributes);
+        append(emission, more.emission);
+        for (std::size_t i = 0; i < more.emissive.size(); ++i)
+        {
+            addBits(voxel_count + i * kVoxelsOfWord, more.emissive[i]);
+        }
+        voxel_count += more.voxel_count;
+    }
+
+private:
+    void addBits(std::uint64_t voxel, std::uint32_t bits)
+    {
+        const std::size_t word = voxel / kVoxelsOfWord;
+        const std::uint64_t shifted = std::uint64_t{bits} << (voxel % kVoxelsOfWord);
+        if (shifted == 0)
+        {
+            return;
+        }
+        emissive.resize(std::max(emissive.size(), word + 2));
+        emissive[word] |= static_cast<std::uint32_t>(shifted);
+        emissive[word + 1] |= static_cast<std::uint32_t>(shifted >> kVoxelsOfWord);
+    }
+};
+
+// The DAG of the whole grid in which a part of it is occupied, and how that looks.
+struct Part
+{
+    Svdag dag; // without attributes
+    Looks looks;
+};
+
+// Tiles of equal depth, ascending: where they stand, and their looks.
+struct Tiles
+{
+    std::vector<std::uint64_t> codes;
+    std::vector<gpu::Attribute> roots;                        // averages of all below
+    std::vector<std::vector<gpu::Attribute>> node_attributes; // depth first, from the tile's root on
+};
+
+class TiledBuilder
+{
+public:
+    TiledBuilder(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, const TiledOptions& options)
+        : m_device(device), m_scene(scene), m_grid(grid), m_options(options)
+    {
+    }
+
+    TiledResult build();
+
+private:
+    std::optional<Part> buildPart(std::uint32_t depth, std::uint64_t code);
+    std::optional<Part> buildWhole(std::uint32_t depth, std::uint64_t code);
+    std::optional<Part> buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth);
+    void orderNodes(const Tiles& tiles, std::size_t top_levels, Looks& looks);
+    Octree topOctree(const Tiles& tiles, std::size_t top_levels);
+
+    vk::HeadlessDevice& m_device;
+    const PlacedScene& m_scene;
+    Grid m_grid;
+    const TiledOptions& m_options;
+    std::optional<VoxelizeCapacities> m_capacities; // that sufficed last
+    TiledResult m_result;
+};
+
+// The largest even depth below that of a cube.
+std::uint32_t depthBelow(std::uint32_t depth)
+{
+    return (depth - 1) / 2 * 2;
+}
+
+// A cube of the grid, (1 << depth)^3 voxels. Nothing without voxels.
+std::optional<Part> TiledBuilder::buildPart(std::uint32_t depth, std::uint64_t code)
+{
+    const std::uint32_t tile_depth = std::min(depthBelow(depth), m_options.tile_depth);
+    if (depth > m_options.tile_depth)
+    {
+        return buildTiles(depth, code, tile_depth);
+    }
+    try
+    {
+        return buildWhole(depth, code);
+    }
+    catch (const Error& error)
+    {
+        const bool may_split = tile_depth >= kTileDepthMin && (m_grid.depth - tile_depth) < 8;
+        if (error.code() != ErrorCode::Memory || !may_split)
+        {
+            throw;
+        }
+    }
+    m_capacities.reset();
+    return buildTiles(depth, code, tile_depth);
+}
+
+std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t code)
+{
+    BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, placeOf(code)},
+                                    {m_options.coverage, m_options.attributes, m_capacities});
+    m_capacities = built.capacities;
+    m_result.dropped = built.dropped;
+    m_result.voxelize_ms += built.stageMs("voxelize");
+    m_result.build_ms += built.stageMs("octree");
+    if (built.octree.node_count == 0)
+    {
+        return std::nullopt;
+    }
+    CompressResult compressed = compress(m_device, std::move(built.octree));
+    m_result.compress_ms += compressed.ms();
+    ++m_result.tile_count;
+    Part part;
+    Octree& tree = compressed.dag.tree;
+    part.looks.voxel_count = tree.voxel_count;
+    part.looks.octree_node_count = compressed.dag.octree_node_count;
+    part.looks.voxel_attributes = m_device.download(tree.voxel_attributes);
+    part.looks.node_attributes = m_device.download(tree.node_attributes);
+    for (const gpu::uvec2& word : m_device.download(tree.emission_words))
+    {
+        part.looks.emissive.push_back(word.x);
+    }
+    part.looks.emission = m_device.download(tree.emission);
+    tree.voxel_attributes = {};
+    tree.node_attributes = {};
+    tree.emission_words = {};
+    tree.emission = {};
+    part.dag = std::move(compressed.dag);
+    return part;
+}
+
+std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth)
+{
+    const std::uint32_t code_bits = 3 * (depth - tile_depth);
+    const std::size_t top_levels = m_grid.nodeLevels() - tile_depth / 2;
+    SvdagForest forest(m_device, m_grid, tile_depth);
+    Part part;
+    Tiles tiles;
+    for (std::uint64_t i = 0; i >> code_bits == 0; ++i)
+    {
+        if (m_options.progress && depth == m_grid.depth)
+        {
+            m_options.progress(static_cast<double>(i) / static_cast<double>(std::uint64_t{1} << code_bits));
+        }
+        const std::uint64_t tile = code << code_bits | i;
+        std::optional<Part> built = buildPart(tile_depth, tile);
+        if (!built)
+        {
+            continue;
+        }
+        Looks& looks = built->looks;
+        tiles.codes.push_back(tile);
+        part.looks.octree_node_count += looks.octree_node_count - top_levels;
+        part.looks.appendVoxels(looks);
+        if (m_options.attributes)
+        {
+            tiles.roots.push_back(looks.node_attributes[top_levels]);
+            looks.node_attributes.erase(looks.node_attributes.begin(),
+                                        looks.node_attributes.begin() + static_cast<std::ptrdiff_t>(top_levels));
+            tiles.node_attributes.push_back(std::move(looks.node_attributes));
+        }
+        forest.add(tile, std::move(built->dag));
+    }
+    if (forest.isEmpty())
+    {
+        return std::nullopt;
+    }
+    part.looks.octree_node_count += forest.topNodeCount();
+    if (part.looks.voxel_count > UINT32_MAX || part.looks.octree_node_count > UINT32_MAX)
+    {
+        throw Error(ErrorCode::Memory, "the scene makes more voxels than 32-bit numbers count; lower the resolution");
+    }
+    if (m_options.attributes)
+    {
+        orderNodes(tiles, top_levels, part.looks);
+    }
+    part.dag = forest.finish(m_options.attributes && depth == m_grid.depth);
+    m_result.compress_ms += forest.ms();
+    return part;
+}
+
+// The nodes above tiles as an octree whose voxels are the tiles.
+Octree TiledBuilder::topOctree(const Tiles& tiles, std::size_t top_levels)
+{
+    std::vector<std::vector<gpu::Node>> levels; // the lowest first
+    std::vector<std::uint64_t> codes = tiles.codes;
+    for (std::size_t level = 0; level < top_levels; ++level)
+    {
+        std::vector<gpu::Node> nodes;
+        std::vector<std::uint64_t> parents;
+        for (std::size_t i = 0; i < codes.size(); ++i)
+        {
+            if (parents.empty() || parents.back() != codes[i] >> kCellBits)
+            {
+                parents.push_back(codes[i] >> kCellBits);
+                nodes.push_back({0, static_cast<std::uint32_t>(i), 0, 0});
+            }
+            const std::uint64_t cell = codes[i] & ((1U << kCellBits) - 1);
+            (cell < 32 ? nodes.back().mask_lo : nodes.back().mask_hi) |= 1U << (cell & 31);
+        }
+        levels.push_back(std::move(nodes));
+        codes = std::move(parents);
+    }
+    std::ranges::reverse(levels);
+    Octree top;
+    top.grid = m_grid;
+    std::vector<gpu::Node> all;
+    for (std::size_t level = 0; level < top_levels; ++level)
+    {
+        const std::size_t first_node = all.size();
+        const bool is_lowest = level + 1 == top_levels;
+        top.levels.push_back(
+            {static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(levels[level].size())});
+        const auto first_child = static_cast<std::uint32_t>(is_lowest ? 0 : first_node + levels[level].size());
+        for (gpu::Node node : levels[level])
+        {
+            node.base_lo += first_child;
+            node.base_hi = node.base_lo + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
+            all.push_back(node);
+        }
+    }
+    top.node_count = static_cast<std::uint32_t>(all.size());
+    top.voxel_count = static_cast<std::uint32_t>(tiles.codes.size());
+    top.nodes = m_device.makeBuffer("octree/nodes", std::span<const gpu::Node>(all));
+    top.voxel_attributes = m_device.makeBuffer("octree/voxel_attributes", std::span(tiles.roots));
+    top.node_attributes = {m_device.device(), "octree/node_attributes", top.node_count};
+    return top;
+}
+
+// looks.node_attributes: those above tiles, averaged as in an octree, and those of tiles, all depth first.
+void TiledBuilder::orderNodes(const Tiles& tiles, std::size_t top_levels, Looks& looks)
+{
+    Octree top = topOctree(tiles, top_levels);
+    m_device.run([&](vk::FrameGraph& graph) { averageNodes(graph, m_scene.uploaded(), top); });
+    const std::vector<gpu::Attribute> averages = m_device.download(top.node_attributes);
+    looks.node_attributes.reserve(looks.octree_node_count);
+    std::vector<std::uint32_t> next(top_levels); // node of each level that comes next
+    for (std::size_t level = 0; level < top_levels; ++level)
+    {
+        next[level] = top.levels[level].first_node;
+    }
+    for (std::size_t tile = 0; tile < tiles.codes.size(); ++tile)
+    {
+        // Nodes above that begin with this tile come before it, the highest first.
+        for (std::size_t level = 0; level < top_levels; ++level)
+        {
+            const auto shift = static_cast<std::uint32_t>(kCellBits * (top_levels - level));
+            if (tile == 0 || tiles.codes[tile] >> shift != tiles.codes[tile - 1] >> shift)
+            {
+                looks.node_attributes.push_back(averages[next[level]++]);
+            }
+        }
+        append(looks.node_attributes, tiles.node_attributes[tile]);
+    }
+}
+
+TiledResult TiledBuilder::build()
+{
+    std::optional<Part> part = buildPart(m_grid.depth, 0);
+    TreeData& tree = m_result.tree;
+    if (!part)
+    {
+        part.emplace();
+        part->dag.tree.grid = m_grid;
+    }
+    Looks& looks = part->looks;
+    part->dag.tree.voxel_count = static_cast<std::uint32_t>(looks.voxel_count);
+    part->dag.octree_node_count = static_cast<std::uint32_t>(looks.octree_node_count);
+    tree = downloadTree(m_device, part->dag);
+    tree.voxel_attributes = std::move(looks.voxel_attributes);
+    tree.node_attributes = std::move(looks.node_attributes);
+    tree.emission = std::move(looks.emission);
+    if (m_options.attributes && looks.voxel_count != 0 && m_scene.uploaded().emission_scale > 0)
+    {
+        tree.emission_scale = m_scene.uploaded().emission_scale;
+    }
+    if (!tree.emission.empty())
+    {
+        looks.emissive.resize((looks.voxel_count + kVoxelsOfWord - 1) / kVoxelsOfWord);
+        std::uint32_t rank = 0;
+        for (const std::uint32_t bits : looks.emissive)
+        {
+            tree.emission_words.push_back({bits, rank});
+            rank += static_cast<std::uint32_t>(std::popcount(bits));
+        }
+    }
+    return std::move(m_result);
+}
+
+} // namespace
+
+TiledResult buildByTiles(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
+                         const TiledOptions& options)
+{
+    if (options.tile_depth < kTileDepthMin || options.tile_depth % 2 != 0)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("tiles of depth {}: an even number from {} on", options.tile_depth, kTileDepthMin));
+    }
+    return TiledBuilder(device, scene, grid, options).build();
+}
+
+} // namespace zvo

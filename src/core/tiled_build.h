@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/coverage.h"
+#include "core/grid.h"
+#include "core/mover.h"
+#include "core/tree_data.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+namespace zvo
+{
+
+/// How buildByTiles works.
+struct TiledOptions
+{
+    Coverage coverage = Coverage::Thin;
+    bool attributes = true;
+
+    /// Of the largest tiles: (1 << tile_depth)^3 voxels, an even number. Depths of the grid that are not above it are
+    /// built whole.
+    std::uint32_t tile_depth = 12;
+
+    std::function<void(double done)> progress = nullptr; // told now and then: the part of the grid that is done
+};
+
+/// A DAG and how it came about.
+struct TiledResult
+{
+    TreeData tree;                                // a Svdag
+    std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
+    std::uint32_t tile_count = 0;                 // that were built on their own and have voxels
+    double voxelize_ms = 0;                       // GPU time
+    double build_ms = 0;
+    double compress_ms = 0;
+};
+
+/// Makes the DAG of a scene with device memory for a part of it at a time: tiles are voxelized, built and compressed
+/// one by one, in Morton order, and merged into one DAG; what voxels look like goes to the host's memory. Where the
+/// device's budget does not suffice for a tile, it is taken in 64 parts, and so on. The result is, byte for byte, what
+/// buildOctree and compress make of the whole grid. Throws Error{Memory} when the budget does not suffice for the
+/// smallest tiles or for the DAG, and as buildOctree.
+TiledResult buildByTiles(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
+                         const TiledOptions& options);
+
+} // namespace zvo

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// A DAG that was built tile by tile is the DAG of the whole: nodes, lists, attributes, averages, emission.
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/svdag.h"
+#include "core/tiled_build.h"
+#include "support/device.h"
+#include "support/materials_scene.h"
+#include "support/scenes.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+template <typename T> void expectSame(const std::vector<T>& a, const std::vector<T>& b, const char* what)
+{
+    ASSERT_EQ(a.size(), b.size()) << what;
+    EXPECT_TRUE(a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0) << what;
+}
+
+void expectSame(const TreeData& a, const TreeData& b)
+{
+    EXPECT_EQ(a.structure, b.structure);
+    EXPECT_EQ(a.grid.depth, b.grid.depth);
+    EXPECT_EQ(a.grid.origin, b.grid.origin);
+    EXPECT_EQ(a.voxel_count, b.voxel_count);
+    EXPECT_EQ(a.octree_node_count, b.octree_node_count);
+    EXPECT_EQ(a.long_entry_count, b.long_entry_count);
+    EXPECT_EQ(a.emission_scale, b.emission_scale);
+    expectSame(a.nodes, b.nodes, "nodes");
+    expectSame(a.lists, b.lists, "lists");
+    expectSame(a.before, b.before, "before");
+    expectSame(a.voxels_before_leaf, b.voxels_before_leaf, "voxels before leaves");
+    expectSame(a.voxel_attributes, b.voxel_attributes, "attributes of voxels");
+    expectSame(a.node_attributes, b.node_attributes, "attributes of nodes");
+    expectSame(a.emission_words, b.emission_words, "emission words");
+    expectSame(a.emission, b.emission, "emission");
+}
+
+TreeData wholeDag(vk::HeadlessDevice& on, const GpuScene& scene, const Grid& grid, bool attributes)
+{
+    BuildResult built = buildOctree(on, scene, grid, {Coverage::Thin, attributes, {}});
+    return downloadTree(on, compress(on, std::move(built.octree)).dag);
+}
+
+TEST(TiledBuild, IsTheWholeWhateverTheTiles)
+{
+    const Scene scene = test::materialsScene(1.0F);
+    const GpuScene uploaded = uploadScene(device(), scene, true);
+    for (const std::uint32_t depth : {6U, 7U})
+    {
+        const Grid grid = Grid::around(scene.bounds(), depth);
+        for (const bool attributes : {true, false})
+        {
+            const TreeData expected = wholeDag(device(), uploaded, grid, attributes);
+            ASSERT_GT(expected.voxel_count, 1000U);
+            EXPECT_EQ(expected.emission.empty(), !attributes);
+            for (const std::uint32_t tile_depth : {4U, 6U, 12U})
+            {
+                double last = -1;
+                TiledOptions options = {Coverage::Thin, attributes, tile_depth,
+                                        [&](double done)
+                                        {
+                                            EXPECT_GT(done, last);
+                                            EXPECT_LT(done, 1.0);
+                                            last = done;
+                                        }};
+                const TiledResult tiled = buildByTiles(device(), uploaded, grid, options);
+                expectSame(tiled.tree, expected);
+                EXPECT_EQ(tiled.tile_count > 1, tile_depth < depth);
+                EXPECT_EQ(last >= 0, tile_depth < depth);
+            }
+        }
+    }
+}
+
+// Memory for no more than a part of the grid: tiles are split until they fit.
+TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
+{
+    const Scene scene = test::sphereScene({0, 0, 0}, 1.0F, 48);
+    const Grid grid = Grid::around(scene.bounds(), 10);
+    const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, true);
+
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.memory_budget_bytes = 64ULL << 20;
+    vk::HeadlessDevice small(options, zvoKernels());
+    const GpuScene uploaded = uploadScene(small, scene, true);
+    EXPECT_THROW(wholeDag(small, uploaded, grid, true), Error);
+    const TiledResult tiled = buildByTiles(small, uploaded, grid, {});
+    expectSame(tiled.tree, expected);
+    EXPECT_GT(tiled.tile_count, 8U);
+    EXPECT_LE(small.device().memory().peakBytes(), options.memory_budget_bytes);
+}
+
+TEST(TiledBuild, OfNothingIsEmpty)
+{
+    const GpuScene uploaded = uploadScene(device(), Scene{}, true);
+    const TiledResult tiled = buildByTiles(device(), uploaded, {glm::vec3(0.0F), 1.0F, 8}, {Coverage::Thin, true, 6});
+    EXPECT_EQ(tiled.tile_count, 0U);
+    EXPECT_EQ(tiled.tree.voxel_count, 0U);
+    EXPECT_TRUE(tiled.tree.nodes.empty());
+}
+
+TEST(TiledBuild, NeedsTilesThatAreNodes)
+{
+    const GpuScene uploaded = uploadScene(device(), Scene{}, false);
+    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, false, 5}), Error);
+    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, false, 2}), Error);
+}
+
+} // namespace
+} // namespace zvo
