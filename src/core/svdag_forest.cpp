@@ -183,7 +183,7 @@ std::uint64_t SvdagForest::topNodeCount() const
 }
 
 // All parts in one pool, below common nodes; equal nodes stand as often as before.
-SvdagForest::Part SvdagForest::joined() const
+SvdagForest::Part SvdagForest::joined()
 {
     const std::size_t level_count = m_grid.nodeLevels();
     Part all;
@@ -249,7 +249,7 @@ SvdagForest::Part SvdagForest::joined() const
     tree.nodes = {m_device.device(), "svdag/forest", pool_nodes};
     m_device.upload(tree.nodes, std::span<const gpu::Node>(top.nodes));
     m_device.upload(tree.nodes, std::span<const gpu::Node>(asNodes(std::move(top.lists))), node_count);
-    m_device.run(
+    const std::vector<vk::PassTime> passes = m_device.run(
         [&](vk::FrameGraph& graph)
         {
             for (std::size_t i = 0; i < m_parts.size(); ++i)
@@ -260,6 +260,7 @@ SvdagForest::Part SvdagForest::joined() const
                 }
             }
         });
+    m_passes.insert(m_passes.end(), passes.begin(), passes.end());
     return all;
 }
 
@@ -297,7 +298,7 @@ void SvdagForest::merge(bool ranks)
     Part all = joined();
     m_parts.clear();
     CompressResult result = compress(m_device, std::move(all.dag), {.table_slots = 0, .ranks = ranks});
-    m_ms += result.ms();
+    m_passes.insert(m_passes.end(), result.passes.begin(), result.passes.end());
     all.dag = std::move(result.dag);
     learnRoots(all);
     m_parts.push_back(std::move(all));

@@ -34,8 +34,8 @@ public:
     /// Nodes above the tiles' roots, in all tiles' octree.
     [[nodiscard]] std::uint64_t topNodeCount() const;
 
-    /// GPU time of merging so far.
-    [[nodiscard]] double ms() const { return m_ms; }
+    /// Of merging so far.
+    [[nodiscard]] const std::vector<vk::PassTime>& passes() const { return m_passes; }
 
 private:
     struct Tile
@@ -51,14 +51,14 @@ private:
     };
 
     void merge(bool ranks);
-    [[nodiscard]] Part joined() const;
+    [[nodiscard]] Part joined();
     void learnRoots(Part& part) const;
 
     vk::HeadlessDevice& m_device;
     Grid m_grid;
     std::size_t m_top_levels; // of nodes above the tiles' roots
     std::vector<Part> m_parts;
-    double m_ms = 0;
+    std::vector<vk::PassTime> m_passes;
 };
 
 } // namespace zvo

@@ -231,7 +231,10 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
         orderNodes(tiles, top_levels, part.looks);
     }
     part.dag = forest.finish(m_options.attributes && depth == m_grid.depth);
-    m_result.compress_ms += forest.ms();
+    for (const vk::PassTime& pass : forest.passes())
+    {
+        m_result.compress_ms += pass.ms;
+    }
     return part;
 }
 

@@ -69,6 +69,10 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
             EXPECT_EQ(expected.emission.empty(), !attributes);
             for (const std::uint32_t tile_depth : {4U, 6U, 12U})
             {
+                if (!attributes && tile_depth == 4)
+                {
+                    continue; // many tiles: once is enough
+                }
                 double last = -1;
                 TiledOptions options = {Coverage::Thin, attributes, tile_depth,
                                         [&](double done)
@@ -86,22 +90,26 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
     }
 }
 
-// Memory for no more than a part of the grid: tiles are split until they fit.
+// Memory for no more than a part of the grid, or a part of a part: tiles are split until they fit.
 TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
 {
     const Scene scene = test::sphereScene({0, 0, 0}, 1.0F, 48);
-    const Grid grid = Grid::around(scene.bounds(), 10);
+    const Grid grid = Grid::around(scene.bounds(), 9);
     const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, true);
-
-    vk::HeadlessOptions options = test::deviceOptions();
-    options.memory_budget_bytes = 64ULL << 20;
-    vk::HeadlessDevice small(options, zvoKernels());
-    const GpuScene uploaded = uploadScene(small, scene, true);
-    EXPECT_THROW(wholeDag(small, uploaded, grid, true), Error);
-    const TiledResult tiled = buildByTiles(small, uploaded, grid, {});
-    expectSame(tiled.tree, expected);
-    EXPECT_GT(tiled.tile_count, 8U);
-    EXPECT_LE(small.device().memory().peakBytes(), options.memory_budget_bytes);
+    std::uint32_t tile_count = 1;
+    for (const std::uint64_t budget : {18ULL << 20, 12ULL << 20})
+    {
+        vk::HeadlessOptions options = test::deviceOptions();
+        options.memory_budget_bytes = budget;
+        vk::HeadlessDevice small(options, zvoKernels());
+        const GpuScene uploaded = uploadScene(small, scene, true);
+        EXPECT_THROW(wholeDag(small, uploaded, grid, true), Error);
+        const TiledResult tiled = buildByTiles(small, uploaded, grid, {});
+        expectSame(tiled.tree, expected);
+        EXPECT_GT(tiled.tile_count, tile_count);
+        EXPECT_LE(small.device().memory().peakBytes(), budget);
+        tile_count = tiled.tile_count;
+    }
 }
 
 TEST(TiledBuild, OfNothingIsEmpty)

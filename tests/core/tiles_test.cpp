@@ -5,6 +5,7 @@
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/morton_place.h"
+#include "support/scenes.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -103,6 +104,20 @@ TEST_P(Tiles, OfLargeTrianglesMakeTheWhole)
     const Scene scene = test::materialsScene(100.0F, 3);
     const Grid grid = {glm::vec3(-10.0F, 5.0F, 0.25F), 90.0F / 1024, 10};
     expectTilesMakeTheWhole(scene, grid, 9, GetParam());
+}
+
+// Triangles without area have no major axis: which one is taken depends on what the window leaves of their boxes.
+TEST_P(Tiles, OfSegmentsAndPointsMakeTheWhole)
+{
+    std::vector<glm::vec3> corners;
+    for (int i = 0; i < 60; ++i)
+    {
+        const glm::vec3 a(i * 7 % 61, i * 11 % 59, i * 13 % 53);
+        const glm::vec3 b(i * 17 % 63, i * 5 % 57, i % 3 == 0 ? a.z : static_cast<float>(i * 23 % 47));
+        corners.insert(corners.end(), {a, i % 5 == 0 ? a : b, 0.5F * (a + b)});
+        corners.insert(corners.end(), {a, a + glm::vec3(0.4F, 0.0F, 0.1F), b}); // some with area, for both coverages
+    }
+    expectTilesMakeTheWhole(test::triangleSoup(corners), {glm::vec3(-1.0F), 1.0F, 6}, 4, GetParam());
 }
 
 // A root node of which only an octant is the grid, and tiles that are not whole nodes.

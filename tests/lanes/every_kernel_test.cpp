@@ -8,6 +8,7 @@
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"
+#include "core/svdag_forest.h"
 #include "core/trace.h"
 #include "oracle/voxelizer.h"
 #include "support/dag_compare.h"
@@ -18,7 +19,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <span>
 #include <string>
 
 namespace zvo
@@ -212,6 +215,29 @@ Names compressOctree(Octree octree)
     return names;
 }
 
+// The same DAG, joined of eight tiles.
+Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const Octree& octree)
+{
+    const std::uint32_t tile_depth = grid.depth - 1;
+    SvdagForest forest(device(), grid, tile_depth);
+    for (std::uint32_t code = 0; code < 8; ++code)
+    {
+        const GridTile tile(grid, tile_depth, {code & 1, code >> 1 & 1, code >> 2});
+        BuildResult built = buildOctree(device(), scene, tile, {coverage, false, {}});
+        if (built.octree.node_count != 0)
+        {
+            forest.add(code, std::move(compress(device(), std::move(built.octree)).dag));
+        }
+    }
+    const std::vector<gpu::Node> pool = device().download(forest.finish(true).tree.nodes);
+    const std::vector<gpu::Node> expected = device().download(test::svdagOf(device(), octree).tree.nodes);
+    EXPECT_EQ(pool.size(), expected.size());
+    EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(pool)), std::as_bytes(std::span(expected))));
+    Names names;
+    addNames(names, forest.passes());
+    return names;
+}
+
 TEST(EveryKernel, RunsOnASmallScene)
 {
     const Scene scene = smallScene();
@@ -238,6 +264,10 @@ TEST(EveryKernel, RunsOnASmallScene)
             names.merge(mergeMovers(scene, grid, c.coverage));
             names.merge(tracePictures(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
+        }
+        if (c.depth == 7)
+        {
+            names.merge(joinTiles(gpu_scene, grid, c.coverage, built.octree));
         }
         names.merge(compressOctree(std::move(built.octree)));
     }
