@@ -30,5 +30,5 @@ void main()
         hash.y = (hash.y ^ child_class) * 0x01000193u;
         hash.y ^= hash.y >> 15;
     }
-    params.hashes.data[index] = hash;
+    params.hashes.data[index] = hash & params.hash_mask;
 }

@@ -33,6 +33,7 @@ struct ClassHashParams // push constants of svdag/hash
     GPU_PTR(uvec2) hashes;       // [node_count]
     uint first_node;
     uint node_count;
+    uint hash_mask; // bits of both halves of a hash that are kept
 };
 
 struct ClassInsertParams // push constants of svdag/insert

@@ -20,6 +20,7 @@ namespace
 {
 
 constexpr std::uint64_t kSlotsMax = UINT32_MAX;          // of all levels: kernels count in 32 bits
+constexpr std::uint64_t kSlotsPerNodeMax = 16;           // with more, only equal hashes fill 256 slots in a row
 constexpr std::uint64_t kPoolWordsMax = gpu::kChildList; // what the base of a list names
 constexpr std::uint64_t kNodeWords = sizeof(gpu::Node) / sizeof(gpu::uint);
 
@@ -41,46 +42,56 @@ struct Classes
     gpu::ClassSizes sizes;
 };
 
+void requireCountable(std::span<const std::uint64_t> slot_counts)
+{
+    const std::uint64_t slots = std::reduce(slot_counts.begin(), slot_counts.end());
+    if (slots > kSlotsMax)
+    {
+        throw Error(ErrorCode::Memory, fmt::format("the table of equal nodes takes {} slots, but {} can be told apart; "
+                                                   "lower the resolution",
+                                                   slots, kSlotsMax));
+    }
+}
+
 // Grows the tables of levels that had too few slots. False: there were none.
-bool growSlots(const gpu::ClassSizes& sizes, std::vector<std::uint64_t>& slot_counts)
+bool growSlots(const Candidates& candidates, const gpu::ClassSizes& sizes, std::vector<std::uint64_t>& slot_counts)
 {
     bool grown = false;
     for (std::size_t level = 0; level < slot_counts.size(); ++level)
     {
-        if (sizes.overflow_counts[level] != 0)
+        if (sizes.overflow_counts[level] == 0)
         {
-            slot_counts[level] *= 4;
-            grown = true;
+            continue;
         }
+        if (slot_counts[level] > kSlotsPerNodeMax * candidates.levels()[level].node_count)
+        {
+            throw Error(ErrorCode::Other, fmt::format("more than {} different nodes of level {} have the same hash",
+                                                      gpu::kClassProbesMax, level));
+        }
+        slot_counts[level] *= 4;
+        grown = true;
     }
     return grown;
-}
-
-[[noreturn]] void throwNoTable(std::span<const std::uint64_t> slot_counts)
-{
-    throw Error(ErrorCode::Memory, fmt::format("no table of classes was large enough (last: one of {} slots in all)",
-                                               std::reduce(slot_counts.begin(), slot_counts.end())));
 }
 
 Classes classify(vk::HeadlessDevice& device, const Candidates& candidates, const CompressOptions& options,
                  CompressResult& result)
 {
     std::vector<std::uint64_t> slot_counts = classSlots(candidates, options.table_slots);
-    while (std::reduce(slot_counts.begin(), slot_counts.end()) <= kSlotsMax)
+    for (;; ++result.retry_count)
     {
+        requireCountable(slot_counts);
         device.device().memory().require(ClassBuffers::bytes(candidates, slot_counts), "finding equal nodes");
-        Classes classes{{device.device(), candidates, slot_counts}, {}};
+        ClassBuffers buffers(device.device(), candidates, slot_counts);
         std::vector<vk::PassTime> passes =
-            device.run([&](vk::FrameGraph& graph) { findClasses(graph, candidates, slot_counts, classes.buffers); });
-        classes.sizes = device.download(classes.buffers.sizes).front();
-        if (!growSlots(classes.sizes, slot_counts))
+            device.run([&](vk::FrameGraph& graph) { findClasses(graph, candidates, slot_counts, buffers); });
+        const gpu::ClassSizes sizes = device.download(buffers.sizes).front();
+        if (!growSlots(candidates, sizes, slot_counts))
         {
             append(result.passes, std::move(passes));
-            return classes;
+            return {std::move(buffers), sizes};
         }
-        ++result.retry_count;
     }
-    throwNoTable(slot_counts);
 }
 
 // Sizes dag from what the classes came to.
@@ -244,8 +255,8 @@ CompressResult compress(vk::HeadlessDevice& device, Octree octree, const Compres
     dag.octree_node_count = octree.node_count;
     if (octree.node_count != 0)
     {
-        Classes classes =
-            compressNodes(device, {octree, false}, octree.hasAttributes() || options.ranks, options, result);
+        Classes classes = compressNodes(device, {octree, false, options.hash_mask},
+                                        octree.hasAttributes() || options.ranks, options, result);
         classes.buffers.table = {};
         if (octree.levels.size() < 2) // one node
         {
@@ -269,7 +280,8 @@ CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOpt
     result.dag.octree_node_count = dag.octree_node_count;
     if (dag.tree.node_count != 0)
     {
-        compressNodes(device, {dag.tree, true}, dag.tree.hasAttributes() || options.ranks, options, result);
+        compressNodes(device, {dag.tree, true, options.hash_mask}, dag.tree.hasAttributes() || options.ranks, options,
+                      result);
     }
     moveVoxels(dag.tree, result.dag.tree);
     result.dag.tree.node_attributes = std::move(dag.tree.node_attributes);

@@ -37,6 +37,7 @@ struct CompressOptions
 {
     std::uint64_t table_slots = 0; // of each level's table of classes at first; 0: as many as are likely to suffice
     bool ranks = false;            // before and voxels_before_leaf even without attributes
+    std::uint32_t hash_mask = UINT32_MAX; // of inner nodes' hashes. For tests: with fewer bits, different nodes collide
 };
 
 /// A DAG and how it came about.
@@ -55,7 +56,8 @@ struct CompressResult
 /// U. Assarsson, High Resolution Sparse Voxel DAGs, 2013; by hash tables in place of sorting). Voxels keep their
 /// attributes; those of nodes are put in depth-first order. An octree without nodes gives a DAG without. Waits to
 /// learn sizes; where a table turns out too small it grows, and the run is repeated. Throws Error{Memory} when the
-/// device's budget does not suffice, or for nodes and lists of 2^31 words and more. Cost: nodes of the octree.
+/// device's budget does not suffice, or for nodes and lists of 2^31 words and more, and Error{Other} should the hashes
+/// of hundreds of different nodes be equal. Cost: nodes of the octree.
 CompressResult compress(vk::HeadlessDevice& device, Octree octree, const CompressOptions& options = {});
 
 /// The same for a DAG in which equal nodes stand several times, such as several DAGs below common nodes. Nodes of a

@@ -57,6 +57,7 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
         params.hashes = pass.write(buffers.hashes);
         params.first_node = first_node;
         params.node_count = node_count;
+        params.hash_mask = candidates.hash_mask;
         pass.dispatch(node_count, params);
     }
     {

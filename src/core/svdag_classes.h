@@ -17,7 +17,8 @@ namespace zvo
 struct Candidates
 {
     const Octree& tree;
-    bool listed = false; // some have lists of children
+    bool listed = false;                  // some have lists of children
+    std::uint32_t hash_mask = UINT32_MAX; // CompressOptions::hash_mask
 
     [[nodiscard]] const std::vector<Octree::Level>& levels() const { return tree.levels; }
     [[nodiscard]] std::uint32_t count() const { return tree.node_count; }
