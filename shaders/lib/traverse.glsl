@@ -236,8 +236,12 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         uint around_node = around_shift == shift ? node : savedNode(around_shift);
 
         if (kLists)
-            if (occupied && (child & kChildList) != 0u)
-                child = loadListed(child & ~kChildList);
+        {
+            // Loaded by every ray, needed or not: on lavapipe, a load that some lanes skip costs more.
+            bool listed = occupied && int(child) < 0;
+            uint named = loadListed(listed ? child & ~kChildList : 0u);
+            child = listed ? named : child;
+        }
 
         // Down, or on.
         if (kStack != kStackRegisters && occupied)
