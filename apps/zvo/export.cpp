@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "export.h"
 
-#include "core/pipeline.h"
 #include "morton.h"
 
 #include <fmt/format.h>
@@ -20,19 +19,17 @@ namespace
 
 static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
 
-constexpr std::size_t kPieceVoxels = std::size_t{1} << 16; // converted and written at a time
-
 glm::vec3 voxelCentre(const Grid& grid, std::uint64_t code)
 {
     return glm::vec3(glm::dvec3(grid.origin) + (glm::dvec3(cellOf(code)) + 0.5) * double{grid.voxel_size});
 }
 
-std::string plyHeader(const Octree& octree)
+std::string plyHeader(const TreeData& tree)
 {
     std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
                                      "property float x\nproperty float y\nproperty float z\n",
-                                     octree.voxel_count);
-    if (octree.hasAttributes())
+                                     tree.voxel_count);
+    if (tree.hasAttributes())
     {
         header += "property float nx\nproperty float ny\nproperty float nz\n"
                   "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -55,38 +52,66 @@ void appendAttribute(std::vector<std::byte>& bytes, const gpu::Attribute& attrib
     }
 }
 
+// Hands on what was collected, in pieces.
+class Pieces
+{
+public:
+    explicit Pieces(Output& output) : m_output(output) {}
+
+    std::vector<std::byte>& bytes() { return m_bytes; }
+
+    void endVoxel()
+    {
+        if (m_bytes.size() >= kPieceBytes)
+        {
+            flush();
+        }
+    }
+
+    void flush()
+    {
+        m_output.write(m_bytes);
+        m_bytes.clear();
+    }
+
+private:
+    static constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+
+    Output& m_output;
+    std::vector<std::byte> m_bytes;
+};
+
 } // namespace
 
-void writeMorton(vk::HeadlessDevice& device, const Octree& octree, Output& output)
+void writeMorton(const TreeData& tree, Output& output)
 {
-    const std::vector<std::uint64_t> codes = voxelCodes(device, octree);
-    output.write(std::as_bytes(std::span(codes)));
+    Pieces pieces(output);
+    forEachVoxel(tree,
+                 [&pieces](std::uint64_t code)
+                 {
+                     append(pieces.bytes(), code);
+                     pieces.endVoxel();
+                 });
+    pieces.flush();
 }
 
-void writePly(vk::HeadlessDevice& device, const Octree& octree, Output& output)
+void writePly(const TreeData& tree, Output& output)
 {
-    const std::vector<std::uint64_t> codes = voxelCodes(device, octree);
-    output.write(plyHeader(octree));
-    std::vector<gpu::Attribute> attributes;
-    std::vector<std::byte> bytes;
-    for (std::size_t first = 0; first < codes.size(); first += kPieceVoxels)
-    {
-        const std::size_t count = std::min(kPieceVoxels, codes.size() - first);
-        if (octree.hasAttributes())
-        {
-            attributes = device.download(octree.voxel_attributes, first, count);
-        }
-        bytes.clear();
-        for (std::size_t i = 0; i < count; ++i)
-        {
-            append(bytes, voxelCentre(octree.grid, codes[first + i]));
-            if (octree.hasAttributes())
-            {
-                appendAttribute(bytes, attributes[i]);
-            }
-        }
-        output.write(bytes);
-    }
+    output.write(plyHeader(tree));
+    Pieces pieces(output);
+    std::size_t voxel = 0;
+    forEachVoxel(tree,
+                 [&](std::uint64_t code)
+                 {
+                     append(pieces.bytes(), voxelCentre(tree.grid, code));
+                     if (tree.hasAttributes())
+                     {
+                         appendAttribute(pieces.bytes(), tree.voxel_attributes[voxel]);
+                     }
+                     ++voxel;
+                     pieces.endVoxel();
+                 });
+    pieces.flush();
 }
 
 glm::vec3 decodeNormal(std::uint32_t code)

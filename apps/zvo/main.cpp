@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // zvo: the command line program. Standard output is data, standard error is talk.
 #include "bench.h"
+#include "build.h"
+#include "convert.h"
 #include "core/atomic_file.h"
 #include "info.h"
+#include "inspect.h"
 #include "options.h"
 #include "output.h"
 #include "progress.h"
@@ -55,6 +58,10 @@ struct Run
     void operator()(const std::string& text) const { Output("-", true).write(text); }
     void operator()(const RenderOptions& options) const { render(options); }
     void operator()(const VoxelizeOptions& options) const { voxelize(options); }
+    void operator()(const BuildFileOptions& options) const { buildFile(options); }
+    void operator()(const InspectOptions& options) const { inspect(options); }
+    void operator()(const ValidateOptions& options) const { validate(options); }
+    void operator()(const ConvertOptions& options) const { convert(options); }
     void operator()(const InfoOptions& options) const { info(options); }
     void operator()(const BenchOptions& options) const { bench(options); }
 };

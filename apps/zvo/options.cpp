@@ -24,6 +24,7 @@ constexpr const char* kMainFooter = R"(
 Examples:
   zvo render scenes/atrium.glb -o atrium.png
   zvo voxelize bunny.glb --resolution 256 -o bunny.ply
+  zvo build bunny.glb --resolution 2048 -o bunny.zvo
   zvo info
   zvo bench --scenes ../models --resolutions 256,512
 
@@ -37,6 +38,7 @@ Examples:
   zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60 --occlusion 16
   zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f
   zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119
+  zvo render bunny.zvo -o bunny.png
   zvo render scenes/sponza_bunny.scene.json -o later.png --scenes ../models --time 1.5)";
 
 constexpr const char* kVoxelizeFooter = R"(
@@ -49,6 +51,32 @@ Examples:
   zvo voxelize part.stl -o part.ply --up z --scale 0.001
   zvo voxelize part.glb -o part.ply --bounds=-1,-1,-1,1,1,1
   zvo voxelize part.glb -o - --format morton --attributes none | sha256sum)";
+
+constexpr const char* kBuildFooter = R"(
+A .zvo file holds the tree with its attributes: docs/file-format.md. zvo render shows it, zvo inspect tells what is
+in it, zvo convert makes other files of it.
+
+Examples:
+  zvo build bunny.glb -o bunny.zvo --resolution 2048
+  zvo build town.glb -o town.zvo --resolution 8192 --attributes none --memory-limit 2G)";
+
+constexpr const char* kInspectFooter = R"(
+Everything in the file is checked first. Beside the bytes of this file stand those that other trees of the same voxels
+take, with nodes of 2x2x2 cells: an octree with 36 bytes a node, and a DAG with 68 bytes a node.
+
+Examples:
+  zvo inspect bunny.zvo
+  zvo inspect bunny.zvo --json | jq .geometry_bytes_per_voxel)";
+
+constexpr const char* kConvertFooter = R"(
+.zvo files hold trees with attributes (docs/file-format.md); .vox files are those of MagicaVoxel, with 255 colours;
+.ply files hold voxel centres as points; .morton files sorted Morton codes; .glb files a mesh of the voxels' faces with
+vertex colours.
+
+Examples:
+  zvo convert bunny.zvo -o bunny.glb
+  zvo convert castle.vox -o castle.zvo
+  zvo convert bunny.zvo -o - --format morton | sha256sum)";
 
 constexpr const char* kInfoFooter = R"(
 Examples:
@@ -129,12 +157,22 @@ void addDeviceOptions(CLI::App& app, DeviceOptions& options)
         ->group("Device");
 }
 
-void addCoverageOptions(CLI::App& app, Coverage& coverage, bool& attributes)
+void addCoverageOption(CLI::App& app, Coverage& coverage)
 {
     addValue(app, "--coverage", coverage, parseCoverage, "thin|conservative",
              "which voxels a triangle covers: a gap-free layer, or all that it touches (default thin)");
+}
+
+void addAttributesOption(CLI::App& app, bool& attributes)
+{
     addValue(app, "--attributes", attributes, parseAttributes, "full|none",
              "colour, normal and emission of the voxels, or only their places (default full)");
+}
+
+void addStructureOption(CLI::App& app, TreeStructure& structure)
+{
+    addValue(app, "--structure", structure, parseStructure, "svo|svdag",
+             "an octree, or a DAG, which has equal subtrees once (default svdag)");
 }
 
 void addLoadOptions(CLI::App& app, LoadOptions& options)
@@ -145,11 +183,12 @@ void addLoadOptions(CLI::App& app, LoadOptions& options)
              "multiplies the files' coordinates, after --up (default 1)");
 }
 
-void addVoxelOptions(CLI::App& app, VoxelOptions& options)
+void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also = "")
 {
     app.add_option("SCENE", options.scenes,
                    "glTF 2.0 (.glb, .gltf), OBJ, PLY and STL files; several make one scene; or one scene file "
-                   "(.scene.json), which places them and lets them move")
+                   "(.scene.json), which places them and lets them move" +
+                       also)
         ->required()
         ->type_name("FILE");
     addLoadOptions(app, options.load);
@@ -159,7 +198,7 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options)
              "the time of a scene in which something moves; after its end it begins anew (default 0)");
     addValue(app, "--resolution", options.depth, parseResolution, "N",
              "voxels per edge of the grid, a power of two from 2 to 131072 (default: the scene file's, or else 512)");
-    addCoverageOptions(app, options.coverage, options.attributes);
+    addCoverageOption(app, options.coverage);
     addValue(app, "--bounds", options.bounds, parseBounds, "x0,y0,z0,x1,y1,z1",
              "the grid is the cube from corner 0 on, as long as the box's longest edge");
     addValue(app, "--grid", options.grid_place, parseGridPlace, "x,y,z,SIZE",
@@ -182,8 +221,9 @@ void addCameraOption(CLI::App& app, std::string& camera)
 
 CLI::App* addRender(CLI::App& app, RenderOptions& options)
 {
-    CLI::App* render = app.add_subcommand("render", "voxelize scenes and ray trace a picture of them");
-    addVoxelOptions(*render, options.voxels);
+    CLI::App* render = app.add_subcommand("render", "voxelize scenes, or load a tree, and ray trace a picture");
+    addVoxelOptions(*render, options.voxels, "; or one .zvo file, which needs no voxelizing");
+    addAttributesOption(*render, options.voxels.attributes);
     render
         ->add_option_function<std::string>(
             "--size",
@@ -222,6 +262,7 @@ CLI::App* addVoxelize(CLI::App& app, VoxelizeOptions& options)
 {
     CLI::App* voxelize = app.add_subcommand("voxelize", "voxelize scenes and write the voxels");
     addVoxelOptions(*voxelize, options.voxels);
+    addAttributesOption(*voxelize, options.voxels.attributes);
     addOutputOptions(*voxelize, options.output, "the voxels, a .morton or .ply file; - is standard output");
     addValue(
         *voxelize, "--format", options.format,
@@ -233,6 +274,58 @@ CLI::App* addVoxelize(CLI::App& app, VoxelizeOptions& options)
     addDeviceOptions(*voxelize, options.device);
     voxelize->footer(kVoxelizeFooter);
     return voxelize;
+}
+
+CLI::App* addBuild(CLI::App& app, BuildFileOptions& options)
+{
+    CLI::App* build = app.add_subcommand("build", "voxelize scenes and write the tree to a .zvo file");
+    addVoxelOptions(*build, options.voxels);
+    addStructureOption(*build, options.structure);
+    addValue(*build, "--attributes", options.voxels.attributes, parseAttributeBytes, "8|none",
+             "colour, normal and emission of the voxels in 8 bytes each, or only their places (default 8)");
+    addOutputOptions(*build, options.output, "the tree, a .zvo file; - is standard output");
+    addDeviceOptions(*build, options.device);
+    build->footer(kBuildFooter);
+    return build;
+}
+
+CLI::App* addInspect(CLI::App& app, InspectOptions& options)
+{
+    CLI::App* inspect = app.add_subcommand("inspect", "tell what is in a .zvo file");
+    inspect->add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
+    inspect->add_flag("--json", options.json, "as JSON");
+    inspect->footer(kInspectFooter);
+    return inspect;
+}
+
+CLI::App* addValidate(CLI::App& app, ValidateOptions& options)
+{
+    CLI::App* validate = app.add_subcommand("validate", "check everything in a .zvo file");
+    validate->add_option("FILE", options.file, "a .zvo file")->required()->type_name("FILE");
+    validate->footer("\nThe exit code is 0 for a sound file, and 3, with the first fault, for any other.");
+    return validate;
+}
+
+CLI::App* addConvert(CLI::App& app, ConvertOptions& options)
+{
+    CLI::App* convert = app.add_subcommand("convert", "make another kind of file of a .zvo or .vox file");
+    convert->add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
+    addStructureOption(*convert, options.structure);
+    addText(*convert, "-o,--output", options.output.path, "FILE",
+            "a .ply, .vox, .morton, .glb or .zvo file; - is standard output")
+        ->required()
+        ->group("Output");
+    convert->add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");
+    addValue(
+        *convert, "--format", options.format,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"ply", "vox", "morton", "glb", "zvo"});
+        },
+        "FORMAT", "what to write: ply, vox, morton, glb or zvo (default: as the output's extension says)")
+        ->group("Output");
+    addDeviceOptions(*convert, options.device);
+    convert->footer(kConvertFooter);
+    return convert;
 }
 
 CLI::App* addInfo(CLI::App& app, InfoOptions& options)
@@ -259,7 +352,8 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1000)); },
         "N", "measured runs of each row (default 5)");
     addLoadOptions(*bench, options.load);
-    addCoverageOptions(*bench, options.coverage, options.attributes);
+    addCoverageOption(*bench, options.coverage);
+    addAttributesOption(*bench, options.attributes);
     addCameraOption(*bench, options.camera);
     bench->add_flag("--passes", options.passes, "also tell the time of each pass");
     bench
@@ -311,10 +405,18 @@ Command parseCommandLine(int argc, const char* const* argv)
     app.set_version_flag("--version", "zvo " ZVO_VERSION, "print the version");
     RenderOptions render;
     VoxelizeOptions voxelize;
+    BuildFileOptions build;
+    InspectOptions inspect;
+    ValidateOptions validate;
+    ConvertOptions convert;
     InfoOptions info;
     BenchOptions bench;
     const CLI::App* const render_app = addRender(app, render);
     const CLI::App* const voxelize_app = addVoxelize(app, voxelize);
+    const CLI::App* const build_app = addBuild(app, build);
+    const CLI::App* const inspect_app = addInspect(app, inspect);
+    const CLI::App* const validate_app = addValidate(app, validate);
+    const CLI::App* const convert_app = addConvert(app, convert);
     const CLI::App* const info_app = addInfo(app, info);
     addBench(app, bench);
     try
@@ -343,14 +445,15 @@ Command parseCommandLine(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
     {
-        throw usageError(app, "a command is missing: render, voxelize, info or bench");
+        throw usageError(app,
+                         "a command is missing: render, voxelize, build, inspect, validate, convert, info or bench");
     }
     const CLI::App* const chosen = app.get_subcommands().front();
     if (bench.dynamic && bench.scenes.empty())
     {
         throw usageError(app, "--dynamic needs a scene file (.scene.json) or another scene in which something moves");
     }
-    for (const VoxelOptions* options : {&render.voxels, &voxelize.voxels})
+    for (const VoxelOptions* options : {&render.voxels, &voxelize.voxels, &build.voxels})
     {
         if (options->bounds && options->grid_place)
         {
@@ -364,6 +467,22 @@ Command parseCommandLine(int argc, const char* const* argv)
     if (chosen == voxelize_app)
     {
         return voxelize;
+    }
+    if (chosen == build_app)
+    {
+        return build;
+    }
+    if (chosen == inspect_app)
+    {
+        return inspect;
+    }
+    if (chosen == validate_app)
+    {
+        return validate;
+    }
+    if (chosen == convert_app)
+    {
+        return convert;
     }
     return chosen == info_app ? Command(info) : Command(bench);
 }

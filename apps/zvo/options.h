@@ -5,6 +5,7 @@
 #include "core/load_scene.h"
 #include "core/scene.h"
 #include "core/trace.h"
+#include "core/tree_data.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -81,6 +82,34 @@ struct VoxelizeOptions
     std::string format; // "morton" or "ply"; empty: the output's extension says
 };
 
+struct BuildFileOptions
+{
+    VoxelOptions voxels;
+    TreeStructure structure = TreeStructure::Svdag;
+    DeviceOptions device;
+    OutputOptions output;
+};
+
+struct InspectOptions
+{
+    std::filesystem::path file;
+    bool json = false;
+};
+
+struct ValidateOptions
+{
+    std::filesystem::path file;
+};
+
+struct ConvertOptions
+{
+    std::filesystem::path file;
+    OutputOptions output;
+    std::string format;                             // empty: the output's extension says
+    TreeStructure structure = TreeStructure::Svdag; // of a .zvo output
+    DeviceOptions device;
+};
+
 struct InfoOptions
 {
     std::string device;
@@ -105,7 +134,8 @@ struct BenchOptions
 };
 
 /// What the command line asks for: one command's options, or text to print and nothing more (help, version).
-using Command = std::variant<std::string, RenderOptions, VoxelizeOptions, InfoOptions, BenchOptions>;
+using Command = std::variant<std::string, RenderOptions, VoxelizeOptions, BuildFileOptions, InspectOptions,
+                             ValidateOptions, ConvertOptions, InfoOptions, BenchOptions>;
 
 /// Reads the command line. Throws Error{Usage}, one line, for anything that is not understood.
 Command parseCommandLine(int argc, const char* const* argv);

@@ -241,4 +241,22 @@ bool parseAttributes(std::string_view option, std::string_view text)
     return text == "full";
 }
 
+bool parseAttributeBytes(std::string_view option, std::string_view text)
+{
+    if (text != "8" && text != "none")
+    {
+        throw valueError(option, text, "8 or none");
+    }
+    return text == "8";
+}
+
+TreeStructure parseStructure(std::string_view option, std::string_view text)
+{
+    if (text != "svo" && text != "svdag")
+    {
+        throw valueError(option, text, "svo or svdag");
+    }
+    return text == "svo" ? TreeStructure::Svo : TreeStructure::Svdag;
+}
+
 } // namespace zvo::cli

@@ -6,6 +6,7 @@
 #include "core/coverage.h"
 #include "core/load_scene.h"
 #include "core/scene.h"
+#include "core/tree_data.h"
 
 #include <cstdint>
 #include <optional>
@@ -60,5 +61,11 @@ UpAxis parseUpAxis(std::string_view option, std::string_view text);
 
 /// "full": true, "none": false.
 bool parseAttributes(std::string_view option, std::string_view text);
+
+/// "8", bytes a voxel: true, "none": false.
+bool parseAttributeBytes(std::string_view option, std::string_view text);
+
+/// "svo" or "svdag".
+TreeStructure parseStructure(std::string_view option, std::string_view text);
 
 } // namespace zvo::cli

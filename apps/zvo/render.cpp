@@ -7,6 +7,7 @@
 #include "core/pipeline.h"
 #include "core/stage_octree.h"
 #include "core/trace.h"
+#include "core/zvo_file.h"
 #include "output.h"
 #include "pictures.h"
 #include "progress.h"
@@ -17,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -128,14 +130,17 @@ public:
     {
         const BuildResult result = voxelize(std::move(scene), grid);
         report(result);
-        Renderer renderer(m_device, result.octree, m_options);
-        m_beam_passes = renderer.beamPasses();
-        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
-        {
-            const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
-            draw(i, renderer, camera.turnedAround(centre, turn));
-        }
-        m_capped_rays = renderer.cappedRays();
+        turn(result.octree, camera, centre);
+    }
+
+    // The same around what a file holds.
+    void turn(TreeData&& tree, const ViewCamera& camera, const glm::dvec3& centre)
+    {
+        m_progress.step("copying to the device");
+        report(tree);
+        const DeviceTree uploaded = uploadTree(m_device, tree);
+        tree = {};
+        turn(traceable(uploaded), camera, centre);
     }
 
     // What stands still is voxelized once, what moves is merged with it at each time.
@@ -226,6 +231,27 @@ public:
     }
 
 private:
+    static const Octree& traceable(const DeviceTree& tree)
+    {
+        if (std::holds_alternative<Svdag>(tree))
+        {
+            throw Error(ErrorCode::Usage, "DAGs cannot be rendered by this version; build an octree, --structure svo");
+        }
+        return std::get<Octree>(tree);
+    }
+
+    void turn(const Octree& octree, const ViewCamera& camera, const glm::dvec3& centre)
+    {
+        Renderer renderer(m_device, octree, m_options);
+        m_beam_passes = renderer.beamPasses();
+        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
+        {
+            const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
+            draw(i, renderer, camera.turnedAround(centre, turn));
+        }
+        m_capped_rays = renderer.cappedRays();
+    }
+
     [[nodiscard]] double timeOf(const Stage& stage, std::uint32_t index) const
     {
         return m_options.frames ? frameTime(stage, m_pictures.number(index))
@@ -256,6 +282,23 @@ private:
             m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, m_triangle_count, result,
                                 octreeSha256(m_device, result.octree), 0);
         }
+    }
+
+    // What a file holds.
+    void report(const TreeData& tree)
+    {
+        m_built =
+            fmt::format("{} voxels of {}^3 in {} nodes", tree.voxel_count, tree.grid.resolution(), tree.nodes.size());
+        m_json["schema"] = "zvo.render_tree/1";
+        m_json["zvo"] = ZVO_VERSION;
+        m_json["device"] = deviceJson(m_device.device().report());
+        m_json["structure"] = structureName(tree.structure);
+        m_json["grid"] = gridJson(tree.grid);
+        m_json["resolution"] = tree.grid.resolution();
+        m_json["voxels"] = tree.voxel_count;
+        m_json["nodes"] = tree.nodes.size();
+        m_json["bytes"] = {{"geometry", tree.geometryBytes()}, {"attributes", tree.attributeBytes()}};
+        m_json["passes"] = Json::array();
     }
 
     // What stands still, and the first update.
@@ -334,6 +377,79 @@ private:
     Json m_frames = Json::array();
 };
 
+bool hasZvoFile(const VoxelOptions& options)
+{
+    return std::any_of(options.scenes.begin(), options.scenes.end(), isZvoFile);
+}
+
+// Options that a tree takes no notice of must not look as if it did.
+void checkTreeOptions(const RenderOptions& options)
+{
+    const VoxelOptions& voxels = options.voxels;
+    const VoxelOptions plain;
+    if (voxels.scenes.size() > 1)
+    {
+        throw Error(ErrorCode::Usage, "a .zvo file stands alone; build one of all that is to be seen");
+    }
+    const std::pair<const char*, bool> given[] = {
+        {"--up", voxels.load.up != plain.load.up},
+        {"--scale", voxels.load.scale != plain.load.scale},
+        {"--scenes", voxels.scenes_folder.has_value()},
+        {"--time", voxels.time.has_value()},
+        {"--resolution", voxels.depth.has_value()},
+        {"--coverage", voxels.coverage != plain.coverage},
+        {"--attributes", voxels.attributes != plain.attributes},
+        {"--bounds", voxels.bounds.has_value()},
+        {"--grid", voxels.grid_place.has_value()},
+        {"--rebuild", options.rebuild},
+    };
+    for (const auto& [name, is_given] : given)
+    {
+        if (is_given)
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} does not go with {}, whose voxels are made already", name,
+                                                      voxels.scenes.front().string()));
+        }
+    }
+}
+
+// The voxels' box in world space.
+Bounds boundsOf(const TreeData& tree)
+{
+    const std::optional<CellBox> box = voxelBox(tree);
+    Bounds bounds;
+    if (box)
+    {
+        const auto corner = [&grid = tree.grid](const glm::uvec3& cell)
+        { return glm::vec3(glm::dvec3(grid.origin) + glm::dvec3(cell) * double{grid.voxel_size}); };
+        bounds = {corner(box->min), corner(box->max)};
+    }
+    return bounds;
+}
+
+void renderTree(const RenderOptions& options, Pictures& pictures, std::optional<Output>& report)
+{
+    checkTreeOptions(options);
+    Progress progress(2 + pictures.count());
+    progress.step("loading");
+    TreeData tree = readZvo(options.voxels.scenes.front()).tree;
+    if (tree.voxel_count == 0)
+    {
+        talk("warning: the file has no voxels");
+    }
+    const Bounds subject = subjectOf(boundsOf(tree), tree.grid);
+    const ViewCamera camera =
+        chooseCamera(options.camera, Scene(), subject, static_cast<double>(options.width) / options.height);
+    Run run(options, pictures, progress);
+    run.turn(std::move(tree), camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
+    if (report)
+    {
+        report->write(jsonText(run.json()));
+        report->finish();
+    }
+    run.tell();
+}
+
 } // namespace
 
 void render(const RenderOptions& options)
@@ -341,6 +457,11 @@ void render(const RenderOptions& options)
     checkPlaces(options.output, options.voxels.scenes);
     Pictures pictures(options);
     std::optional<Output> report = openReport(options.output);
+    if (hasZvoFile(options.voxels))
+    {
+        renderTree(options, pictures, report);
+        return;
+    }
 
     Progress progress(3 + pictures.count());
     progress.step("loading");

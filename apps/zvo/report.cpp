@@ -15,15 +15,20 @@ Json deviceJson(const vk::DeviceReport& device)
             {"subgroup_size", device.subgroup_size}};
 }
 
+Json gridJson(const Grid& grid)
+{
+    return {{"origin", {double{grid.origin.x}, double{grid.origin.y}, double{grid.origin.z}}},
+            {"voxel_size", double{grid.voxel_size}},
+            {"depth", grid.depth}};
+}
+
 Json headJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options, const Grid& grid)
 {
     Json json;
     json["schema"] = schema;
     json["zvo"] = ZVO_VERSION;
     json["device"] = deviceJson(device);
-    json["grid"] = {{"origin", {double{grid.origin.x}, double{grid.origin.y}, double{grid.origin.z}}},
-                    {"voxel_size", double{grid.voxel_size}},
-                    {"depth", grid.depth}};
+    json["grid"] = gridJson(grid);
     json["resolution"] = grid.resolution();
     json["coverage"] = coverageName(options.coverage);
     json["attributes"] = options.attributes ? "full" : "none";

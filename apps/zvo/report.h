@@ -21,8 +21,10 @@ using Json = nlohmann::ordered_json;
 /// Name, driver, type and subgroup size.
 Json deviceJson(const vk::DeviceReport& device);
 
-/// How a report begins: schema, version, device, grid, and how it was voxelized. The numbers of the grid are single
-/// precision in the fewest digits of double precision that give them back bit for bit.
+/// Place and size of a grid: single precision in the fewest digits of double precision that give it back bit for bit.
+Json gridJson(const Grid& grid);
+
+/// How a report begins: schema, version, device, grid, and how it was voxelized.
 Json headJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options, const Grid& grid);
 
 /// What `zvo render` and `zvo voxelize` report on the way from triangles to the octree; trace_ms is null.

@@ -67,7 +67,10 @@ void voxelize(const VoxelizeOptions& options)
     warnOfDropped(result.octree.voxel_count, result.dropped);
 
     progress.step("writing");
-    format == "morton" ? writeMorton(device, result.octree, output) : writePly(device, result.octree, output);
+    {
+        const TreeData tree = downloadTree(device, result.octree);
+        format == "morton" ? writeMorton(tree, output) : writePly(tree, output);
+    }
     if (report)
     {
         const Json json = octreeJson("zvo.voxelize/1", device.device().report(), options.voxels, triangle_count, result,

@@ -6,6 +6,7 @@
 #include "core/mesh_import.h"
 #include "core/read_file.h"
 #include "core/stl_file.h"
+#include "core/zvo_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -76,6 +77,10 @@ Scene loadFile(const std::filesystem::path& path)
     if (isStageFile(path))
     {
         throw inputError(path, "a scene file, which cannot be part of another scene; name the files in it");
+    }
+    if (isZvoFile(path))
+    {
+        throw inputError(path, "a .zvo file holds voxels and no triangles; zvo render and zvo convert take it");
     }
     std::vector<std::uint8_t> bytes = readFile(path);
     const std::optional<FileFormat> format = formatOf(bytes, lowerExtension(path));

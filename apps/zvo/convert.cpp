@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "convert.h"
+
+#include "core/glb_write.h"
+#include "core/gpu_scene.h"
+#include "core/input_error.h"
+#include "core/kernels.h"
+#include "core/octree_build.h"
+#include "core/read_file.h"
+#include "core/svdag.h"
+#include "core/tree_build.h"
+#include "core/vox_file.h"
+#include "core/zvo_file.h"
+#include "export.h"
+#include "output.h"
+#include "progress.h"
+#include "session.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr std::array<std::string_view, 5> kFormats = {"ply", "vox", "morton", "glb", "zvo"};
+
+std::string formatOf(const ConvertOptions& options)
+{
+    if (!options.format.empty())
+    {
+        return options.format;
+    }
+    const std::string extension = extensionOf(options.output.path);
+    if (extension == ".nvdb")
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("-o {}: NanoVDB files cannot be written; take .ply or .vox", options.output.path));
+    }
+    const std::string format = extension.empty() ? extension : extension.substr(1);
+    if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("-o {}: the format is not clear; name it .{}, or say --format",
+                                                  options.output.path, fmt::join(kFormats, ", .")));
+    }
+    return format;
+}
+
+bool isVoxFile(const std::filesystem::path& path)
+{
+    return extensionOf(path.string()) == ".vox";
+}
+
+// The octree of what a .vox file shows, with attributes of nodes, which the device makes.
+TreeData loadVox(const std::filesystem::path& path, std::optional<vk::HeadlessDevice>& device)
+{
+    VoxVoxels voxels;
+    {
+        const std::vector<std::uint8_t> bytes = readFile(path);
+        voxels = readVox(bytes, path);
+    }
+    for (const std::string& warning : voxels.warnings)
+    {
+        talk(fmt::format("warning: {}", warning));
+    }
+    TreeData tree = octreeOfVoxels(voxels.grid, voxels.codes);
+    if (tree.nodes.empty())
+    {
+        talk("warning: the file has no voxels");
+        return tree;
+    }
+    addColors(tree, voxels.colors);
+    voxels = {};
+    const GpuScene tables = uploadScene(*device, Scene(), true);
+    Octree octree = std::get<Octree>(uploadTree(*device, tree));
+    octree.node_attributes = {device->device(), "octree/node_attributes", octree.node_count};
+    device->run([&](vk::FrameGraph& graph) { averageNodes(graph, tables, octree); });
+    tree.node_attributes = device->download(octree.node_attributes);
+    return tree;
+}
+
+TreeData compressed(vk::HeadlessDevice& device, TreeData&& tree)
+{
+    Octree octree = std::get<Octree>(uploadTree(device, tree));
+    tree = {};
+    return downloadTree(device, compress(device, std::move(octree)).dag);
+}
+
+void writeTree(const TreeData& tree, const std::string& format, Output& output)
+{
+    const auto write = [&output](std::span<const std::byte> bytes) { output.write(bytes); };
+    if (format == "ply")
+    {
+        writePly(tree, output);
+    }
+    else if (format == "morton")
+    {
+        writeMorton(tree, output);
+    }
+    else if (format == "vox")
+    {
+        writeVox(tree, write);
+    }
+    else if (format == "glb")
+    {
+        writeGlb(tree, write);
+    }
+    else
+    {
+        writeZvo(tree, write);
+    }
+}
+
+} // namespace
+
+void convert(const ConvertOptions& options)
+{
+    const std::string format = formatOf(options);
+    checkPlaces(options.output, std::span(&options.file, 1));
+    Output output(options.output.path, options.output.overwrite);
+    const bool is_vox = isVoxFile(options.file);
+    if (!is_vox && !isZvoFile(options.file))
+    {
+        throw inputError(options.file, "neither a .zvo nor a .vox file; zvo build makes .zvo files of scenes");
+    }
+    Progress progress(2);
+    progress.step("loading");
+    std::optional<vk::HeadlessDevice> device; // only for what needs one
+    const auto openDevice = [&]
+    {
+        if (!device)
+        {
+            device.emplace(headlessOptions(options.device), zvoKernels());
+        }
+    };
+    if (is_vox)
+    {
+        openDevice();
+    }
+    TreeData tree = is_vox ? loadVox(options.file, device) : readZvo(options.file).tree;
+    if (format == "zvo" && tree.structure != options.structure)
+    {
+        if (tree.structure == TreeStructure::Svdag)
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} is a DAG, which cannot become an octree again; leave "
+                                                      "--structure out",
+                                                      options.file.string()));
+        }
+        openDevice();
+        tree = compressed(*device, std::move(tree));
+    }
+    progress.step("writing");
+    writeTree(tree, format, output);
+    if (device)
+    {
+        checkValidation(*device);
+    }
+    output.finish();
+    talk(fmt::format("{} voxels of {}^3", tree.voxel_count, tree.grid.resolution()));
+}
+
+} // namespace zvo::cli

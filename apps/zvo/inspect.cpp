@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "inspect.h"
+
+#include "core/input_error.h"
+#include "core/read_file.h"
+#include "core/sha256.h"
+#include "core/tree_stats.h"
+#include "core/zvo_file.h"
+#include "output.h"
+#include "report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+// SHA-256 of a file that can be read again.
+std::string fileSha256(const std::filesystem::path& path)
+{
+    constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+    Sha256 sha;
+    std::ifstream file(path, std::ios::binary);
+    std::vector<char> piece(kPieceBytes);
+    do
+    {
+        file.read(piece.data(), kPieceBytes);
+        sha.update(std::as_bytes(std::span(piece).first(static_cast<std::size_t>(file.gcount()))));
+    } while (file);
+    if (!file.eof())
+    {
+        throw inputError(path, "cannot be read to its end; try again");
+    }
+    return sha.hexDigest();
+}
+
+// A file with its digest. What is no regular file is read once.
+std::pair<ZvoFile, std::string> readWithSha256(const std::filesystem::path& path)
+{
+    std::error_code failure;
+    if (std::filesystem::is_regular_file(path, failure))
+    {
+        ZvoFile file = readZvo(path);
+        return {std::move(file), fileSha256(path)};
+    }
+    const std::vector<std::uint8_t> bytes = readFile(path);
+    return {readZvo(std::as_bytes(std::span(bytes)), path), sha256Hex(std::as_bytes(std::span(bytes)))};
+}
+
+double perVoxel(std::uint64_t bytes, const TreeData& tree)
+{
+    return tree.voxel_count == 0 ? 0.0 : static_cast<double>(bytes) / tree.voxel_count;
+}
+
+Json inspectJson(const TreeData& tree, const TreeStats& stats, const std::string& sha256)
+{
+    Json levels = Json::array();
+    for (const Octree::Level& level : tree.levels)
+    {
+        levels.push_back(level.node_count);
+    }
+    Json json;
+    json["schema"] = "zvo.inspect/1";
+    json["structure"] = structureName(tree.structure);
+    json["grid"] = gridJson(tree.grid);
+    json["voxels"] = tree.voxel_count;
+    json["nodes"] = tree.nodes.size();
+    json["nodes_per_level"] = levels;
+    json["geometry_bytes"] = tree.geometryBytes();
+    json["attribute_bytes"] = tree.attributeBytes();
+    json["geometry_bytes_per_voxel"] = perVoxel(tree.geometryBytes(), tree);
+    json["slides_octree_bytes"] = stats.slidesOctreeBytes();
+    json["slides_dag_bytes"] = stats.slidesDagBytes();
+    json["sha256"] = sha256;
+    return json;
+}
+
+std::string summaryText(const ZvoFile& file, const std::string& sha256)
+{
+    const TreeData& tree = file.tree;
+    std::string text;
+    const auto add = [&text](const char* label, const std::string& value)
+    { text += fmt::format("{:<12}{}\n", label, value); };
+    add("structure", structureName(tree.structure));
+    add("version", fmt::format("{}.{}", file.header.version_major, file.header.version_minor));
+    add("grid", fmt::format("{}^3 from ({}, {}, {}) on, voxels of {}", tree.grid.resolution(), tree.grid.origin.x,
+                            tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size));
+    add("voxels", fmt::format("{}", tree.voxel_count));
+    add("nodes", fmt::format("{} for the {} of the octree", tree.nodes.size(), tree.octree_node_count));
+    add("attributes", !tree.hasAttributes() ? "none"
+                      : tree.emission.empty()
+                          ? "colour and normal"
+                          : fmt::format("colour, normal, and emission of {}", tree.emission.size()));
+    add("sha256", sha256);
+    return text;
+}
+
+std::string levelsText(const TreeData& tree, const TreeStats& stats)
+{
+    std::string text = fmt::format("\n{:<12}{:>14}{:>14}\n", "level", "nodes", "different");
+    for (std::size_t level = 0; level < tree.levels.size(); ++level)
+    {
+        text +=
+            fmt::format("{:<12}{:>14}{:>14}\n", level, tree.levels[level].node_count, stats.unique_per_level[level]);
+    }
+    return text;
+}
+
+std::string sectionsText(const ZvoFile& file)
+{
+    std::string text = fmt::format("\n{:<32}{:>14}{:>16}{:>16}\n", "section", "elements", "at byte", "bytes");
+    for (const ZvoSection& section : file.sections)
+    {
+        text += fmt::format("{:<32}{:>14}{:>16}{:>16}\n", sectionName(section.id), section.count, section.offset,
+                            section.bytes);
+    }
+    return text;
+}
+
+std::string bytesText(const TreeData& tree, const TreeStats& stats)
+{
+    std::string text = fmt::format("\n{:<32}{:>14}{:>16}{:>16}\n", "geometry", "nodes", "bytes", "bytes a voxel");
+    const auto add = [&](const std::string& what, std::uint64_t nodes, std::uint64_t bytes)
+    { text += fmt::format("{:<32}{:>14}{:>16}{:>16.3f}\n", what, nodes, bytes, perVoxel(bytes, tree)); };
+    add("this file", tree.nodes.size(), tree.geometryBytes());
+    add("octree, 16-byte nodes", tree.octree_node_count, tree.octree_node_count * sizeof(gpu::Node));
+    add("2x2x2 octree, 36-byte nodes", stats.binary_node_count, stats.slidesOctreeBytes());
+    add("2x2x2 DAG, 68-byte nodes", stats.binary_unique_count, stats.slidesDagBytes());
+    return text;
+}
+
+} // namespace
+
+void inspect(const InspectOptions& options)
+{
+    const auto [file, sha256] = readWithSha256(options.file);
+    const TreeStats stats = treeStats(file.tree);
+    Output output("-", true);
+    output.write(options.json ? jsonText(inspectJson(file.tree, stats, sha256))
+                              : summaryText(file, sha256) + levelsText(file.tree, stats) + sectionsText(file) +
+                                    bytesText(file.tree, stats));
+}
+
+void validate(const ValidateOptions& options)
+{
+    const ZvoFile file = readZvo(options.file);
+    const TreeData& tree = file.tree;
+    const TreeStats stats = treeStats(tree);
+    for (std::size_t level = 0; level < tree.levels.size() && tree.structure == TreeStructure::Svdag; ++level)
+    {
+        if (stats.unique_per_level[level] != tree.levels[level].node_count)
+        {
+            throw inputError(options.file,
+                             fmt::format("level {} has {} nodes of which {} are different; {}", level,
+                                         tree.levels[level].node_count, stats.unique_per_level[level], kExportAgain));
+        }
+    }
+    Output("-", true).write(fmt::format("{}: sound, {} with {} voxels of {}^3, {}\n", options.file.string(),
+                                        structureName(tree.structure), tree.voxel_count, tree.grid.resolution(),
+                                        tree.hasAttributes() ? "with attributes" : "without attributes"));
+}
+
+} // namespace zvo::cli

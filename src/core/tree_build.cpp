@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "core/tree_build.h"
+
+#include "zvo/error.h"
+
+#include <bit>
+#include <cassert>
+#include <cstdlib>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kCellBits = 6; // of a node's cells
+
+std::uint32_t rankOf(std::uint64_t mask, std::uint64_t cell)
+{
+    return static_cast<std::uint32_t>(std::popcount(mask & ((std::uint64_t{1} << cell) - 1)));
+}
+
+} // namespace
+
+bool hasVoxel(const TreeData& tree, const glm::ivec3& cell)
+{
+    const auto resolution = static_cast<int>(tree.grid.resolution());
+    if (tree.nodes.empty() || glm::any(glm::lessThan(cell, glm::ivec3(0))) ||
+        glm::any(glm::greaterThanEqual(cell, glm::ivec3(resolution))))
+    {
+        return false;
+    }
+    const std::uint64_t code = codeOfCell(glm::uvec3(cell));
+    std::uint32_t index = 0;
+    for (std::size_t level = 0; level < tree.levels.size(); ++level)
+    {
+        const gpu::Node& node = tree.nodes[index];
+        const std::uint64_t mask = cellMask(node);
+        const std::uint64_t child = code >> (kCellBits * (tree.levels.size() - 1 - level)) & 63U;
+        if ((mask >> child & 1U) == 0)
+        {
+            return false;
+        }
+        if (level + 1 < tree.levels.size())
+        {
+            index = tree.child(node, rankOf(mask, child));
+        }
+    }
+    return true;
+}
+
+glm::uvec3 cellOfCode(std::uint64_t code)
+{
+    glm::uvec3 cell(0U);
+    for (std::uint32_t bit = 0; code != 0; ++bit, code >>= 3)
+    {
+        cell |= glm::uvec3(code & 1U, code >> 1 & 1U, code >> 2 & 1U) << bit;
+    }
+    return cell;
+}
+
+std::uint64_t codeOfCell(const glm::uvec3& cell)
+{
+    const auto spread = [](std::uint64_t v) // two zeros between each two bits
+    {
+        v = (v | v << 32) & 0x1f00000000ffffU;
+        v = (v | v << 16) & 0x1f0000ff0000ffU;
+        v = (v | v << 8) & 0x100f00f00f00f00fU;
+        v = (v | v << 4) & 0x10c30c30c30c30c3U;
+        return (v | v << 2) & 0x1249249249249249U;
+    };
+    return spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
+}
+
+TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes)
+{
+    TreeData tree;
+    tree.grid = grid;
+    if (codes.empty())
+    {
+        return tree;
+    }
+    std::uint64_t child_end = 0; // of the level's cells: where the next level's nodes end
+    for (std::uint32_t level = 0; level < grid.nodeLevels(); ++level)
+    {
+        const bool is_leaf = level + 1 == grid.nodeLevels();
+        const std::uint32_t shift = kCellBits * (grid.nodeLevels() - 1 - level); // from a voxel's code to its cell's
+        const std::size_t first_node = tree.nodes.size();
+        std::uint64_t last_cell = UINT64_MAX;
+        for (const std::uint64_t code : codes)
+        {
+            const std::uint64_t cell = code >> shift;
+            if (cell == last_cell)
+            {
+                continue;
+            }
+            if (last_cell == UINT64_MAX || cell >> kCellBits != last_cell >> kCellBits)
+            {
+                tree.nodes.emplace_back();
+            }
+            gpu::Node& node = tree.nodes.back();
+            ((cell & 32U) == 0 ? node.mask_lo : node.mask_hi) |= 1U << (cell & 31U);
+            last_cell = cell;
+        }
+        child_end = is_leaf ? 0 : tree.nodes.size();
+        for (std::size_t i = first_node; i < tree.nodes.size(); ++i)
+        {
+            gpu::Node& node = tree.nodes[i];
+            node.base_lo = static_cast<std::uint32_t>(child_end);
+            node.base_hi = node.base_lo + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
+            child_end += static_cast<std::uint32_t>(std::popcount(cellMask(node)));
+        }
+        tree.levels.push_back(
+            {static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(tree.nodes.size() - first_node)});
+        if (tree.nodes.size() > UINT32_MAX || child_end > UINT32_MAX)
+        {
+            throw Error(ErrorCode::Memory, "more voxels or nodes than 32-bit numbers count; take fewer voxels");
+        }
+    }
+    tree.voxel_count = static_cast<std::uint32_t>(child_end);
+    tree.octree_node_count = static_cast<std::uint32_t>(tree.nodes.size());
+    return tree;
+}
+
+void addColors(TreeData& octree, std::span<const std::uint32_t> colors)
+{
+    assert(colors.size() == octree.voxel_count);
+    constexpr std::uint32_t kColorMask = 0xffffffU;
+    octree.voxel_attributes.reserve(colors.size());
+    forEachVoxel(octree,
+                 [&](std::uint64_t code)
+                 {
+                     const glm::ivec3 cell(cellOfCode(code));
+                     glm::ivec3 normal(0);
+                     for (int i = 0; i < 27; ++i)
+                     {
+                         const glm::ivec3 step(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+                         normal -= step * (i != 13 && hasVoxel(octree, cell + step) ? 1 : 0);
+                     }
+                     const std::uint32_t color = colors[octree.voxel_attributes.size()] & kColorMask;
+                     octree.voxel_attributes.push_back({color, octahedralCode(normal)});
+                 });
+}
+
+std::uint32_t octahedralCode(const glm::ivec3& v)
+{
+    constexpr int kOne = 32767; // 1 as a snorm16
+    const glm::ivec3 size = glm::abs(v);
+    const int sum = std::max(size.x + size.y + size.z, 1);
+    glm::ivec2 p((size.x * kOne + sum / 2) / sum, (size.y * kOne + sum / 2) / sum);
+    p = v.z < 0 ? glm::ivec2(kOne - p.y, kOne - p.x) : p;
+    p.x = v.x < 0 ? -p.x : p.x;
+    p.y = v.y < 0 ? -p.y : p.y;
+    return (static_cast<std::uint32_t>(p.x) & 0xffffU) | static_cast<std::uint32_t>(p.y) << 16;
+}
+
+} // namespace zvo

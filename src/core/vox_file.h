@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// MagicaVoxel's files: voxels in models of up to 256^3 with 255 colours, placed by a scene graph. After:
+// ephtracy, MagicaVoxel .vox File Format and its extension (github.com/ephtracy/voxel-model).
+//
+// MagicaVoxel's z points up. Its voxel (X, Y, Z) is zvo's cell (X, Z, -1 - Y): nothing is mirrored.
+#pragma once
+
+#include "core/tree_data.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// What a .vox file shows, in the smallest grid from the origin on; where it reaches below, the origin moves.
+struct VoxVoxels
+{
+    Grid grid;                         // voxels of size 1
+    std::vector<std::uint64_t> codes;  // Morton codes, ascending, each once
+    std::vector<std::uint32_t> colors; // [codes] sRGB red | green << 8 | blue << 16
+    std::vector<std::string> warnings; // of what was left out
+};
+
+/// Voxels of all models that the scene graph shows, in its order: where they overlap the last one stays. Hidden nodes
+/// and layers are left out, and all frames of an animation but the first. Without a scene graph, the first model alone.
+/// Throws Error{Input}: one line that begins with name.
+VoxVoxels readVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
+
+/// Hands the bytes of a .vox file to write, piece by piece: a model for each block of 256^3 voxels that has any, in
+/// Morton order, and 255 colours for those of the voxels (core/quantize.h). Normals and emission are left out. Throws
+/// Error{Usage} for more voxels than 2 GiB hold.
+void writeVox(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write);
+
+} // namespace zvo
