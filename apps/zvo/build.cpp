@@ -74,9 +74,12 @@ void buildFile(const BuildFileOptions& options)
         progress.step("compressing");
         const CompressResult compressed = compress(device, std::move(result.octree));
         compress_ms = compressed.ms();
-        const Json passes = passesJson(compressed.passes);
-        json["passes"].insert(json["passes"].end(), passes.begin(), passes.end());
-        json["retries_compress"] = compressed.retry_count;
+        if (report)
+        {
+            const Json passes = passesJson(compressed.passes);
+            json["passes"].insert(json["passes"].end(), passes.begin(), passes.end());
+            json["retries_compress"] = compressed.retry_count;
+        }
         tree = downloadTree(device, compressed.dag);
     }
     else

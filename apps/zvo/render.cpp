@@ -7,6 +7,7 @@
 #include "core/pipeline.h"
 #include "core/stage_octree.h"
 #include "core/trace.h"
+#include "core/tree_view.h"
 #include "core/zvo_file.h"
 #include "output.h"
 #include "pictures.h"
@@ -47,7 +48,7 @@ double primaryMs(const std::vector<vk::PassTime>& passes)
     for (const vk::PassTime& pass : passes)
     {
         ms += pass.ms;
-        if (pass.name == "trace/primary")
+        if (pass.name == "trace/primary" || pass.name == "trace/ranks")
         {
             ms_until_primary = ms;
         }
@@ -73,19 +74,19 @@ TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& option
     }
 }
 
-// Pictures of one octree.
+// Pictures of one octree or DAG.
 class Renderer
 {
 public:
-    Renderer(vk::HeadlessDevice& device, const Octree& octree, const RenderOptions& options)
-        : m_device(device), m_octree(octree), m_beam(device.device()), m_buffers(makeBuffers(device, options))
+    Renderer(vk::HeadlessDevice& device, const TreeView& tree, const RenderOptions& options)
+        : m_device(device), m_tree(tree), m_beam(device.device()), m_buffers(makeBuffers(device, options))
     {
         m_options.view = options.view;
         m_options.detail_pixels = options.detail_pixels;
         m_options.occlusion_rays = options.occlusion_rays;
         m_options.exposure = options.exposure;
         m_options.to_sun = options.to_sun.value_or(m_options.to_sun);
-        m_beam_passes = device.run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, m_beam); });
+        m_beam_passes = device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, m_beam); });
     }
 
     [[nodiscard]] const std::vector<vk::PassTime>& beamPasses() const { return m_beam_passes; }
@@ -94,9 +95,9 @@ public:
     // The picture as a PNG file.
     std::vector<std::uint8_t> render(const ViewCamera& view, PictureTimes& times)
     {
-        const TraceCamera camera = traceCamera(view, m_octree.grid, m_buffers.height);
+        const TraceCamera camera = traceCamera(view, m_tree.octree().grid, m_buffers.height);
         times.passes =
-            m_device.run([&](vk::FrameGraph& graph) { trace(graph, m_octree, m_beam, camera, m_options, m_buffers); });
+            m_device.run([&](vk::FrameGraph& graph) { trace(graph, m_tree, m_beam, camera, m_options, m_buffers); });
         times.trace_ms = primaryMs(times.passes);
         times.shade_ms = sumMs(times.passes) - times.trace_ms;
         m_capped_rays += m_device.download(m_buffers.status).front().capped_rays;
@@ -107,7 +108,7 @@ public:
 
 private:
     vk::HeadlessDevice& m_device;
-    const Octree& m_octree;
+    TreeView m_tree;
     TraceOptions m_options;
     BeamGrid m_beam;
     TraceBuffers m_buffers;
@@ -130,7 +131,7 @@ public:
     {
         const BuildResult result = voxelize(std::move(scene), grid);
         report(result);
-        turn(result.octree, camera, centre);
+        turn(TreeView(result.octree), camera, centre);
     }
 
     // The same around what a file holds.
@@ -140,7 +141,7 @@ public:
         report(tree);
         const DeviceTree uploaded = uploadTree(m_device, tree);
         tree = {};
-        turn(traceable(uploaded), camera, centre);
+        std::visit([&](const auto& on_device) { turn(TreeView(on_device), camera, centre); }, uploaded);
     }
 
     // What stands still is voxelized once, what moves is merged with it at each time.
@@ -231,18 +232,9 @@ public:
     }
 
 private:
-    static const Octree& traceable(const DeviceTree& tree)
+    void turn(const TreeView& tree, const ViewCamera& camera, const glm::dvec3& centre)
     {
-        if (std::holds_alternative<Svdag>(tree))
-        {
-            throw Error(ErrorCode::Usage, "DAGs cannot be rendered by this version; build an octree, --structure svo");
-        }
-        return std::get<Octree>(tree);
-    }
-
-    void turn(const Octree& octree, const ViewCamera& camera, const glm::dvec3& centre)
-    {
-        Renderer renderer(m_device, octree, m_options);
+        Renderer renderer(m_device, tree, m_options);
         m_beam_passes = renderer.beamPasses();
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {

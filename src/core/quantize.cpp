@@ -122,12 +122,18 @@ Palette quantize(std::span<const std::uint32_t> counts, std::uint32_t capacity)
         }
         halve(*most, boxes, counts);
     }
-    for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (const Box& box : boxes)
     {
-        palette.colors.push_back(meanColor(boxes[i]));
-        for (const std::uint32_t color : boxes[i].colors)
+        palette.colors.push_back(meanColor(box));
+    }
+    std::sort(palette.colors.begin(), palette.colors.end());
+    palette.colors.erase(std::unique(palette.colors.begin(), palette.colors.end()), palette.colors.end());
+    for (const Box& box : boxes)
+    {
+        const auto found = std::lower_bound(palette.colors.begin(), palette.colors.end(), meanColor(box));
+        for (const std::uint32_t color : box.colors)
         {
-            palette.indices[color] = static_cast<std::uint8_t>(i);
+            palette.indices[color] = static_cast<std::uint8_t>(found - palette.colors.begin());
         }
     }
     return palette;
