@@ -106,7 +106,10 @@ public:
     }
 
     std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->octree()); }
-    std::vector<Cell> rebuilt(const std::multiset<Item>& items) { return *m_scenery.rebuilt(m_setting, true, items); }
+    std::vector<Cell> rebuilt(const std::multiset<Item>& items)
+    {
+        return m_scenery.rebuilt(m_setting, true, items)->cells;
+    }
 
 private:
     vk::HeadlessDevice& m_device;

@@ -49,6 +49,7 @@ public:
     }
 
     DynamicOctree& octree() { return *m_octree; }
+    const Grid& grid() const { return m_grid; }
     const std::shared_ptr<const MoverMesh>& mesh() const { return m_mesh; }
 
     Pose poseAt(const glm::mat4& place) const
@@ -129,6 +130,17 @@ private:
 glm::mat4 moved(float x, float y, float z)
 {
     return glm::translate(glm::mat4(1.0F), glm::vec3(x, y, z));
+}
+
+// What the tests compare updates by.
+TEST(DynamicOctree, IsMadeOfTheCellsThatItHas)
+{
+    const World world(6);
+    const std::vector<Cell> cells = world.shown();
+    ASSERT_GT(cells.size(), 1000U);
+    const Octree octree = test::octreeOf(device(), cells, world.grid(), 1.0F);
+    EXPECT_EQ(test::difference(test::cellsOf(device(), octree), cells), "");
+    EXPECT_GT(octree.emission.count(), 0U);
 }
 
 TEST(DynamicOctree, ShowsTheStaticOctreeWithoutMovers)

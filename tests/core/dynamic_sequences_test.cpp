@@ -21,6 +21,7 @@ using test::Command;
 using test::DynamicSetting;
 using test::Item;
 using test::Place;
+using test::Shot;
 
 vk::HeadlessDevice& device()
 {
@@ -63,13 +64,27 @@ rc::Gen<Command> anyCommand()
                          rc::gen::set(&Item::place, anyPlace()))));
 }
 
+rc::Gen<Shot> anyShot()
+{
+    const auto places = [](int low, int high)
+    { return rc::gen::container<std::array<int, 3>>(rc::gen::inRange(low, high)); };
+    const auto inside = places(0, 4);
+    return rc::gen::build<Shot>(
+        rc::gen::set(&Shot::eye, rc::gen::weightedOneOf<std::array<int, 3>>({{2, places(-8, 13)}, {1, inside}})),
+        rc::gen::set(&Shot::target, places(0, 5)),
+        rc::gen::set(&Shot::orthographic, rc::gen::weightedElement<bool>({{3, false}, {1, true}})),
+        rc::gen::set(&Shot::beam, rc::gen::weightedElement<bool>({{15, false}, {1, true}})),
+        rc::gen::set(&Shot::lit, rc::gen::arbitrary<bool>()),
+        rc::gen::set(&Shot::coarse, rc::gen::weightedElement<bool>({{4, false}, {1, true}})));
+}
+
 rc::Gen<DynamicSetting> anySetting()
 {
     using rc::gen::set;
     const auto mostly = [](bool value) { return rc::gen::weightedElement<bool>({{4, value}, {1, !value}}); };
     return rc::gen::build<DynamicSetting>(
         set(&DynamicSetting::depth,
-            rc::gen::element<std::uint32_t>(5, 5, 4, 4, 3, 3, 2, 1, 6, DynamicSetting::kWideDepth)),
+            rc::gen::element<std::uint32_t>(5, 5, 4, 4, 3, 3, 2, 1, 6, 7, DynamicSetting::kWideDepth)),
         set(&DynamicSetting::coverage, rc::gen::element(Coverage::Thin, Coverage::Conservative)),
         set(&DynamicSetting::merge, rc::gen::element(MergeRule::Average, MergeRule::Average, MergeRule::Average,
                                                      MergeRule::DynamicWins, MergeRule::StaticWins)),
@@ -77,7 +92,8 @@ rc::Gen<DynamicSetting> anySetting()
         set(&DynamicSetting::has_static, mostly(true)),
         set(&DynamicSetting::minimal_capacities, rc::gen::arbitrary<bool>()),
         set(&DynamicSetting::frames_in_flight, rc::gen::inRange<std::uint32_t>(1, 4)),
-        set(&DynamicSetting::steps_max, rc::gen::element<std::uint32_t>(1, 2, 16)));
+        set(&DynamicSetting::steps_max, rc::gen::element<std::uint32_t>(1, 2, 16)),
+        set(&DynamicSetting::shot, anyShot()));
 }
 
 TEST(DynamicSequences, ShowWhatARebuildShows)

@@ -64,12 +64,19 @@ std::ostream& operator<<(std::ostream& out, const Command& command)
 }
 
 DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, MoverScenery& scenery)
-    : m_device(device), m_setting(setting), m_scenery(scenery), m_line(setting.steps_max)
+    : m_device(device), m_setting(setting), m_scenery(scenery), m_beam(device.device()), m_camera(setting.camera()),
+      m_line(setting.steps_max)
 {
+    m_setting.shot.coarse = setting.shot.coarse && !isRuled(); // averages of such nodes are not known
+    for (std::uint32_t i = 0; i < setting.frames_in_flight; ++i)
+    {
+        m_takers.emplace_back(device.device());
+    }
     BuildResult built = scenery.buildStatic(setting);
     m_static_emissive = built.octree.emission.count();
     m_static = staticBytes(built.octree);
     m_octree = std::make_unique<DynamicOctree>(device, std::move(built), setting.options(scenery.emissionScale()));
+    see(m_line.current(), picturesOf(m_octree->octree()));
 }
 
 void DynamicMachine::run(const Command& command)
@@ -102,6 +109,14 @@ void DynamicMachine::run(const Command& command)
 void DynamicMachine::finish()
 {
     settle();
+    while (m_line.undoCount() != 0)
+    {
+        Command undo;
+        undo.action = Command::Action::Undo;
+        m_commands.push_back(undo);
+        wait();
+    }
+    compare();
     RC_ASSERT(staticBytes(m_octree->octree()) == m_static);
 }
 
@@ -134,9 +149,10 @@ void DynamicMachine::submit()
             {
                 record(graph, command);
             }
+            takerOf(frame).record(graph, m_octree->octree(), m_beam, m_camera, m_setting.shot);
             graph.releaseToHost();
         });
-    m_flights.push_back({frame, std::move(submission)});
+    m_flights.push_back({frame, m_line.current(), std::move(submission)});
     m_commands.clear();
     m_update_count = 0;
 }
@@ -206,13 +222,15 @@ void DynamicMachine::show(vk::FrameGraph& graph, bool undo)
 
 void DynamicMachine::waitForOldest()
 {
+    const auto [frame, step] = std::pair(m_flights.front().frame, m_flights.front().step);
     const std::vector<vk::PassTime> passes = m_flights.front().submission.wait();
-    for (const UpdateReport& report : m_octree->frameDone(m_flights.front().frame, passes))
+    for (const UpdateReport& report : m_octree->frameDone(frame, passes))
     {
         m_is_owed = m_is_owed || (report.failed != 0 && report.step == m_line.current());
         m_line.end(report.step, report.failed != 0);
     }
     m_flights.pop_front();
+    see(m_line.endedAs(step), takerOf(frame).pictures());
     RC_ASSERT(!m_is_owed || m_octree->isUpdating() || m_octree->needsUpdate());
 }
 
@@ -254,17 +272,55 @@ void DynamicMachine::compare()
         items.insert(item);
     }
     std::vector<Cell> actual = cellsOf(m_device, m_octree->octree());
-    std::vector<Cell> expected = *m_scenery.rebuilt(m_setting, true, items);
-    if (m_setting.merge != MergeRule::Average && m_setting.attributes)
+    const std::shared_ptr<const Rebuilt> rebuilt = m_scenery.rebuilt(m_setting, true, items);
+    std::vector<Cell> expected = rebuilt->cells;
+    if (isRuled())
     {
-        applyRule(expected, actual, *m_scenery.rebuilt(m_setting, true, {}),
-                  *m_scenery.rebuilt(m_setting, false, items));
+        applyRule(expected, actual, m_scenery.rebuilt(m_setting, true, {})->cells,
+                  m_scenery.rebuilt(m_setting, false, items)->cells);
     }
     const std::string what = difference(actual, expected);
     if (!what.empty())
     {
         RC_FAIL(what);
     }
+    const auto [pictures, is_new] = m_expected.try_emplace(items);
+    if (is_new && isRuled())
+    {
+        pictures->second = picturesOf(octreeOf(m_device, expected, m_setting.grid(), m_scenery.emissionScale()));
+    }
+    else if (is_new)
+    {
+        pictures->second = picturesOf(rebuilt->octree);
+    }
+    if (m_pictures.at(m_line.current()) != pictures->second)
+    {
+        RC_FAIL("the pictures are not those of an octree that is made anew");
+    }
+}
+
+// The pictures of a frame: the first ones of a step, or the same again.
+void DynamicMachine::see(std::uint64_t step, Pixels pixels)
+{
+    const auto [first, is_new] = m_pictures.try_emplace(step, std::move(pixels));
+    if (!is_new && first->second != pixels)
+    {
+        RC_FAIL("step " + std::to_string(step) + " has other pictures than when it was seen first");
+    }
+}
+
+DynamicMachine::Pixels DynamicMachine::picturesOf(const Octree& octree)
+{
+    ShotTaker& taker = m_takers.front();
+    Shot shot = m_setting.shot;
+    shot.beam = false; // it takes time, and the pictures are the same
+    m_device.run(
+        [&](vk::FrameGraph& graph)
+        {
+            taker.record(graph, octree, m_beam, m_camera, shot);
+            graph.releaseToHost();
+        });
+    return taker.pictures();
 }
 
 // Gives the cells of everything the looks that they have in one of its two parts. Nodes that both have are left out of

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <ostream>
+#include <set>
 #include <vector>
 
 namespace zvo::test
@@ -38,7 +39,9 @@ struct Command
 
 std::ostream& operator<<(std::ostream& out, const Command& command);
 
-/// Runs commands, and compares the octree with one that is made anew. Properties fail where they differ.
+/// Runs commands, and compares the octree with one that is made anew. Every frame ends with a picture: it has to be the
+/// one that its step was first seen in and, where the octrees are compared, the one of the octree made anew. Properties
+/// fail where anything differs.
 class DynamicMachine
 {
 public:
@@ -49,15 +52,17 @@ public:
 
     void run(const Command& command);
 
-    /// Settles, and compares the static octree with what it was.
+    /// Settles, goes back to the first step, and compares the static octree with what it was.
     void finish();
 
 private:
     using Shown = std::map<MoverId, Item>;
+    using Pixels = std::vector<gpu::uint>;
 
     struct Flight
     {
         std::uint64_t frame;
+        std::uint64_t step; // that is shown in the end
         vk::Submission submission;
     };
 
@@ -69,9 +74,13 @@ private:
     void waitForOldest();
     void wait();
     void settle();
+    void see(std::uint64_t step, Pixels pixels);
     void compare();
+    [[nodiscard]] ShotTaker& takerOf(std::uint64_t frame) { return m_takers[frame % m_takers.size()]; }
+    [[nodiscard]] Pixels picturesOf(const Octree& octree);
     void applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
                    const std::vector<Cell>& moving) const;
+    [[nodiscard]] bool isRuled() const { return m_setting.merge != MergeRule::Average && m_setting.attributes; }
     [[nodiscard]] std::vector<gpu::uint> staticBytes(const Octree& octree) const;
 
     vk::HeadlessDevice& m_device;
@@ -83,9 +92,14 @@ private:
     std::deque<Flight> m_flights;
     std::vector<Command> m_commands; // of the frame that is submitted next
     std::uint32_t m_update_count = 0;
-    Shown m_wanted;         // where movers were put
-    Shown m_under_way;      // what the update under way is going to show
-    bool m_is_owed = false; // an update was asked for, and is not shown
+    BeamGrid m_beam;
+    TraceCamera m_camera;
+    std::vector<ShotTaker> m_takers;                  // one for each frame in flight
+    std::map<std::uint64_t, Pixels> m_pictures;       // of steps that were seen
+    std::map<std::multiset<Item>, Pixels> m_expected; // pictures of what was made anew
+    Shown m_wanted;                                   // where movers were put
+    Shown m_under_way;                                // what the update under way is going to show
+    bool m_is_owed = false;                           // an update was asked for, and is not shown
     StepLine<Shown> m_line;
 };
 

@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr float kExtent = 16.0F;
-constexpr std::size_t kRebuildsKept = 256;
+constexpr std::size_t kRebuildsKept = 64;
 constexpr std::array kKindNames = {"inside", "outside", "point", "flat", "mirrored", "turned", "nan", "huge"};
 
 } // namespace
@@ -64,6 +64,11 @@ Grid DynamicSetting::grid() const
     return grid;
 }
 
+TraceCamera DynamicSetting::camera() const
+{
+    return shot.camera(grid(), kExtent);
+}
+
 DynamicOptions DynamicSetting::options(float emission_scale) const
 {
     DynamicOptions options;
@@ -82,7 +87,7 @@ std::ostream& operator<<(std::ostream& out, const DynamicSetting& s)
     return out << "depth " << s.depth << ", coverage " << static_cast<int>(s.coverage) << ", merge "
                << static_cast<int>(s.merge) << ", attributes " << s.attributes << ", emits " << s.emits << ", static "
                << s.has_static << ", minimal " << s.minimal_capacities << ", frames " << s.frames_in_flight
-               << ", steps " << s.steps_max;
+               << ", steps " << s.steps_max << ", " << s.shot;
 }
 
 MoverScenery::MoverScenery(vk::HeadlessDevice& device, bool emits)
@@ -134,8 +139,8 @@ Pose MoverScenery::poseOf(const Item& item) const
     return pose;
 }
 
-std::shared_ptr<const std::vector<Cell>> MoverScenery::rebuilt(const DynamicSetting& setting, bool with_static,
-                                                               const std::multiset<Item>& items)
+std::shared_ptr<const Rebuilt> MoverScenery::rebuilt(const DynamicSetting& setting, bool with_static,
+                                                     const std::multiset<Item>& items)
 {
     const bool has_static = with_static && setting.has_static;
     const Key key(setting.depth, setting.coverage, setting.attributes, has_static, items);
@@ -157,12 +162,14 @@ std::shared_ptr<const std::vector<Cell>> MoverScenery::rebuilt(const DynamicSett
     BuildOptions build;
     build.coverage = setting.coverage;
     build.attributes = setting.attributes;
-    const BuildResult built = buildOctree(m_device, upload(scene, setting.attributes), setting.grid(), build);
+    auto rebuilt = std::make_shared<Rebuilt>();
+    rebuilt->octree = buildOctree(m_device, upload(scene, setting.attributes), setting.grid(), build).octree;
+    rebuilt->cells = cellsOf(m_device, rebuilt->octree);
     if (m_rebuilt.size() == kRebuildsKept)
     {
         m_rebuilt.clear();
     }
-    return m_rebuilt[key] = std::make_shared<const std::vector<Cell>>(cellsOf(m_device, built.octree));
+    return m_rebuilt[key] = std::move(rebuilt);
 }
 
 } // namespace zvo::test

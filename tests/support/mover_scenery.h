@@ -4,6 +4,7 @@
 
 #include "core/dynamic_octree.h"
 #include "support/octree_contents.h"
+#include "support/shots.h"
 
 #include <array>
 #include <compare>
@@ -67,15 +68,24 @@ struct DynamicSetting
     bool minimal_capacities = false;
     std::uint32_t frames_in_flight = 2;
     std::uint32_t steps_max = 16;
+    Shot shot = {};
 
     /// The scene's extent takes 64 voxels at most; a deeper grid has it in its farthest corner, where all bits of codes
     /// count.
     [[nodiscard]] Grid grid() const;
 
+    [[nodiscard]] TraceCamera camera() const;
     [[nodiscard]] DynamicOptions options(float emission_scale) const;
 };
 
 std::ostream& operator<<(std::ostream& out, const DynamicSetting& setting);
+
+/// An octree that was made anew.
+struct Rebuilt
+{
+    Octree octree;
+    std::vector<Cell> cells; // of it
+};
 
 /// Meshes of a few dozen triangles with textures, alpha and, if they are to, emission. Must not outlive the device.
 class MoverScenery
@@ -93,9 +103,9 @@ public:
     [[nodiscard]] std::shared_ptr<const MoverMesh> mover(std::uint32_t mesh, bool attributes);
     [[nodiscard]] Pose poseOf(const Item& item) const;
 
-    /// The cells of the octree that is made of items and, if that is asked for, the static part. The last few are kept.
-    std::shared_ptr<const std::vector<Cell>> rebuilt(const DynamicSetting& setting, bool with_static,
-                                                     const std::multiset<Item>& items);
+    /// The octree that is made of items and, if that is asked for, the static part. The last few are kept.
+    std::shared_ptr<const Rebuilt> rebuilt(const DynamicSetting& setting, bool with_static,
+                                           const std::multiset<Item>& items);
 
 private:
     using Key = std::tuple<std::uint32_t, Coverage, bool, bool, std::multiset<Item>>;
@@ -107,7 +117,7 @@ private:
     std::array<Scene, kMeshCount> m_meshes;
     float m_scale = 0;
     std::map<std::pair<std::uint32_t, bool>, std::shared_ptr<const MoverMesh>> m_uploaded;
-    std::map<Key, std::shared_ptr<const std::vector<Cell>>> m_rebuilt;
+    std::map<Key, std::shared_ptr<const Rebuilt>> m_rebuilt;
 };
 
 } // namespace zvo::test

@@ -18,6 +18,25 @@ std::string describe(const Cell& cell)
                        cell.attribute.color, cell.attribute.normal, cell.emission);
 }
 
+// Children come in their order.
+void addChild(gpu::Node& node, std::uint32_t c, std::uint32_t number)
+{
+    if ((node.mask_lo | node.mask_hi) == 0)
+    {
+        node.base_lo = number;
+        node.base_hi = number;
+    }
+    if (c < 32)
+    {
+        node.mask_lo |= 1U << c;
+        ++node.base_hi;
+    }
+    else
+    {
+        node.mask_hi |= 1U << (c - 32);
+    }
+}
+
 } // namespace
 
 std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const Octree& octree)
@@ -79,6 +98,60 @@ std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const Octree& octree)
         cells.push_back(cell);
     }
     return cells;
+}
+
+Octree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale)
+{
+    const std::uint32_t levels = grid.nodeLevels();
+    const auto node_count = static_cast<std::size_t>(std::ranges::find(cells, levels, &Cell::level) - cells.begin());
+    std::vector<gpu::Node> nodes(node_count);
+    std::vector<gpu::Attribute> averages;
+    std::vector<gpu::Attribute> attributes;
+    std::vector<gpu::uvec2> words;
+    std::vector<gpu::uint> emission;
+    Octree octree;
+    octree.grid = grid;
+    octree.node_count = static_cast<std::uint32_t>(node_count);
+    octree.voxel_count = static_cast<std::uint32_t>(cells.size() - node_count);
+    octree.emission_scale = emission_scale;
+    std::size_t parent = 0; // a node's number is its place among cells
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+        const Cell& cell = cells[i];
+        const bool is_voxel = cell.level == levels;
+        const auto number = static_cast<std::uint32_t>(is_voxel ? i - node_count : i);
+        if (i != 0)
+        {
+            while (cells.at(parent).level + 1 != cell.level || cells.at(parent).code != cell.code >> 6)
+            {
+                ++parent;
+            }
+            addChild(nodes.at(parent), static_cast<std::uint32_t>(cell.code & 63U), number);
+        }
+        if (!is_voxel)
+        {
+            octree.levels.resize(cell.level + 1, {number, 0});
+            ++octree.levels.back().node_count;
+            averages.push_back(cell.attribute);
+            continue;
+        }
+        attributes.push_back(cell.attribute);
+        if (number % 32 == 0)
+        {
+            words.emplace_back(0U, static_cast<std::uint32_t>(emission.size()));
+        }
+        if (((cell.attribute.color >> 24) & gpu::kAttributeEmissive) != 0)
+        {
+            words.back().x |= 1U << (number % 32);
+            emission.push_back(cell.emission);
+        }
+    }
+    octree.nodes = device.makeBuffer("nodes", std::span<const gpu::Node>(nodes));
+    octree.node_attributes = device.makeBuffer("node attributes", std::span<const gpu::Attribute>(averages));
+    octree.voxel_attributes = device.makeBuffer("voxel attributes", std::span<const gpu::Attribute>(attributes));
+    octree.emission_words = device.makeBuffer("emission words", std::span<const gpu::uvec2>(words));
+    octree.emission = device.makeBuffer("emission", std::span<const gpu::uint>(emission));
+    return octree;
 }
 
 std::string difference(const std::vector<Cell>& actual, const std::vector<Cell>& expected)

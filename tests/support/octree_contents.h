@@ -30,6 +30,14 @@ struct Cell
 /// and emission are 0 where octree has none. Throws std::out_of_range where a base leads out of a buffer.
 std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const Octree& octree);
 
+/// The octree of cells as cellsOf() lists them, in device memory, breadth first, with attributes and emission if that
+/// is asked for.
+Octree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, bool attributes,
+                float emission_scale);
+
+/// An octree of cells as cellsOf() lists them, with their attributes and emission: breadth first, made on the host.
+Octree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale);
+
 /// What tells two lists apart: the first difference, or "" for none.
 std::string difference(const std::vector<Cell>& actual, const std::vector<Cell>& expected);
 

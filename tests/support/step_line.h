@@ -51,6 +51,7 @@ public:
         {
             return;
         }
+        m_fell_to[step] = fallback;
         for (auto& [later, falls_to] : m_pending)
         {
             falls_to = falls_to == step ? fallback : falls_to;
@@ -82,6 +83,14 @@ public:
 
     [[nodiscard]] const Shown& shown() const { return m_shown.at(m_line[m_at]); }
     [[nodiscard]] std::uint64_t current() const { return m_line[m_at]; }
+
+    /// What a step that is not pending shows: itself, or the step that it fell back to.
+    [[nodiscard]] std::uint64_t endedAs(std::uint64_t id) const
+    {
+        const auto found = m_fell_to.find(id);
+        return found != m_fell_to.end() ? found->second : id;
+    }
+
     [[nodiscard]] std::size_t undoCount() const { return m_at; }
     [[nodiscard]] std::size_t redoCount() const { return m_line.size() - 1 - m_at; }
     [[nodiscard]] bool isPending() const { return !m_pending.empty(); }
@@ -92,6 +101,7 @@ private:
     std::vector<std::uint64_t> m_line = {0};
     std::size_t m_at = 0;
     std::uint64_t m_last = 0;
+    std::map<std::uint64_t, std::uint64_t> m_fell_to;              // of steps that failed
     std::deque<std::pair<std::uint64_t, std::uint64_t>> m_pending; // steps, and what they fall back to
 };
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Small pictures of octrees that are taken again and again, also of frames in flight.
+#pragma once
+
+#include "core/trace.h"
+#include "vk/headless.h"
+
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// How an octree is looked at.
+struct Shot
+{
+    std::array<int, 3> eye = {10, 5, 12};  // 2 eye + 1 eighths of the extent: in any direction, near, far or inside
+    std::array<int, 3> target = {2, 2, 2}; // quarters of the extent: never where the eye is
+    bool orthographic = false;
+    bool beam = true;
+    bool lit = true;     // shadows and occlusion: more rays
+    bool coarse = false; // nodes of level 1 and their averages instead of voxels
+
+    /// Of a scene with the extent [0, extent]^3 in a grid.
+    [[nodiscard]] TraceCamera camera(const Grid& grid, float extent) const;
+};
+
+std::ostream& operator<<(std::ostream& out, const Shot& shot);
+
+/// Takes pictures of one octree after the other by the same shot, in all views that the same hits are shaded in.
+class ShotTaker
+{
+public:
+    explicit ShotTaker(vk::Device& device);
+
+    /// Records the passes for pictures of octree; overwrites those that were taken before. beam: is made anew.
+    void record(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam, const TraceCamera& camera,
+                const Shot& shot);
+
+    /// The pixels of all views, once the device is done with what was recorded, up to FrameGraph::releaseToHost().
+    [[nodiscard]] std::vector<gpu::uint> pictures() const;
+
+private:
+    TraceBuffers m_buffers;
+    vk::BufferOf<gpu::uint> m_pictures;
+};
+
+} // namespace zvo::test
