@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Whatever is done to movers, in whatever order: what is shown is what voxelizing everything anew gives, undo and redo
 // show what was shown, and the static octree stays what it was. scripts/check-dynamic runs thousands of sequences.
+#include "core/deform.h"
 #include "core/kernels.h"
+#include "oracle/deform.h"
 #include "support/device.h"
 #include "support/dynamic_machine.h"
 #include "support/properties.h"
@@ -9,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,27 +23,35 @@ namespace
 using test::Command;
 using test::DynamicSetting;
 using test::Item;
+using test::MoverScenery;
 using test::Place;
 using test::Shot;
+
+constexpr std::uint32_t kBendCount = 5;
 
 vk::HeadlessDevice& device()
 {
     return test::sharedDevice(zvoKernels());
 }
 
+// From low to high - 1, each as often, also in small cases, to which rc::gen::inRange gives only the lowest.
+template <typename T> rc::Gen<T> anyBetween(T low, T high)
+{
+    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
+}
+
 rc::Gen<Place> anyPlace()
 {
     using Kind = Place::Kind;
-    return rc::gen::build<Place>(
-        rc::gen::set(&Place::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
-                                                                   {2, Kind::Outside},
-                                                                   {1, Kind::Point},
-                                                                   {1, Kind::Flat},
-                                                                   {3, Kind::Mirrored},
-                                                                   {3, Kind::Turned},
-                                                                   {1, Kind::Nan},
-                                                                   {1, Kind::Huge}})),
-        rc::gen::set(&Place::at, rc::gen::container<std::array<int, 3>>(rc::gen::inRange(-1, 4))));
+    return rc::gen::build<Place>(rc::gen::set(&Place::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
+                                                                                            {2, Kind::Outside},
+                                                                                            {1, Kind::Point},
+                                                                                            {1, Kind::Flat},
+                                                                                            {3, Kind::Mirrored},
+                                                                                            {3, Kind::Turned},
+                                                                                            {1, Kind::Nan},
+                                                                                            {1, Kind::Huge}})),
+                                 rc::gen::set(&Place::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
 }
 
 rc::Gen<Command> anyCommand()
@@ -49,7 +60,8 @@ rc::Gen<Command> anyCommand()
     return rc::gen::build<Command>(
         rc::gen::set(&Command::action, rc::gen::weightedElement<Action>({{4, Action::Settle},
                                                                          {4, Action::Add},
-                                                                         {6, Action::Place},
+                                                                         {5, Action::Place},
+                                                                         {2, Action::Bend},
                                                                          {1, Action::Remove},
                                                                          {4, Action::Update},
                                                                          {6, Action::Slice},
@@ -57,17 +69,17 @@ rc::Gen<Command> anyCommand()
                                                                          {3, Action::Redo},
                                                                          {4, Action::Submit},
                                                                          {2, Action::Wait}})),
-        rc::gen::set(&Command::mover, rc::gen::inRange<std::uint32_t>(0, test::DynamicMachine::kMoversMax)),
-        rc::gen::set(&Command::item,
-                     rc::gen::build<Item>(
-                         rc::gen::set(&Item::mesh, rc::gen::inRange<std::uint32_t>(0, test::MoverScenery::kMeshCount)),
-                         rc::gen::set(&Item::place, anyPlace()))));
+        rc::gen::set(&Command::mover, anyBetween<std::uint32_t>(0, test::DynamicMachine::kMoversMax)),
+        rc::gen::set(
+            &Command::item,
+            rc::gen::build<Item>(rc::gen::set(&Item::mesh, anyBetween<std::uint32_t>(0, MoverScenery::kMeshCount)),
+                                 rc::gen::set(&Item::place, anyPlace()),
+                                 rc::gen::set(&Item::bend, anyBetween<std::uint32_t>(0, kBendCount)))));
 }
 
 rc::Gen<Shot> anyShot()
 {
-    const auto places = [](int low, int high)
-    { return rc::gen::container<std::array<int, 3>>(rc::gen::inRange(low, high)); };
+    const auto places = [](int low, int high) { return rc::gen::container<std::array<int, 3>>(anyBetween(low, high)); };
     const auto inside = places(0, 4);
     return rc::gen::build<Shot>(
         rc::gen::set(&Shot::eye, rc::gen::weightedOneOf<std::array<int, 3>>({{2, places(-8, 13)}, {1, inside}})),
@@ -91,14 +103,56 @@ rc::Gen<DynamicSetting> anySetting()
         set(&DynamicSetting::attributes, mostly(true)), set(&DynamicSetting::emits, mostly(true)),
         set(&DynamicSetting::has_static, mostly(true)),
         set(&DynamicSetting::minimal_capacities, rc::gen::arbitrary<bool>()),
-        set(&DynamicSetting::frames_in_flight, rc::gen::inRange<std::uint32_t>(1, 4)),
+        set(&DynamicSetting::frames_in_flight, anyBetween<std::uint32_t>(1, 4)),
         set(&DynamicSetting::steps_max, rc::gen::element<std::uint32_t>(1, 2, 16)),
         set(&DynamicSetting::shot, anyShot()));
 }
 
+// What rebuilds take for granted: the CPU bends meshes as double precision does, but for roundings.
+TEST(DynamicSequences, BendMeshesWithinRoundingsOfDoublePrecision)
+{
+    const MoverScenery scenery(device(), true);
+    std::size_t vertex_count = 0;
+    std::size_t normal_count = 0;
+    for (std::uint32_t mesh = MoverScenery::kRigidCount; mesh < MoverScenery::kMeshCount; ++mesh)
+    {
+        const Scene& scene = scenery.mesh(mesh);
+        for (std::uint32_t bend = 0; bend < kBendCount; ++bend)
+        {
+            for (const Place::Kind kind : {Place::Kind::Inside, Place::Kind::Flat, Place::Kind::Turned})
+            {
+                const Pose pose = scenery.poseOf({mesh, {kind, {1, 2, 3}}, bend});
+                const Scene posed = posedScene(scene, pose);
+                for (std::size_t i = 0; i < scene.instances.size(); ++i)
+                {
+                    const Primitive& rest = scene.primitives[scene.instances[i].primitive];
+                    const Primitive& bent = posed.primitives[posed.instances[i].primitive];
+                    ASSERT_EQ(bent.positions.size(), rest.positions.size());
+                    for (std::size_t v = 0; v < bent.positions.size() && isDeformed(rest, scene.instances[i]); ++v)
+                    {
+                        const oracle::DeformedVertex expected =
+                            oracle::deformVertex(rest, v, pose.morph_weights[i], pose.joint_matrices[i]);
+                        const glm::dvec3 error = glm::abs(glm::dvec3(bent.positions[v]) - expected.position);
+                        EXPECT_TRUE(glm::all(glm::lessThanEqual(error, expected.position_bound)));
+                        ++vertex_count;
+                        if (!rest.normals.empty() && !std::isinf(expected.normal_bound))
+                        {
+                            const glm::dvec3 normal = glm::normalize(glm::dvec3(bent.normals[v]));
+                            EXPECT_LE(glm::distance(normal, expected.normal), expected.normal_bound);
+                            ++normal_count;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_GT(vertex_count, 1000U);
+    EXPECT_GT(normal_count, 300U);
+}
+
 TEST(DynamicSequences, ShowWhatARebuildShows)
 {
-    std::array sceneries = {test::MoverScenery(device(), false), test::MoverScenery(device(), true)};
+    std::array sceneries = {MoverScenery(device(), false), MoverScenery(device(), true)};
     const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
     test::checkProperty(150,
                         [&]

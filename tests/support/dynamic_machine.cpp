@@ -19,7 +19,7 @@ namespace
 constexpr int kAttemptsMax = 64;
 constexpr std::uint32_t kUpdatesPerFrame = 4; // that DynamicOctree takes
 constexpr double kTinyBudgetMs = 1e-6;
-constexpr std::array kActionNames = {"add",  "place", "remove", "update", "slice",
+constexpr std::array kActionNames = {"add",  "place", "bend",   "remove", "update", "slice",
                                      "undo", "redo",  "submit", "wait",   "settle"};
 
 const Cell* findCell(const std::vector<Cell>& cells, const Cell& cell)
@@ -47,18 +47,23 @@ void addWords(std::vector<gpu::uint>& words, vk::HeadlessDevice& device, const v
 std::ostream& operator<<(std::ostream& out, const Command& command)
 {
     using Action = Command::Action;
-    out << kActionNames.at(static_cast<std::size_t>(command.action));
-    if (command.action == Action::Add)
+    const Action action = command.action;
+    out << kActionNames.at(static_cast<std::size_t>(action));
+    if (action == Action::Add)
     {
-        out << " mesh " << command.item.mesh << " " << command.item.place;
+        out << " mesh " << command.item.mesh;
     }
-    if (command.action == Action::Remove || command.action == Action::Place)
+    if (action == Action::Remove || action == Action::Place || action == Action::Bend)
     {
         out << " mover " << command.mover;
     }
-    if (command.action == Action::Place)
+    if (action == Action::Add || action == Action::Place)
     {
         out << " " << command.item.place;
+    }
+    if (action == Action::Add || action == Action::Place || action == Action::Bend)
+    {
+        out << " bend " << command.item.bend;
     }
     return out;
 }
@@ -125,8 +130,9 @@ void DynamicMachine::add(const Item& item)
     submit();
     if (m_wanted.size() < kMoversMax)
     {
-        const MoverId id = m_octree->add(m_scenery.mover(item.mesh, m_setting.attributes), m_scenery.poseOf(item));
-        m_wanted[id] = item;
+        const Item added = {item.mesh, item.place, item.mesh < MoverScenery::kRigidCount ? 0 : item.bend};
+        const MoverId id = m_octree->add(m_scenery.mover(added.mesh, m_setting.attributes), m_scenery.poseOf(added));
+        m_wanted[id] = added;
     }
 }
 
@@ -164,10 +170,13 @@ void DynamicMachine::record(vk::FrameGraph& graph, const Command& command)
     switch (command.action)
     {
     case Command::Action::Place:
+    case Command::Action::Bend:
         if (mover != m_wanted.end())
         {
-            mover->second.place = command.item.place;
-            m_octree->place(mover->first, m_scenery.poseOf(mover->second));
+            Item& item = mover->second;
+            item.place = command.action == Command::Action::Bend ? item.place : command.item.place;
+            item.bend = item.mesh < MoverScenery::kRigidCount ? 0 : command.item.bend;
+            m_octree->place(mover->first, m_scenery.poseOf(item));
         }
         break;
     case Command::Action::Remove:

@@ -22,6 +22,7 @@ struct Command
     {
         Add,
         Place,
+        Bend,
         Remove,
         Update,
         Slice, // an update under a budget that is far too small
@@ -33,8 +34,8 @@ struct Command
     };
 
     Action action = Action::Settle;
-    std::uint32_t mover = 0; // Place, Remove: which of those that are there
-    Item item;               // Add; Place: only the place
+    std::uint32_t mover = 0; // Place, Bend, Remove: which of those that are there
+    Item item;               // Add; Place: only the place and the bend; Bend: only the bend
 };
 
 std::ostream& operator<<(std::ostream& out, const Command& command);

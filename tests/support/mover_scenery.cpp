@@ -2,12 +2,14 @@
 #include "support/mover_scenery.h"
 
 #include "core/pipeline.h"
+#include "support/deforming_scenes.h"
 #include "support/materials_scene.h"
 
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <random>
 #include <utility>
 
 namespace zvo::test
@@ -19,6 +21,29 @@ namespace
 constexpr float kExtent = 16.0F;
 constexpr std::size_t kRebuildsKept = 64;
 constexpr std::array kKindNames = {"inside", "outside", "point", "flat", "mirrored", "turned", "nan", "huge"};
+
+// Rigs the first primitives of scene, each of one instance; their vertices get normals where parts say so.
+Scene rigged(Scene scene, std::uint32_t seed, const std::vector<DeformingParts>& parts)
+{
+    std::mt19937 random(seed);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+    {
+        Primitive& primitive = scene.primitives.at(i);
+        Primitive rig = deformingPrimitive(random, primitive.positions.size(), parts[i]);
+        primitive.normals = std::move(rig.normals);
+        primitive.joints = std::move(rig.joints);
+        primitive.weights = std::move(rig.weights);
+        primitive.morph_targets = std::move(rig.morph_targets);
+        if (parts[i].joint_count != 0)
+        {
+            scene.instances.at(i).skin = static_cast<std::uint32_t>(scene.skins.size());
+            scene.skins.push_back({std::vector<std::uint32_t>(parts[i].joint_count, 0),
+                                   std::vector<glm::mat4>(parts[i].joint_count, glm::mat4(1.0F))});
+            scene.nodes.resize(1);
+        }
+    }
+    return scene;
+}
 
 } // namespace
 
@@ -92,16 +117,21 @@ std::ostream& operator<<(std::ostream& out, const DynamicSetting& s)
 
 MoverScenery::MoverScenery(vk::HeadlessDevice& device, bool emits)
     : m_device(device), m_static(materialsScene(kExtent, 8, 17)),
-      m_meshes({materialsScene(kExtent / 2.6F, 5, 31), materialsScene(kExtent / 6, 4, 47)})
+      m_meshes({materialsScene(kExtent / 2.6F, 5, 31), materialsScene(kExtent / 6, 4, 47),
+                rigged(materialsScene(kExtent / 4, 4, 53), 1, {{true, 5, 0}, {true, 3, 0}, {false, 9, 0}}),
+                rigged(materialsScene(kExtent / 3, 4, 59), 2, {{true, 0, 3}, {false, 0, 2}}),
+                rigged(materialsScene(kExtent / 4, 3, 61), 3, {{true, 4, 3}, {false, 0, 4}, {true, 7, 0}})})
 {
-    for (Scene* scene : {&m_static, &m_meshes[0], &m_meshes[1]})
+    const auto prepare = [&](Scene& scene)
     {
-        for (Material& material : scene->materials)
+        for (Material& material : scene.materials)
         {
             material.emission *= emits ? 1.0F : 0.0F;
         }
-        m_scale = std::max(m_scale, brightestEmission(*scene));
-    }
+        m_scale = std::max(m_scale, brightestEmission(scene));
+    };
+    prepare(m_static);
+    std::ranges::for_each(m_meshes, prepare);
 }
 
 GpuScene MoverScenery::upload(const Scene& scene, bool attributes) const
@@ -131,10 +161,26 @@ std::shared_ptr<const MoverMesh> MoverScenery::mover(std::uint32_t mesh, bool at
 
 Pose MoverScenery::poseOf(const Item& item) const
 {
+    const Scene& scene = m_meshes.at(item.mesh);
+    const glm::mat4 place = item.place.transform();
     Pose pose;
-    for (const Instance& instance : m_meshes.at(item.mesh).instances)
+    for (const Instance& instance : scene.instances)
     {
-        pose.transforms.push_back(item.place.transform() * instance.transform);
+        const bool is_skinned = instance.skin != kNone;
+        pose.transforms.push_back(is_skinned ? glm::mat4(1.0F) : place * instance.transform);
+        pose.joint_matrices.emplace_back(is_skinned ? scene.skins[instance.skin].joints.size() : 0);
+        pose.morph_weights.emplace_back(scene.primitives[instance.primitive].morph_targets.size());
+    }
+    const std::vector<glm::mat4> transforms = pose.transforms;
+    std::mt19937 random(item.bend);
+    changePose(random, pose);
+    pose.transforms = transforms;
+    for (std::vector<glm::mat4>& joints : pose.joint_matrices)
+    {
+        for (glm::mat4& joint : joints)
+        {
+            joint = place * joint;
+        }
     }
     return pose;
 }
@@ -151,13 +197,7 @@ std::shared_ptr<const Rebuilt> MoverScenery::rebuilt(const DynamicSetting& setti
     Scene scene = has_static ? m_static : Scene{};
     for (const Item& item : items)
     {
-        Scene mesh = m_meshes.at(item.mesh);
-        const Pose pose = poseOf(item);
-        for (std::size_t i = 0; i < mesh.instances.size(); ++i)
-        {
-            mesh.instances[i].transform = pose.transforms[i];
-        }
-        scene.append(std::move(mesh));
+        scene.append(posedScene(m_meshes.at(item.mesh), poseOf(item)));
     }
     BuildOptions build;
     build.coverage = setting.coverage;

@@ -50,6 +50,7 @@ struct Item
 {
     std::uint32_t mesh = 0; // less than MoverScenery::kMeshCount
     Place place;
+    std::uint32_t bend = 0; // number of a shape that joints and morph weights pull it into; 0 for a rigid mesh
 
     auto operator<=>(const Item&) const = default;
 };
@@ -87,11 +88,14 @@ struct Rebuilt
     std::vector<Cell> cells; // of it
 };
 
-/// Meshes of a few dozen triangles with textures, alpha and, if they are to, emission. Must not outlive the device.
+/// Meshes of a few dozen triangles with textures, alpha and, if they are to, emission: two that are rigid, one with
+/// skins, one with morph targets, and one with both, on one primitive, too. Some instances of these are rigid. Must not
+/// outlive the device.
 class MoverScenery
 {
 public:
-    static constexpr std::size_t kMeshCount = 2;
+    static constexpr std::uint32_t kRigidCount = 2;
+    static constexpr std::uint32_t kMeshCount = 5; // the first ones are rigid
 
     MoverScenery(vk::HeadlessDevice& device, bool emits);
 
@@ -101,9 +105,11 @@ public:
     [[nodiscard]] BuildResult buildStatic(const DynamicSetting& setting) const;
 
     [[nodiscard]] std::shared_ptr<const MoverMesh> mover(std::uint32_t mesh, bool attributes);
+    [[nodiscard]] const Scene& mesh(std::uint32_t number) const { return m_meshes.at(number); }
     [[nodiscard]] Pose poseOf(const Item& item) const;
 
-    /// The octree that is made of items and, if that is asked for, the static part. The last few are kept.
+    /// The octree that is made of items, deformed on the CPU, and, if that is asked for, the static part. The last few
+    /// are kept.
     std::shared_ptr<const Rebuilt> rebuilt(const DynamicSetting& setting, bool with_static,
                                            const std::multiset<Item>& items);
 
