@@ -269,6 +269,29 @@ void checkPosedSize(const Scene& scene)
 
 } // namespace
 
+bool keepAnimation(Scene& scene, const std::optional<AnimationChoice>& choice)
+{
+    const auto isWanted = [&choice](const Animation& animation)
+    {
+        if (!choice)
+        {
+            return true;
+        }
+        const auto* const name = std::get_if<std::string>(&*choice);
+        return name != nullptr ? !name->empty() && animation.name == *name
+                               : animation.number == std::get<std::uint32_t>(*choice);
+    };
+    const auto wanted = std::find_if(scene.animations.begin(), scene.animations.end(), isWanted);
+    if (wanted == scene.animations.end())
+    {
+        return !choice;
+    }
+    std::vector<Animation> kept;
+    kept.push_back(std::move(*wanted));
+    scene.animations = std::move(kept);
+    return true;
+}
+
 Pose poseAt(const Scene& scene, double seconds, const glm::dmat4& to_world)
 {
     const NodePoses nodes(scene, seconds, to_world);

@@ -6,7 +6,11 @@
 #include "core/scene.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace zvo
@@ -20,6 +24,13 @@ struct Pose
                                                         // world(joint) * inverse_bind; empty without a skin
     std::vector<std::vector<float>> morph_weights;      // [instances][morph targets of its primitive]
 };
+
+/// Which animation of a file plays: the first of that name, or the one of that number (Animation::number).
+using AnimationChoice = std::variant<std::string, std::uint32_t>;
+
+/// Takes all animations from the scene of one file but the one that plays: the chosen one or else the first. Whether
+/// the chosen one is there; if not, nothing changes.
+bool keepAnimation(Scene& scene, const std::optional<AnimationChoice>& choice = std::nullopt);
 
 /// The pose at a time from 0 on or before it, with every animation of the scene repeated over its own length; before
 /// its first key a channel holds the first one. Of channels of several animations that move the same property the last

@@ -229,6 +229,7 @@ void GltfRig::addAnimations()
         const GltfAnimationSource& source = m_document.animations[i];
         Animation animation;
         animation.name = source.name;
+        animation.number = static_cast<std::uint32_t>(i);
         animation.channels = readChannels(source, fmt::format("animations[{}]", i));
         for (const Channel& channel : animation.channels)
         {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/load_scene.h"
 
+#include "core/animation.h"
 #include "core/gltf_loader.h"
 #include "core/input_error.h"
 #include "core/mesh_import.h"
@@ -150,7 +151,12 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
     Scene scene;
     for (const std::filesystem::path& path : paths)
     {
-        scene.append(loadFile(path));
+        Scene loaded = loadFile(path);
+        if (!options.every_animation)
+        {
+            keepAnimation(loaded);
+        }
+        scene.append(std::move(loaded));
     }
     place(scene, options);
     return scene;

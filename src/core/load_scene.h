@@ -24,7 +24,8 @@ enum class UpAxis : std::uint32_t
 struct LoadOptions
 {
     UpAxis up = UpAxis::Y;
-    float scale = 1.0F; // world units of a unit of the file, above 0
+    float scale = 1.0F;           // world units of a unit of the file, above 0
+    bool every_animation = false; // of a file, for keepAnimation(); otherwise the first one alone, which plays
 };
 
 /// Several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content where

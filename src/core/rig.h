@@ -70,7 +70,8 @@ struct Animation
 {
     std::string name;
     std::vector<Channel> channels;
-    double seconds = 0.0; // the last time of all channels; the animation repeats after it
+    double seconds = 0.0;     // the last time of all channels; the animation repeats after it
+    std::uint32_t number = 0; // among the animations of its file, those that move nothing included
 };
 
 /// translation * rotation * scale. rotation: of any length, a zero one does not rotate.

@@ -230,9 +230,22 @@ std::optional<bool> readIsDynamic(const JsonCursor& object)
     return is_static ? !is_static->flag() : is_dynamic->flag();
 }
 
+AnimationChoice readAnimation(const JsonCursor& animation)
+{
+    if (animation.isText())
+    {
+        return animation.text();
+    }
+    if (!animation.isNumber())
+    {
+        throw animation.mismatch("the name of an animation of the file, or its number, from 0 on");
+    }
+    return animation.whole(0, UINT32_MAX);
+}
+
 StageObject readObject(const JsonCursor& json, double stage_seconds)
 {
-    json.allowKeys({"name", "file", "static", "dynamic", "up", "place", "motion"});
+    json.allowKeys({"name", "file", "static", "dynamic", "up", "place", "motion", "animation"});
     StageObject object;
     object.where = json.where();
     object.file = json.at("file").text();
@@ -253,6 +266,14 @@ StageObject readObject(const JsonCursor& json, double stage_seconds)
         }
         object.motion = readMotion(*motion, placed.translation, stage_seconds);
         object.is_dynamic = true;
+    }
+    if (const auto animation = json.find("animation"))
+    {
+        if (object.is_dynamic == false)
+        {
+            throw animation->error("plays in an object that is static; expected dynamic");
+        }
+        object.animation = readAnimation(*animation);
     }
     return object;
 }

@@ -2,6 +2,7 @@
 // Scene files (*.scene.json) as they are written: docs/input.md has their schema. core/stage.h loads what they name.
 #pragma once
 
+#include "core/animation.h"
 #include "core/camera.h"
 #include "core/load_scene.h"
 #include "core/merge_rule.h"
@@ -27,7 +28,8 @@ struct StageObject
     UpAxis up = UpAxis::Y;
     glm::dmat4 place{1.0}; // of the scene in the file, its up axis turned already; affine
     Motion motion;
-    std::optional<bool> is_dynamic; // not said: where it moves or is animated
+    std::optional<AnimationChoice> animation; // of the file; not said: the first
+    std::optional<bool> is_dynamic;           // not said: where it moves or is animated
 };
 
 /// A camera: one of the static objects' by its name, auto, close, or numbers.

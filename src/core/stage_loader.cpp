@@ -27,6 +27,7 @@ namespace
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kShownAnimations = 8;                       // more are only counted
 constexpr std::size_t kStageFileBytesMax = std::size_t{4} << 20U; // many times what 4096 objects take
 
 bool isFinite(const glm::vec3& point)
@@ -134,7 +135,7 @@ public:
         File& file = m_files.at(path);
         if (!file.is_loaded)
         {
-            file.scene = loadScene(std::span(&path, 1));
+            file.scene = loadScene(std::span(&path, 1), {.every_animation = true});
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
         }
@@ -186,6 +187,42 @@ void checkPlace(const fs::path& stage_path, const StageObject& object, const Sce
                               "place makes the object larger than single precision holds; expected a smaller scale");
         }
     }
+}
+
+/// What a message says of the animations of a file.
+std::string listAnimations(const std::vector<Animation>& animations)
+{
+    if (animations.empty())
+    {
+        return "has no animations that move anything";
+    }
+    std::vector<std::string> names;
+    for (const Animation& animation : animations)
+    {
+        if (names.size() == kShownAnimations)
+        {
+            names.push_back(fmt::format("{} more", animations.size() - kShownAnimations));
+            break;
+        }
+        names.push_back(animation.name.empty() ? fmt::format("{}", animation.number)
+                                               : fmt::format("{} (\"{}\")", animation.number, animation.name));
+    }
+    return fmt::format("has {}", fmt::join(names, ", "));
+}
+
+/// Leaves the scene of an object the animation that plays.
+void chooseAnimation(const fs::path& stage_path, const StageObject& object, Scene& scene)
+{
+    if (keepAnimation(scene, object.animation))
+    {
+        return;
+    }
+    const auto* const name = std::get_if<std::string>(&*object.animation);
+    const std::string wanted =
+        name != nullptr ? fmt::format("\"{}\"", *name) : fmt::format("{}", std::get<std::uint32_t>(*object.animation));
+    throw objectError(stage_path, object,
+                      fmt::format("animation is {}, which {} does not have; it {}", wanted, object.file,
+                                  listAnimations(scene.animations)));
 }
 
 bool isDeformedAtAll(const Scene& scene)
@@ -332,6 +369,7 @@ Stage loadStage(const fs::path& path, const StageOptions& options)
         const StageObject& object = file.objects[i];
         Scene scene = loader.load(stage.files[i]);
         checkPlace(path, object, scene);
+        chooseAnimation(path, object, scene);
         addObject(stage, object, std::move(scene));
     }
     checkCamera(path, stage);

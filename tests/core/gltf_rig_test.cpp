@@ -353,6 +353,25 @@ TEST(GltfRig, SeveralFilesBecomeOneScene)
     EXPECT_EQ(scene.rest_warnings.size(), 3U);
 }
 
+TEST(GltfRig, OfEachFileTheFirstAnimationThatMovesSomethingPlays)
+{
+    GltfBuilder twice = armDocument();
+    addAnimation<float>(twice, 2, "translation", "STEP", {0}, "VEC3", kF32, 1, {1, 2, 3});
+    GltfBuilder late = armDocument();
+    json nothing = json::array({{{"channels", json::array()}, {"samplers", json::array()}}});
+    nothing.push_back(late.document["animations"][0]);
+    late.document["animations"] = nothing;
+    const TempDir dir;
+    const std::vector<std::filesystem::path> paths = {dir.write("a.glb", twice.glb()), dir.write("b.glb", late.glb())};
+    const Scene scene = loadScene(paths);
+    ASSERT_EQ(scene.animations.size(), 2U);
+    EXPECT_EQ(scene.animations[0].name, "rotation");
+    EXPECT_EQ(scene.animations[0].number, 0U);
+    EXPECT_EQ(scene.animations[1].number, 1U) << "as the file counts";
+    EXPECT_EQ(scene.animations[1].channels.at(0).node, 5U);
+    EXPECT_EQ(loadScene(paths, {.every_animation = true}).animations.size(), 3U);
+}
+
 } // namespace
 
 } // namespace zvo::test

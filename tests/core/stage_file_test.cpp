@@ -122,6 +122,15 @@ TEST(StageFile, OrbitIsReadInTurnsOrDegrees)
     EXPECT_EQ(parseObject(R"("motion": {"orbit": {"turns": 2}})").is_dynamic, true);
 }
 
+TEST(StageFile, AnimationsAreNamedOrNumbered)
+{
+    EXPECT_EQ(parseObject(R"("animation": "walk")").animation, AnimationChoice("walk"));
+    EXPECT_EQ(parseObject(R"("animation": 2)").animation, AnimationChoice(2U));
+    const StageObject object = parseObject(R"("up": "y")");
+    EXPECT_FALSE(object.animation.has_value() || object.is_dynamic.has_value());
+    EXPECT_FALSE(parseObject(R"("animation": 2)").is_dynamic.has_value()) << "what it moves is dynamic";
+}
+
 TEST(StageFile, LineIsReadWithItsRepeat)
 {
     const auto line =
@@ -210,6 +219,15 @@ const std::vector<WrongFile>& wrongFiles()
         {"StaticThatMoves",
          objectText(R"("static": true, "motion": {"orbit": {"turns": 1}})"),
          {"objects[0].motion moves an object that is static"}},
+        {"StaticThatIsAnimated",
+         objectText(R"("static": true, "animation": "walk")"),
+         {"objects[0].animation plays in an object that is static; expected dynamic"}},
+        {"AnimationOfWrongKind",
+         objectText(R"("animation": ["walk"])"),
+         {"objects[0].animation is [\"walk\"]; expected the name of an animation of the file, or its number"}},
+        {"AnimationOfNoWholeNumber",
+         objectText(R"("animation": 1.5)"),
+         {"objects[0].animation is 1.5; expected a whole number from 0"}},
         {"Up", objectText(R"("up": "north")"), {"objects[0].up is \"north\"; expected one of x, y, z, -x, -y, -z"}},
         {"TwoNumbers",
          objectText(R"("place": {"translation": [1, 2]})"),

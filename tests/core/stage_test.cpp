@@ -409,6 +409,86 @@ TEST_F(StageTest, AnimationsOfObjectsRunUnlessTheyAreStatic)
     EXPECT_TRUE(both.fixed.cameras.empty());
 }
 
+/// animatedDocument with more animations: 0 "go" is the one it has, 1 moves nothing, 2 "rise" takes the first node up
+/// to y = 6 within three seconds and 3, without a name, the second one to x = 1.
+GltfBuilder manyAnimationsDocument()
+{
+    GltfBuilder builder = animatedDocument();
+    const auto add = [&builder](std::size_t node, float seconds, const std::vector<float>& end)
+    {
+        std::vector<float> places = {0, 0, 0};
+        places.insert(places.end(), end.begin(), end.end());
+        const json sampler = {{"input", builder.addAccessor("SCALAR", kF32, 2, std::vector<float>{0, seconds})},
+                              {"output", builder.addAccessor("VEC3", kF32, 2, places)}};
+        const json channel = {{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}};
+        return builder.add("animations", {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}});
+    };
+    builder.document["animations"][0]["name"] = "go";
+    builder.add("animations", {{"samplers", json::array()}, {"channels", json::array()}, {"name", "nothing"}});
+    builder.document["animations"][add(0, 3.0F, {0, 6, 0})]["name"] = "rise";
+    add(1, 1.0F, {1, 0, 0});
+    return builder;
+}
+
+TEST_F(StageTest, TheFirstAnimationOfAFilePlays)
+{
+    const Stage stage = loadStage(m_dir.write("scenes/many.glb", manyAnimationsDocument().glb()));
+    EXPECT_EQ(stage.seconds, 2.0) << "as long as the one that plays";
+    EXPECT_EQ(stage.fixed.triangleCount(), 2U) << "what other animations move stands still";
+    EXPECT_EQ(corners(stageAt(stage, 1.5)).at(6), glm::vec3(3, 0, 0));
+    const Stage object = load(R"({"objects": [{"file": "many.glb"}]})");
+    EXPECT_EQ(object.fixed.triangleCount(), 2U);
+    EXPECT_EQ(corners(stageAt(object, 1.5)).at(6), glm::vec3(3, 0, 0));
+}
+
+TEST_F(StageTest, ObjectsChooseTheAnimationThatPlays)
+{
+    m_dir.write("scenes/many.glb", manyAnimationsDocument().glb());
+    const auto play = [this](const std::string& choice)
+    { return load(R"({"objects": [{"file": "many.glb", "animation": )" + choice + "}]}"); };
+    for (const char* choice : {"\"rise\"", "2"})
+    {
+        const Stage stage = play(choice);
+        EXPECT_EQ(stage.movers.at(0).scene.triangleCount(), 1U);
+        EXPECT_EQ(corners(stageAt(stage, 1.0)).at(6), glm::vec3(0, 2, 0)) << choice;
+    }
+    EXPECT_EQ(corners(stageAt(play("3"), 0.5)).at(6), glm::vec3(0.5F, 0, 0)) << "the second node";
+    // One file, two objects.
+    const Stage both =
+        load(R"({"objects": [{"file": "many.glb", "animation": 0}, {"file": "many.glb", "animation": 2}]})");
+    ASSERT_EQ(both.movers.size(), 2U);
+    EXPECT_EQ(corners(posedScene(both.movers[0].scene, moverPose(both.movers[0], 1.0))).at(0), glm::vec3(2, 0, 0));
+    EXPECT_EQ(corners(posedScene(both.movers[1].scene, moverPose(both.movers[1], 1.0))).at(0), glm::vec3(0, 2, 0));
+}
+
+TEST_F(StageTest, AnimationsThatAreNotThereAreToldWithThoseThatAre)
+{
+    GltfBuilder many = manyAnimationsDocument();
+    m_dir.write("scenes/many.glb", many.glb());
+    const auto expectMissing = [this](const std::string& file, const std::string& choice, const std::string& rest)
+    {
+        expectInputError(
+            [&] { load(R"({"objects": [{"file": ")" + file + R"(", "animation": )" + choice + "}]}"); },
+            {"test.scene.json: objects[0].animation is " + choice + ", which " + file + " does not have; it " + rest});
+    };
+    const std::string all = R"(has 0 ("go"), 2 ("rise"), 3)";
+    expectMissing("many.glb", "\"walk\"", all);
+    expectMissing("many.glb", "\"Rise\"", all);
+    expectMissing("many.glb", "\"\"", all);
+    expectMissing("many.glb", "\"nothing\"", all);
+    expectMissing("many.glb", "1", all);
+    expectMissing("many.glb", "4", all);
+    expectMissing("triangle.glb", "0", "has no animations that move anything");
+    for (int i = 0; i < 9; ++i)
+    {
+        json copy = many.document["animations"][0];
+        many.document["animations"].push_back(copy);
+    }
+    m_dir.write("scenes/many.glb", many.glb());
+    expectMissing("many.glb", "99",
+                  R"(has 0 ("go"), 2 ("rise"), 3, 4 ("go"), 5 ("go"), 6 ("go"), 7 ("go"), 8 ("go"), 4 more)");
+}
+
 TEST_F(StageTest, WhatStandsAtRestIsToldOf)
 {
     GltfBuilder builder = animatedDocument();

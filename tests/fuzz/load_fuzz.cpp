@@ -78,7 +78,7 @@ std::optional<Scene> loadInput(std::span<const std::uint8_t> input)
     try
     {
         const std::filesystem::path path = g_session->folder.write(input);
-        return loadScene(std::span(&path, 1));
+        return loadScene(std::span(&path, 1), {.every_animation = true});
     }
     catch (const Error& error)
     {
