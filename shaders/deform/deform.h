@@ -20,7 +20,8 @@ const uint kNormalExponentMax = 227u;
 
 const uint kCanonicalNan = 2143289344u; // the bits of what is written for a number that is not finite
 
-// Bits of a variant: what the vertices of an instance have. Each is a specialization constant.
+// Bits of a variant: what the vertices of an instance have. Each is a specialization constant. Skinned vertices always
+// have normals, of which all may be 0: what comes of those tells which side of a triangle is outside.
 const uint kDeformMorphed = 1u; // constant 0
 const uint kDeformSkinned = 2u; // constant 1
 const uint kDeformNormals = 4u; // constant 2
@@ -57,13 +58,13 @@ struct DeformItem
 {
     uint vertex_count;
     uint first_position;     // at rest
-    uint first_normal;       // at rest; not used without normals
+    uint first_normal;       // at rest; not used without kDeformNormals
     uint first_binding;      // not used without skin
     uint first_joint;        // in joint_matrices; likewise
     uint first_term;         // of positions; not used without morph targets
     uint first_normal_term;  // likewise
     uint first_out_position; // in out_positions
-    uint first_out_normal;   // in out_normals; not used without normals
+    uint first_out_normal;   // in out_normals; not used without kDeformNormals
 };
 GPU_BUFFER(DeformItem, 4);
 

@@ -38,6 +38,14 @@ vec3 crossProduct(vec3 a, vec3 b)
     return sum(product(a.yzx, b.zxy), -product(a.zxy, b.yzx));
 }
 
+// Whether the voxelizer can use v as a normal.
+bool isDirection(vec3 v)
+{
+    uvec3 sizes = floatBitsToUint(v) << 1;
+    uint exponent = max(max(sizes.x, sizes.y), sizes.z) >> 24;
+    return exponent >= kDirectionExponentMin && exponent <= kDirectionExponentMax;
+}
+
 // The bits to write: zeros are positive, and whatever is not finite is the same NaN, since devices differ in both.
 uvec3 canonicalBits(vec3 v)
 {

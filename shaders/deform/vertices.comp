@@ -46,7 +46,8 @@ void addJoint(inout Blend blend, uint joint, float weight, vec3 rest)
             blend.linear[column] = sum(blend.linear[column], counts ? product(m[column], weight) : vec3(0.0));
 }
 
-// normal through the cofactors of linear, scaled by a power of two, turned round where linear mirrors.
+// normal through the cofactors of linear, scaled by a power of two, turned round where linear mirrors. Without a
+// direction, what tells whether the triangle's normal is to be turned round.
 vec3 turnedNormal(mat3 linear, vec3 normal)
 {
     uvec3 sizes = max(max(floatBitsToUint(linear[0]) << 1, floatBitsToUint(linear[1]) << 1),
@@ -61,6 +62,8 @@ vec3 turnedNormal(mat3 linear, vec3 normal)
     determinant = determinant + terms.z;
     vec3 turned = transformed(cofactors, normal);
     turned = determinant < 0.0 ? -turned : turned;
+    vec3 none = vec3(determinant < 0.0 ? uintBitsToFloat(kTurnedRoundBits) : 0.0, 0.0, 0.0);
+    turned = isDirection(turned) ? turned : none;
     return usable ? turned : vec3(0.0);
 }
 

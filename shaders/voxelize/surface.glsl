@@ -43,8 +43,12 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
             surface.normals[i] = flat_normal;
             if (draw.first_normal != kAbsent)
             {
-                ivec3 vertex_normal = unitNormal(worldNormal(draw, vertices[i]));
-                surface.normals[i] = vertex_normal == ivec3(0) ? flat_normal : vertex_normal;
+                vec3 normal = params.scene.data[0].normals.data[draw.first_normal + vertices[i]];
+                bool turned = floatBitsToUint(normal.x) == kTurnedRoundBits;
+                ivec3 vertex_normal = unitNormal(worldNormal(draw, normal));
+                if (vertex_normal == ivec3(0))
+                    vertex_normal = turned ? -flat_normal : flat_normal;
+                surface.normals[i] = vertex_normal;
             }
         }
     }

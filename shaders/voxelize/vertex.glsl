@@ -51,10 +51,10 @@ ivec3 unitNormal(vec3 v)
 {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     // Scaled by a power of two into [1, 2), so that squares neither overflow nor vanish.
-    int exponent = int((floatBitsToUint(largest) >> 23) & 255u) - 127;
-    bool usable = exponent > -100 && exponent < 100;
-    exponent = usable ? exponent : 0;
-    precise vec3 scaled = v * uintBitsToFloat(uint(127 - exponent) << 23);
+    uint exponent = (floatBitsToUint(largest) >> 23) & 255u;
+    bool usable = exponent >= kDirectionExponentMin && exponent <= kDirectionExponentMax;
+    exponent = usable ? exponent : 127u;
+    precise vec3 scaled = v * uintBitsToFloat((254u - exponent) << 23);
     precise vec3 squares = scaled * scaled;
     precise float length2 = squares.x + squares.y;
     length2 = length2 + squares.z;
@@ -64,10 +64,9 @@ ivec3 unitNormal(vec3 v)
     return usable ? ivec3(rounded) : ivec3(0);
 }
 
-// World normal of vertex v of a draw that has normals.
-vec3 worldNormal(Draw draw, uint v)
+// World normal of a vertex of a draw.
+vec3 worldNormal(Draw draw, vec3 n)
 {
-    vec3 n = params.scene.data[0].normals.data[draw.first_normal + v];
     precise vec3 world = draw.normal_transform[0] * n.x;
     precise vec3 by_y = draw.normal_transform[1] * n.y;
     precise vec3 by_z = draw.normal_transform[2] * n.z;

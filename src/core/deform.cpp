@@ -18,6 +18,8 @@ namespace zvo
 namespace
 {
 
+static_assert(std::bit_cast<std::uint32_t>(kTurnedRound.x) == gpu::kTurnedRoundBits);
+
 // The exponent, and below it 24 bits: the sign is out of the way.
 std::uint32_t sizeBits(float value)
 {
@@ -100,15 +102,23 @@ private:
     std::vector<Term> m_terms;
 };
 
-// normal through the cofactors of linear, scaled by a power of two, turned round where linear mirrors.
+// The exponent of the largest component.
+std::uint32_t exponentOf(const glm::vec3& v)
+{
+    return std::max({sizeBits(v.x), sizeBits(v.y), sizeBits(v.z)}) >> 24;
+}
+
+bool isDirection(const glm::vec3& v)
+{
+    const std::uint32_t exponent = exponentOf(v);
+    return exponent >= gpu::kDirectionExponentMin && exponent <= gpu::kDirectionExponentMax;
+}
+
+// normal through the cofactors of linear, scaled by a power of two, turned round where linear mirrors. Without a
+// direction, what tells whether the triangle's normal is to be turned round.
 glm::vec3 turnedNormal(const glm::mat3& linear, const glm::vec3& normal)
 {
-    std::uint32_t largest = 0;
-    for (int i = 0; i < 9; ++i)
-    {
-        largest = std::max(largest, sizeBits(linear[i / 3][i % 3]));
-    }
-    const std::uint32_t exponent = largest >> 24;
+    const std::uint32_t exponent = std::max({exponentOf(linear[0]), exponentOf(linear[1]), exponentOf(linear[2])});
     if (exponent < gpu::kNormalExponentMin || exponent > gpu::kNormalExponentMax)
     {
         return glm::vec3(0.0F);
@@ -119,7 +129,12 @@ glm::vec3 turnedNormal(const glm::mat3& linear, const glm::vec3& normal)
     const glm::vec3 terms = product(m[0], cofactors[0]);
     const float determinant = (terms.x + terms.y) + terms.z;
     const glm::vec3 turned = transformed(cofactors[0], cofactors[1], cofactors[2], normal);
-    return determinant < 0.0F ? -turned : turned;
+    const bool mirrors = determinant < 0.0F;
+    if (!isDirection(turned))
+    {
+        return mirrors ? kTurnedRound : glm::vec3(0.0F);
+    }
+    return mirrors ? -turned : turned;
 }
 
 } // namespace
@@ -186,7 +201,7 @@ DeformedVertices deformVertices(const Primitive& primitive, std::span<const floa
 
     DeformedVertices result;
     result.positions.reserve(primitive.positions.size());
-    result.normals.reserve(primitive.normals.size());
+    result.normals.reserve(has_normals || skinned ? primitive.positions.size() : 0);
     for (std::size_t vertex = 0; vertex < primitive.positions.size(); ++vertex)
     {
         glm::vec3 position = morph.apply(primitive.positions[vertex], vertex);
@@ -214,7 +229,7 @@ DeformedVertices deformVertices(const Primitive& primitive, std::span<const floa
             normal = turnedNormal(linear, normal);
         }
         result.positions.push_back(canonical(position));
-        if (has_normals)
+        if (has_normals || skinned)
         {
             result.normals.push_back(canonical(normal));
         }

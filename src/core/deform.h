@@ -16,8 +16,12 @@ namespace zvo
 struct DeformedVertices
 {
     std::vector<glm::vec3> positions; // [vertices]
-    std::vector<glm::vec3> normals;   // [vertices] of any length, or empty where the primitive has none
+    std::vector<glm::vec3> normals;   // [vertices] of any length, or empty where the primitive has none and no joints
+                                      // move it; a vertex without one has 0, or kTurnedRound
 };
+
+/// In place of a normal: the vertex takes that of its triangle, turned round because its joints mirror.
+inline constexpr glm::vec3 kTurnedRound(-0x1p-120F, 0.0F, 0.0F);
 
 /// The vertices of primitive with morph_weights ([morph targets]; missing ones are 0) and hung on the joints of a skin
 /// (object to world; empty: on none). Throws Error{Input} for a joint that is not there.

@@ -68,13 +68,13 @@ public:
             const Primitive& primitive = scene.primitives[number];
             if (deformed(scene.instances[i]))
             {
-                m_mesh.places[i] = takePlace(primitive);
+                m_mesh.places[i] = takePlace(primitive, isSkinned(scene.instances[i]));
                 addPart(static_cast<std::uint32_t>(i));
                 continue;
             }
             if (rigid[number].first_position == gpu::kAbsent)
             {
-                rigid[number] = takePlace(primitive);
+                rigid[number] = takePlace(primitive, false);
             }
             m_mesh.places[i] = rigid[number];
         }
@@ -113,14 +113,19 @@ private:
         std::uint32_t first_target = gpu::kAbsent;
     };
 
-    DeformMesh::Place takePlace(const Primitive& primitive)
+    [[nodiscard]] bool isSkinned(const Instance& instance) const
     {
-        const DeformMesh::Place place = {m_mesh.position_count,
-                                         primitive.normals.empty() ? gpu::kAbsent : m_mesh.normal_count};
+        return instance.skin != kNone && !m_scene.primitives[instance.primitive].joints.empty();
+    }
+
+    DeformMesh::Place takePlace(const Primitive& primitive, bool is_skinned)
+    {
+        const bool has_normals = is_skinned || !primitive.normals.empty();
+        const DeformMesh::Place place = {m_mesh.position_count, has_normals ? m_mesh.normal_count : gpu::kAbsent};
         const auto grow = [](std::uint32_t count, std::size_t more)
         { return checkedIndex(std::uint64_t{count} + more, "vertices"); };
         m_mesh.position_count = grow(m_mesh.position_count, primitive.positions.size());
-        m_mesh.normal_count = grow(m_mesh.normal_count, primitive.normals.size());
+        m_mesh.normal_count = grow(m_mesh.normal_count, has_normals ? primitive.positions.size() : 0);
         return place;
     }
 
@@ -146,6 +151,11 @@ private:
         place.first_binding = static_cast<std::uint32_t>(m_bindings.size());
         if (m_joint_limits[number] != kNone)
         {
+            if (primitive.normals.empty())
+            {
+                const std::vector<glm::vec3> none(primitive.positions.size(), glm::vec3(0.0F));
+                place.first_normal = addVectors(m_normals, none, "normals");
+            }
             for (std::size_t vertex = 0; vertex < primitive.joints.size(); ++vertex)
             {
                 const auto [joints, weights] = bindingOf(primitive, vertex, m_joint_limits[number]);
@@ -180,7 +190,7 @@ private:
         {
             rest = addRest(instance.primitive);
         }
-        const bool skinned = instance.skin != kNone && !primitive.joints.empty();
+        const bool skinned = isSkinned(instance);
         DeformMesh::Part part{};
         part.instance = instance_number;
         part.joint_count = skinned ? checkedIndex(m_scene.skins[instance.skin].joints.size(), "joints") : 0;
@@ -203,7 +213,7 @@ private:
         item.first_out_normal = m_mesh.places[instance_number].first_normal;
         const std::uint32_t variant = (part.target_count != 0 ? gpu::kDeformMorphed : 0) |
                                       (skinned ? gpu::kDeformSkinned : 0) |
-                                      (primitive.normals.empty() ? 0 : gpu::kDeformNormals);
+                                      (skinned || !primitive.normals.empty() ? gpu::kDeformNormals : 0);
         for (std::uint32_t first = 0; first < item.vertex_count; first += gpu::kDeformGroup)
         {
             m_variant_chunks[variant].push_back({static_cast<std::uint32_t>(m_items.size()), first});

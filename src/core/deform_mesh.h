@@ -25,7 +25,7 @@ struct DeformMesh
     struct Place
     {
         std::uint32_t first_position;
-        std::uint32_t first_normal; // gpu::kAbsent where the primitive has none
+        std::uint32_t first_normal; // gpu::kAbsent where the primitive has none and no joints move it
     };
 
     /// An instance that deforms, and its places in the buffers of a pose.
@@ -54,7 +54,7 @@ struct DeformMesh
     };
 
     vk::BufferOf<gpu::vec3> positions;                     // [vertices of deforming primitives] at rest
-    vk::BufferOf<gpu::vec3> normals;                       // [those of primitives that have them]
+    vk::BufferOf<gpu::vec3> normals;                       // [those that have them or are skinned]; 0: there is none
     vk::BufferOf<gpu::JointBinding> bindings;              // [vertices of skinned primitives]
     vk::BufferOf<gpu::vec3> deltas;                        // of positions and normals, a target after the other
     vk::BufferOf<gpu::DeformItem> items;                   // [parts]

@@ -60,6 +60,7 @@ struct Primitive
 {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals; // unit length, or 0 where a vertex has none; empty: flat shading from the triangles
+                                    // (of posed scenes, see DeformedVertices)
     std::vector<glm::vec2> uvs;     // texture coordinates, v = 0 at the top row
     std::vector<glm::vec4> colors;  // linear, multiplies the base colour
     std::vector<glm::uvec3> triangles; // vertex indices, all < positions.size()

@@ -41,19 +41,6 @@ Built build(const Scene& scene, const Grid& grid, Coverage coverage = Coverage::
     return built;
 }
 
-// Unpacks an octahedral normal in floating point (Cigolle et al. 2014).
-glm::dvec3 normalOf(const gpu::Attribute& attribute)
-{
-    const double x = static_cast<std::int16_t>(attribute.normal & 0xFFFF) / 32767.0;
-    const double y = static_cast<std::int16_t>(attribute.normal >> 16) / 32767.0;
-    glm::dvec3 n(x, y, 1 - std::abs(x) - std::abs(y));
-    if (n.z < 0)
-    {
-        n = {(1 - std::abs(y)) * (x < 0 ? -1 : 1), (1 - std::abs(x)) * (y < 0 ? -1 : 1), n.z};
-    }
-    return glm::normalize(n);
-}
-
 double degreesBetween(const glm::dvec3& a, const glm::dvec3& b)
 {
     return glm::degrees(std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)));
@@ -154,7 +141,7 @@ TEST(VoxelNormals, OfABoxPointOutwardsAlongTheAxes)
         ASSERT_EQ(built.voxels.size(), 256U);
         for (const gpu::Attribute& voxel : built.voxels)
         {
-            EXPECT_LT(degreesBetween(normalOf(voxel), {0, 1, 0}), 0.01);
+            EXPECT_LT(degreesBetween(test::normalOf(voxel), {0, 1, 0}), 0.01);
         }
     }
 }
@@ -186,7 +173,7 @@ TEST(VoxelNormals, OfASpherePointAwayFromItsCentre)
                     centre[axis] += static_cast<double>((codes[i] >> (3 * bit + axis) & 1) << bit);
                 }
             }
-            const double angle = degreesBetween(normalOf(built.voxels[i]), centre);
+            const double angle = degreesBetween(test::normalOf(built.voxels[i]), centre);
             outward = std::max(outward, angle);
             inward = std::max(inward, 180 - angle);
         }
@@ -298,7 +285,7 @@ TEST(Attributes, SurviveMoreFragmentsInAVoxelThanTheSumsHold)
     EXPECT_NEAR(channel(built.voxels[0].color, 0), 255, 1);
     EXPECT_NEAR(channel(built.voxels[0].color, 1), 188, 1); // sRGB of 0.5
     EXPECT_EQ(channel(built.voxels[0].color, 2), 0U);
-    EXPECT_LT(degreesBetween(normalOf(built.voxels[0]), {0, 1, 0}), 0.1);
+    EXPECT_LT(degreesBetween(test::normalOf(built.voxels[0]), {0, 1, 0}), 0.1);
 }
 
 void expectNoDependenceOnOrder(Scene scene, const Grid& grid)

@@ -109,6 +109,22 @@ TEST(Deform, MirroringJointsTurnNoSurfaceInsideOut)
     EXPECT_EQ(mirrored.normals[0], glm::vec3(-0.6F, 0.8F, 0));
 }
 
+TEST(Deform, WithoutANormalAMirroredVertexTurnsItsTrianglesRound)
+{
+    const auto on = [](const glm::vec3& normal, const glm::vec4& weights) {
+        return deformVertices(oneVertex({1, 2, 3}, normal, weights), {}, fourJoints()).normals.at(0);
+    };
+    EXPECT_EQ(on({0, 0, 0}, {0, 0, 0, 1}), kTurnedRound);
+    EXPECT_EQ(on({0, 0, 0}, {0.25F, 0, 0, 0.75F}), kTurnedRound) << "the blended matrix mirrors";
+    EXPECT_EQ(on({0, 0, 0}, {0.75F, 0, 0, 0.25F}), glm::vec3(0));
+    EXPECT_EQ(on({0, 0, 0}, {0, 0, 1, 0}), glm::vec3(0));
+    EXPECT_EQ(on({0, 0x1.8p-100F, 0}, {0, 0, 0, 1}), kTurnedRound) << "too short for the voxelizer";
+    EXPECT_NE(on({0, 0x1p-99F, 0}, {0, 0, 0, 1}), kTurnedRound);
+    EXPECT_EQ(on({0, 0x1p100F, 0}, {0, 0, 0, 1}), kTurnedRound) << "too long";
+    EXPECT_EQ(on({0, kNan, 0}, {0, 0, 0, 1}), kTurnedRound);
+    EXPECT_EQ(on({0, kNan, 0}, {1, 0, 0, 0}), glm::vec3(0));
+}
+
 TEST(Deform, NormalsStayUprightOnWhatIsStretched)
 {
     const std::vector<glm::mat4> joints(4, glm::scale(glm::mat4(1.0F), glm::vec3(4, 1, 1)));
@@ -177,9 +193,10 @@ TEST(Deform, WithoutNormalsThereAreNone)
     Primitive primitive = oneVertex({1, 2, 3}, {0.6F, 0.8F, 0}, {1, 0, 0, 0});
     primitive.normals.clear();
     primitive.morph_targets = {{{{1, 0, 0}}, {}}};
+    EXPECT_TRUE(deformVertices(primitive, std::vector{1.0F}, {}).normals.empty());
     const DeformedVertices moved = deformVertices(primitive, std::vector{1.0F}, fourJoints());
     EXPECT_EQ(moved.positions[0], glm::vec3(2, 2, 3));
-    EXPECT_TRUE(moved.normals.empty());
+    EXPECT_EQ(moved.normals, std::vector{glm::vec3(0)}) << "on joints, 0 tells that they do not mirror";
 }
 
 TEST(Deform, WhatIsNotFiniteIsOneNan)
@@ -262,6 +279,31 @@ TEST(Deform, IsWithinRoundingsOfDoublePrecision)
             EXPECT_GT(expectNearDoubles(primitive, pose.morph_weights[0], pose.joint_matrices[0], vertices), 1500U);
         }
     }
+}
+
+TEST(Deform, WithoutNormalsItTellsWhereJointsMirrorInDoublePrecision)
+{
+    std::mt19937 random(4);
+    const Primitive primitive = test::deformingPrimitive(random, 4000, {false, 40, 2});
+    Scene scene;
+    scene.primitives.push_back(primitive);
+    Pose pose;
+    test::addDeforming(random, scene, pose, 0, 40);
+    const DeformedVertices vertices = deformVertices(primitive, pose.morph_weights[0], pose.joint_matrices[0]);
+    ASSERT_EQ(vertices.normals.size(), 4000U);
+    int side_count[3] = {};
+    for (std::size_t i = 0; i < vertices.normals.size(); ++i)
+    {
+        const int side = oracle::deformVertex(primitive, i, pose.morph_weights[0], pose.joint_matrices[0]).side;
+        ++side_count[side + 1];
+        if (side != 0)
+        {
+            EXPECT_EQ(vertices.normals[i], side < 0 ? kTurnedRound : glm::vec3(0)) << "vertex " << i;
+        }
+    }
+    EXPECT_GT(side_count[0], 1000);
+    EXPECT_LT(side_count[1], 100);
+    EXPECT_GT(side_count[2], 1000);
 }
 
 TEST(Deform, TheBoundsNoticeAChangedVertex)

@@ -6,9 +6,11 @@
 #include "core/kernels.h"
 #include "core/octree_build.h"
 #include "core/pipeline.h"
+#include "oracle/morton.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
+#include "support/octree_access.h"
 #include "support/scenes.h"
 #include "support/voxel_compare.h"
 #include "zvo/error.h"
@@ -254,6 +256,76 @@ TEST(Mover, FollowsAnimationsThroughTheirTime)
     mover.place(poseAt(scene, 2.0)); // where it began
     EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha,
               makeAnew(posedScene(scene, poseAt(scene, 0.0)), kGrid, Coverage::Thin).sha);
+}
+
+/// A ball without normals around the origin, of radius 1, whose vertices hang on one joint each: those above y = 0 on
+/// the first, others on the second.
+Scene flatBall()
+{
+    Scene scene = test::sphereScene(glm::vec3(0.0F), 1.0F, 24);
+    Primitive& ball = scene.primitives.at(0);
+    for (const glm::vec3& position : ball.positions)
+    {
+        ball.joints.emplace_back(position.y > 0.0F ? 0 : 1, 0, 0, 0);
+        ball.weights.emplace_back(1.0F, 0.0F, 0.0F, 0.0F);
+    }
+    scene.nodes.resize(2);
+    scene.skins.push_back({{0, 1}, {glm::mat4(1.0F), glm::mat4(1.0F)}});
+    scene.instances.at(0).skin = 0;
+    return scene;
+}
+
+TEST(Mover, WithoutNormalsOnJointsThatMirrorEqualsARigidInstance)
+{
+    const Scene scene = flatBall();
+    Mover mover(device(), scene);
+    Scene rigid = test::sphereScene(glm::vec3(0.0F), 1.0F, 24);
+    std::set<std::string> shas;
+    for (const glm::vec3& scale : {glm::vec3(2, 1, 1.5F), glm::vec3(-2, 1, 1.5F), glm::vec3(-2, -1, 1.5F),
+                                   glm::vec3(-2, -1, -1.5F), glm::vec3(2, 1, -1.5F)})
+    {
+        const glm::mat4 transform = glm::scale(glm::rotate(glm::mat4(1.0F), 0.4F, glm::vec3(0.0F, 0.6F, 0.8F)), scale);
+        rigid.instances[0].transform = transform;
+        const Pose pose{{glm::mat4(1.0F)}, {{transform, transform}}, {{}}};
+        EXPECT_GT(expectEqualsPosed(mover, scene, pose), 1000U);
+        const std::string sha = makeAnew(rigid, kGrid, Coverage::Thin).sha;
+        EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, sha) << scale.x << " " << scale.y << " " << scale.z;
+        shas.insert(sha);
+    }
+    EXPECT_GT(shas.size(), 1U);
+}
+
+TEST(Mover, WithoutNormalsEachVertexFollowsTheSideOfItsJoints)
+{
+    // The upper half is mirrored, the lower one turned: the ball is the same, but its upper half inside out.
+    const Scene scene = flatBall();
+    Mover mover(device(), scene);
+    const glm::mat4 mirrored = glm::scale(glm::mat4(1.0F), glm::vec3(-2, 2, 2));
+    const glm::mat4 turned = glm::scale(glm::mat4(1.0F), glm::vec3(-2, 2, -2));
+    const Pose pose{{glm::mat4(1.0F)}, {{mirrored, turned}}, {{}}};
+    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 1000U);
+    const Octree octree =
+        buildOctree(device(), {mover.uploaded(), mover.buffers()}, kGrid, {Coverage::Thin, true, {}}).octree;
+    const std::vector<std::uint64_t> codes = voxelCodes(device(), octree);
+    const std::vector<gpu::Attribute> attributes = device().download(octree.voxel_attributes);
+    int outward[2] = {};
+    int inward[2] = {};
+    for (std::size_t i = 0; i < codes.size(); ++i)
+    {
+        const glm::dvec3 centre = glm::dvec3(kGrid.origin) + (glm::dvec3(oracle::mortonDecode(codes[i])) + 0.5) *
+                                                                 static_cast<double>(kGrid.voxel_size);
+        if (std::abs(centre.y) > 0.5) // beyond the triangles that hang on both
+        {
+            const double along = glm::dot(test::normalOf(attributes[i]), glm::normalize(centre));
+            EXPECT_GT(std::abs(along), 0.8);
+            ++(along > 0 ? outward : inward)[centre.y > 0 ? 1 : 0];
+        }
+    }
+    const int* const right = outward[0] > 0 ? outward : inward; // as the ball's own winding has it
+    const int* const wrong = outward[0] > 0 ? inward : outward;
+    EXPECT_GT(right[0], 500);
+    EXPECT_GT(right[1], 500);
+    EXPECT_EQ(wrong[0] + wrong[1], 0);
 }
 
 TEST(Mover, RigidWithAllMaterialsEqualsAnUpload)

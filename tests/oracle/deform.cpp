@@ -88,6 +88,7 @@ DeformedVertex deformVertex(const Primitive& primitive, std::size_t vertex, std:
         const glm::dmat3 cofactors = cofactorSizes(glm::dmat3(sizes));
         const double determinant_size = glm::dot(glm::dvec3(sizes[0]), cofactors[0]);
         sure_of_side = std::abs(determinant) > steps * kRounding * determinant_size;
+        result.side = !sure_of_side ? 0 : determinant < 0.0 ? -1 : 1;
         if (sure_of_side)
         {
             normal.value = glm::transpose(glm::inverse(linear)) * normal.value * std::abs(determinant);

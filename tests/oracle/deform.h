@@ -17,6 +17,7 @@ struct DeformedVertex
     glm::dvec3 normal{0.0};  // unit length
     double normal_bound = 0; // distance from normal of the unit vector in the direction that single precision finds;
                              // infinite where single precision may find any, or there is none
+    int side = 1;            // -1: the joints mirror; 0: single precision may find either
 };
 
 /// Vertex of primitive with finite morph weights, hung on the finite matrices joints (empty: on none). Independent of

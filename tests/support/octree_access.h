@@ -3,8 +3,12 @@
 
 #include "core/octree.h"
 #include "oracle/octree_check.h"
+#include "shared/octree.h"
 #include "vk/headless.h"
 
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <vector>
 
 namespace zvo::test
@@ -25,6 +29,19 @@ inline std::vector<oracle::NodeRange> levelsOf(const Octree& octree)
 inline oracle::OctreeContents contentsOf(vk::HeadlessDevice& device, const Octree& octree)
 {
     return oracle::checkOctree(device.download(octree.nodes), levelsOf(octree), octree.grid.depth);
+}
+
+/// Unpacks an octahedral normal in floating point (Cigolle et al. 2014).
+inline glm::dvec3 normalOf(const gpu::Attribute& attribute)
+{
+    const double x = static_cast<std::int16_t>(attribute.normal & 0xFFFF) / 32767.0;
+    const double y = static_cast<std::int16_t>(attribute.normal >> 16) / 32767.0;
+    glm::dvec3 n(x, y, 1 - std::abs(x) - std::abs(y));
+    if (n.z < 0)
+    {
+        n = {(1 - std::abs(y)) * (x < 0 ? -1 : 1), (1 - std::abs(x)) * (y < 0 ? -1 : 1), n.z};
+    }
+    return glm::normalize(n);
 }
 
 } // namespace zvo::test
