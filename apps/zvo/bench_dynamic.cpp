@@ -165,10 +165,8 @@ public:
         row.triangles_dynamic = octree.moverTriangleCount();
         row.voxels_static = octree.staticPart().voxel_count;
         row.nodes_static = octree.staticPart().node_count;
-        for (const vk::PassTime& pass : octree.staticPart().passes)
-        {
-            (pass.name.find("octree/") != std::string::npos ? row.build_ms : row.voxelize_ms) += pass.ms;
-        }
+        row.voxelize_ms = operationMs(octree.staticPart().passes, "voxelize");
+        row.build_ms = operationMs(octree.staticPart().passes, "octree");
         row.frame_count =
             static_cast<std::uint32_t>(std::max(1.0, std::round(stage.seconds * stage.frames_per_second)));
         measureFrames(stage, octree, row, progress);

@@ -300,19 +300,12 @@ private:
         const Grid& grid = octree.octree().grid;
         const std::uint64_t triangle_count = part.triangle_count + octree.moverTriangleCount();
         warnOfDropped(std::uint64_t{part.voxel_count} + update.report.dynamic_count, part.dropped);
-        const auto stageMs = [&part](const std::string& operation)
-        {
-            double ms = 0;
-            for (const vk::PassTime& pass : part.passes)
-            {
-                ms += pass.name.find(operation + "/") != std::string::npos ? pass.ms : 0.0;
-            }
-            return ms;
-        };
+        const double voxelize_ms = operationMs(part.passes, "voxelize");
+        const double build_ms = operationMs(part.passes, "octree");
         m_built = fmt::format("{} static and {} dynamic voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build "
                               "{:.1f} ms, update {:.1f} ms",
                               part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count,
-                              stageMs("voxelize"), stageMs("octree"), sumMs(update.passes));
+                              voxelize_ms, build_ms, sumMs(update.passes));
         m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
         m_json["merge"] = mergeRuleName(stage.merge);
         m_json["scene"] = {{"triangles_static", part.triangle_count},
@@ -324,8 +317,8 @@ private:
         m_json["passes"] = passesJson(part.passes);
         const Json more = passesJson(update.passes);
         m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
-        m_json["voxelize_ms"] = stageMs("voxelize");
-        m_json["build_ms"] = stageMs("octree");
+        m_json["voxelize_ms"] = voxelize_ms;
+        m_json["build_ms"] = build_ms;
     }
 
     void reportFrame(std::uint32_t number, double seconds, const BuildResult& result)

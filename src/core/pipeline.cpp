@@ -292,15 +292,15 @@ template <typename T> void hashBuffer(vk::HeadlessDevice& device, Sha256& sha, c
 
 } // namespace
 
-double BuildResult::stageMs(const std::string& operation) const
+double operationMs(std::span<const vk::PassTime> passes, std::string_view operation)
 {
+    constexpr std::string_view kFill = "fill ";
     double ms = 0;
     for (const vk::PassTime& pass : passes)
     {
-        if (pass.name.starts_with(operation + "/") || pass.name.starts_with("fill " + operation + "/"))
-        {
-            ms += pass.ms;
-        }
+        std::string_view name = pass.name;
+        name.remove_prefix(name.starts_with(kFill) ? kFill.size() : 0);
+        ms += name.starts_with(operation) && name.substr(operation.size()).starts_with('/') ? pass.ms : 0.0;
     }
     return ms;
 }

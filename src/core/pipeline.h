@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace zvo
@@ -25,6 +27,10 @@ struct BuildOptions
     bool keep_sums = false; // of attributes, for BuildResult::sums: 28 bytes a voxel
 };
 
+/// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels, and the fills of its
+/// buffers.
+double operationMs(std::span<const vk::PassTime> passes, std::string_view operation);
+
 /// An octree and how it came about.
 struct BuildResult
 {
@@ -35,8 +41,8 @@ struct BuildResult
     std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
     FragmentSums sums;                            // with BuildOptions::keep_sums
 
-    /// GPU time of the passes of an operation: "voxelize" or "octree".
-    [[nodiscard]] double stageMs(const std::string& operation) const;
+    /// operationMs() of the passes.
+    [[nodiscard]] double stageMs(std::string_view operation) const { return operationMs(passes, operation); }
 };
 
 /// Runs all of the static half on device: voxelize, build, attributes. Waits between the operations to learn sizes;
