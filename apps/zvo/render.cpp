@@ -2,16 +2,15 @@
 #include "render.h"
 
 #include "core/gpu_scene.h"
-#include "core/image_io.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/stage_octree.h"
-#include "core/trace.h"
 #include "core/tree_view.h"
 #include "core/zvo_file.h"
 #include "output.h"
 #include "pictures.h"
 #include "progress.h"
+#include "renderer.h"
 #include "report.h"
 #include "session.h"
 #include "view.h"
@@ -32,97 +31,13 @@ namespace zvo::cli
 namespace
 {
 
-// Times of one picture.
-struct PictureTimes
-{
-    std::vector<vk::PassTime> passes;
-    double trace_ms = 0; // beam and primary rays
-    double shade_ms = 0; // shadow and occlusion rays, and colour
-};
-
-// The time of the passes up to the last primary rays: what comes after them is light and colour.
-double primaryMs(const std::vector<vk::PassTime>& passes)
-{
-    double ms = 0;
-    double ms_until_primary = 0;
-    for (const vk::PassTime& pass : passes)
-    {
-        ms += pass.ms;
-        if (pass.name == "trace/primary" || pass.name == "trace/ranks")
-        {
-            ms_until_primary = ms;
-        }
-    }
-    return ms_until_primary;
-}
-
-TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& options)
-{
-    try
-    {
-        return {device.device(), options.width, options.height};
-    }
-    catch (const Error& error)
-    {
-        if (error.code() != ErrorCode::Memory)
-        {
-            throw;
-        }
-        throw Error(ErrorCode::Memory, fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or a "
-                                                   "smaller picture",
-                                                   options.width, options.height, error.what()));
-    }
-}
-
-// Pictures of one octree or DAG.
-class Renderer
-{
-public:
-    Renderer(vk::HeadlessDevice& device, const TreeView& tree, const RenderOptions& options)
-        : m_device(device), m_tree(tree), m_beam(device.device()), m_buffers(makeBuffers(device, options))
-    {
-        m_options.view = options.view;
-        m_options.detail_pixels = options.detail_pixels;
-        m_options.occlusion_rays = options.occlusion_rays;
-        m_options.exposure = options.exposure;
-        m_options.to_sun = options.to_sun.value_or(m_options.to_sun);
-        m_beam_passes = device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, m_beam); });
-    }
-
-    [[nodiscard]] const std::vector<vk::PassTime>& beamPasses() const { return m_beam_passes; }
-    [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }
-
-    // The picture as a PNG file.
-    std::vector<std::uint8_t> render(const ViewCamera& view, PictureTimes& times)
-    {
-        const TraceCamera camera = traceCamera(view, m_tree.octree().grid, m_buffers.height);
-        times.passes =
-            m_device.run([&](vk::FrameGraph& graph) { trace(graph, m_tree, m_beam, camera, m_options, m_buffers); });
-        times.trace_ms = primaryMs(times.passes);
-        times.shade_ms = sumMs(times.passes) - times.trace_ms;
-        m_capped_rays += m_device.download(m_buffers.status).front().capped_rays;
-        const std::vector<gpu::uint> image = m_device.download(m_buffers.image);
-        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.data());
-        return encodePng(m_buffers.width, m_buffers.height, {bytes, image.size() * sizeof(gpu::uint)});
-    }
-
-private:
-    vk::HeadlessDevice& m_device;
-    TreeView m_tree;
-    TraceOptions m_options;
-    BeamGrid m_beam;
-    TraceBuffers m_buffers;
-    std::vector<vk::PassTime> m_beam_passes;
-    std::uint64_t m_capped_rays = 0;
-};
-
 /// The pictures of a scene, and what there is to tell of them.
 class Run
 {
 public:
     Run(const RenderOptions& options, Pictures& pictures, Progress& progress)
         : m_options(options), m_pictures(pictures), m_progress(progress),
-          m_device(headlessOptions(options.device), zvoKernels())
+          m_device(headlessOptions(options.device), zvoKernels()), m_renderer(m_device, options)
     {
     }
 
@@ -154,14 +69,13 @@ public:
             m_progress.step("updating");
             const double seconds = timeOf(stage, i);
             const StageUpdate update = octree.update(seconds);
-            Renderer renderer(m_device, octree.octree(), m_options);
+            const std::vector<vk::PassTime> beam_passes = m_renderer.show(octree.octree());
             if (i == 0)
             {
                 report(stage, octree, update);
-                m_beam_passes = renderer.beamPasses();
+                m_beam_passes = beam_passes;
             }
-            draw(i, renderer, camera);
-            m_capped_rays += renderer.cappedRays();
+            draw(i, camera);
             m_frames.push_back({{"frame", m_pictures.number(i)},
                                 {"seconds", seconds},
                                 {"voxels_dynamic", update.report.dynamic_count},
@@ -180,14 +94,13 @@ public:
         {
             const double seconds = timeOf(stage, i);
             const BuildResult result = voxelize(stageAt(stage, seconds), grid);
-            Renderer renderer(m_device, result.octree, m_options);
+            const std::vector<vk::PassTime> beam_passes = m_renderer.show(result.octree);
             if (i == 0)
             {
                 report(result);
-                m_beam_passes = renderer.beamPasses();
+                m_beam_passes = beam_passes;
             }
-            draw(i, renderer, camera);
-            m_capped_rays += renderer.cappedRays();
+            draw(i, camera);
             reportFrame(m_pictures.number(i), seconds, result);
         }
     }
@@ -211,7 +124,7 @@ public:
         m_json["trace_ms"] = trace_ms;
         m_json["shade_ms"] = shade_ms;
         m_json["beam_grid_ms"] = sumMs(m_beam_passes);
-        m_json["capped_rays"] = m_capped_rays;
+        m_json["capped_rays"] = m_renderer.cappedRays();
         m_json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", m_pictures.count()}};
         if (!m_frames.empty())
         {
@@ -223,9 +136,9 @@ public:
     // What was made, on one line.
     void tell()
     {
-        if (m_capped_rays != 0)
+        if (m_renderer.cappedRays() != 0)
         {
-            talk(fmt::format("warning: {} rays took too many steps and were given up", m_capped_rays));
+            talk(fmt::format("warning: {} rays took too many steps and were given up", m_renderer.cappedRays()));
         }
         talk(fmt::format("{}; trace {:.1f} ms, light and shade {:.1f} ms on {}", m_built, m_times.front().trace_ms,
                          m_times.front().shade_ms, m_device.device().report().name));
@@ -234,14 +147,12 @@ public:
 private:
     void turn(const TreeView& tree, const ViewCamera& camera, const glm::dvec3& centre)
     {
-        Renderer renderer(m_device, tree, m_options);
-        m_beam_passes = renderer.beamPasses();
+        m_beam_passes = m_renderer.show(tree);
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
-            draw(i, renderer, camera.turnedAround(centre, turn));
+            draw(i, camera.turnedAround(centre, turn));
         }
-        m_capped_rays = renderer.cappedRays();
     }
 
     [[nodiscard]] double timeOf(const Stage& stage, std::uint32_t index) const
@@ -339,11 +250,11 @@ private:
                             {"shade_ms", m_times.back().shade_ms}});
     }
 
-    void draw(std::uint32_t index, Renderer& renderer, const ViewCamera& camera)
+    void draw(std::uint32_t index, const ViewCamera& camera)
     {
         m_progress.step("tracing");
         m_times.emplace_back();
-        const std::vector<std::uint8_t> png = renderer.render(camera, m_times.back());
+        const std::vector<std::uint8_t> png = m_renderer.render(camera, m_times.back());
         checkValidation(m_device);
         m_pictures.write(index, png);
     }
@@ -352,10 +263,10 @@ private:
     Pictures& m_pictures;
     Progress& m_progress;
     vk::HeadlessDevice m_device;
+    Renderer m_renderer;
     std::uint64_t m_triangle_count = 0; // of the scene voxelized last
     std::vector<vk::PassTime> m_beam_passes;
     std::vector<PictureTimes> m_times;
-    std::uint64_t m_capped_rays = 0;
     bool m_has_warned = false;
     std::string m_built;
     Json m_json;

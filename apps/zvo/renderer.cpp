@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "renderer.h"
+
+#include "core/image_io.h"
+#include "report.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+// The time of the passes up to the last primary rays: what comes after them is light and colour.
+double primaryMs(const std::vector<vk::PassTime>& passes)
+{
+    double ms = 0;
+    double ms_until_primary = 0;
+    for (const vk::PassTime& pass : passes)
+    {
+        ms += pass.ms;
+        if (pass.name == "trace/primary" || pass.name == "trace/ranks")
+        {
+            ms_until_primary = ms;
+        }
+    }
+    return ms_until_primary;
+}
+
+TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& options)
+{
+    try
+    {
+        return {device.device(), options.width, options.height};
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory)
+        {
+            throw;
+        }
+        throw Error(ErrorCode::Memory, fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or a "
+                                                   "smaller picture",
+                                                   options.width, options.height, error.what()));
+    }
+}
+
+} // namespace
+
+Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options) : m_device(device), m_options(options)
+{
+    m_trace.view = options.view;
+    m_trace.detail_pixels = options.detail_pixels;
+    m_trace.occlusion_rays = options.occlusion_rays;
+    m_trace.exposure = options.exposure;
+    m_trace.to_sun = options.to_sun.value_or(m_trace.to_sun);
+}
+
+std::vector<vk::PassTime> Renderer::show(const TreeView& tree)
+{
+    if (!m_buffers)
+    {
+        m_buffers.emplace(Buffers{BeamGrid(m_device.device()), makeBuffers(m_device, m_options)});
+    }
+    m_tree = tree;
+    return m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, m_buffers->beam); });
+}
+
+std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, PictureTimes& times)
+{
+    TraceBuffers& buffers = m_buffers.value().trace;
+    const TraceCamera camera = traceCamera(view, m_tree->octree().grid, buffers.height);
+    times.passes =
+        m_device.run([&](vk::FrameGraph& graph) { trace(graph, *m_tree, m_buffers->beam, camera, m_trace, buffers); });
+    times.trace_ms = primaryMs(times.passes);
+    times.shade_ms = sumMs(times.passes) - times.trace_ms;
+    m_capped_rays += m_device.download(buffers.status).front().capped_rays;
+    const std::vector<gpu::uint> image = m_device.download(buffers.image);
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(image.data());
+    return encodePng(buffers.width, buffers.height, {bytes, image.size() * sizeof(gpu::uint)});
+}
+
+} // namespace zvo::cli

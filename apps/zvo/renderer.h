@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/camera.h"
+#include "core/trace.h"
+#include "core/tree_view.h"
+#include "options.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace zvo::cli
+{
+
+/// Times of one picture.
+struct PictureTimes
+{
+    std::vector<vk::PassTime> passes;
+    double trace_ms = 0; // beam and primary rays
+    double shade_ms = 0; // shadow and occlusion rays, and colour
+};
+
+/// Pictures of one size, of one octree or DAG after the other. Its buffers are made for the first one, so that a scene
+/// that fits does not fail for want of memory before there is something to show.
+class Renderer
+{
+public:
+    Renderer(vk::HeadlessDevice& device, const RenderOptions& options);
+
+    /// Shows tree from now on; to be called again whenever it has changed. Returns the passes that this took. Throws
+    /// Error{Memory} for a picture that is too large.
+    std::vector<vk::PassTime> show(const TreeView& tree);
+
+    /// The picture as a PNG file.
+    std::vector<std::uint8_t> render(const ViewCamera& view, PictureTimes& times);
+
+    /// Rays of all pictures that were given up.
+    [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }
+
+private:
+    // What a picture takes.
+    struct Buffers
+    {
+        BeamGrid beam;
+        TraceBuffers trace;
+    };
+
+    vk::HeadlessDevice& m_device;
+    const RenderOptions& m_options;
+    TraceOptions m_trace;
+    std::optional<Buffers> m_buffers;
+    std::optional<TreeView> m_tree;
+    std::uint64_t m_capped_rays = 0;
+};
+
+} // namespace zvo::cli
