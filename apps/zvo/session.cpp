@@ -82,6 +82,7 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
     headless.validation = options.validation || options.gpu_validation;
     headless.gpu_assisted_validation = options.gpu_validation;
     headless.memory_budget_bytes = options.memory_limit;
+    headless.memory_budget_name = "--memory-limit";
     headless.slices.submission_ms = options.dispatch_ms;
     const std::filesystem::path folder = cacheFolder();
     headless.pipeline_cache_path = folder.empty() ? "" : (folder / "pipelines.bin").string();
@@ -108,7 +109,7 @@ Stage loadStageWithWarnings(const VoxelOptions& options, bool in_motion)
     if (is_stage_file)
     {
         checkStageOptions(options);
-        stage = loadStage(options.scenes.front(), {options.scenes_folder, options.load});
+        stage = loadStage(options.scenes.front(), {options.scenes_folder, "--scenes", options.load});
     }
     else if (in_motion)
     {

@@ -44,6 +44,7 @@ struct Stage
 struct StageOptions
 {
     std::optional<std::filesystem::path> scenes_folder; // where else the files of objects may lie
+    std::string scenes_folder_name = "scenes_folder";   // as whoever can choose it knows it, for messages
     LoadOptions load = {};                              // of a file that is no scene file
 };
 

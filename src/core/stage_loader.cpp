@@ -52,8 +52,9 @@ Error objectError(const fs::path& stage_path, const StageObject& object, std::st
     return inputError(stage_path, fmt::format("{}.{}", object.where, text));
 }
 
-/// The file of an object in the first of the folders that has it.
-fs::path resolve(const fs::path& stage_path, const StageObject& object, const std::vector<fs::path>& folders)
+/// The file of an object in the first of the folders that has it. other_folder: how messages call the second one.
+fs::path resolve(const fs::path& stage_path, const StageObject& object, const std::vector<fs::path>& folders,
+                 const std::string& other_folder)
 {
     const fs::path file = object.file;
     for (const fs::path& folder : folders)
@@ -62,9 +63,9 @@ fs::path resolve(const fs::path& stage_path, const StageObject& object, const st
         if (file.is_absolute() || !liesBelow(folder, folder / file))
         {
             throw objectError(stage_path, object,
-                              fmt::format("file is \"{}\", which leaves the folder of the scene file or of --scenes; "
+                              fmt::format("file is \"{}\", which leaves the folder of the scene file or of {}; "
                                           "expected a file in one of them or below",
-                                          object.file));
+                                          object.file, other_folder));
         }
         if (fs::exists(folder / file, missing))
         {
@@ -75,8 +76,8 @@ fs::path resolve(const fs::path& stage_path, const StageObject& object, const st
     std::transform(folders.begin(), folders.end(), std::back_inserter(names),
                    [](const fs::path& folder) { return folder.string(); });
     throw objectError(stage_path, object,
-                      fmt::format("file is \"{}\", which is not in {}; {} tells where else to look", object.file,
-                                  fmt::join(names, " or "), folders.size() > 1 ? "another --scenes" : "--scenes DIR"));
+                      fmt::format("file is \"{}\", which is not in {}; {}{} tells where else to look", object.file,
+                                  fmt::join(names, " or "), folders.size() > 1 ? "another " : "", other_folder));
 }
 
 void moveBehind(std::vector<std::string>& into, std::vector<std::string>& from)
@@ -361,7 +362,7 @@ Stage loadStage(const fs::path& path, const StageOptions& options)
     stage.merge = file.merge;
     for (const StageObject& object : file.objects)
     {
-        stage.files.push_back(resolve(path, object, folders));
+        stage.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
     }
     ObjectLoader loader(path, stage.files);
     for (std::size_t i = 0; i < file.objects.size(); ++i)

@@ -47,7 +47,7 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
         throw Error(ErrorCode::Device, fmt::format("zvo cannot use the Vulkan device {}: {}", m_report.name,
                                                    fmt::join(m_report.reasons, ", ")));
     }
-    m_memory = std::make_unique<MemoryAllocator>(*this, handles.memory_budget_bytes);
+    m_memory = std::make_unique<MemoryAllocator>(*this, handles.memory_budget_bytes, handles.memory_budget_name);
     m_kernels = std::make_unique<KernelCache>(*this, kernels, handles.pipeline_cache);
 }
 

@@ -84,6 +84,7 @@ struct DeviceHandles
     const VkAllocationCallbacks* allocation_callbacks = nullptr; // may be null; must outlive the Device
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;             // may be null
     std::uint64_t memory_budget_bytes = UINT64_MAX;              // what zvo may allocate on this device
+    std::string memory_budget_name = "the limit";                // as whoever can raise it knows it, for messages
     DeviceOverrides overrides;                                   // for tests; subgroup_size: enable subgroupSizeControl
     bool debug_utils = false; // VK_EXT_debug_utils is enabled on the instance: objects and passes get names
 };

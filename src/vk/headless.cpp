@@ -226,6 +226,7 @@ struct HeadlessDevice::Impl
                 .queue_family = chosen.queue_family,
                 .pipeline_cache = cache.handle(),
                 .memory_budget_bytes = options.memory_budget_bytes,
+                .memory_budget_name = options.memory_budget_name,
                 .overrides = options.overrides,
                 .debug_utils = instance.hasDebugUtils()};
     }

@@ -25,6 +25,7 @@ struct HeadlessOptions
     bool validation = false;              // core and synchronization validation
     bool gpu_assisted_validation = false; // instruments the kernels; implies validation
     std::uint64_t memory_budget_bytes = UINT64_MAX;
+    std::string memory_budget_name = "the limit";               // for messages
     SliceOptions slices;                                        // how long submissions of run() may take
     std::uint32_t submissions_in_flight = 3;                    // of submit(): at most; at least 1
     std::string pipeline_cache_path;                            // empty: pipelines are not kept on disk

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cassert>
 #include <optional>
+#include <utility>
 
 namespace zvo::vk
 {
@@ -26,8 +27,8 @@ struct MemoryAllocator::Block
     [[nodiscard]] bool unused() const { return free.total() == bytes; }
 };
 
-MemoryAllocator::MemoryAllocator(Device& device, std::uint64_t limit_bytes)
-    : m_device(device), m_limit_bytes(limit_bytes),
+MemoryAllocator::MemoryAllocator(Device& device, std::uint64_t limit_bytes, std::string limit_name)
+    : m_device(device), m_limit_bytes(limit_bytes), m_limit_name(std::move(limit_name)),
       m_block_bytes(limit_bytes == UINT64_MAX ? kBlockBytes : kLimitedBlockBytes)
 {
     device.fn().vkGetPhysicalDeviceMemoryProperties(device.handles().physical_device, &m_properties);
@@ -107,11 +108,12 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
 
 void MemoryAllocator::throwOverLimit(std::uint64_t bytes, const char* what) const
 {
-    throw Error(ErrorCode::Memory,
-                fmt::format("{} needs {} bytes in all, {} more than are in use, but the limit is {}: raise the limit "
-                            "(--memory-limit), or lower the resolution",
-                            what, bytes > UINT64_MAX - m_held_bytes ? UINT64_MAX : m_held_bytes + bytes, bytes,
-                            m_limit_bytes));
+    throw Error(
+        ErrorCode::Memory,
+        fmt::format("{} needs {} bytes in all, {} more than are in use, but the limit is {}: raise {}, or lower "
+                    "the resolution",
+                    what, bytes > UINT64_MAX - m_held_bytes ? UINT64_MAX : m_held_bytes + bytes, bytes, m_limit_bytes,
+                    m_limit_name));
 }
 
 bool MemoryAllocator::allocateFrom(std::uint32_t type, std::uint64_t size, std::uint64_t alignment, MemoryBlock& result)

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace zvo::vk
@@ -32,8 +33,8 @@ public:
     static constexpr std::uint64_t kBlockBytes = 64ull << 20;       // of a block, when there is no limit
     static constexpr std::uint64_t kLimitedBlockBytes = 1ull << 20; // of a block under a limit, whatever the limit
 
-    /// limit_bytes: UINT64_MAX for none.
-    MemoryAllocator(Device& device, std::uint64_t limit_bytes);
+    /// limit_bytes: UINT64_MAX for none. limit_name: what messages tell users to raise.
+    MemoryAllocator(Device& device, std::uint64_t limit_bytes, std::string limit_name = "the limit");
     ~MemoryAllocator();
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
@@ -71,6 +72,7 @@ private:
     Device& m_device;
     VkPhysicalDeviceMemoryProperties m_properties{};
     std::uint64_t m_limit_bytes;
+    std::string m_limit_name;
     std::uint64_t m_block_bytes;
     std::uint64_t m_used_bytes = 0;
     std::uint64_t m_peak_bytes = 0;

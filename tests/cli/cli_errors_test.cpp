@@ -105,9 +105,13 @@ const std::vector<ErrorCase>& errorCases()
         {"PictureTooLarge",
          6,
          {"render", "cube.glb", "-o", "a.png", "--resolution", "8", "--size", "16384x16384", "--memory-limit", "1G"},
-         {"16384 x 16384 pixels (--size)", "a smaller picture"},
+         {"16384 x 16384 pixels (--size)", "raise --memory-limit, or", "a smaller picture"},
          {}},
-        {"MemoryLimitTooLow", 6, {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "64K"}, {"limit"}, {}},
+        {"MemoryLimitTooLow",
+         6,
+         {"voxelize", "cube.glb", "-o", "a.ply", "--memory-limit", "64K"},
+         {"raise --memory-limit, or"},
+         {}},
     };
     return cases;
 }

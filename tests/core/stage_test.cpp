@@ -90,7 +90,8 @@ TEST_F(StageTest, FilesLieBesideTheSceneFileOrInTheFolderOfScenes)
     m_dir.write("models/triangle.glb", movedTriangle().glb());
     EXPECT_EQ(corners(loadFileOf("triangle.glb").fixed).at(0), glm::vec3(0, 0, 0)) << "what lies beside comes first";
     expectInputError([&] { loadFileOf("far.glb", false); },
-                     {"test.scene.json: objects[0].file is \"far.glb\", which is not in ", "scenes; --scenes DIR"});
+                     {"test.scene.json: objects[0].file is \"far.glb\", which is not in ",
+                      "scenes; scenes_folder tells where else to look"});
     expectInputError([&] { loadFileOf("absent.glb"); }, {"\"absent.glb\", which is not in ", " or ", "models"});
 }
 
