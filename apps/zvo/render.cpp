@@ -75,11 +75,13 @@ public:
                 report(stage, octree, update);
                 m_beam_passes = beam_passes;
             }
+            m_has_warned = m_has_warned || warnOfDroppedMovers(seconds, update.report.dropped);
             draw(i, camera);
             m_frames.push_back({{"frame", m_pictures.number(i)},
                                 {"seconds", seconds},
                                 {"voxels_dynamic", update.report.dynamic_count},
                                 {"nodes_dynamic", update.report.node_count},
+                                {"dropped", update.report.dropped},
                                 {"dynamic_ms", sumMs(update.passes)},
                                 {"retries", update.retry_count},
                                 {"trace_ms", m_times.back().trace_ms},
@@ -267,7 +269,7 @@ private:
     std::uint64_t m_triangle_count = 0; // of the scene voxelized last
     std::vector<vk::PassTime> m_beam_passes;
     std::vector<PictureTimes> m_times;
-    bool m_has_warned = false;
+    bool m_has_warned = false; // of triangles that were dropped, which one frame after the other may have
     std::string m_built;
     Json m_json;
     Json m_frames = Json::array();

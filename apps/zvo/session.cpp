@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace zvo::cli
 {
@@ -52,6 +53,14 @@ void warnOfNothing(bool has_triangles)
     {
         talk("warning: the scene has no triangles");
     }
+}
+
+// Those that were left out because their numbers make no sense, not because of where they are.
+std::map<std::string, std::uint64_t> senselessAmong(std::map<std::string, std::uint64_t> dropped)
+{
+    std::erase_if(dropped,
+                  [](const auto& entry) { return entry.first != "nonfinite" && entry.first != "out_of_range"; });
+    return dropped;
 }
 
 // Options that a scene file takes no notice of must not look as if it did.
@@ -155,16 +164,26 @@ bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::u
         talk("warning: there are no voxels; the grid misses the scene, or its triangles have no area at this "
              "resolution");
     }
-    for (const char* reason : {"nonfinite", "out_of_range"})
+    for (const auto& [reason, count] : senselessAmong(dropped))
     {
-        const auto count = dropped.find(reason);
-        if (count != dropped.end())
-        {
-            talk(fmt::format("warning: {} triangles left out ({})", count->second, reason));
-            told = true;
-        }
+        talk(fmt::format("warning: {} triangles left out ({})", count, reason));
+        told = true;
     }
     return told;
+}
+
+bool warnOfDroppedMovers(double seconds, const std::map<std::string, std::uint64_t>& dropped)
+{
+    std::vector<std::string> counts;
+    for (const auto& [reason, count] : senselessAmong(dropped))
+    {
+        counts.push_back(fmt::format("{} ({})", count, reason));
+    }
+    if (!counts.empty())
+    {
+        talk(fmt::format("warning: at {:g} s, triangles of what moves left out: {}", seconds, fmt::join(counts, ", ")));
+    }
+    return !counts.empty();
 }
 
 void warnOfMergeRule(const Stage& stage)

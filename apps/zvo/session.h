@@ -36,6 +36,10 @@ Grid placeGrid(const VoxelOptions& options, const Stage& stage, const Bounds& bo
 /// dropped: triangles by reason. Whether there was something to tell.
 bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped);
 
+/// Tells of triangles of what moves that were left out at a time of the stage because their numbers make no sense.
+/// Whether there were any.
+bool warnOfDroppedMovers(double seconds, const std::map<std::string, std::uint64_t>& dropped);
+
 /// Tells where a stage's rule of merging has no effect because everything is voxelized together.
 void warnOfMergeRule(const Stage& stage);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <ostream>
@@ -279,6 +280,53 @@ TEST_F(CliStage, AnimationsOfAFileRunWhereTimesAreAskedFor)
          "--bounds", "0,0,0,4,4,4"});
     EXPECT_EQ(file("f_45.png"), file("moved.png"));
     EXPECT_NE(file("f_44.png"), file("moved.png"));
+}
+
+TEST_F(CliStage, TrianglesOfWhatMovesThatMakeNoSenseAreToldOfOnce)
+{
+    // One face, of two triangles, has a corner that is no number; from 0.5 s on another object is too large.
+    GltfBuilder broken = slab(0.0);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(broken.bin.data() + 4, &nan, sizeof(nan)); // y of the first position
+    m_dir.write("models/broken.glb", broken.glb());
+    json stage = json::parse(file("test.scene.json"));
+    stage["objects"][1]["file"] = "broken.glb";
+    m_dir.write("broken.scene.json", stage.dump());
+    stage["objects"][1] = {{"file", "cube.glb"},
+                           {"motion", {{"keys", {{"times", {0, 0.25, 0.5}}, {"scales", {1, 1, 1e30}}}}}}};
+    m_dir.write("grows.scene.json", stage.dump());
+    const auto render = [this](const char* scene)
+    {
+        return run({"render", scene, "--scenes", "models", "-o", "f_#.png", "-f", "--frames", "0..2", "--size", "32x32",
+                    "--json", "report.json"})
+            .err;
+    };
+    const auto countIn = [](const std::string& text, const std::string& part)
+    {
+        int count = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        {
+            ++count;
+        }
+        return count;
+    };
+
+    const std::string told = render("broken.scene.json");
+    EXPECT_EQ(countIn(told, "warning"), 1) << told;
+    EXPECT_TRUE(contains(told, "warning: at 0 s, triangles of what moves left out: 2 (nonfinite)\n")) << told;
+    json report = json::parse(file("report.json"));
+    EXPECT_EQ(report["scene"]["dropped"], json::object());
+    EXPECT_EQ(report["frames"][1]["dropped"]["nonfinite"], 2);
+
+    const std::string later = render("grows.scene.json");
+    EXPECT_EQ(countIn(later, "warning"), 1) << later;
+    EXPECT_TRUE(contains(later, "warning: at 0.5 s, triangles of what moves left out: 12 (out_of_range)\n")) << later;
+    report = json::parse(file("report.json"));
+    EXPECT_FALSE(report["frames"][1]["dropped"].contains("out_of_range"));
+    EXPECT_EQ(report["frames"][2]["dropped"]["out_of_range"], 12);
+
+    EXPECT_FALSE(contains(render("test.scene.json"), "warning")) << "outside, at the start, is no fault";
+    EXPECT_EQ(json::parse(file("report.json"))["frames"][0]["dropped"]["outside"], 12);
 }
 
 TEST_F(CliStage, RulesThatARebuildCannotFollowAreToldOf)
