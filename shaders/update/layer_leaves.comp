@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: MIT
 // Lists the leaves in a layer's brick table and gives each a place for its voxels' sums. Their order is arbitrary: sums
 // are added up, whatever the order. Leaves without room lose their voxels, so that nothing is written past the end; the
-// layer is of no use then. One atomic a subgroup, no barriers.
+// layer is of no use then.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
 #include "update/update.h"
 #define BRICKS_CONSTANT_ID 0
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/found_bricks.glsl"
 
 layout(local_size_x = kCollectGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -19,33 +18,17 @@ layout(push_constant, scalar) uniform Push
 
 void main()
 {
-    uint start = workgroupIndex() * (kCollectGroup * kCollectItems) + gl_LocalInvocationIndex;
-    uint occupied = 0u; // bit i: the thread's entry i
-    uint voxels = 0u;
-    for (uint i = 0u; i < kCollectItems; ++i)
+    FoundBricks found = findBricks(BrickEntry_ConstPtr(params.bricks), params.brick_capacity);
+    uvec2 first = uvec2(0u); // leaf and voxel
+    if (subgroupElect() && found.total.x != 0u)
     {
-        uint entry = start + i * kCollectGroup;
-        if (entry < params.brick_capacity && params.bricks.data[entry].key != 0u)
-        {
-            occupied |= 1u << i;
-            voxels += bitCount(params.bricks.data[entry].mask_lo) + bitCount(params.bricks.data[entry].mask_hi);
-        }
+        first.x = atomicAdd(params.counters.data[0].leaf_count, found.total.x);
+        first.y = atomicAdd(params.counters.data[0].voxel_count, found.total.y);
     }
-    uint count = bitCount(occupied);
-    uint leaves_before = subgroupExclusiveAdd(count);
-    uint voxels_before = subgroupExclusiveAdd(voxels);
-    uint leaf_total = subgroupAdd(count);
-    uint voxel_total = subgroupAdd(voxels);
-    uvec2 first = uvec2(0u);
-    if (subgroupElect() && leaf_total != 0u)
+    first = subgroupBroadcastFirst(first) + found.before;
+    for (; found.occupied != 0u;)
     {
-        first.x = atomicAdd(params.counters.data[0].leaf_count, leaf_total);
-        first.y = atomicAdd(params.counters.data[0].voxel_count, voxel_total);
-    }
-    first = subgroupBroadcastFirst(first) + uvec2(leaves_before, voxels_before);
-    for (; occupied != 0u; occupied &= occupied - 1u)
-    {
-        uint entry = start + uint(findLSB(occupied)) * kCollectGroup;
+        uint entry = takeBrick(found);
         BrickEntry brick = params.bricks.data[entry];
         uint middle = first.y + bitCount(brick.mask_lo);
         uint end = middle + bitCount(brick.mask_hi);

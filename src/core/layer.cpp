@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace zvo
 {
@@ -22,22 +21,16 @@ constexpr std::uint64_t kRowsMin = 256; // bands, and row blocks
 
 LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& grid)
 {
-    // As VoxelizeCapacities::estimate, without inner nodes and with a voxel and a half for each unit of area.
-    const double voxel = grid.voxel_size;
-    const double area = scene.surface_area / (voxel * voxel);
-    const double grid_leaves = std::pow(static_cast<double>(grid.resolution()) / 4, 3);
-    const double leaves = std::clamp(std::min(area * 1.5 / 16, grid_leaves) * 1.25, 64.0, double{1 << 22});
-    const double big = std::min(static_cast<double>(scene.triangle_count), area / 16);
-    const double strips = big + std::sqrt(big * 2 * area) / gpu::kBlockRows;
-    const double blocks = strips + 2 * area / (gpu::kBlockRows * gpu::kBlockColumns);
+    // The table has no inner nodes, and should be no more than half full.
+    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid);
+    const auto clamped = [](double value, double low, double high)
+    { return static_cast<std::uint64_t>(std::clamp(value, low, high)); };
     LayerCapacities result;
-    result.leaves = static_cast<std::uint64_t>(leaves);
+    result.leaves = clamped(likely.leaves * 1.25, 64, 1 << 22);
     result.voxels = result.leaves * 24; // of 64 in a leaf: a plane through it sets 16
     result.voxelize.bricks = std::bit_ceil(std::max(2 * result.leaves, kBricksMin));
-    result.voxelize.big_triangles =
-        static_cast<std::uint64_t>(std::clamp(big * 1.5, double{kRowsMin}, double{1 << 20}));
-    result.voxelize.row_blocks =
-        static_cast<std::uint64_t>(std::clamp(blocks * 1.5, double{kRowsMin}, double{1 << 23}));
+    result.voxelize.big_triangles = clamped(likely.big_triangles * 1.5, kRowsMin, 1 << 20);
+    result.voxelize.row_blocks = clamped(likely.row_blocks * 1.5, kRowsMin, 1 << 23);
     return result;
 }
 

@@ -18,8 +18,7 @@ namespace
 constexpr std::uint64_t kBricksMin = 4096;
 constexpr std::uint64_t kBricksGuessMax = 1 << 24; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
-constexpr std::uint64_t kBigTrianglesGuessMax = 1
-                                                << 20; // that are reckoned with, whatever their number turns out to be
+constexpr std::uint64_t kBigTrianglesGuessMax = 1 << 20;
 constexpr std::uint64_t kRowBlocksMin = 1 << 16;
 constexpr std::uint64_t kRowBlocksGuessMax = 1 << 23;
 constexpr std::uint64_t kBandArgs = 0; // elements of VoxelizeBuffers::RowWork::args
@@ -133,22 +132,28 @@ AttributeSums sumsOf(AttributeBuffers& attributes, Octree& octree)
 
 } // namespace
 
-VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid)
+VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid)
 {
-    // A plane meets about 1.5 leaves per 16 voxels of area, and an inner node stands above every eight leaves or so.
-    // The table should be no more than half full.
     const double voxel = grid.voxel_size;
     const double area = scene.surface_area / (voxel * voxel);
     const double grid_leaves = std::pow(static_cast<double>(grid.resolution()) / 4, 3);
-    const double leaves = std::min(area * 1.5 / 16, grid_leaves);
-    VoxelizeCapacities result;
-    result.bricks = std::bit_ceil(clampedCount(leaves * 1.15 * 2, kBricksMin, kBricksGuessMax));
+    VoxelizeEstimate result;
+    result.leaves = std::min(area * 1.5 / 16, grid_leaves); // a plane meets about 1.5 per 16 voxels of area
     // A big triangle covers some 16 voxels or more, and has as many rows as a square of its bounding box' area.
-    const double big = std::min(static_cast<double>(scene.triangle_count), area / 16);
-    const double strips = big + std::sqrt(big * 2 * area) / gpu::kBlockRows;
-    const double blocks = strips + 2 * area / (gpu::kBlockRows * gpu::kBlockColumns);
-    result.big_triangles = clampedCount(big * 1.5, kBigTrianglesMin, kBigTrianglesGuessMax);
-    result.row_blocks = clampedCount(blocks * 1.5, kRowBlocksMin, kRowBlocksGuessMax);
+    result.big_triangles = std::min(static_cast<double>(scene.triangle_count), area / 16);
+    const double strips = result.big_triangles + std::sqrt(result.big_triangles * 2 * area) / gpu::kBlockRows;
+    result.row_blocks = strips + 2 * area / (gpu::kBlockRows * gpu::kBlockColumns);
+    return result;
+}
+
+VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid)
+{
+    // An inner node stands above every eight leaves or so. The table should be no more than half full.
+    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid);
+    VoxelizeCapacities result;
+    result.bricks = std::bit_ceil(clampedCount(likely.leaves * 1.15 * 2, kBricksMin, kBricksGuessMax));
+    result.big_triangles = clampedCount(likely.big_triangles * 1.5, kBigTrianglesMin, kBigTrianglesGuessMax);
+    result.row_blocks = clampedCount(likely.row_blocks * 1.5, kRowBlocksMin, kRowBlocksGuessMax);
     return result;
 }
 

@@ -20,6 +20,16 @@ inline bool hasWideKeys(const Grid& grid)
     return grid.nodeLevels() > gpu::kNarrowLevelsMax;
 }
 
+/// What voxelizing a scene is likely to come to, from its surface area: nothing is rounded or bounded.
+struct VoxelizeEstimate
+{
+    static VoxelizeEstimate of(const GpuScene& scene, const Grid& grid);
+
+    double leaves = 0;        // of the octree, at most as many as the grid has
+    double big_triangles = 0; // bands of them
+    double row_blocks = 0;
+};
+
 /// How much a voxelization has room for.
 struct VoxelizeCapacities
 {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Finds the occupied entries of a brick table, kCollectItems for each thread of workgroups of kCollectGroup, and counts
+// their voxels. Whoever lists them takes room for a whole subgroup with one atomic; there are no barriers.
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+struct FoundBricks
+{
+    uint first;    // entry of the thread
+    uint occupied; // bit i: entry first + i * kCollectGroup
+    uvec2 before;  // entries and voxels that the subgroup's threads before this one found
+    uvec2 total;   // that the subgroup found
+};
+
+// Call in uniform control flow.
+FoundBricks findBricks(BrickEntry_ConstPtr bricks, uint brick_capacity)
+{
+    FoundBricks found;
+    found.first = workgroupIndex() * (kCollectGroup * kCollectItems) + gl_LocalInvocationIndex;
+    found.occupied = 0u;
+    uint voxels = 0u;
+    for (uint i = 0u; i < kCollectItems; ++i)
+    {
+        uint entry = found.first + i * kCollectGroup;
+        if (entry < brick_capacity && bricks.data[entry].key != 0u)
+        {
+            found.occupied |= 1u << i;
+            voxels += bitCount(bricks.data[entry].mask_lo) + bitCount(bricks.data[entry].mask_hi);
+        }
+    }
+    uvec2 count = uvec2(bitCount(found.occupied), voxels);
+    found.before = subgroupExclusiveAdd(count);
+    found.total = subgroupAdd(count);
+    return found;
+}
+
+// Takes the next of the entries away from found.
+uint takeBrick(inout FoundBricks found)
+{
+    uint entry = found.first + uint(findLSB(found.occupied)) * kCollectGroup;
+    found.occupied &= found.occupied - 1u;
+    return entry;
+}
