@@ -2,6 +2,7 @@
 // One octree, byte for byte, whatever the device's threads and subgroups. The software device takes both from the
 // environment when a process starts.
 #include "cli/run_zvo.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/temp_dir.h"
 
@@ -47,7 +48,17 @@ struct DeterminismCase
     const char* grid = nullptr; // origin and voxel size; otherwise the grid is around the scene
 };
 
-class OctreeBytes : public testing::TestWithParam<std::tuple<DeterminismCase, const char*>>
+void PrintTo(const DeterminismCase& octree, std::ostream* out)
+{
+    *out << octree.scene << " at " << octree.resolution;
+}
+
+std::string optionOf(Coverage coverage)
+{
+    return coverage == Coverage::Thin ? "thin" : "conservative";
+}
+
+class OctreeBytes : public testing::TestWithParam<std::tuple<DeterminismCase, Coverage>>
 {
 };
 
@@ -56,24 +67,21 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Values(DeterminismCase{"atrium.glb", "256"}, DeterminismCase{"bunny.glb", "256"},
                                      DeterminismCase{"sponza.glb", "128"},
                                      DeterminismCase{"cornell_box.glb", "131072", "-99.1,-3.3,-0.2,0.002"}),
-                     testing::Values("thin", "conservative")),
+                     testing::Values(Coverage::Thin, Coverage::Conservative)),
     [](const auto& test_case)
-    {
-        const std::string scene = std::get<0>(test_case.param).scene;
-        return scene.substr(0, scene.find('.')) + "_" + std::get<1>(test_case.param);
-    });
+    { return nameOf(std::get<0>(test_case.param).scene) + "_" + optionOf(std::get<1>(test_case.param)); });
 
 TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
 {
-    const auto [scene, coverage] = GetParam();
+    const auto& [scene, coverage] = GetParam();
     const auto path = findScene(scene.scene);
     if (!path)
     {
         GTEST_SKIP() << scene.scene << " is not there";
     }
     std::vector<std::string> arguments = {
-        "voxelize",     path->string(),   "-o",         "x.morton", "-f", "--json", "-",
-        "--resolution", scene.resolution, "--coverage", coverage};
+        "voxelize",     path->string(),   "-o",         "x.morton",        "-f", "--json", "-",
+        "--resolution", scene.resolution, "--coverage", optionOf(coverage)};
     if (scene.grid != nullptr)
     {
         arguments.push_back(std::string("--grid=") + scene.grid);

@@ -7,6 +7,7 @@
 #include "oracle/attributes.h"
 #include "support/device.h"
 #include "support/octree_access.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -71,18 +72,14 @@ void expectColorsEqualTheOracle(const Scene& scene, std::uint32_t depth, Coverag
     EXPECT_EQ(differences, 0U) << "of " << expected.size() << " voxels";
 }
 
-class SceneColors : public testing::TestWithParam<const char*>
+class SceneColors : public testing::TestWithParam<std::string>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneColors,
                          testing::Values("sponza.glb", "damaged_helmet.glb", "milk_truck.glb",
                                          "alpha_blend_mode_test.glb", "box_textured.glb", "cornell_box.glb"),
-                         [](const auto& test_case)
-                         {
-                             std::string name = test_case.param;
-                             return name.substr(0, name.find('.'));
-                         });
+                         test::paramName<std::string>);
 
 TEST_P(SceneColors, EqualTheOracleBitForBit)
 {

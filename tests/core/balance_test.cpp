@@ -3,6 +3,7 @@
 #include "core/kernels.h"
 #include "core/voxelize.h"
 #include "support/device.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -32,8 +33,7 @@ class BalanceBothCoverages : public testing::TestWithParam<Coverage>
 };
 
 INSTANTIATE_TEST_SUITE_P(Coverages, BalanceBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
-                         [](const auto& test_case)
-                         { return test_case.param == Coverage::Thin ? "Thin" : "Conservative"; });
+                         test::paramName<Coverage>);
 
 TEST_P(BalanceBothCoverages, TriangleOfAMillionVoxelsListsBlocksForItsAreaNotForItsBox)
 {

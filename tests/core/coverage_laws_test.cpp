@@ -5,6 +5,7 @@
 #include "oracle/snap.h"
 #include "support/device.h"
 #include "support/lattice_sets.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -122,8 +123,7 @@ class CoverageLaws : public testing::TestWithParam<Coverage>
 };
 
 INSTANTIATE_TEST_SUITE_P(Coverages, CoverageLaws, testing::Values(Coverage::Conservative, Coverage::Thin),
-                         [](const auto& test_case)
-                         { return test_case.param == Coverage::Thin ? "Thin" : "Conservative"; });
+                         test::paramName<Coverage>);
 
 TEST_P(CoverageLaws, TranslationByWholeVoxelsShiftsTheSet)
 {

@@ -5,6 +5,7 @@
 #include "oracle/morton.h"
 #include "support/device.h"
 #include "support/octree_access.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/trace_rays.h"
 #include "support/voxel_compare.h"
@@ -115,6 +116,11 @@ struct DeepCase
     Coverage coverage;
 };
 
+void PrintTo(const DeepCase& test_case, std::ostream* out)
+{
+    *out << "depth " << test_case.depth << ", " << test::nameOf(test_case.coverage);
+}
+
 class DeepGrid : public testing::TestWithParam<DeepCase>
 {
 };
@@ -132,10 +138,7 @@ std::vector<DeepCase> deepCases()
 
 INSTANTIATE_TEST_SUITE_P(Depths, DeepGrid, testing::ValuesIn(deepCases()),
                          [](const auto& test_case)
-                         {
-                             return std::to_string(test_case.param.depth) +
-                                    (test_case.param.coverage == Coverage::Thin ? "Thin" : "Conservative");
-                         });
+                         { return std::to_string(test_case.param.depth) + test::nameOf(test_case.param.coverage); });
 
 TEST_P(DeepGrid, ScatteredTrianglesEqualTheOracle)
 {

@@ -5,6 +5,7 @@
 #include "oracle/winding.h"
 #include "support/device.h"
 #include "support/lattice_sets.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -361,16 +362,12 @@ TEST(Separation, OfSliversAndNeedles)
     expectSeparatesInManyPlaces(solid, 7, 8);
 }
 
-class SeparationOfModels : public testing::TestWithParam<const char*>
+class SeparationOfModels : public testing::TestWithParam<std::string>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(Models, SeparationOfModels, testing::Values("asian_dragon_28k.glb", "buddha_113k.glb"),
-                         [](const auto& test_case)
-                         {
-                             const std::string name = test_case.param;
-                             return name.substr(0, name.find('.'));
-                         });
+                         test::paramName<std::string>);
 
 TEST_P(SeparationOfModels, InAnyRotation)
 {

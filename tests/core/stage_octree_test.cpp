@@ -8,6 +8,7 @@
 #include "core/trace.h"
 #include "support/device.h"
 #include "support/octree_contents.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -67,13 +68,13 @@ std::vector<std::byte> staticBytes(StageOctree& stage)
     return bytes;
 }
 
-class Stages : public testing::TestWithParam<const char*>
+class Stages : public testing::TestWithParam<std::string>
 {
 };
 
 TEST_P(Stages, UpdatedIsRebuilt)
 {
-    const std::filesystem::path path = test::ownScene(std::string(GetParam()) + ".scene.json");
+    const std::filesystem::path path = test::ownScene(GetParam() + ".scene.json");
     if (const std::string model = test::missingModelOf(GetParam()); !model.empty())
     {
         GTEST_SKIP() << model << " is not there";
@@ -113,7 +114,7 @@ TEST_P(Stages, UpdatedIsRebuilt)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Stages, testing::Values("atrium_knot", "buddha_dragon", "sponza_bunny"),
-                         [](const testing::TestParamInfo<const char*>& stage) { return std::string(stage.param); });
+                         test::paramName<std::string>);
 
 } // namespace
 } // namespace zvo

@@ -2,6 +2,7 @@
 #include "core/stage.h"
 
 #include "gltf_builder.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <cmath>
@@ -508,15 +509,16 @@ TEST_F(StageTest, WhatStandsAtRestIsToldOf)
     EXPECT_EQ(stageBounds(whole).max.z, 10.0F);
 }
 
-class OwnStage : public testing::TestWithParam<const char*>
+class OwnStage : public testing::TestWithParam<std::string>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Stage, OwnStage, testing::Values("atrium_knot", "buddha_dragon", "sponza_bunny"));
+INSTANTIATE_TEST_SUITE_P(Stage, OwnStage, testing::Values("atrium_knot", "buddha_dragon", "sponza_bunny"),
+                         paramName<std::string>);
 
 TEST_P(OwnStage, IsWhole)
 {
-    const fs::path path = ownScene(std::string(GetParam()) + ".scene.json");
+    const fs::path path = ownScene(GetParam() + ".scene.json");
     const fs::path models = ZVO_SHARED_SCENES_DIR;
     if (const std::string model = missingModelOf(GetParam()); !model.empty())
     {

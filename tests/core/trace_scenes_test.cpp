@@ -4,6 +4,7 @@
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "support/device.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/trace_rays.h"
 
@@ -21,17 +22,13 @@ vk::HeadlessDevice& device()
     return test::sharedDevice(zvoKernels());
 }
 
-class TraceScenes : public testing::TestWithParam<const char*>
+class TraceScenes : public testing::TestWithParam<std::string>
 {
 };
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TraceScenes,
                          testing::Values("bunny.glb", "dragon.glb", "buddha_113k.glb", "atrium.glb"),
-                         [](const auto& test_case)
-                         {
-                             const std::string name = test_case.param;
-                             return name.substr(0, name.find('.'));
-                         });
+                         test::paramName<std::string>);
 
 TEST_P(TraceScenes, HitsEqualTheReference)
 {

@@ -5,6 +5,7 @@
 #include "core/pipeline.h"
 #include "oracle/voxelizer.h"
 #include "support/device.h"
+#include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/voxel_compare.h"
 
@@ -32,8 +33,7 @@ class VoxelizeBothCoverages : public testing::TestWithParam<Coverage>
 };
 
 INSTANTIATE_TEST_SUITE_P(Coverages, VoxelizeBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
-                         [](const auto& test_case)
-                         { return test_case.param == Coverage::Thin ? "Thin" : "Conservative"; });
+                         test::paramName<Coverage>);
 
 TEST_P(VoxelizeBothCoverages, EmptySceneGivesAnEmptyOctree)
 {
@@ -149,6 +149,11 @@ class VoxelizeMesh : public testing::TestWithParam<MeshCase>
 {
 };
 
+void PrintTo(const MeshCase& mesh, std::ostream* out)
+{
+    *out << mesh.file << ", depth " << mesh.depth << ", " << test::nameOf(mesh.coverage);
+}
+
 std::vector<MeshCase> meshCases()
 {
     std::vector<MeshCase> cases;
@@ -173,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, VoxelizeMesh, testing::ValuesIn(meshCases()),
                              std::string name = test_case.param.file;
                              std::replace(name.begin(), name.end(), '.', '_');
                              return name + std::to_string(1U << test_case.param.depth) +
-                                    (test_case.param.coverage == Coverage::Thin ? "Thin" : "Conservative");
+                                    test::nameOf(test_case.param.coverage);
                          });
 
 TEST_P(VoxelizeMesh, EqualsTheOracle)
