@@ -16,7 +16,6 @@ namespace
 
 using Fault = std::optional<std::string>;
 
-constexpr std::uint64_t kWordsOfNode = sizeof(gpu::Node) / sizeof(gpu::uint);
 constexpr std::uint32_t kFlagShift = 24;         // of Attribute::color
 constexpr std::uint32_t kVoxelsOfWord = 32;      // of emission_words
 constexpr std::uint32_t kLowerOctant = 0xffU;    // of Node::mask_lo

@@ -54,7 +54,7 @@ template <typename T> void changeWord(std::span<std::byte> bytes, std::mt19937& 
 
 void changeWords(std::span<std::byte> bytes, std::mt19937& random)
 {
-    for (std::uint32_t rest = 1 + random() % 3; rest != 0; --rest)
+    for (std::size_t rest = 1 + random() % 3; rest != 0; --rest)
     {
         random() % 3 == 0 ? changeWord<std::uint64_t>(bytes, random) : changeWord<std::uint32_t>(bytes, random);
     }

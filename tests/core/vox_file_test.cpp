@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+// MagicaVoxel's files: made here chunk by chunk as the format's author documents it, and read back.
+#include "core/vox_file.h"
+
+#include "core/tree_build.h"
+#include "core/tree_check.h"
+#include "support/mesh_files.h"
+#include "support/tree_samples.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <random>
+#include <string>
+
+namespace zvo::test
+{
+namespace
+{
+
+std::string number(std::int32_t value)
+{
+    std::string bytes;
+    appendBytes(bytes, value);
+    return bytes;
+}
+
+std::string text(const std::string& value)
+{
+    return number(static_cast<std::int32_t>(value.size())) + value;
+}
+
+std::string chunk(const std::string& id, const std::string& content, const std::string& children = "")
+{
+    return id + number(static_cast<std::int32_t>(content.size())) + number(static_cast<std::int32_t>(children.size())) +
+           content + children;
+}
+
+std::string voxFile(const std::string& chunks)
+{
+    return "VOX " + number(150) + chunk("MAIN", "", chunks);
+}
+
+std::string model(int x, int y, int z, const std::string& voxels)
+{
+    return chunk("SIZE", number(x) + number(y) + number(z)) +
+           chunk("XYZI", number(static_cast<std::int32_t>(voxels.size() / 4)) + voxels);
+}
+
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+std::string dictionary(const Entries& entries)
+{
+    std::string bytes = number(static_cast<std::int32_t>(entries.size()));
+    for (const auto& [key, value] : entries)
+    {
+        bytes += text(key) + text(value);
+    }
+    return bytes;
+}
+
+std::string transform(int id, int child, const Entries& frame, const Entries& attributes = {}, int layer = 0)
+{
+    return chunk("nTRN", number(id) + dictionary(attributes) + number(child) + number(-1) + number(layer) + number(1) +
+                             dictionary(frame));
+}
+
+std::string group(int id, const std::vector<int>& children)
+{
+    std::string content = number(id) + dictionary({}) + number(static_cast<std::int32_t>(children.size()));
+    for (const int child : children)
+    {
+        content += number(child);
+    }
+    return chunk("nGRP", content);
+}
+
+std::string shape(int id, int model_number)
+{
+    return chunk("nSHP", number(id) + dictionary({}) + number(1) + number(model_number) + dictionary({}));
+}
+
+VoxVoxels read(const std::string& file)
+{
+    return readVox(std::span(reinterpret_cast<const std::uint8_t*>(file.data()), file.size()), "a.vox");
+}
+
+std::string refusalOf(const std::string& file)
+{
+    try
+    {
+        static_cast<void>(read(file));
+        return "";
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), ErrorCode::Input);
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+        return error.what();
+    }
+}
+
+std::string writtenVox(const TreeData& tree)
+{
+    std::string bytes;
+    writeVox(tree, [&bytes](std::span<const std::byte> more)
+             { bytes.append(reinterpret_cast<const char*>(more.data()), more.size()); });
+    return bytes;
+}
+
+// World coordinates of MagicaVoxel, with colours.
+std::map<std::array<int, 3>, std::uint32_t> worldOf(const VoxVoxels& voxels)
+{
+    std::map<std::array<int, 3>, std::uint32_t> world;
+    for (std::size_t i = 0; i < voxels.codes.size(); ++i)
+    {
+        const glm::ivec3 cell = glm::ivec3(cellOfCode(voxels.codes[i])) + glm::ivec3(voxels.grid.origin);
+        world[{cell.x, -1 - cell.z, cell.y}] = voxels.colors[i];
+    }
+    return world;
+}
+
+constexpr std::uint32_t kFirstColor = 0xffffffU;  // index 1 of the default palette
+constexpr std::uint32_t kSecondColor = 0xccffffU; // index 2: red and green 255, blue 204
+
+TEST(VoxFile, WithoutASceneTheFirstModelStandsAtTheOrigin)
+{
+    const std::string voxels("\0\0\0\1\1\2\3\2\1\1\1\0", 12); // the third one is empty
+    const VoxVoxels read_voxels = read(voxFile(model(2, 3, 4, voxels)));
+    EXPECT_EQ(worldOf(read_voxels),
+              (std::map<std::array<int, 3>, std::uint32_t>{{{0, 0, 0}, kFirstColor}, {{1, 2, 3}, kSecondColor}}));
+    EXPECT_EQ(read(voxFile(model(2, 3, 4, voxels) + model(1, 1, 1, ""))).warnings.size(), 1U);
+}
+
+TEST(VoxFile, DefaultPaletteEndsInRamps)
+{
+    std::string voxels;
+    for (int i = 1; i < 256; ++i)
+    {
+        voxels += std::string{static_cast<char>(i - 1), '\0', '\0', static_cast<char>(i)};
+    }
+    const auto world = worldOf(read(voxFile(model(256, 1, 1, voxels))));
+    // Of the format's table: 0xAABBGGRR.
+    EXPECT_EQ((world.at({0, 0, 0})), 0xffffffU);
+    EXPECT_EQ((world.at({6, 0, 0})), 0xffccffU);
+    EXPECT_EQ((world.at({36, 0, 0})), 0xffffccU);
+    EXPECT_EQ((world.at({214, 0, 0})), 0x330000U);
+    EXPECT_EQ((world.at({215, 0, 0})), 0x0000eeU);
+    EXPECT_EQ((world.at({225, 0, 0})), 0x00ee00U);
+    EXPECT_EQ((world.at({235, 0, 0})), 0xee0000U);
+    EXPECT_EQ((world.at({245, 0, 0})), 0xeeeeeeU);
+    EXPECT_EQ((world.at({254, 0, 0})), 0x111111U);
+}
+
+TEST(VoxFile, ModelsGoWhereTheirNodesSay)
+{
+    // Two places of one model of 3 x 1 x 1: moved, and turned so that x becomes -y.
+    const std::string voxels("\0\0\0\1\2\0\0\2", 8);
+    const std::string file = voxFile(model(3, 1, 1, voxels) + transform(0, 1, {}) + group(1, {2, 4}) +
+                                     transform(2, 3, {{"_t", "10 20 -5"}}) + shape(3, 0) +
+                                     transform(4, 5, {{"_r", "33"}, {"_t", "0 0 2"}}) + shape(5, 0));
+    // 33 = 0b0100001: row 0 has its 1 at y, row 1 its -1 at x, row 2 at z.
+    const std::map<std::array<int, 3>, std::uint32_t> expected = {
+        {{9, 20, -5}, kFirstColor}, {{11, 20, -5}, kSecondColor}, {{0, 0, 2}, kFirstColor}, {{0, -2, 2}, kSecondColor}};
+    EXPECT_EQ(worldOf(read(file)), expected);
+}
+
+TEST(VoxFile, HiddenNodesAndLayersAreLeftOutAndTheLastOneStays)
+{
+    const std::string one("\0\0\0\1", 4);
+    const std::string two("\0\0\0\2", 4);
+    const std::string layer = chunk("LAYR", number(7) + dictionary({{"_hidden", "1"}}) + number(-1));
+    const std::string models = model(1, 1, 1, one) + model(1, 1, 1, two);
+    const std::string nodes = transform(0, 1, {}) + group(1, {2, 4, 6, 8}) + transform(2, 3, {}) + shape(3, 0) +
+                              transform(4, 5, {}) + shape(5, 1) +
+                              transform(6, 7, {{"_t", "5 0 0"}}, {{"_hidden", "1"}}) + shape(7, 0) +
+                              transform(8, 9, {{"_t", "6 0 0"}}, {}, 7) + shape(9, 0);
+    EXPECT_EQ(worldOf(read(voxFile(models + nodes + layer))),
+              (std::map<std::array<int, 3>, std::uint32_t>{{{0, 0, 0}, kSecondColor}}));
+}
+
+TEST(VoxFile, WhatIsWrongHasItsMessage)
+{
+    const std::string one = model(1, 1, 1, std::string("\0\0\0\1", 4));
+    const std::string scene = one + transform(0, 1, {}) + shape(1, 0);
+    const std::string good = voxFile(scene);
+    ASSERT_EQ(refusalOf(good), "");
+    const std::vector<std::pair<std::string, const char*>> faults = {
+        {"", "not a MagicaVoxel file"},
+        {"VOX!" + good.substr(4), "not a MagicaVoxel file"},
+        {"VOX " + number(99) + good.substr(8), "version 99"},
+        {"VOX " + number(150) + chunk("MAIM", "", one), "not MAIN"},
+        {voxFile(one.substr(0, one.size() - 1)), "cut short"},
+        {voxFile(chunk("SIZE", number(257) + number(1) + number(1))), "257 voxels wide"},
+        {voxFile(chunk("SIZE", number(0) + number(1) + number(1))), "0 voxels wide"},
+        {voxFile(chunk("SIZE", number(1))), "cut short"},
+        {voxFile(chunk("XYZI", number(0))), "has voxels and no size"},
+        {voxFile(chunk("SIZE", number(1) + number(1) + number(1))), "has a size and no voxels"},
+        {voxFile(chunk("SIZE", number(1) + number(1) + number(1)) + chunk("XYZI", number(1000000))),
+         "no room for them"},
+        {voxFile(chunk("SIZE", number(1) + number(1) + number(1)) + chunk("XYZI", number(-1))), "no room for them"},
+        {voxFile(model(1, 1, 1, std::string("\0\1\0\1", 4))), "outside of its 1 x 1 x 1"},
+        {voxFile(one + transform(0, 1, {})), "node 1 is named and not there"},
+        {voxFile(one + transform(0, 0, {})), "go round in a circle"},
+        {voxFile(one + transform(0, 1, {}) + group(1, {0, 0, 0})), "go round in a circle"},
+        {voxFile(one + transform(0, 1, {}) + shape(1, 1)), "model 1 is named and not there"},
+        {voxFile(scene + shape(1, 0)), "two nodes have the number 1"},
+        {voxFile(one + transform(0, 1, {{"_r", "3"}}) + shape(1, 0)), "a rotation"},
+        {voxFile(one + transform(0, 1, {{"_r", "x"}}) + shape(1, 0)), "a rotation"},
+        {voxFile(one + transform(0, 1, {{"_t", "1 2"}}) + shape(1, 0)), "a place"},
+        {voxFile(one + transform(0, 1, {{"_t", "99999999 0 0"}}) + shape(1, 0)), "a place"},
+        {voxFile(one + transform(0, 1, {{"_t", "200000 0 0"}}) + shape(1, 0)), "more than the 131072"},
+    };
+    for (const auto& [file, words] : faults)
+    {
+        const std::string message = refusalOf(file);
+        EXPECT_NE(message.find(words), std::string::npos) << words << ": " << message;
+    }
+    for (std::size_t size = 0; size < good.size(); ++size)
+    {
+        EXPECT_NE(refusalOf(good.substr(0, size)), "") << size;
+    }
+}
+
+TEST(VoxFile, ChangedFilesAreReadOrRefused)
+{
+    const std::string good =
+        voxFile(model(3, 1, 1, std::string("\0\0\0\1\2\0\0\2", 8)) + transform(0, 1, {}) + group(1, {2, 4}) +
+                transform(2, 3, {{"_t", "10 20 -5"}}) + shape(3, 0) + transform(4, 5, {{"_r", "33"}}) + shape(5, 0));
+    std::mt19937 random(4);
+    for (int i = 0; i < 20000; ++i)
+    {
+        std::string changed = good;
+        for (std::size_t rest = 1 + random() % 3; rest != 0; --rest)
+        {
+            changed[random() % changed.size()] = static_cast<char>(random() % 3 == 0 ? random() : random() % 8);
+        }
+        static_cast<void>(refusalOf(changed));
+    }
+}
+
+TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColours)
+{
+    for (const TreeSample& sample : treeSamples())
+    {
+        const VoxVoxels back = read(writtenVox(sample.tree));
+        std::vector<std::uint64_t> codes;
+        forEachVoxel(sample.tree, [&codes](std::uint64_t code) { codes.push_back(code); });
+        EXPECT_EQ(back.codes, codes) << sample.name;
+        std::map<std::uint32_t, std::uint32_t> used;
+        for (const gpu::Attribute& attribute : sample.tree.voxel_attributes)
+        {
+            ++used[attribute.color & 0xffffffU];
+        }
+        for (std::size_t i = 0; i < codes.size() && used.size() <= 255; ++i)
+        {
+            const std::uint32_t expected = used.empty() ? 0xcbcbcbU : sample.tree.voxel_attributes[i].color & 0xffffffU;
+            ASSERT_EQ(back.colors[i], expected) << sample.name;
+        }
+    }
+}
+
+TEST(VoxFile, GridsBeyond256AreSplit)
+{
+    std::vector<std::uint64_t> codes;
+    std::mt19937 random(6);
+    for (int i = 0; i < 3000; ++i)
+    {
+        codes.push_back(random() % (std::uint64_t{1} << 30)); // 1024^3: 64 blocks
+    }
+    std::sort(codes.begin(), codes.end());
+    codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+    const TreeData tree = octreeOf(codes, 10);
+    const std::string file = writtenVox(tree);
+    std::size_t sizes = 0;
+    for (std::size_t at = file.find("SIZE"); at != std::string::npos; at = file.find("SIZE", at + 4))
+    {
+        ++sizes;
+        for (std::size_t i = 0; i < 3; ++i)
+        {
+            std::uint32_t edge = 0;
+            std::memcpy(&edge, file.data() + at + 12 + 4 * i, sizeof(edge));
+            EXPECT_LE(edge, 256U);
+        }
+    }
+    EXPECT_EQ(sizes, 64U);
+    EXPECT_EQ(read(file).codes, codes);
+}
+
+TEST(TreeBuild, OctreesAreThoseOfTheReference)
+{
+    for (const TreeSample& sample : treeSamples())
+    {
+        if (sample.tree.structure == TreeStructure::Svo && !sample.tree.hasAttributes())
+        {
+            std::vector<std::uint64_t> codes;
+            forEachVoxel(sample.tree, [&codes](std::uint64_t code) { codes.push_back(code); });
+            const TreeData built = octreeOfVoxels(sample.tree.grid, codes);
+            EXPECT_EQ(treeDifference(built, sample.tree), "") << sample.name;
+        }
+    }
+}
+
+TEST(TreeBuild, HasVoxelKnowsAllAndNoOthers)
+{
+    for (const TreeSample& sample : treeSamples())
+    {
+        std::vector<std::uint64_t> codes;
+        forEachVoxel(sample.tree, [&codes](std::uint64_t code) { codes.push_back(code); });
+        const int n = std::min(static_cast<int>(sample.tree.grid.resolution()), 32);
+        for (int z = -1; z <= n; ++z)
+        {
+            for (int y = -1; y <= n; ++y)
+            {
+                for (int x = -1; x <= n; ++x)
+                {
+                    const bool inside = std::min({x, y, z}) >= 0 && std::max({x, y, z}) < n;
+                    const bool expected =
+                        inside && std::binary_search(codes.begin(), codes.end(), codeOfCell({x, y, z}));
+                    const bool outside_of_grid = std::max({x, y, z}) >= static_cast<int>(sample.tree.grid.resolution());
+                    if (inside || outside_of_grid || std::min({x, y, z}) < 0)
+                    {
+                        ASSERT_EQ(hasVoxel(sample.tree, {x, y, z}), expected) << sample.name;
+                    }
+                }
+            }
+        }
+    }
+}
+
+// A full block: faces look outwards, the middle of each face straight.
+TEST(TreeBuild, NormalsLookOutwards)
+{
+    std::vector<std::uint64_t> codes(1 << 9);
+    for (std::size_t i = 0; i < codes.size(); ++i)
+    {
+        codes[i] = i;
+    }
+    Grid grid;
+    grid.depth = 3;
+    TreeData tree = octreeOfVoxels(grid, codes);
+    addColors(tree, std::vector<std::uint32_t>(codes.size(), 0xff123456U));
+    const auto at = [&](const glm::uvec3& cell) { return tree.voxel_attributes[codeOfCell(cell)]; };
+    EXPECT_EQ(at({7, 3, 4}).normal, octahedralCode({1, 0, 0}));
+    EXPECT_EQ(at({0, 3, 4}).normal, octahedralCode({-1, 0, 0}));
+    EXPECT_EQ(at({3, 3, 7}).normal, octahedralCode({0, 0, 1}));
+    EXPECT_EQ(at({3, 3, 0}).normal, octahedralCode({0, 0, -1}));
+    EXPECT_EQ(at({7, 7, 7}).normal, octahedralCode({1, 1, 1}));
+    EXPECT_EQ(at({7, 7, 7}).color, 0x123456U);
+    EXPECT_EQ(octahedralCode({1, 0, 0}), 32767U);
+    EXPECT_EQ(octahedralCode({0, -1, 0}), 0x8001U << 16);
+    EXPECT_EQ(octahedralCode({0, 0, 0}), 0U);
+}
+
+} // namespace
+} // namespace zvo::test
