@@ -2,10 +2,6 @@
 #include "core/zvo_file.h"
 
 #include "core/crc64.h"
-#include "core/divide_up.h"
-#include "core/input_error.h"
-#include "core/read_file.h"
-#include "core/tree_check.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,8 +11,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
-#include <optional>
-#include <utility>
 
 namespace zvo
 {
@@ -27,387 +21,10 @@ namespace
 static_assert(std::endian::native == std::endian::little); // structs are written as they stand in memory
 static_assert(offsetof(ZvoHeader, header_checksum) == 120);
 
-constexpr std::uint64_t alignedUp(std::uint64_t bytes)
-{
-    return divideUp(bytes, kZvoAlignment) * kZvoAlignment;
-}
-
 template <typename T> std::span<const std::byte> bytesOf(const T& value)
 {
     return std::as_bytes(std::span(&value, 1));
 }
-
-std::uint64_t headerChecksum(const ZvoHeader& header)
-{
-    return crc64(bytesOf(header).first(offsetof(ZvoHeader, header_checksum)));
-}
-
-/// A file's bytes, wherever they are.
-class Source
-{
-public:
-    Source() = default;
-    virtual ~Source() = default;
-    Source(const Source&) = delete;
-    Source& operator=(const Source&) = delete;
-
-    [[nodiscard]] virtual std::uint64_t size() const = 0;
-
-    /// Fills target with the bytes from offset on, which the file has.
-    virtual void read(std::uint64_t offset, std::span<std::byte> target) = 0;
-};
-
-class MemorySource : public Source
-{
-public:
-    explicit MemorySource(std::span<const std::byte> bytes) : m_bytes(bytes) {}
-
-    [[nodiscard]] std::uint64_t size() const override { return m_bytes.size(); }
-    void read(std::uint64_t offset, std::span<std::byte> target) override
-    {
-        const std::span<const std::byte> from = m_bytes.subspan(offset, target.size());
-        std::copy(from.begin(), from.end(), target.begin());
-    }
-
-private:
-    std::span<const std::byte> m_bytes;
-};
-
-class FileSource : public Source
-{
-public:
-    FileSource(const std::filesystem::path& path, std::uint64_t size)
-        : m_path(path), m_size(size), m_file(std::fopen(path.c_str(), "rb"))
-    {
-        if (!m_file)
-        {
-            static_cast<void>(readFile(path)); // says why
-            throw inputError(path, "cannot be opened; try again");
-        }
-    }
-
-    [[nodiscard]] std::uint64_t size() const override { return m_size; }
-    void read(std::uint64_t offset, std::span<std::byte> target) override
-    {
-        if (::fseeko(m_file.get(), static_cast<off_t>(offset), SEEK_SET) != 0 ||
-            std::fread(target.data(), 1, target.size(), m_file.get()) != target.size())
-        {
-            throw inputError(m_path, fmt::format("byte {} cannot be read; {}", offset, kCutShort));
-        }
-    }
-
-private:
-    struct Close
-    {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
-    std::filesystem::path m_path;
-    std::uint64_t m_size;
-    std::unique_ptr<std::FILE, Close> m_file;
-};
-
-/// Reads one file.
-class Reader
-{
-public:
-    Reader(Source& source, const std::filesystem::path& path) : m_source(source), m_path(path) {}
-
-    ZvoFile read()
-    {
-        readHeader();
-        readTable();
-        setUpTree();
-        for (const ZvoSection& section : m_file.sections)
-        {
-            checkPlace(section);
-            readSection(section);
-        }
-        if (m_end != m_file.header.file_bytes)
-        {
-            fail(fmt::format("the last section ends at byte {} of {}; {}", m_end, m_file.header.file_bytes,
-                             kExportAgain));
-        }
-        requireSections();
-        if (const std::optional<std::string> fault = checkTree(m_file.tree))
-        {
-            fail(fmt::format("{}; {}", *fault, kExportAgain));
-        }
-        return std::move(m_file);
-    }
-
-private:
-    [[noreturn]] void fail(const std::string& what) const { throw inputError(m_path, what); }
-
-    void failUnless(bool condition, const char* what) const
-    {
-        if (!condition)
-        {
-            fail(fmt::format("{}; {}", what, kExportAgain));
-        }
-    }
-
-    void readHeader()
-    {
-        ZvoHeader& header = m_file.header;
-        const std::uint64_t size = m_source.size();
-        std::vector<std::byte> bytes(std::min<std::uint64_t>(size, sizeof(header)));
-        m_source.read(0, bytes);
-        const std::size_t magic_bytes = std::min(bytes.size(), kZvoMagic.size());
-        if (magic_bytes == 0 || std::memcmp(bytes.data(), kZvoMagic.data(), magic_bytes) != 0)
-        {
-            fail("not a .zvo file: it does not begin as one");
-        }
-        if (bytes.size() < sizeof(header))
-        {
-            fail(fmt::format("{} bytes are less than a header; {}", size, kCutShort));
-        }
-        std::memcpy(&header, bytes.data(), sizeof(header));
-        if (header.byte_order != kZvoByteOrder)
-        {
-            const bool swapped = header.byte_order == __builtin_bswap32(kZvoByteOrder);
-            fail(swapped ? "its numbers are big-endian, those of .zvo files are little-endian; convert it again"
-                         : fmt::format("its byte order is unknown ({:#010x}); {}", header.byte_order, kExportAgain));
-        }
-        if (header.version_major != kZvoVersionMajor)
-        {
-            fail(fmt::format("version {}.{} of the format, this program reads version {}; use a matching zvo",
-                             header.version_major, header.version_minor, kZvoVersionMajor));
-        }
-        failUnless(header.header_checksum == headerChecksum(header), "the header does not match its checksum");
-        checkHeader(size);
-    }
-
-    void checkHeader(std::uint64_t size) const
-    {
-        const ZvoHeader& header = m_file.header;
-        failUnless(header.header_bytes == sizeof(header), "the header states another size than it has");
-        const bool is_newer = header.version_minor > kZvoVersionMinor; // reserved bytes may mean something
-        failUnless(is_newer || (header.reserved_0 == 0 && header.reserved_1 == 0),
-                   "reserved bytes of the header are not 0");
-        if (header.file_bytes > size)
-        {
-            fail(fmt::format("{} bytes of {} are there; {}", size, header.file_bytes, kCutShort));
-        }
-        if (header.file_bytes < size)
-        {
-            fail(fmt::format("{} bytes follow its end; {}", size - header.file_bytes, kExportAgain));
-        }
-        if (header.structure != static_cast<std::uint32_t>(TreeStructure::Svo) &&
-            header.structure != static_cast<std::uint32_t>(TreeStructure::Svdag))
-        {
-            fail(fmt::format("structure {} is unknown to this version; use a newer zvo", header.structure));
-        }
-        const std::pair<const char*, std::uint64_t> counts[] = {{"voxels", header.voxel_count},
-                                                                {"nodes", header.node_count},
-                                                                {"octree nodes", header.octree_node_count},
-                                                                {"list entries", header.entry_count},
-                                                                {"long list entries", header.long_entry_count}};
-        for (const auto& [what, count] : counts)
-        {
-            if (count > UINT32_MAX)
-            {
-                fail(fmt::format("{} {} are more than this version can hold ({})", count, what, UINT32_MAX));
-            }
-        }
-        failUnless(header.long_entry_count <= header.entry_count, "more list entries are long than there are");
-        const Grid grid = gridOf(header);
-        if (const std::optional<std::string> fault = checkGrid(grid))
-        {
-            fail(fmt::format("{}; {}", *fault, kExportAgain));
-        }
-    }
-
-    static Grid gridOf(const ZvoHeader& header)
-    {
-        return {{header.origin[0], header.origin[1], header.origin[2]}, header.voxel_size, header.depth};
-    }
-
-    void readTable()
-    {
-        const ZvoHeader& header = m_file.header;
-        const std::uint64_t table_bytes = std::uint64_t{header.section_count} * sizeof(ZvoSection);
-        if (header.section_count > kZvoSectionsMax)
-        {
-            fail(fmt::format("{} sections are more than the {} that are possible; {}", header.section_count,
-                             kZvoSectionsMax, kExportAgain));
-        }
-        failUnless(table_bytes <= header.file_bytes - sizeof(header), "the section table does not fit into the file");
-        m_file.sections.resize(header.section_count);
-        m_source.read(sizeof(header), std::as_writable_bytes(std::span(m_file.sections)));
-        failUnless(header.table_checksum == crc64(std::as_bytes(std::span(m_file.sections))),
-                   "the section table does not match its checksum");
-        m_end = sizeof(header) + table_bytes;
-        std::uint32_t last_id = 0;
-        for (const ZvoSection& section : m_file.sections)
-        {
-            if (section.id <= last_id)
-            {
-                fail(fmt::format("{} stands behind {}; {}", sectionName(section.id), sectionName(last_id),
-                                 kExportAgain));
-            }
-            last_id = section.id;
-        }
-    }
-
-    // Sections stand one behind the other, each from the next multiple of kZvoAlignment on; between them are zeros.
-    void checkPlace(const ZvoSection& section)
-    {
-        const std::string name = sectionName(section.id);
-        const std::uint64_t offset = alignedUp(m_end);
-        if (section.offset != offset)
-        {
-            fail(fmt::format("{} starts at byte {}, not at {}; {}", name, section.offset, offset, kExportAgain));
-        }
-        const std::uint64_t file_bytes = m_file.header.file_bytes;
-        if (section.bytes == 0 || offset > file_bytes || section.bytes > file_bytes - offset)
-        {
-            fail(fmt::format("{} of {} bytes at byte {} does not fit into the file's {}; {}", name, section.bytes,
-                             offset, file_bytes, kExportAgain));
-        }
-        std::array<std::byte, kZvoAlignment> padding{};
-        const std::span<std::byte> between = std::span(padding).first(offset - m_end);
-        m_source.read(m_end, between);
-        if (std::any_of(between.begin(), between.end(), [](std::byte byte) { return byte != std::byte{0}; }))
-        {
-            fail(fmt::format("there is something between the sections before {}; {}", name, kExportAgain));
-        }
-        m_end = offset + section.bytes;
-    }
-
-    void setUpTree()
-    {
-        const ZvoHeader& header = m_file.header;
-        TreeData& tree = m_file.tree;
-        tree.structure = static_cast<TreeStructure>(header.structure);
-        tree.grid = gridOf(header);
-        tree.voxel_count = static_cast<std::uint32_t>(header.voxel_count);
-        tree.octree_node_count = static_cast<std::uint32_t>(header.octree_node_count);
-        tree.long_entry_count = header.long_entry_count;
-        tree.emission_scale = header.emission_scale;
-    }
-
-    void readSection(const ZvoSection& section)
-    {
-        const ZvoHeader& header = m_file.header;
-        TreeData& tree = m_file.tree;
-        const std::uint64_t short_count = header.entry_count - header.long_entry_count;
-        switch (static_cast<ZvoSectionId>(section.id))
-        {
-        case ZvoSectionId::Levels:
-            return readLevels(section);
-        case ZvoSectionId::Nodes:
-            return readArray(section, tree.nodes, header.node_count);
-        case ZvoSectionId::Lists:
-            return readArray(section, tree.lists, header.entry_count);
-        case ZvoSectionId::Before:
-            return readArray(section, tree.before, header.long_entry_count);
-        case ZvoSectionId::VoxelsBeforeLeaf:
-            return readArray(section, tree.voxels_before_leaf, divideUp(short_count, 2));
-        case ZvoSectionId::VoxelAttributes:
-            return readArray(section, tree.voxel_attributes, header.voxel_count);
-        case ZvoSectionId::NodeAttributes:
-            return readArray(section, tree.node_attributes, header.octree_node_count);
-        case ZvoSectionId::EmissionWords:
-            return readArray(section, tree.emission_words, divideUp(header.voxel_count, 32));
-        case ZvoSectionId::Emission:
-            return readArray(section, tree.emission, section.count);
-        }
-        skip(section);
-    }
-
-    // What this version does not know.
-    void skip(const ZvoSection& section)
-    {
-        if ((section.flags & kZvoMustUnderstand) != 0)
-        {
-            fail(fmt::format("{} is unknown to this version and cannot be left out; use a newer zvo",
-                             sectionName(section.id)));
-        }
-        constexpr std::uint64_t kPieceBytes = std::uint64_t{1} << 20;
-        std::vector<std::byte> piece(std::min(section.bytes, kPieceBytes));
-        std::uint64_t checksum = 0;
-        for (std::uint64_t done = 0; done < section.bytes; done += piece.size())
-        {
-            piece.resize(std::min(section.bytes - done, kPieceBytes));
-            m_source.read(section.offset + done, piece);
-            checksum = crc64(piece, checksum);
-        }
-        checkSum(section, checksum);
-    }
-
-    void checkSum(const ZvoSection& section, std::uint64_t checksum) const
-    {
-        if (checksum != section.checksum)
-        {
-            fail(fmt::format("{} do not match their checksum; {}", sectionName(section.id), kExportAgain));
-        }
-    }
-
-    template <typename T> void readArray(const ZvoSection& section, std::vector<T>& target, std::uint64_t count)
-    {
-        const std::string name = sectionName(section.id);
-        if (section.format != static_cast<std::uint32_t>(ZvoFormat::Plain))
-        {
-            fail(fmt::format("{} have format {}, unknown to this version; use a newer zvo", name, section.format));
-        }
-        const bool is_newer = m_file.header.version_minor > kZvoVersionMinor;
-        if (!is_newer && (section.reserved != 0 || section.flags != kZvoMustUnderstand))
-        {
-            fail(fmt::format("flags or reserved bytes of {} are wrong; {}", name, kExportAgain));
-        }
-        if (section.count != count)
-        {
-            fail(fmt::format("there are {} {} where the header asks for {}; {}", section.count, name, count,
-                             kExportAgain));
-        }
-        if (section.bytes / sizeof(T) != count || section.bytes % sizeof(T) != 0)
-        {
-            fail(fmt::format("{} {} take {} bytes, not {}; {}", count, name, section.bytes, sizeof(T), kExportAgain));
-        }
-        target.resize(count); // no more than the file has
-        m_source.read(section.offset, std::as_writable_bytes(std::span(target)));
-        checkSum(section, crc64(std::as_bytes(std::span(target))));
-    }
-
-    void readLevels(const ZvoSection& section)
-    {
-        std::vector<std::uint64_t> counts;
-        readArray(section, counts, m_file.tree.grid.nodeLevels());
-        std::uint64_t first_node = 0;
-        for (const std::uint64_t count : counts)
-        {
-            if (count > m_file.header.node_count - first_node)
-            {
-                fail(fmt::format("the levels have more nodes than the {} that there are; {}", m_file.header.node_count,
-                                 kExportAgain));
-            }
-            m_file.tree.levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(count)});
-            first_node += count;
-        }
-    }
-
-    // Counts of the header whose sections are missing. What else belongs together, checkTree knows.
-    void requireSections() const
-    {
-        const ZvoHeader& header = m_file.header;
-        const TreeData& tree = m_file.tree;
-        const auto require = [this](ZvoSectionId id, std::size_t have, std::uint64_t wanted)
-        {
-            if (have != wanted)
-            {
-                fail(fmt::format("{} are missing; {}", sectionName(static_cast<std::uint32_t>(id)), kExportAgain));
-            }
-        };
-        require(ZvoSectionId::Nodes, tree.nodes.size(), header.node_count);
-        require(ZvoSectionId::Lists, tree.lists.size(), header.entry_count);
-    }
-
-    Source& m_source;
-    const std::filesystem::path& m_path;
-    ZvoFile m_file;
-    std::uint64_t m_end = 0; // of what was read
-};
 
 /// What a section is going to hold.
 struct Content
@@ -484,6 +101,11 @@ std::string sectionName(std::uint32_t id)
     return fmt::format("section {}", id);
 }
 
+std::uint64_t headerChecksum(const ZvoHeader& header)
+{
+    return crc64(bytesOf(header).first(offsetof(ZvoHeader, header_checksum)));
+}
+
 bool isZvoFile(const std::filesystem::path& path)
 {
     if (hasZvoName(path))
@@ -498,26 +120,6 @@ bool isZvoFile(const std::filesystem::path& path)
     std::array<char, kZvoMagic.size()> first{};
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     return file && std::fread(first.data(), 1, first.size(), file.get()) == first.size() && first == kZvoMagic;
-}
-
-ZvoFile readZvo(const std::filesystem::path& path)
-{
-    std::error_code failure;
-    const bool is_regular = std::filesystem::is_regular_file(path, failure);
-    const std::uintmax_t size = is_regular ? std::filesystem::file_size(path, failure) : 0;
-    if (!is_regular || failure)
-    {
-        const std::vector<std::uint8_t> bytes = readFile(path);
-        return readZvo(std::as_bytes(std::span(bytes)), path);
-    }
-    FileSource source(path, size);
-    return Reader(source, path).read();
-}
-
-ZvoFile readZvo(std::span<const std::byte> bytes, const std::filesystem::path& name)
-{
-    MemorySource source(bytes);
-    return Reader(source, name).read();
 }
 
 void writeZvo(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
@@ -542,7 +144,7 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     std::vector<ZvoSection> table;
     for (Content& content : contents)
     {
-        content.section.offset = alignedUp(end);
+        content.section.offset = zvoAligned(end);
         end = content.section.offset + content.section.bytes;
         table.push_back(content.section);
     }

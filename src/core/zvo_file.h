@@ -5,6 +5,7 @@
 //     ZvoHeader 128 bytes | ZvoSection 48 bytes each | zeros up to 64 | section | zeros up to 64 | section ...
 #pragma once
 
+#include "core/divide_up.h"
 #include "core/tree_data.h"
 
 #include <array>
@@ -94,6 +95,15 @@ static_assert(sizeof(ZvoSection) == 48);
 
 /// A section's name in messages and listings; "section N" for those that this version does not know.
 std::string sectionName(std::uint32_t id);
+
+/// Where the next section starts, at that byte or behind it.
+constexpr std::uint64_t zvoAligned(std::uint64_t byte)
+{
+    return divideUp(byte, kZvoAlignment) * kZvoAlignment;
+}
+
+/// What ZvoHeader::header_checksum has to be.
+std::uint64_t headerChecksum(const ZvoHeader& header);
 
 /// What a file holds.
 struct ZvoFile

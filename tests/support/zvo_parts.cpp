@@ -18,11 +18,6 @@ template <typename T> void append(Bytes& bytes, const T& value)
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-std::uint64_t checksumOf(ZvoHeader header)
-{
-    return crc64(std::as_bytes(std::span(&header, 1)).first(offsetof(ZvoHeader, header_checksum)));
-}
-
 void pad(Bytes& bytes)
 {
     bytes.resize((bytes.size() + kZvoAlignment - 1) / kZvoAlignment * kZvoAlignment);
@@ -74,7 +69,7 @@ Bytes ZvoParts::join() const
     joined.section_count = static_cast<std::uint32_t>(table.size());
     joined.file_bytes = body.size();
     joined.table_checksum = crc64(std::as_bytes(std::span(table)));
-    joined.header_checksum = checksumOf(joined);
+    joined.header_checksum = headerChecksum(joined);
     Bytes start;
     append(start, joined);
     for (const ZvoSection& entry : table)
@@ -115,7 +110,7 @@ void fixChecksums(Bytes& file)
     const auto fixed = std::as_bytes(std::span(table));
     std::copy(fixed.begin(), fixed.end(), table_bytes.begin());
     header.table_checksum = crc64(fixed);
-    header.header_checksum = checksumOf(header);
+    header.header_checksum = headerChecksum(header);
     std::memcpy(file.data(), &header, sizeof(header));
 }
 
