@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -117,9 +118,21 @@ private:
     const PlacedScene& m_scene;
     Grid m_grid;
     const TiledOptions& m_options;
-    std::optional<VoxelizeCapacities> m_capacities; // that sufficed last
+    std::map<std::uint32_t, VoxelizeCapacities> m_capacities; // that sufficed last, by the cube's depth
     TiledResult m_result;
 };
+
+// Where to start for a cube of the grid: surfaces that are spread over the grid, and four times as much.
+VoxelizeCapacities likelyCapacities(const GpuScene& scene, const Grid& grid, std::uint32_t depth)
+{
+    const VoxelizeCapacities whole = VoxelizeCapacities::estimate(scene, grid);
+    const auto share = [&](std::uint64_t count)
+    {
+        const std::uint32_t shift = 2 * (grid.depth - depth);
+        return std::min(count, std::max<std::uint64_t>(count >> (shift > 2 ? shift - 2 : 0), 1024));
+    };
+    return {share(whole.bricks), share(whole.big_triangles), share(whole.row_blocks)};
+}
 
 // The largest even depth below that of a cube.
 std::uint32_t depthBelow(std::uint32_t depth)
@@ -147,15 +160,18 @@ std::optional<Part> TiledBuilder::buildPart(std::uint32_t depth, std::uint64_t c
             throw;
         }
     }
-    m_capacities.reset();
+    m_capacities.erase(depth);
     return buildTiles(depth, code, tile_depth);
 }
 
 std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t code)
 {
+    const auto last = m_capacities.find(depth);
+    const VoxelizeCapacities capacities =
+        last != m_capacities.end() ? last->second : likelyCapacities(m_scene.uploaded(), m_grid, depth);
     BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, placeOf(code)},
-                                    {m_options.coverage, m_options.attributes, m_capacities});
-    m_capacities = built.capacities;
+                                    {m_options.coverage, m_options.attributes, capacities});
+    m_capacities[depth] = built.capacities;
     m_result.dropped = built.dropped;
     m_result.voxelize_ms += built.stageMs("voxelize");
     m_result.build_ms += built.stageMs("octree");
