@@ -21,19 +21,24 @@ uint listWord(RankSource source, uint node, uint cell)
 void descend(RankSource source, uint cell, inout RankedNode at)
 {
     uint word = listWord(source, at.node, cell);
-    uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[word - source.first_word]);
+    uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[word]);
     at.node = uint_ConstPtr(uint64_t(source.pool)).data[word];
     at.voxels += before.x;
     at.rank += 1u + before.y;
 }
 
-// From a parent of leaves to the leaf in a cell, whose node is not looked up. Returns the word that names it.
-uint descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNode at)
+// Voxels before a leaf in its parent; word names the leaf.
+uint voxelsBeforeLeaf(RankSource source, uint word)
+{
+    uint entry = word - source.first_short_word;
+    return bitfieldExtract(source.voxels_before_leaf.data[entry >> 1], int(16u * (entry & 1u)), 16);
+}
+
+// From a parent of leaves to the leaf in a cell, whose node is not looked up.
+void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNode at)
 {
     uint word = listWord(source, at.node, cell);
-    uint entry = word - source.first_word - source.long_entry_count;
-    at.voxels += bitfieldExtract(source.voxels_before_leaf.data[entry >> 1], int(16u * (entry & 1u)), 16);
+    at.voxels += voxelsBeforeLeaf(source, word);
     if (with_rank)
         at.rank += 1u + word - listWord(source, at.node, 0u);
-    return word;
 }

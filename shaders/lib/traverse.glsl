@@ -26,6 +26,7 @@
 //                                      fewer than four levels. Then also, as trace/trace.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
+//   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the word that named their leaf
 //   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
 
 #ifndef TRAVERSE_CONSTANT_ID
@@ -54,6 +55,9 @@ struct Traversal
     uint face;       // axis of the face, or kFaceInside
     uint level;      // of a hit: of nodes; kNodeLevels for a voxel
     uvec3 cell;      // of a hit: coordinates among the cells of that level
+#ifdef TRAVERSE_ENTRIES
+    uint leaf_word; // of a hit in a DAG: that named the leaf, unless the ray began there
+#endif
 };
 
 uint g_saved[kSavedMax]; // nodes above the current one, by level
@@ -178,6 +182,9 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     uint node = 0u;
     uint iterations = 0u;
     bool stopped = false; // by the level of detail
+#ifdef TRAVERSE_ENTRIES
+    uint leaf_word = 0u;
+#endif
     bool go = limits.x <= limit_max && all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
                                                             uintBitsToFloat(limits)));
 #ifdef TRAVERSE_PATHS
@@ -240,6 +247,9 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
             // Loaded by every ray, needed or not: on lavapipe, a load that some lanes skip costs more.
             bool listed = occupied && int(child) < 0;
             uint named = loadListed(listed ? child & ~kChildList : 0u);
+#ifdef TRAVERSE_ENTRIES
+            leaf_word = listed ? child & ~kChildList : leaf_word; // no ray leaves a leaf for another one without a list
+#endif
             child = listed ? named : child;
         }
 
@@ -267,6 +277,9 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     result.face = limits.y < limits.x ? 0u : limits.z < limits.x ? 1u : result.t == t_min ? kFaceInside : 2u;
     result.level = (kRootShift - shift) >> 1;
     result.cell = ((corner - one) >> (shift + 2u)) ^ mix(uvec3(0u), uvec3((1u << (2u * result.level)) - 1u), mirrored);
+#ifdef TRAVERSE_ENTRIES
+    result.leaf_word = leaf_word;
+#endif
     return result;
 }
 

@@ -1,7 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Where the ranks of hits in a DAG begin: for each cell of a grid over the root cube, the node of level kPathLevels that
-// contains it, and how many voxels come before those below that node.
+// Where the ranks of hits in a DAG begin (trace/trace.h), behind the nodes that trace/beam_paths has written.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"
@@ -34,5 +33,5 @@ void main()
         else if (present)
             descend(params.source, c, at);
     }
-    params.ranks.data[i] = present ? packUint2x32(uvec2(at.node, at.voxels)) : 0ul;
+    params.paths.data[kRankTableFirst + i] = present ? packUint2x32(uvec2(at.node, at.voxels)) : 0ul;
 }

@@ -1,9 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // From what a traversal of a DAG knows of a hit, the number of a voxel in its leaf, to the index of its attributes: the
-// rank of the voxel, or of the node where a level of detail stopped (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson,
-// Compressing Color Data for Voxelized Surface Geometry, 2017, who sum up during the traversal; here the path is walked
-// once more, for hits alone). One workgroup a live tile, or a thread a hit.
+// rank of the voxel, or of the node where a level of detail stopped. For lists of rays, a thread a hit, and for pictures
+// where trace/primary_ranks does not do it, one workgroup a live tile.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/camera.glsl"
@@ -15,7 +14,6 @@
 layout(constant_id = 0) const uint kNodeLevels = 5u;  // at least 2
 layout(constant_id = 1) const bool kDetail = false;   // hits may be nodes
 layout(constant_id = 2) const bool kTiles = true;     // of a picture
-layout(constant_id = 3) const bool kTable = false;    // begin at level kPathLevels; not with kDetail
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -51,18 +49,10 @@ void main()
     uvec3 cell = hitCell(hit);
     uint level = kDetail ? hitLevel(hit) : kNodeLevels;
     RankedNode at = RankedNode(0u, 0u, 0u);
-    if (kTable)
-    {
-        uvec3 c = cell >> (2u * (kNodeLevels - kPathLevels));
-        uvec2 entry = unpackUint2x32(params.ranks.data[c.x | (c.y << kPathCellBits) | (c.z << (2u * kPathCellBits))]);
-        at.node = entry.x;
-        at.voxels = entry.y;
-    }
-    for (uint above = kTable ? kPathLevels : 0u; above + 2u < kNodeLevels; ++above)
+    for (uint above = 0u; above + 2u < kNodeLevels; ++above)
         if (above < level)
             descend(params.source, cellAt(cell, level, above + 1u), at);
-    bool in_leaf = level + 1u >= kNodeLevels;
-    if (in_leaf && !(kTable && kNodeLevels <= kPathLevels + 1u))
+    if (level + 1u >= kNodeLevels)
         descendToLeaf(params.source, cellAt(cell, level, kNodeLevels - 1u), kDetail, at);
     bool voxel = level == kNodeLevels;
     uint_Ptr(uint64_t(params.hits)).data[4u * i + 1u] = voxel ? at.voxels + hit.index : at.rank;

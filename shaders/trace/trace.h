@@ -56,6 +56,12 @@ const uint kPathLevel2Bits = 16u;
 const uint kPathLevel2Shift = 8u;
 const uint kPathRelativeShift = 24u;
 
+// Where the ranks of hits in a DAG begin, behind the nodes of all cells: for each cell, the node of level kPathLevels
+// that contains it, and the number of voxels before those below it:
+//
+//     node: 32 bits | voxels: 32, from the lowest bit on; 0 where there is no such node
+const uint kRankTableFirst = kPathCells * kPathCells * kPathCells;
+
 // Light that arrives at a hit, for the parts of it: 0 none, 255 all.
 const uint kLightSun = 255u; // mask
 const uint kLightSkyShift = 8u;
@@ -131,23 +137,21 @@ struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell
 struct RankSource
 {
     GPU_CONST_PTR(Node) pool;
-    GPU_CONST_PTR(BeforeChild) before;      // [long_entry_count]
+    GPU_CONST_PTR(BeforeChild) before;      // by words of the pool: those of the long entries
     GPU_CONST_PTR(uint) voxels_before_leaf; // two entries a word
-    uint first_word;                        // of the lists in the pool
-    uint long_entry_count;
+    uint first_short_word;                  // of the pool: its first short entry
 };
 
 struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
 {
     RankSource source;
-    GPU_PTR(uint64_t) ranks; // [kPathCells^3] node of level kPathLevels, voxels before it; 0 where there is none
+    GPU_PTR(uint64_t) paths; // [kRankTableFirst + kPathCells^3]
 };
 
 struct RanksParams // push constants of trace/ranks
 {
     RankSource source;
-    GPU_CONST_PTR(uint64_t) ranks; // of trace/beam_ranks; kTable only
-    GPU_CONST_PTR(uvec2) live;     // kTiles only
+    GPU_CONST_PTR(uvec2) live; // kTiles only
     GPU_PTR(Hit) hits;
     uint width; // of the picture, or how many hits there are
     uint height;
@@ -179,6 +183,23 @@ struct PrimaryParams // push constants of trace/primary
     uint width;
     uint height;
     vec2 detail;
+    uint round;
+};
+
+struct PrimaryRanksParams // push constants of trace/primary_ranks
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uint64_t) paths; // of trace/beam_paths and trace/beam_ranks
+    GPU_CONST_PTR(uvec2) live;
+    GPU_PTR(TraceStatus) status;
+    GPU_PTR(DispatchArgs) rounds;
+    GPU_PTR(Hit) hits;
+    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource
+    GPU_CONST_PTR(uint) voxels_before_leaf;
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint first_short_word;
     uint round;
 };
 

@@ -232,7 +232,7 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
 BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
     : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
       masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes),
-      paths(device, "paths", kPathCellCount), ranks(device, "path ranks", for_dag ? kPathCellCount : 0)
+      paths(device, "paths", for_dag ? 2 * kPathCellCount : kPathCellCount)
 {
 }
 
@@ -309,29 +309,52 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     traceBeam(graph, octree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
     const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !options.hasDetail();
+    const bool wants_ranks = tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options);
+    const bool has_ranks = wants_ranks && !options.hasDetail() && hasRankTable(*tree.svdag(), beam);
     const vk::Specialization constants =
         withFlags(traverseConstants(tree, options),
                   {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree)});
-    const auto declare = [&](vk::Pass& pass)
+    const std::uint32_t rounds = roundsFor(octree, options);
+    // What both kernels take.
+    const auto common = [&]<typename Params>(vk::Pass& pass, Params params)
     {
-        gpu::PrimaryParams params{};
         params.nodes = pass.read(octree.nodes);
-        params.paths = use_paths ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
+        params.paths = use_paths || has_ranks ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
         params.live = pass.read(buffers.live);
         params.status = pass.readWrite(buffers.status);
         params.hits = pass.readWrite(buffers.hits);
-        params.iterations = count_iterations ? pass.readWrite(buffers.light) : gpu::Ptr<gpu::uint>{};
         params.camera = camera.rays;
         params.width = buffers.width;
         params.height = buffers.height;
+        return params;
+    };
+    if (has_ranks)
+    {
+        const auto declare = [&](vk::Pass& pass)
+        {
+            auto params = common(pass, gpu::PrimaryRanksParams{});
+            const gpu::RankSource source = rankSource(pass, *tree.svdag());
+            params.before = source.before;
+            params.voxels_before_leaf = source.voxels_before_leaf;
+            params.first_short_word = source.first_short_word;
+            return params;
+        };
+        addRounds<gpu::PrimaryRanksParams>(graph, "trace/primary_ranks", constants, rounds, buffers.rounds,
+                                           buffers.live.count(), declare, dispatchLive(buffers));
+        return;
+    }
+    const auto declare = [&](vk::Pass& pass)
+    {
+        auto params = common(pass, gpu::PrimaryParams{});
+        params.iterations = count_iterations ? pass.readWrite(buffers.light) : gpu::Ptr<gpu::uint>{};
         params.detail = detailOf(options, &camera);
         return params;
     };
-    addRounds<gpu::PrimaryParams>(graph, "trace/primary", constants, roundsFor(octree, options), buffers.rounds,
-                                  buffers.live.count(), declare, dispatchLive(buffers));
-    if (tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options))
+    addRounds<gpu::PrimaryParams>(graph, "trace/primary", constants, rounds, buffers.rounds, buffers.live.count(),
+                                  declare, dispatchLive(buffers));
+    if (wants_ranks)
     {
-        rankTiles(graph, *tree.svdag(), beam, options, buffers);
+        rankTiles(graph, *tree.svdag(), options, buffers);
     }
 }
 

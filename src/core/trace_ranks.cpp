@@ -7,25 +7,9 @@ namespace zvo
 namespace
 {
 
-bool hasTable(const Svdag& dag, const BeamGrid& beam)
-{
-    return dag.tree.grid.nodeLevels() > gpu::kPathLevels && beam.ranks.count() != 0;
-}
-
-gpu::RankSource sourceOf(vk::Pass& pass, const Svdag& dag)
-{
-    gpu::RankSource source{};
-    source.pool = pass.read(dag.tree.nodes);
-    source.before = pass.read(dag.before);
-    source.voxels_before_leaf = pass.read(dag.voxels_before_leaf);
-    source.first_word = dag.tree.node_count * static_cast<gpu::uint>(sizeof(gpu::Node) / sizeof(gpu::uint));
-    source.long_entry_count = static_cast<gpu::uint>(dag.long_entry_count);
-    return source;
-}
-
-// Opens the pass, unless there is no list: then the number in the leaf is the rank.
+// Records the pass, unless there is no list: then the number in the leaf is the rank.
 template <typename Dispatch>
-void addRanks(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, bool tiles, bool table,
+void addRanks(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, bool tiles,
               const Dispatch& dispatch)
 {
     const std::uint32_t levels = dag.tree.grid.nodeLevels();
@@ -33,35 +17,47 @@ void addRanks(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& optio
     {
         return;
     }
-    vk::Pass pass =
-        graph.addPass("trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U, table ? 1U : 0U});
+    vk::Pass pass = graph.addPass("trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U});
     gpu::RanksParams params{};
-    params.source = sourceOf(pass, dag);
+    params.source = rankSource(pass, dag);
     dispatch(pass, params);
 }
 
 } // namespace
 
+bool hasRankTable(const Svdag& dag, const BeamGrid& beam)
+{
+    return dag.tree.grid.nodeLevels() > gpu::kPathLevels && beam.paths.count() > gpu::kRankTableFirst;
+}
+
+gpu::RankSource rankSource(vk::Pass& pass, const Svdag& dag)
+{
+    const std::uint64_t first_word = std::uint64_t{dag.tree.node_count} * (sizeof(gpu::Node) / sizeof(gpu::uint));
+    gpu::RankSource source{};
+    source.pool = pass.read(dag.tree.nodes);
+    source.before = {pass.read(dag.before).address - first_word * sizeof(gpu::BeforeChild)};
+    source.voxels_before_leaf = pass.read(dag.voxels_before_leaf);
+    source.first_short_word = static_cast<gpu::uint>(first_word + dag.long_entry_count);
+    return source;
+}
+
 void buildRankTable(vk::FrameGraph& graph, const Svdag& dag, BeamGrid& beam)
 {
-    if (!hasTable(dag, beam))
+    if (!hasRankTable(dag, beam))
     {
         return;
     }
     const bool leaves = dag.tree.grid.nodeLevels() == gpu::kPathLevels + 1;
     vk::Pass pass = graph.addPass("trace/beam_ranks", {leaves ? 1U : 0U});
-    const gpu::BeamRanksParams params = {sourceOf(pass, dag), pass.write(beam.ranks)};
-    pass.dispatch(beam.ranks.count(), params);
+    const gpu::BeamRanksParams params = {rankSource(pass, dag), pass.readWrite(beam.paths)};
+    pass.dispatch(gpu::kRankTableFirst, params);
 }
 
-void rankTiles(vk::FrameGraph& graph, const Svdag& dag, const BeamGrid& beam, const TraceOptions& options,
-               TraceBuffers& buffers)
+void rankTiles(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, TraceBuffers& buffers)
 {
-    const bool table = hasTable(dag, beam) && !options.hasDetail();
-    addRanks(graph, dag, options, true, table,
+    addRanks(graph, dag, options, true,
              [&](vk::Pass& pass, gpu::RanksParams& params)
              {
-                 params.ranks = table ? pass.read(beam.ranks) : gpu::ConstPtr<uint64_t>{};
                  params.live = pass.read(buffers.live);
                  params.hits = pass.readWrite(buffers.hits);
                  params.width = buffers.width;
@@ -72,7 +68,7 @@ void rankTiles(vk::FrameGraph& graph, const Svdag& dag, const BeamGrid& beam, co
 
 void rankHits(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits)
 {
-    addRanks(graph, dag, options, false, false,
+    addRanks(graph, dag, options, false,
              [&](vk::Pass& pass, gpu::RanksParams& params)
              {
                  params.hits = pass.readWrite(hits);

@@ -314,7 +314,8 @@ TEST(TraceSvdag, TablesNameTheNodesAndTheVoxelsBeforeThem)
         BeamGrid beam(device().device(), true);
         device().run([&](vk::FrameGraph& graph) { buildBeam(graph, pair.dag, beam); });
         const std::vector<uint64_t> paths = device().download(beam.paths);
-        const std::vector<uint64_t> ranks = device().download(beam.ranks);
+        const std::vector<uint64_t> ranks = device().download(beam.paths, gpu::kRankTableFirst);
+        ASSERT_EQ(ranks.size(), gpu::kRankTableFirst);
         const std::uint32_t shift = 6 * (levels - gpu::kPathLevels);
         std::uint32_t present_count = 0;
         for (std::uint32_t i = 0; i < gpu::kPathCells * gpu::kPathCells * gpu::kPathCells; ++i)
@@ -329,7 +330,7 @@ TEST(TraceSvdag, TablesNameTheNodesAndTheVoxelsBeforeThem)
             {
                 ++present_count;
                 ASSERT_EQ(ranks[i] >> 32, first - pair.codes.begin()) << i;
-                if (levels > gpu::kPathLevels + 1) // below it, nobody asks
+                if (levels > gpu::kPathLevels + 1) // leaves are not looked up
                 {
                     ASSERT_EQ(ranks[i] & UINT32_MAX, paths[i] >> 32) << i;
                 }

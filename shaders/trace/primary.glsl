@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Traces the rays of all pixels in live tiles, one workgroup a tile. Rays that use up their iterations go on in another
+// round. The includer defines PRIMARY_RANKS, or does not: then hits in a DAG get the ranks that are the indices of their
+// attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
+// 2017, who sum up during the traversal; here only the path of the hit is summed up).
+#include "trace/trace.h"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/ray.glsl"
+
+layout(constant_id = 5) const bool kOrthographic = false;
+layout(constant_id = 6) const bool kCountIterations = false;
+layout(constant_id = 7) const bool kPaths = false; // begin below the root
+layout(constant_id = 8) const bool kPathsRelative = false; // the octree does not stand by levels
+layout(constant_id = 9) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 10) const bool kMore = false;     // another round follows
+
+layout(local_size_x = kTilePixels) in;
+layout(push_constant, scalar) uniform Push
+{
+#ifdef PRIMARY_RANKS
+    PrimaryRanksParams params;
+#else
+    PrimaryParams params;
+#endif
+};
+
+uint64_t_ConstPtr g_paths;
+
+uvec2 loadPath(uint cell)
+{
+    return unpackUint2x32(g_paths.data[cell]);
+}
+
+#ifdef PRIMARY_RANKS
+#define TRAVERSE_ENTRIES
+#endif
+#define TRAVERSE_GROUP kTilePixels
+#define TRAVERSE_PATHS kPaths
+#define TRAVERSE_PATHS_RELATIVE kPathsRelative
+#include "lib/octree_half.glsl"
+#include "lib/traverse.glsl"
+#include "lib/rounds.glsl"
+
+#ifdef PRIMARY_RANKS
+#include "lib/morton.glsl"
+#include "lib/ranks.glsl"
+
+uint rankOf(Traversal hit)
+{
+    RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_word);
+    uvec3 cell = (hit.cell >> (2u * (kNodeLevels - kPathLevels))) & (kPathCells - 1u);
+    uint place = kRankTableFirst + (cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
+    RankedNode at = RankedNode(0u, uint_ConstPtr(uint64_t(g_paths)).data[2u * place + 1u], 0u);
+    if (kNodeLevels > kPathLevels + 2u)
+        at.node = uint_ConstPtr(uint64_t(g_paths)).data[2u * place];
+    for (uint level = kPathLevels + 1u; level + 1u < kNodeLevels; ++level)
+        descend(source, cellInBlock(hit.cell >> (2u * (kNodeLevels - level))), at);
+    if (kNodeLevels > kPathLevels + 1u)
+        at.voxels += voxelsBeforeLeaf(source, hit.leaf_word);
+    return at.voxels + hit.index;
+}
+#endif
+
+void main()
+{
+    CameraRays camera = params.camera;
+    uvec2 size = uvec2(params.width, params.height);
+    uvec2 tile = params.live.data[workgroupIndex()];
+    if (tile.x == kNoTile)
+        return;
+    uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
+    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.step_x, camera.step_y);
+    precise vec3 direction = camera.forward + (kOrthographic ? vec3(0.0) : offset);
+    precise vec3 origin = camera.origin + (kOrthographic ? offset : vec3(0.0));
+    g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    g_paths = params.paths;
+    uint i = pixel.y * size.x + pixel.x;
+#ifdef PRIMARY_RANKS
+    const vec2 detail = vec2(0.0);
+#else
+    vec2 detail = params.detail;
+#endif
+    uvec3 from = uvec3(0u);
+    if (kContinue)
+    {
+        if (any(greaterThanEqual(pixel, size)))
+            return;
+        Hit last = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
+        if (last.index != kHitUnfinished)
+            return;
+        from = limitsAfter(last.t, hitFace(last));
+    }
+    Traversal result = traverse(origin, inverseDirection(direction), uintBitsToFloat(tile.y), kTraceTimeMax,
+                                detail, from, kStepsMax);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    if (result.unfinished)
+        endUnfinished(kMore, params.rounds, params.round, params.status.data[0].live_tiles, params.status);
+#ifdef PRIMARY_RANKS
+    if (result.hit)
+        result.index = rankOf(result);
+#endif
+    uint miss = kMore && result.unfinished ? kHitUnfinished : kHitMiss;
+    storeHit(params.hits, i, result.t, result.hit ? result.index : miss, result.cell, result.level, result.face);
+#ifndef PRIMARY_RANKS
+    if (kCountIterations)
+        params.iterations.data[i] = result.iterations + (kContinue ? params.iterations.data[i] : 0u);
+#endif
+}
