@@ -480,7 +480,7 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
                                { pass.dispatch(rays.count(), params); });
     if (tree.hasLists() && octree.hasAttributes())
     {
-        rankHits(graph, *tree.svdag(), options, hits);
+        rankHits(graph, *tree.svdag(), options, hits, rays.count());
     }
 }
 

@@ -81,12 +81,13 @@ struct TraceBuffers
     vk::BufferOf<gpu::uint> image;          // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
 };
 
-/// Records the passes that make the beam grid of octree: once for each octree. Cost: constant, and the cells
-/// that the octree touches in the beam grid.
+/// Records the passes that make the beam grid of tree: once for each tree. Cost: constant, and the cells
+/// that the tree touches in the beam grid.
 void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam);
 
 /// Records the passes that find what each pixel's ray hits first: fills buffers.starts, live, args, status, hits (and
-/// light with iteration counts for View::Iterations). Cost: pixels of tiles that are near something.
+/// light with iteration counts for View::Iterations). Of a DAG, Hit::index is undefined where options show no
+/// attributes or there are none. Cost: pixels of tiles that are near something.
 void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers);
 
@@ -102,9 +103,10 @@ void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camer
 void trace(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers);
 
-/// Records the pass that traces a list of rays in octree's unit space: hits[i] is what rays[i] hits first. hits has
-/// room for as many. Rays with components that are NaN, infinite or (inverse directions) too small to be normal hit
-/// nothing. rounds has kTraceRoundsMax elements, for rays that need more than one round. Adds to status[0].capped_rays.
+/// Records the pass that traces a list of rays in tree's unit space: hits[i] is what rays[i] hits first. hits has
+/// room for as many. Of a DAG without attributes, Hit::index only tells hits from misses. Rays with components that are
+/// NaN, infinite or (inverse directions) too small to be normal hit nothing. rounds has kTraceRoundsMax elements, for
+/// rays that need more than one round. Adds to status[0].capped_rays.
 void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<gpu::Ray>& rays,
                vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
                vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options);

@@ -66,14 +66,15 @@ void rankTiles(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& opti
              });
 }
 
-void rankHits(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits)
+void rankHits(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
+              std::uint64_t count)
 {
     addRanks(graph, dag, options, false,
              [&](vk::Pass& pass, gpu::RanksParams& params)
              {
                  params.hits = pass.readWrite(hits);
-                 params.width = static_cast<gpu::uint>(hits.count());
-                 pass.dispatch(hits.count(), params);
+                 params.width = static_cast<gpu::uint>(count);
+                 pass.dispatch(count, params);
              });
 }
 

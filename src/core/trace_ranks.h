@@ -18,8 +18,10 @@ void buildRankTable(vk::FrameGraph& graph, const Svdag& dag, BeamGrid& beam);
 gpu::RankSource rankSource(vk::Pass& pass, const Svdag& dag);
 
 /// Records the pass that turns Hit::index, as a traversal of dag leaves it, into the attribute index of the voxel or
-/// node: of all hits in live tiles, or of a list of them. dag has attributes. Cost: levels of nodes for each hit.
+/// node: of all hits in live tiles, or of the first count hits of a list. dag has attributes. Cost: levels of nodes for
+/// each hit.
 void rankTiles(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, TraceBuffers& buffers);
-void rankHits(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits);
+void rankHits(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
+              std::uint64_t count);
 
 } // namespace zvo

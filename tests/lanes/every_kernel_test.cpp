@@ -112,6 +112,10 @@ Names tracePictures(const TreeView& tree)
                      device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, options, buffers); }));
         }
     }
+    TraceOptions coarse;
+    coarse.detail_level = 2;
+    const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
+    addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, coarse, buffers); }));
     const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
     const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
     vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
