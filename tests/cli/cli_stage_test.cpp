@@ -62,7 +62,10 @@ protected:
     {
         const std::string bytes = file(name);
         std::vector<std::uint64_t> values(bytes.size() / sizeof(std::uint64_t));
-        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(std::uint64_t));
+        if (!values.empty())
+        {
+            std::memcpy(values.data(), bytes.data(), values.size() * sizeof(std::uint64_t));
+        }
         return {values.begin(), values.end()};
     }
 
