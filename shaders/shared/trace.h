@@ -26,7 +26,8 @@ GPU_BUFFER(Ray, 4);
 struct Hit
 {
     float t;     // where the ray enters the cell, or t_min inside of it; undefined for a miss
-    uint index;  // voxel attribute index, or attribute index of the node where a level of detail stopped the ray; kHitMiss
+    uint index;  // voxel attribute index, or attribute index of the node where a level of detail stopped the ray;
+                 // kHitMiss
     uvec2 where; // the cell's coordinates at its level, the level in nodes (nodeLevels() for a voxel), the face's axis
 };
 GPU_BUFFER(Hit, 8);
