@@ -47,6 +47,7 @@ uvec2 loadPath(uint cell)
 #include "lib/morton.glsl"
 #include "lib/ranks.glsl"
 
+// Of what was hit; of a miss, any number. All loads but those of descend() are made for misses, too (lib/traverse.glsl).
 uint rankOf(Traversal hit)
 {
     RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_word);
@@ -56,9 +57,10 @@ uint rankOf(Traversal hit)
     if (kNodeLevels > kPathLevels + 2u)
         at.node = uint_ConstPtr(uint64_t(g_paths)).data[2u * place];
     for (uint level = kPathLevels + 1u; level + 1u < kNodeLevels; ++level)
-        descend(source, cellInBlock(hit.cell >> (2u * (kNodeLevels - level))), at);
+        if (hit.hit)
+            descend(source, cellInBlock(hit.cell >> (2u * (kNodeLevels - level))), at);
     if (kNodeLevels > kPathLevels + 1u)
-        at.voxels += voxelsBeforeLeaf(source, hit.leaf_word);
+        at.voxels += voxelsBeforeLeaf(source, max(hit.leaf_word, params.first_short_word));
     return at.voxels + hit.index;
 }
 #endif
@@ -99,8 +101,7 @@ void main()
     if (result.unfinished)
         endUnfinished(kMore, params.rounds, params.round, params.status.data[0].live_tiles, params.status);
 #ifdef PRIMARY_RANKS
-    if (result.hit)
-        result.index = rankOf(result);
+    result.index = rankOf(result);
 #endif
     uint miss = kMore && result.unfinished ? kHitUnfinished : kHitMiss;
     storeHit(params.hits, i, result.t, result.hit ? result.index : miss, result.cell, result.level, result.face);
