@@ -4,7 +4,7 @@
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
-#include "core/svdag.h"
+#include "core/tiled_build.h"
 #include "core/zvo_file.h"
 #include "output.h"
 #include "progress.h"
@@ -14,8 +14,12 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace zvo::cli
 {
@@ -31,6 +35,63 @@ void checkName(const OutputOptions& options)
     }
 }
 
+// A tree and how it came about.
+struct Built
+{
+    TreeData tree;
+    std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason
+    std::vector<vk::PassTime> passes;
+    std::uint32_t retry_count = 0;
+    std::uint32_t tile_count = 1;
+};
+
+Built buildSvo(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const VoxelOptions& options)
+{
+    BuildResult result = buildOctree(device, scene, grid, {options.coverage, options.attributes, {}});
+    return {downloadTree(device, result.octree), std::move(result.dropped), std::move(result.passes),
+            result.retry_count};
+}
+
+Built buildSvdag(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const VoxelOptions& options,
+                 Progress& progress)
+{
+    TiledOptions tiled{.coverage = options.coverage, .attributes = options.attributes};
+    tiled.progress = [&](double done) { progress.within(done); };
+    TiledResult result = buildByTiles(device, scene, grid, tiled);
+    return {std::move(result.tree), std::move(result.dropped), std::move(result.passes), result.retry_count,
+            result.tile_count};
+}
+
+Json builtJson(vk::HeadlessDevice& device, const BuildFileOptions& options, std::uint64_t triangle_count,
+               const Built& built)
+{
+    const TreeData& tree = built.tree;
+    Json dropped = Json::object();
+    for (const auto& [reason, count] : built.dropped)
+    {
+        dropped[reason] = count;
+    }
+    Json json = headJson("zvo.build/1", device.device().report(), options.voxels, tree.grid);
+    json["scene"] = {{"triangles", triangle_count}, {"dropped", dropped}};
+    json["structure"] = structureName(tree.structure);
+    json["voxels"] = tree.voxel_count;
+    json["nodes"] = tree.octree_node_count;
+    json["nodes_stored"] = tree.nodes.size();
+    json["tiles"] = built.tile_count;
+    json["bytes"] = {{"geometry", tree.geometryBytes()},
+                     {"attributes", tree.attributeBytes()},
+                     {"peak_device", device.device().memory().peakBytes()}};
+    json["cold_run"] = true; // times include whatever a device does only the first time
+    json["retries"] = built.retry_count;
+    json["passes"] = passesJson(sumByName(built.passes));
+    json["voxelize_ms"] = operationMs(built.passes, "voxelize");
+    json["build_ms"] = operationMs(built.passes, "octree");
+    json["compress_ms"] =
+        tree.structure == TreeStructure::Svdag ? Json(operationMs(built.passes, "svdag")) : Json(nullptr);
+    json["trace_ms"] = nullptr;
+    return json;
+}
+
 } // namespace
 
 void buildFile(const BuildFileOptions& options)
@@ -40,8 +101,7 @@ void buildFile(const BuildFileOptions& options)
     Output output(options.output.path, options.output.overwrite);
     std::optional<Output> report = openReport(options.output);
 
-    const bool is_dag = options.structure == TreeStructure::Svdag;
-    Progress progress(is_dag ? 5 : 4);
+    Progress progress(4);
     progress.step("loading");
     Stage stage = loadStageWithWarnings(options.voxels, options.voxels.time.has_value());
     checkPlaces(options.output, stage.files);
@@ -55,47 +115,18 @@ void buildFile(const BuildFileOptions& options)
     std::optional<GpuScene> gpu_scene = uploadScene(device, scene, options.voxels.attributes);
     scene = {};
 
-    progress.step("voxelizing");
-    BuildResult result =
-        buildOctree(device, *gpu_scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
+    progress.step("building");
+    const bool is_dag = options.structure == TreeStructure::Svdag;
+    const Built built = is_dag ? buildSvdag(device, *gpu_scene, grid, options.voxels, progress)
+                               : buildSvo(device, *gpu_scene, grid, options.voxels);
     gpu_scene.reset();
-    warnOfDropped(result.octree.voxel_count, result.dropped);
-    Json json;
-    if (report)
-    {
-        json = octreeJson("zvo.build/1", device.device().report(), options.voxels, triangle_count, result,
-                          octreeSha256(device, result.octree), 0);
-    }
-
-    double compress_ms = 0;
-    TreeData tree;
-    if (is_dag)
-    {
-        progress.step("compressing");
-        const CompressResult compressed = compress(device, std::move(result.octree));
-        compress_ms = compressed.ms();
-        if (report)
-        {
-            const Json passes = passesJson(compressed.passes);
-            json["passes"].insert(json["passes"].end(), passes.begin(), passes.end());
-            json["retries_compress"] = compressed.retry_count;
-        }
-        tree = downloadTree(device, compressed.dag);
-    }
-    else
-    {
-        tree = downloadTree(device, result.octree);
-    }
+    warnOfDropped(built.tree.voxel_count, built.dropped);
 
     progress.step("writing");
-    writeZvo(tree, [&output](std::span<const std::byte> bytes) { output.write(bytes); });
+    writeZvo(built.tree, [&output](std::span<const std::byte> bytes) { output.write(bytes); });
+    const Json json = builtJson(device, options, triangle_count, built);
     if (report)
     {
-        json["structure"] = structureName(tree.structure);
-        json["nodes_stored"] = tree.nodes.size();
-        json["compress_ms"] = is_dag ? Json(compress_ms) : Json(nullptr);
-        json["bytes"]["geometry"] = tree.geometryBytes();
-        json["bytes"]["peak_device"] = device.device().memory().peakBytes();
         report->write(jsonText(json));
     }
     checkValidation(device);
@@ -106,9 +137,11 @@ void buildFile(const BuildFileOptions& options)
     }
     talk(fmt::format("{} voxels of {}^3 from {} triangles; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, "
                      "build {:.1f} ms{} on {}",
-                     tree.voxel_count, grid.resolution(), triangle_count, tree.geometryBytes(), tree.attributeBytes(),
-                     result.stageMs("voxelize"), result.stageMs("octree"),
-                     is_dag ? fmt::format(", compress {:.1f} ms", compress_ms) : "", device.device().report().name));
+                     built.tree.voxel_count, grid.resolution(), triangle_count, built.tree.geometryBytes(),
+                     built.tree.attributeBytes(), operationMs(built.passes, "voxelize"),
+                     operationMs(built.passes, "octree"),
+                     is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
+                     device.device().report().name));
 }
 
 } // namespace zvo::cli

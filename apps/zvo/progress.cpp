@@ -52,13 +52,25 @@ Progress::~Progress()
 void Progress::step(std::string_view what)
 {
     m_step = std::min(m_step + 1, m_step_count);
+    m_what = what;
+    draw(0);
+}
+
+void Progress::within(double done)
+{
+    draw(std::clamp(done, 0.0, 1.0));
+}
+
+void Progress::draw(double done) const
+{
     if (::isatty(STDERR_FILENO) == 0)
     {
         return;
     }
-    const std::size_t done = (m_step - 1) * kBarWidth / m_step_count;
-    const std::string line = fmt::format("{}[{:#<{}}{:.<{}}] {}/{} {:.48}", kClearLine, "", done, "", kBarWidth - done,
-                                         m_step, m_step_count, what);
+    const double steps = static_cast<double>(m_step - 1) + done;
+    const auto filled = static_cast<std::size_t>(steps * kBarWidth / static_cast<double>(m_step_count));
+    const std::string line = fmt::format("{}[{:#<{}}{:.<{}}] {}/{} {:.48}", kClearLine, "", filled, "",
+                                         kBarWidth - filled, m_step, m_step_count, m_what);
     g_bar_shown = true;
     std::fwrite(line.data(), 1, line.size(), stderr);
     std::fflush(stderr);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace zvo::cli
@@ -29,9 +30,15 @@ public:
     /// The next step begins; what: a few words on it.
     void step(std::string_view what);
 
+    /// How much of the step is done: 0 to 1.
+    void within(double done);
+
 private:
+    void draw(double done) const;
+
     std::size_t m_step_count;
     std::size_t m_step = 0; // that is going on, counted from 1
+    std::string m_what;
 };
 
 } // namespace zvo::cli

@@ -25,9 +25,9 @@ constexpr std::uint32_t kCellBits = 6;      // of a code, for each level of node
 constexpr std::uint32_t kTileDepthMin = 4;  // smaller tiles would take no less memory
 constexpr std::uint32_t kVoxelsOfWord = 32; // of the emission table
 
-template <typename T> void append(std::vector<T>& to, const std::vector<T>& from, std::size_t first = 0)
+template <typename T> void append(std::vector<T>& to, const std::vector<T>& from)
 {
-    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+    to.insert(to.end(), from.begin(), from.end());
 }
 
 // The cube of a grid with a Morton code.
@@ -173,14 +173,15 @@ std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
                                     {m_options.coverage, m_options.attributes, capacities});
     m_capacities[depth] = built.capacities;
     m_result.dropped = built.dropped;
-    m_result.voxelize_ms += built.stageMs("voxelize");
-    m_result.build_ms += built.stageMs("octree");
+    m_result.retry_count += built.retry_count;
+    append(m_result.passes, built.passes);
     if (built.octree.node_count == 0)
     {
         return std::nullopt;
     }
     CompressResult compressed = compress(m_device, std::move(built.octree));
-    m_result.compress_ms += compressed.ms();
+    m_result.retry_count += compressed.retry_count;
+    append(m_result.passes, compressed.passes);
     ++m_result.tile_count;
     Part part;
     Octree& tree = compressed.dag.tree;
@@ -247,10 +248,7 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
         orderNodes(tiles, top_levels, part.looks);
     }
     part.dag = forest.finish(m_options.attributes && depth == m_grid.depth);
-    for (const vk::PassTime& pass : forest.passes())
-    {
-        m_result.compress_ms += pass.ms;
-    }
+    append(m_result.passes, forest.passes());
     return part;
 }
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace zvo
 {
@@ -34,9 +35,8 @@ struct TiledResult
     TreeData tree;                                // a Svdag
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
     std::uint32_t tile_count = 0;                 // that were built on their own and have voxels
-    double voxelize_ms = 0;                       // GPU time
-    double build_ms = 0;
-    double compress_ms = 0;
+    std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
+    std::vector<vk::PassTime> passes; // of the runs that succeeded: operations "voxelize", "octree" and "svdag"
 };
 
 /// Makes the DAG of a scene with device memory for a part of it at a time: tiles are voxelized, built and compressed

@@ -25,18 +25,11 @@ struct Machine
 // Subgroups of 4, 8 and, where the processor has the registers, 16.
 std::vector<Machine> machines()
 {
-    std::vector<int> widths = {128, 256};
+    std::vector<Machine> all = {{0, 128}, {4, 128}, {0, 256}, {1, 256}, {2, 256}, {4, 256}};
     if (__builtin_cpu_supports("avx512f") != 0)
     {
-        widths.push_back(512);
-    }
-    std::vector<Machine> all;
-    for (const int width : widths)
-    {
-        for (const int threads : {0, 1, 2, 4})
-        {
-            all.push_back({threads, width});
-        }
+        all.push_back({0, 512});
+        all.push_back({4, 512});
     }
     return all;
 }
@@ -88,6 +81,7 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
     }
     const TempDir dir;
     std::set<std::string> sums;
+    std::set<int> vector_bits;
     std::set<int> subgroup_sizes;
     for (const Machine& machine : machines())
     {
@@ -97,6 +91,7 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
         ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
         const nlohmann::json report = nlohmann::json::parse(outcome.out);
         sums.insert(report.at("octree_sha256").get<std::string>());
+        vector_bits.insert(machine.vector_bits);
         subgroup_sizes.insert(report.at("device").at("subgroup_size").get<int>());
         if (report.at("device").at("type") != "cpu")
         {
@@ -104,7 +99,7 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
         }
     }
     EXPECT_EQ(sums.size(), 1U);
-    EXPECT_EQ(subgroup_sizes.size(), machines().size() / 4);
+    EXPECT_EQ(subgroup_sizes.size(), vector_bits.size());
 }
 
 } // namespace
