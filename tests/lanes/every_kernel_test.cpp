@@ -100,6 +100,10 @@ Names tracePictures(const TreeView& tree)
     addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); }));
     for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
     {
+        if (tree.hasLists() && stack != TraceStack::Registers)
+        {
+            continue; // lists and stacks know nothing of each other, and every variant has to be compiled
+        }
         for (const View shown : {View::Color, View::Iterations})
         {
             TraceOptions options;
