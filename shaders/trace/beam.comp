@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Which tiles can hit anything, and from where on. One ray through the middle of the tile goes through the beam grid:
 // while the tile is no wider than a cell, and the middle is in a cell that is not set, no ray of the tile is in an
-// occupied part of the octree (after S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, who trace a coarse
+// occupied part of the octree; nor, at a level of detail, in a node with one, if the tile and the node together are no
+// wider than a cell (after S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, who trace a coarse
 // picture instead and may miss what falls between its rays).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
@@ -33,13 +34,14 @@ const float kBeamOriginMax = 1000.0;
 const float kCellDepthMax = 1.8 * kCoarseEdge;      // more than a ray's depth grows inside a cell
 const float kTileReach = float(kTileEdge - 1u); // from the middle of a tile to its outer pixels, in half pixels
 
-// Until when all rays of a tile are within an edge of the middle one.
+// Until when all rays of a tile, and what they take for occupied nodes, are within an edge of the middle one.
 float endWithin(float edge)
 {
     vec3 reach = kTileReach * (abs(params.camera.step_x) + abs(params.camera.step_y));
     float widest = max(reach.x, max(reach.y, reach.z));
-    return kOrthographic ? (widest <= kBeamMargin * edge ? kTraceTimeMax : 0.0)
-                         : kBeamMargin * edge / max(widest, kTraceTimeMin);
+    float room = kBeamMargin * edge - params.detail.y;
+    return kOrthographic ? (widest <= room ? kTraceTimeMax : 0.0)
+                         : max(room, 0.0) / max(widest + params.detail.x, kTraceTimeMin);
 }
 
 // Depth of the octree's farthest corner.

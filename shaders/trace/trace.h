@@ -168,6 +168,7 @@ struct BeamParams // push constants of trace/beam: one thread a tile
     uint width; // pixels
     uint height;
     uint block_stride; // coprime to the number of blocks: the order in which they are taken
+    vec2 detail;       // as traverse(), of the picture's rays
 };
 
 struct PrimaryParams // push constants of trace/primary

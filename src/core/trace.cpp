@@ -224,6 +224,7 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
     params.width = buffers.width;
     params.height = buffers.height;
     params.block_stride = coprimeStride(tiles.blocks);
+    params.detail = detailOf(options, &camera);
     pass.dispatch(std::uint64_t{tiles.blocks} * gpu::kBlockTiles, params);
 }
 

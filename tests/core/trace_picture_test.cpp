@@ -93,6 +93,42 @@ TEST(TracePicture, BeamDoesNotChangeThePicture)
     EXPECT_GT(saved_tiles, 5000U);
 }
 
+TEST(TracePicture, BeamDoesNotChangeThePictureOfCoarserNodes)
+{
+    std::mt19937 random(16);
+    std::uint32_t saved_tiles = 0;
+    for (const std::uint32_t depth : {5U, 6U, 9U})
+    {
+        const Octree octree = test::octreeOf(device(), test::randomCodes(depth, 300, random), depth);
+        std::size_t number = 0;
+        for (const ViewCamera& camera : manyCameras(octree.grid))
+        {
+            const TraceCamera rays = traceCamera(camera, octree.grid, 90);
+            for (const auto& [level, pixels] : {std::pair(1U, 0.0F),
+                                                {2U, 0.0F},
+                                                {3U, 0.0F},
+                                                {4U, 0.0F},
+                                                {UINT32_MAX, 2.0F},
+                                                {UINT32_MAX, 20.0F},
+                                                {2U, 9.0F}})
+            {
+                SCOPED_TRACE("depth " + std::to_string(depth) + " camera " + std::to_string(number) + " level " +
+                             std::to_string(level) + " pixels " + std::to_string(pixels));
+                TraceOptions options;
+                options.detail_level = level;
+                options.detail_pixels = pixels;
+                const Picture with = take(octree, rays, 120, 90, options);
+                options.beam = false;
+                const Picture without = take(octree, rays, 120, 90, options);
+                expectSameHits(with, without);
+                saved_tiles += without.live_tiles - with.live_tiles;
+            }
+            ++number;
+        }
+    }
+    EXPECT_GT(saved_tiles, 1000U);
+}
+
 TEST(TracePicture, EveryStackGivesTheSamePicture)
 {
     std::mt19937 random(7);
