@@ -75,6 +75,7 @@ Json inspectJson(const TreeData& tree, const TreeStats& stats, const std::string
     json["nodes_per_level"] = levels;
     json["geometry_bytes"] = tree.geometryBytes();
     json["attribute_bytes"] = tree.attributeBytes();
+    json["rank_bytes"] = tree.rankBytes();
     json["geometry_bytes_per_voxel"] = perVoxel(tree.geometryBytes(), tree);
     json["slides_octree_bytes"] = stats.slidesOctreeBytes();
     json["slides_dag_bytes"] = stats.slidesDagBytes();
@@ -130,6 +131,10 @@ std::string bytesText(const TreeData& tree, const TreeStats& stats)
     const auto add = [&](const std::string& what, std::uint64_t nodes, std::uint64_t bytes)
     { text += fmt::format("{:<32}{:>14}{:>16}{:>16.3f}\n", what, nodes, bytes, perVoxel(bytes, tree)); };
     add("this file", tree.nodes.size(), tree.geometryBytes());
+    if (tree.rankBytes() != 0)
+    {
+        add("... with ranks, for attributes", tree.nodes.size(), tree.geometryBytes() + tree.rankBytes());
+    }
     add("octree, 16-byte nodes", tree.octree_node_count, tree.octree_node_count * sizeof(gpu::Node));
     add("2x2x2 octree, 36-byte nodes", stats.binary_node_count, stats.slidesOctreeBytes());
     add("2x2x2 DAG, 68-byte nodes", stats.binary_unique_count, stats.slidesDagBytes());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Children of a node (shared/octree.h, shared/svdag.h).
-#include "shared/svdag.h"
+#include "lib/lists.glsl"
 
 bool hasChild(Node node, uint cell)
 {
@@ -8,7 +8,7 @@ bool hasChild(Node node, uint cell)
 }
 
 // Where the child in a cell stands, or, in a leaf, the voxel's attribute; or would, if it existed. For a list, kChildList
-// and the word that names the child.
+// and the place of the entry that names the child.
 uint childIndex(Node node, uint cell)
 {
     uint below = (1u << (cell & 31u)) - 1u;
@@ -16,10 +16,10 @@ uint childIndex(Node node, uint cell)
 }
 
 // The child that childIndex() found, and that exists, of a node in a pool where kChildList may occur.
-uint listedChild(Node_ConstPtr pool, uint place)
+uint listedChild(Node_ConstPtr pool, uint place, uint per_word)
 {
     uint child = place;
     if ((place & kChildList) != 0u)
-        child = uint_ConstPtr(uint64_t(pool)).data[place & ~kChildList];
+        child = listEntry(uint64_t_ConstPtr(uint64_t(pool)), place & ~kChildList, per_word);
     return child;
 }

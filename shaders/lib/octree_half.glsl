@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Loads of half nodes and lists for lib/traverse.glsl from a buffer of Node. main() sets g_halves first: read from the push
+// Loads of half nodes and entries of lists for lib/traverse.glsl from a buffer of Node. main() sets g_halves first: read from the push
 // constants inside of the traversal's loop, the address would be loaded again in every iteration.
+#include "lib/lists.glsl"
 
 uint64_t_ConstPtr g_halves; // the nodes as 64-bit words, which lavapipe loads faster than pairs of 32-bit words
 
@@ -9,7 +10,7 @@ uvec2 loadHalf(uint half_index)
     return unpackUint2x32(g_halves.data[half_index]);
 }
 
-uint loadListed(uint word)
+uint loadEntry(uint place, uint per_word)
 {
-    return uint_ConstPtr(uint64_t(g_halves)).data[word];
+    return listEntry(g_halves, place, per_word);
 }

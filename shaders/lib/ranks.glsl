@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Ranks in a DAG (shared/svdag.h): of voxels in Morton order, of the octree's nodes depth first. Both are sums along the
-// path from the root. The includer includes trace/trace.h before.
+// path from the root. The includer includes trace/trace.h before
+// and defines
+//   kEntriesPerWord    of lists
+#include "lib/lists.glsl"
 
 // A node of the octree by its path.
 struct RankedNode
@@ -10,8 +13,8 @@ struct RankedNode
     uint rank;   // depth first
 };
 
-// Number in the pool of the word of a list that names the child in a cell.
-uint listWord(RankSource source, uint node, uint cell)
+// The place of the entry that names the child in a cell.
+uint entryPlace(RankSource source, uint node, uint cell)
 {
     uvec2 half_node = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.pool)).data[2u * node + (cell >> 5)]);
     return (half_node.y & ~kChildList) + bitCount(half_node.x & ((1u << (cell & 31u)) - 1u));
@@ -20,25 +23,25 @@ uint listWord(RankSource source, uint node, uint cell)
 // From a node above the parents of leaves to the child in a cell.
 void descend(RankSource source, uint cell, inout RankedNode at)
 {
-    uint word = listWord(source, at.node, cell);
-    uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[word]);
-    at.node = uint_ConstPtr(uint64_t(source.pool)).data[word];
+    uint place = entryPlace(source, at.node, cell);
+    uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[place]);
+    at.node = listEntry(uint64_t_ConstPtr(uint64_t(source.pool)), place, kEntriesPerWord);
     at.voxels += before.x;
     at.rank += 1u + before.y;
 }
 
-// Voxels before a leaf in its parent; word names the leaf.
-uint voxelsBeforeLeaf(RankSource source, uint word)
+// Voxels before a leaf in its parent; the entry at this place names the leaf.
+uint voxelsBeforeLeaf(RankSource source, uint place)
 {
-    uint entry = word - source.first_short_word;
+    uint entry = place - source.first_short_place;
     return bitfieldExtract(source.voxels_before_leaf.data[entry >> 1], int(16u * (entry & 1u)), 16);
 }
 
 // From a parent of leaves to the leaf in a cell, whose node is not looked up.
 void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNode at)
 {
-    uint word = listWord(source, at.node, cell);
-    at.voxels += voxelsBeforeLeaf(source, word);
+    uint place = entryPlace(source, at.node, cell);
+    at.voxels += voxelsBeforeLeaf(source, place);
     if (with_rank)
-        at.rank += 1u + word - listWord(source, at.node, 0u);
+        at.rank += 1u + place - entryPlace(source, at.node, 0u);
 }

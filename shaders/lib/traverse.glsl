@@ -19,14 +19,14 @@
 //
 // The includer includes shared/trace.h and defines before:
 //   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
-//   uint loadListed(uint word)         word `word` of the nodes' buffer; with kLists (shared/svdag.h)
+//   uint loadEntry(uint place, uint per_word)  of a list; with kEntriesPerWord (shared/svdag.h)
 //   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
 //                                      kStackShared
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail or
 //                                      fewer than four levels. Then also, as trace/trace.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
-//   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the word that named their leaf
+//   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the place of the entry that named their leaf
 //   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
 
 #ifndef TRAVERSE_CONSTANT_ID
@@ -37,7 +37,7 @@ layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of th
 layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const uint kStack = kStackRegisters;
 layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const bool kDetail = false; // stop at small nodes
 layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kStepsMax = kTraceStepsMax;
-layout(constant_id = TRAVERSE_CONSTANT_ID + 4) const bool kLists = false; // of children: the nodes are those of a DAG
+layout(constant_id = TRAVERSE_CONSTANT_ID + 4) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 
 const uint kMantissaBits = 23u;
 const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
@@ -56,7 +56,7 @@ struct Traversal
     uint level;      // of a hit: of nodes; kNodeLevels for a voxel
     uvec3 cell;      // of a hit: coordinates among the cells of that level
 #ifdef TRAVERSE_ENTRIES
-    uint leaf_word; // of a hit in a DAG: that named the leaf, unless the ray began there
+    uint leaf_place; // of a hit in a DAG: of the entry that named the leaf, unless the ray began there
 #endif
 };
 
@@ -183,7 +183,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     uint iterations = 0u;
     bool stopped = false; // by the level of detail
 #ifdef TRAVERSE_ENTRIES
-    uint leaf_word = 0u;
+    uint leaf_place = 0u;
 #endif
     bool go = limits.x <= limit_max && all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
                                                             uintBitsToFloat(limits)));
@@ -242,13 +242,13 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
                              z_first ? leave_plane : corner.z) & (~0u << (around_shift + 2u));
         uint around_node = around_shift == shift ? node : savedNode(around_shift);
 
-        if (kLists)
+        if (kEntriesPerWord != 0u)
         {
             // Loaded by every ray, needed or not: on lavapipe, a load that some lanes skip costs more.
             bool listed = occupied && int(child) < 0;
-            uint named = loadListed(listed ? child & ~kChildList : 0u);
+            uint named = loadEntry(listed ? child & ~kChildList : 0u, kEntriesPerWord);
 #ifdef TRAVERSE_ENTRIES
-            leaf_word = listed ? child & ~kChildList : leaf_word; // no ray leaves a leaf for another one without a list
+            leaf_place = listed ? child & ~kChildList : leaf_place; // no ray leaves a leaf for another one without a list
 #endif
             child = listed ? named : child;
         }
@@ -278,7 +278,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     result.level = (kRootShift - shift) >> 1;
     result.cell = ((corner - one) >> (shift + 2u)) ^ mix(uvec3(0u), uvec3((1u << (2u * result.level)) - 1u), mirrored);
 #ifdef TRAVERSE_ENTRIES
-    result.leaf_word = leaf_word;
+    result.leaf_place = leaf_place;
 #endif
     return result;
 }

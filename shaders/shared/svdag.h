@@ -4,19 +4,23 @@
 //
 // Nodes and lists share one buffer, the pool:
 //
-//     nodes, level by level from the root on | lists: words, those of the root first | zeros up to a whole node
+//     nodes, level by level from the root on | lists, those of the root first | zeros up to a whole node
 //
-// A half of a node with kChildList in its base has a list: child c of it is node
-// pool_words[(base & ~kChildList) + popcount(mask & bits below c)]. Without, its children stand together, as an
-// octree's do. Inner nodes of a DAG have one list for both halves: base_hi = base_lo + popcount(mask_lo). In leaves
-// base_lo is 0 and base_hi popcount(mask_lo): what would be a child is the voxel's number in the leaf.
+// Lists are entries, numbers of nodes, of which a word of 64 bits holds as many as the largest number allows: 4 of 16
+// bits, 3 of 21 or 2 of 32, the first one in the lowest bits. Entries have *places*, counted from the pool's first word
+// on as if all of it were entries: place p is in word p / entries per word, and lists start with a word.
+//
+// A half of a node with kChildList in its base has a list: child c of it is the entry at place
+// (base & ~kChildList) + popcount(mask & bits below c). Without, its children stand together, as an octree's do. Inner
+// nodes of a DAG have one list for both halves: base_hi = base_lo + popcount(mask_lo). In leaves base_lo is 0 and
+// base_hi popcount(mask_lo): what would be a child is the voxel's number in the leaf.
 //
 // Nodes of a level stand in the order in which they first occur in the octree; lists in the order of their nodes.
 //
 // Voxels, and their attributes, have the octree's numbers, in Morton order: the sum, over the path to a voxel, of the
 // voxels before each child in its node, and the voxel's number in its leaf (D. Dolonius, E. Sintorn, V. Kaempe,
-// U. Assarsson, Compressing Color Data for Voxelized Surface Geometry, 2017). Words of lists, from the first one on,
-// are entries: long ones, those of nodes above the parents of leaves, come first.
+// U. Assarsson, Compressing Color Data for Voxelized Surface Geometry, 2017). Counts for that stand in arrays of their
+// own, by entries: long ones, those of nodes above the parents of leaves, come first.
 #ifndef ZVO_SHADERS_SHARED_SVDAG_H
 #define ZVO_SHADERS_SHARED_SVDAG_H
 
@@ -25,9 +29,10 @@
 GPU_NAMESPACE_BEGIN
 
 const uint kChildList = 0x80000000u; // flag in Node::base_lo and base_hi
+const uint kListWordBits = 64u;      // of a word of entries
 
-/// Of a long entry: what the octree has below the node's children before this one. (Entries of parents of leaves have
-/// 16 bits each, two to a word, the lower half first: voxels before the leaf.)
+/// Of a long entry: what the octree has below the node's children before this one. (For entries of parents of leaves
+/// there are 16 bits each, two to a word, the lower half first: voxels before the leaf.)
 struct BeforeChild
 {
     uint voxels;

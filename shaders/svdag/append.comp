@@ -1,9 +1,12 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Copies inner nodes of a level of one DAG, with their lists, behind those of another.
+// Copies inner nodes of a level of one DAG, with their lists, behind those of another that has two entries a word.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #include "lib/dispatch.glsl"
+#include "lib/lists.glsl"
+
+layout(constant_id = 0) const uint kEntriesPerWord = 2u; // of the lists that are copied
 
 layout(local_size_x = kSvdagGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -18,10 +21,13 @@ void main()
         return;
     Node node = params.from.data[params.first_from + index];
     uint from = node.base_lo & ~kChildList;
-    uint to = from + params.word_shift;
+    uint to = from + params.place_shift;
     uint low = bitCount(node.mask_lo);
     uint count = low + bitCount(node.mask_hi);
     for (uint i = 0u; i < count; ++i)
-        params.to_words.data[to + i] = params.from_words.data[from + i] + params.child_shift;
+    {
+        uint child = listEntry(uint64_t_ConstPtr(uint64_t(params.from)), from + i, kEntriesPerWord);
+        params.to_entries.data[to + i] = child + params.child_shift;
+    }
     params.to.data[params.first_to + index] = Node(node.mask_lo, kChildList | to, node.mask_hi, kChildList | (to + low));
 }

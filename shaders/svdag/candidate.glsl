@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Children of candidates (svdag/svdag.h). The includer defines before:
-//   LISTS_CONSTANT_ID    constant_id of kLists
+//   LISTS_CONSTANT_ID    constant_id of kEntriesPerWord
+#include "lib/lists.glsl"
 
-layout(constant_id = LISTS_CONSTANT_ID) const bool kLists = false; // some candidates have lists of children
+layout(constant_id = LISTS_CONSTANT_ID) const uint kEntriesPerWord = 0u; // of candidates' lists; 0: there are none
 
 uint childCount(Node node)
 {
     return bitCount(node.mask_lo) + bitCount(node.mask_hi);
 }
 
-// Where the child with so many before it in the node is named: its number, or the word of a list.
+// Where the child with so many before it in the node is named: its number, or the place of an entry.
 uint childPlace(Node node, uint before)
 {
     uint low = bitCount(node.mask_lo);
@@ -17,10 +18,10 @@ uint childPlace(Node node, uint before)
 }
 
 // The child of an inner node with so many before it in the node.
-uint childAt(Node node, uint_ConstPtr words, uint before)
+uint childAt(Node node, Node_ConstPtr nodes, uint before)
 {
     uint place = childPlace(node, before);
-    if (kLists && (place & kChildList) != 0u)
-        place = words.data[place & ~kChildList];
+    if (kEntriesPerWord != 0u && (place & kChildList) != 0u)
+        place = listEntry(uint64_t_ConstPtr(uint64_t(nodes)), place & ~kChildList, kEntriesPerWord);
     return place;
 }

@@ -24,7 +24,7 @@ void main()
     uvec2 hash = uvec2(hashMask(node.mask_lo, node.mask_hi), hashMask(node.mask_hi, node.mask_lo));
     for (uint i = 0u; i < count; ++i)
     {
-        uint child_class = params.classes.data[childAt(node, params.words, i)];
+        uint child_class = params.classes.data[childAt(node, params.nodes, i)];
         // Two chains that no common change of several children leaves alone.
         hash.x = mixBits(hash.x + child_class);
         hash.y = (hash.y ^ child_class) * 0x01000193u;

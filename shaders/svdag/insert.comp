@@ -25,7 +25,7 @@ bool haveEqualChildren(Node a, Node b, bool equal)
     uint count = equal ? childCount(a) : 0u;
     for (uint i = 0u; equal && i < count; ++i)
     {
-        equal = params.classes.data[childAt(a, params.words, i)] == params.classes.data[childAt(b, params.words, i)];
+        equal = params.classes.data[childAt(a, params.nodes, i)] == params.classes.data[childAt(b, params.nodes, i)];
     }
     return equal;
 }

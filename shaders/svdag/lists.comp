@@ -10,6 +10,7 @@
 
 layout(constant_id = 1) const bool kBefore = false;       // there are attributes
 layout(constant_id = 2) const bool kAboveLeaves = false;  // the children are leaves
+layout(constant_id = 3) const uint kPerWord = 2u;         // entries of the lists that are written
 
 layout(local_size_x = kSvdagGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -25,11 +26,22 @@ BeforeChild belowOf(uint number)
     return params.below.data[number];
 }
 
+// Entries of two lists may share a word.
+void setEntry(uint place, uint child)
+{
+    uint bits = kListWordBits / kPerWord;
+    uvec2 word = unpackUint2x32(uint64_t(child) << (bits * (place % kPerWord)));
+    if (word.x != 0u)
+        atomicOr(params.halfwords.data[2u * (place / kPerWord)], word.x);
+    if (word.y != 0u)
+        atomicOr(params.halfwords.data[2u * (place / kPerWord) + 1u], word.y);
+}
+
 void setBefore(uint entry, BeforeChild before)
 {
     if (kAboveLeaves)
     {
-        uint leaf_entry = entry - params.long_entry_count; // two lists may share a word
+        uint leaf_entry = entry - params.long_entry_count; // here, too
         atomicOr(params.voxels_before_leaf.data[leaf_entry / 2u], before.voxels << (16u * (leaf_entry & 1u)));
     }
     else
@@ -51,8 +63,8 @@ void main()
     BeforeChild before = BeforeChild(0u, 0u);
     for (uint i = 0u; i < count; ++i)
     {
-        uint child = params.numbers.data[params.classes.data[childAt(node, params.words, i)]];
-        params.pool_words.data[params.first_word + first_entry + i] = child;
+        uint child = params.numbers.data[params.classes.data[childAt(node, params.nodes, i)]];
+        setEntry(params.first_place + first_entry + i, child);
         if (kBefore)
         {
             setBefore(first_entry + i, before);
@@ -63,6 +75,6 @@ void main()
     }
     if (kBefore)
         params.below.data[number] = BeforeChild(before.voxels, before.nodes + 1u);
-    uint base = kChildList | (params.first_word + first_entry);
+    uint base = kChildList | (params.first_place + first_entry);
     params.pool.data[number] = Node(node.mask_lo, base, node.mask_hi, base + bitCount(node.mask_lo));
 }

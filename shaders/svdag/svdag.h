@@ -18,7 +18,7 @@ const uint kEmptySlot = ~0u; // of the table of classes: otherwise the first can
 struct ClassSizes
 {
     uint node_count;                      // unique nodes
-    uint entry_count;                     // words of lists
+    uint entry_count;                     // of their lists
     uint first_nodes[kNodeLevelsMax];     // of each level
     uint first_entries[kNodeLevelsMax];   // of each level but that of the leaves
     uint overflow_counts[kNodeLevelsMax]; // nodes of each level that found no slot
@@ -27,8 +27,7 @@ GPU_BUFFER(ClassSizes, 4);
 
 struct ClassHashParams // push constants of svdag/hash
 {
-    GPU_CONST_PTR(Node) nodes;   // the candidates
-    GPU_CONST_PTR(uint) words;   // the same, as words: lists
+    GPU_CONST_PTR(Node) nodes;   // the candidates, and their lists
     GPU_CONST_PTR(uint) classes; // [candidates] of the levels below
     GPU_PTR(uvec2) hashes;       // [node_count]
     uint first_node;
@@ -39,7 +38,6 @@ struct ClassHashParams // push constants of svdag/hash
 struct ClassInsertParams // push constants of svdag/insert
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(uint) words;
     GPU_CONST_PTR(uvec2) hashes; // [node_count]; not for leaves
     GPU_PTR(uint) classes;       // [candidates] gets the level's slots
     GPU_PTR(uint) table;         // slots of all levels
@@ -64,7 +62,7 @@ struct ClassCountParams // push constants of svdag/count
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(uint) classes;
     GPU_PTR(uint) node_partials;  // [ceil(candidates / kScanBlock)] unique nodes
-    GPU_PTR(uint) entry_partials; // likewise: words of their lists
+    GPU_PTR(uint) entry_partials; // likewise: entries of their lists
     uint node_count;              // candidates
     uint inner_count;             // those above the leaves
 };
@@ -94,19 +92,18 @@ struct UniqueLeavesParams // push constants of svdag/leaves
 struct UniqueListsParams // push constants of svdag/lists
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_CONST_PTR(uint) words;
     GPU_CONST_PTR(uint) classes;
     GPU_CONST_PTR(uint) numbers;
     GPU_CONST_PTR(uint) unique_nodes;
     GPU_CONST_PTR(uint) first_entries;
     GPU_PTR(Node) pool;
-    GPU_PTR(uint) pool_words;         // the same, as words
+    GPU_PTR(uint) halfwords;          // the same, as halves of the words of lists: zeros
     GPU_PTR(BeforeChild) below;       // [inner nodes of the DAG] voxels below, nodes below and itself
     GPU_PTR(BeforeChild) before;      // [long entries]
     GPU_PTR(uint) voxels_before_leaf; // [ceil(other entries / 2)] zeros
     uint first_node;                  // of the DAG
     uint node_count;
-    uint first_word;       // of the lists
+    uint first_place;      // of entries
     uint long_entry_count; // entries before those of the parents of leaves
 };
 
@@ -126,13 +123,12 @@ struct DepthFirstParams // push constants of svdag/depth_first
 struct AppendParams // push constants of svdag/append: one thread a node
 {
     GPU_CONST_PTR(Node) from;
-    GPU_CONST_PTR(uint) from_words; // the same, as words
     GPU_PTR(Node) to;
-    GPU_PTR(uint) to_words;
+    GPU_PTR(uint) to_entries; // the same, as entries, two a word
     uint first_from;
     uint first_to;
     uint node_count;
-    uint word_shift;  // from the word of a list to its copy, modulo 2^32 as the next one
+    uint place_shift; // from the place of an entry to that of its copy, modulo 2^32 as the next one
     uint child_shift; // from the number of a child to that of its copy
 };
 

@@ -7,7 +7,7 @@
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 
-layout(constant_id = 0) const bool kLists = false; // of children: the nodes are those of a DAG
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -44,8 +44,8 @@ void main()
             block = present ? rowOfBlock(uvec2(mask, below)) : 0u;
             present = present && hasChild(n, c);
             node = childIndex(n, c);
-            if (kLists && present)
-                node = listedChild(params.nodes, node);
+            if (kEntriesPerWord != 0u && present)
+                node = listedChild(params.nodes, node, kEntriesPerWord);
         }
         bits |= uint64_t(block) << cell.x;
     }

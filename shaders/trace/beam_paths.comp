@@ -7,7 +7,7 @@
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 
-layout(constant_id = 0) const bool kLists = false; // of children: the nodes are those of a DAG, which stand by levels
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of lists; 0: there are none. With lists, nodes stand by levels
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -42,9 +42,9 @@ void main()
         Node n = params.octree.data[present ? node : 0u];
         present = present && hasChild(n, c);
         node = childIndex(n, c);
-        if (kLists && present)
-            node = listedChild(params.octree, node);
+        if (kEntriesPerWord != 0u && present)
+            node = listedChild(params.octree, node, kEntriesPerWord);
         path[level] = present ? node : 0u;
     }
-    params.paths.data[i] = packPath(path, kLists ? 0u : params.octree.data[0].base_lo - 1u);
+    params.paths.data[i] = packPath(path, kEntriesPerWord != 0u ? 0u : params.octree.data[0].base_lo - 1u);
 }

@@ -6,9 +6,11 @@
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
-#include "lib/ranks.glsl"
 
 layout(constant_id = 0) const bool kLeaves = false; // the nodes of level kPathLevels are leaves
+layout(constant_id = 1) const uint kEntriesPerWord = 2u; // of lists
+
+#include "lib/ranks.glsl"
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push

@@ -8,7 +8,7 @@
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 
-layout(constant_id = 0) const bool kLists = false; // of children: the nodes are those of a DAG
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -61,8 +61,8 @@ uvec2 fourthLevelMask(ivec3 at)
         Node n = params.octree.data[present ? node : 0u];
         present = present && hasChild(n, c);
         node = childIndex(n, c);
-        if (kLists && present)
-            node = listedChild(params.octree, node);
+        if (kEntriesPerWord != 0u && present)
+            node = listedChild(params.octree, node, kEntriesPerWord);
     }
     Node n = params.octree.data[present ? node : 0u];
     return present ? uvec2(n.mask_lo, n.mask_hi) : uvec2(0u);

@@ -50,7 +50,7 @@ uvec2 loadPath(uint cell)
 // Of what was hit; of a miss, any number. All loads but those of descend() are made for misses, too (lib/traverse.glsl).
 uint rankOf(Traversal hit)
 {
-    RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_word);
+    RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_place);
     uvec3 cell = (hit.cell >> (2u * (kNodeLevels - kPathLevels))) & (kPathCells - 1u);
     uint place = kRankTableFirst + (cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
     RankedNode at = RankedNode(0u, uint_ConstPtr(uint64_t(g_paths)).data[2u * place + 1u], 0u);
@@ -60,7 +60,7 @@ uint rankOf(Traversal hit)
         if (hit.hit)
             descend(source, cellInBlock(hit.cell >> (2u * (kNodeLevels - level))), at);
     if (kNodeLevels > kPathLevels + 1u)
-        at.voxels += voxelsBeforeLeaf(source, max(hit.leaf_word, params.first_short_word));
+        at.voxels += voxelsBeforeLeaf(source, max(hit.leaf_place, params.first_short_place));
     return at.voxels + hit.index;
 }
 #endif

@@ -9,11 +9,13 @@
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/morton.glsl"
-#include "lib/ranks.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;  // at least 2
 layout(constant_id = 1) const bool kDetail = false;   // hits may be nodes
 layout(constant_id = 2) const bool kTiles = true;     // of a picture
+layout(constant_id = 3) const uint kEntriesPerWord = 2u; // of lists
+
+#include "lib/ranks.glsl"
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push

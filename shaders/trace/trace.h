@@ -137,9 +137,9 @@ struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell
 struct RankSource
 {
     GPU_CONST_PTR(Node) pool;
-    GPU_CONST_PTR(BeforeChild) before;      // by words of the pool: those of the long entries
+    GPU_CONST_PTR(BeforeChild) before;      // by places of entries: those of the long ones
     GPU_CONST_PTR(uint) voxels_before_leaf; // two entries a word
-    uint first_short_word;                  // of the pool: its first short entry
+    uint first_short_place;                 // of the first entry that is not long
 };
 
 struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
@@ -200,7 +200,7 @@ struct PrimaryRanksParams // push constants of trace/primary_ranks
     CameraRays camera;
     uint width;
     uint height;
-    uint first_short_word;
+    uint first_short_place;
     uint round;
 };
 

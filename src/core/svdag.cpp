@@ -19,16 +19,14 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kSlotsMax = UINT32_MAX;          // of all levels: kernels count in 32 bits
-constexpr std::uint64_t kSlotsPerNodeMax = 16;           // with more, only equal hashes fill 256 slots in a row
-constexpr std::uint64_t kPoolWordsMax = gpu::kChildList; // what the base of a list names
-constexpr std::uint64_t kNodeWords = sizeof(gpu::Node) / sizeof(gpu::uint);
+constexpr std::uint64_t kSlotsMax = UINT32_MAX; // of all levels: kernels count in 32 bits
+constexpr std::uint64_t kSlotsPerNodeMax = 16;  // with more, only equal hashes fill 256 slots in a row
 
-[[noreturn]] void throwTooBig(std::uint64_t words)
+[[noreturn]] void throwTooBig(const ListPacking& packing)
 {
-    throw Error(ErrorCode::Memory, fmt::format("the nodes and lists of the DAG take {} words, but {} can be told "
-                                               "apart; lower the resolution",
-                                               words, kPoolWordsMax));
+    throw Error(ErrorCode::Memory, fmt::format("the DAG has {} nodes and {} entries of lists, more than numbers of 31 "
+                                               "bits tell apart; lower the resolution",
+                                               packing.node_count, packing.entry_count));
 }
 
 void append(std::vector<vk::PassTime>& passes, std::vector<vk::PassTime>&& more)
@@ -96,7 +94,7 @@ Classes classify(vk::HeadlessDevice& device, const Candidates& candidates, const
 
 // Sizes dag from what the classes came to.
 void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::ClassSizes& sizes, bool has_ranks,
-                  Svdag& dag)
+                  std::uint32_t per_word_max, Svdag& dag)
 {
     dag.tree.node_count = sizes.node_count;
     dag.entry_count = sizes.entry_count;
@@ -107,19 +105,21 @@ void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::C
         dag.tree.levels.push_back({sizes.first_nodes[level], end - sizes.first_nodes[level]});
     }
     dag.long_entry_count = level_count < 2 ? 0 : sizes.first_entries[level_count - 2];
-    const std::uint64_t words = dag.tree.node_count * kNodeWords + dag.entry_count;
-    if (words >= kPoolWordsMax)
+    ListPacking packing = ListPacking::tightest(sizes.node_count, sizes.entry_count);
+    packing.per_word = std::min(packing.per_word, per_word_max);
+    dag.entries_per_word = packing.per_word;
+    if (!packing.fits())
     {
-        throwTooBig(words);
+        throwTooBig(packing);
     }
     const std::uint64_t before_count = has_ranks ? dag.long_entry_count : 0;
     const std::uint64_t leaf_word_count = has_ranks ? divideUp(dag.entry_count - dag.long_entry_count, 2) : 0;
     const std::uint64_t below_count = has_ranks ? dag.tree.levels.back().first_node : 0;
-    device.memory().require(divideUp(words, kNodeWords) * sizeof(gpu::Node) +
+    device.memory().require(packing.poolNodes() * sizeof(gpu::Node) +
                                 (before_count + below_count) * sizeof(gpu::BeforeChild) +
                                 leaf_word_count * sizeof(gpu::uint),
                             "writing the DAG");
-    dag.tree.nodes = {device, "svdag/pool", divideUp(words, kNodeWords)};
+    dag.tree.nodes = {device, "svdag/pool", packing.poolNodes()};
     dag.before = {device, "svdag/before", before_count};
     dag.voxels_before_leaf = {device, "svdag/voxels_before_leaf", leaf_word_count};
 }
@@ -138,22 +138,22 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     }
     const bool above_leaves = level + 2 == dag.tree.levels.size();
     const std::uint32_t has_before = below.count() != 0 ? 1 : 0;
-    vk::Pass pass = graph.addPass("svdag/lists", {candidates.listed ? 1U : 0U, has_before, above_leaves ? 1U : 0U});
+    vk::Pass pass = graph.addPass(
+        "svdag/lists", {candidates.entries_per_word, has_before, above_leaves ? 1U : 0U, dag.entries_per_word});
     gpu::UniqueListsParams params{};
     params.nodes = pass.read(candidates.tree.nodes);
-    params.words = {params.nodes.address};
     params.classes = pass.read(classes.classes);
     params.numbers = pass.read(classes.numbers);
     params.unique_nodes = pass.read(classes.table);
     params.first_entries = pass.read(classes.first_entries);
     params.pool = pass.readWrite(dag.tree.nodes);
-    params.pool_words = {params.pool.address};
+    params.halfwords = {params.pool.address};
     params.below = pass.readWrite(below);
     params.before = pass.write(dag.before);
     params.voxels_before_leaf = pass.readWrite(dag.voxels_before_leaf);
     params.first_node = first_node;
     params.node_count = node_count;
-    params.first_word = static_cast<std::uint32_t>(dag.tree.node_count * kNodeWords);
+    params.first_place = static_cast<std::uint32_t>(dag.packing().firstPlace());
     params.long_entry_count = static_cast<std::uint32_t>(dag.long_entry_count);
     pass.dispatch(node_count, params);
 }
@@ -161,10 +161,9 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
 void writePool(vk::FrameGraph& graph, const Candidates& candidates, const ClassBuffers& classes,
                vk::BufferOf<gpu::BeforeChild>& below, Svdag& dag)
 {
-    const std::uint64_t word_count = dag.tree.node_count * kNodeWords + dag.entry_count;
-    if (word_count % kNodeWords != 0)
+    if (dag.entry_count != 0)
     {
-        graph.fill(dag.tree.nodes, 0, word_count);
+        graph.fill(dag.tree.nodes, 0, dag.tree.node_count * (sizeof(gpu::Node) / sizeof(gpu::uint)));
     }
     graph.fill(dag.voxels_before_leaf, 0);
     for (std::size_t level = dag.tree.levels.size(); level-- > 0;)
@@ -208,7 +207,8 @@ Classes compressNodes(vk::HeadlessDevice& device, const Candidates& candidates, 
     Classes classes = classify(device, candidates, options, result);
     classes.buffers.hashes = {};
     Svdag& dag = result.dag;
-    allocatePool(device.device(), candidates, classes.sizes, has_ranks, dag);
+    allocatePool(device.device(), candidates, classes.sizes, has_ranks,
+                 options.entries_per_word != 0 ? options.entries_per_word : UINT32_MAX, dag);
     vk::BufferOf<gpu::BeforeChild> below(device.device(), "svdag/below",
                                          has_ranks ? dag.tree.levels.back().first_node : 0);
     append(result.passes,
@@ -255,8 +255,8 @@ CompressResult compress(vk::HeadlessDevice& device, Octree octree, const Compres
     dag.octree_node_count = octree.node_count;
     if (octree.node_count != 0)
     {
-        Classes classes = compressNodes(device, {octree, false, options.hash_mask},
-                                        octree.hasAttributes() || options.ranks, options, result);
+        Classes classes = compressNodes(device, {octree, 0, options.hash_mask}, octree.hasAttributes() || options.ranks,
+                                        options, result);
         classes.buffers.table = {};
         if (octree.levels.size() < 2) // one node
         {
@@ -280,8 +280,8 @@ CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOpt
     result.dag.octree_node_count = dag.octree_node_count;
     if (dag.tree.node_count != 0)
     {
-        compressNodes(device, {dag.tree, true, options.hash_mask}, dag.tree.hasAttributes() || options.ranks, options,
-                      result);
+        compressNodes(device, {dag.tree, dag.entries_per_word, options.hash_mask},
+                      dag.tree.hasAttributes() || options.ranks, options, result);
     }
     moveVoxels(dag.tree, result.dag.tree);
     result.dag.tree.node_attributes = std::move(dag.tree.node_attributes);

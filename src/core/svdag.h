@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/octree.h"
+#include "core/svdag_lists.h"
 #include "shared/svdag.h"
 #include "vk/buffer.h"
 #include "vk/headless.h"
@@ -21,15 +22,17 @@ struct Svdag
     Octree tree;
 
     std::uint32_t octree_node_count = 0;
-    std::uint64_t entry_count = 0;              // words of lists
+    std::uint64_t entry_count = 0;              // of lists
+    std::uint32_t entries_per_word = 2;         // of 64 bits; as few as ListPacking::tightest for what compress makes
     std::uint64_t long_entry_count = 0;         // of nodes above the parents of leaves
     vk::BufferOf<gpu::BeforeChild> before;      // [long_entry_count], or empty without attributes
     vk::BufferOf<gpu::uint> voxels_before_leaf; // [ceil((entry_count - long_entry_count) / 2)], likewise
 
-    [[nodiscard]] std::uint64_t geometryBytes() const
-    {
-        return tree.geometryBytes() + entry_count * sizeof(gpu::uint) + before.bytes() + voxels_before_leaf.bytes();
-    }
+    [[nodiscard]] ListPacking packing() const { return {tree.node_count, entry_count, entries_per_word}; }
+
+    /// Bytes of nodes and lists; and of what stands beside the lists, so that voxels find their attributes.
+    [[nodiscard]] std::uint64_t geometryBytes() const { return tree.geometryBytes() + packing().bytes(); }
+    [[nodiscard]] std::uint64_t rankBytes() const { return before.bytes() + voxels_before_leaf.bytes(); }
 };
 
 /// How an octree is compressed.
@@ -37,7 +40,9 @@ struct CompressOptions
 {
     std::uint64_t table_slots = 0; // of each level's table of classes at first; 0: as many as are likely to suffice
     bool ranks = false;            // before and voxels_before_leaf even without attributes
-    std::uint32_t hash_mask = UINT32_MAX; // of inner nodes' hashes. For tests: with fewer bits, different nodes collide
+    std::uint32_t entries_per_word =
+        0; // of lists, at most: 2 or 3, or 0 for as many as fit. For tests, as the next one
+    std::uint32_t hash_mask = UINT32_MAX; // of inner nodes' hashes: with fewer bits, different nodes collide
 };
 
 /// A DAG and how it came about.
@@ -56,8 +61,8 @@ struct CompressResult
 /// U. Assarsson, High Resolution Sparse Voxel DAGs, 2013; by hash tables in place of sorting). Voxels keep their
 /// attributes; those of nodes are put in depth-first order. An octree without nodes gives a DAG without. Waits to
 /// learn sizes; where a table turns out too small it grows, and the run is repeated. Throws Error{Memory} when the
-/// device's budget does not suffice, or for nodes and lists of 2^31 words and more, and Error{Other} should the hashes
-/// of hundreds of different nodes be equal. Cost: nodes of the octree.
+/// device's budget does not suffice, or for nodes and lists of about 2^29 words and more, and Error{Other} should the
+/// hashes of hundreds of different nodes be equal. Cost: nodes of the octree.
 CompressResult compress(vk::HeadlessDevice& device, Octree octree, const CompressOptions& options = {});
 
 /// The same for a DAG in which equal nodes stand several times, such as several DAGs below common nodes. Nodes of a

@@ -35,24 +35,17 @@ std::uint64_t blockCount(const Candidates& candidates)
     return divideUp(candidates.count(), gpu::kScanBlock);
 }
 
-// Lists are words of the buffer that the nodes are in.
-gpu::ConstPtr<gpu::uint> wordsOf(gpu::ConstPtr<gpu::Node> nodes)
-{
-    return {nodes.address};
-}
-
 void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::size_t level,
                    std::span<const std::uint64_t> slot_counts, ClassBuffers& buffers)
 {
     const bool are_leaves = level + 1 == candidates.levels().size();
     const auto [first_node, node_count] = candidates.levels()[level];
-    const std::uint32_t lists = candidates.listed ? 1 : 0;
+    const std::uint32_t per_word = candidates.entries_per_word;
     if (!are_leaves)
     {
-        vk::Pass pass = graph.addPass("svdag/hash", {lists});
+        vk::Pass pass = graph.addPass("svdag/hash", {per_word});
         gpu::ClassHashParams params{};
         params.nodes = pass.read(candidates.tree.nodes);
-        params.words = wordsOf(params.nodes);
         params.classes = pass.read(buffers.classes);
         params.hashes = pass.write(buffers.hashes);
         params.first_node = first_node;
@@ -61,10 +54,9 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
         pass.dispatch(node_count, params);
     }
     {
-        vk::Pass pass = graph.addPass("svdag/insert", {lists, are_leaves ? 1U : 0U});
+        vk::Pass pass = graph.addPass("svdag/insert", {per_word, are_leaves ? 1U : 0U});
         gpu::ClassInsertParams params{};
         params.nodes = pass.read(candidates.tree.nodes);
-        params.words = wordsOf(params.nodes);
         params.hashes = pass.read(buffers.hashes);
         params.classes = pass.readWrite(buffers.classes);
         params.table = pass.readWrite(buffers.table);

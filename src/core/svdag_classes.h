@@ -17,7 +17,7 @@ namespace zvo
 struct Candidates
 {
     const Octree& tree;
-    bool listed = false;                  // some have lists of children
+    std::uint32_t entries_per_word = 0;   // of lists of children; 0: there are none
     std::uint32_t hash_mask = UINT32_MAX; // CompressOptions::hash_mask
 
     [[nodiscard]] const std::vector<Octree::Level>& levels() const { return tree.levels; }

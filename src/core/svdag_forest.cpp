@@ -6,7 +6,6 @@
 #include "zvo/error.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <span>
@@ -18,8 +17,9 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kCellBits = 6; // of a code, for each level of nodes
-constexpr std::uint64_t kNodeWords = sizeof(gpu::Node) / sizeof(gpu::uint);
+constexpr std::uint32_t kCellBits = 6;                                        // of a code, for each level of nodes
+constexpr std::uint32_t kJoinedPerWord = 2;                                   // entries, of a pool of several parts
+constexpr std::uint64_t kNodeEntries = sizeof(gpu::Node) / sizeof(gpu::uint); // in the room of a node, then
 constexpr std::uint64_t kUnmergedMin = 1 << 16; // nodes that may stand unmerged, whatever the rest has
 
 std::uint64_t maskOf(const gpu::Node& node)
@@ -49,9 +49,9 @@ std::vector<std::uint64_t> parentCodes(std::span<const std::uint64_t> codes)
     return parents;
 }
 
-// roots: numbers of the tiles' roots. first_word: of the lists.
+// roots: numbers of the tiles' roots. first_place: of the lists.
 Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> roots, std::size_t level_count,
-          std::uint64_t first_word)
+          std::uint64_t first_place)
 {
     std::vector<std::vector<std::uint64_t>> codes_of = {{codes.begin(), codes.end()}}; // by level, the tiles first
     for (std::size_t i = 0; i < level_count; ++i)
@@ -71,7 +71,7 @@ Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> r
         for (const std::uint64_t code : codes_of[level])
         {
             std::uint64_t mask = 0;
-            const auto base = static_cast<std::uint32_t>(first_word + top.lists.size());
+            const auto base = static_cast<std::uint32_t>(first_place + top.lists.size());
             for (; child < children.size() && children[child] >> kCellBits == code; ++child)
             {
                 mask |= std::uint64_t{1} << (children[child] & ((1U << kCellBits) - 1));
@@ -87,27 +87,16 @@ Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> r
     return top;
 }
 
-// Words as the nodes that they fill, zeros behind.
-std::vector<gpu::Node> asNodes(std::vector<gpu::uint> words)
-{
-    words.resize(divideUp(words.size(), kNodeWords) * kNodeWords);
-    std::vector<gpu::Node> nodes;
-    for (std::size_t i = 0; i < words.size(); i += kNodeWords)
-    {
-        nodes.push_back({words[i], words[i + 1], words[i + 2], words[i + 3]});
-    }
-    return nodes;
-}
-
 // A part's place in the pool of all.
 struct PartPlace
 {
     std::vector<std::uint64_t> first_nodes; // of each level
-    std::uint64_t first_word = 0;           // of its lists
+    std::uint64_t first_place = 0;          // of its lists
 };
 
-void appendLevel(vk::FrameGraph& graph, const Octree& from, std::size_t level, const PartPlace& place, Octree& to)
+void appendLevel(vk::FrameGraph& graph, const Svdag& dag, std::size_t level, const PartPlace& place, Octree& to)
 {
+    const Octree& from = dag.tree;
     const auto [first_node, node_count] = from.levels[level];
     if (level + 1 == from.levels.size())
     {
@@ -115,16 +104,15 @@ void appendLevel(vk::FrameGraph& graph, const Octree& from, std::size_t level, c
                    node_count * sizeof(gpu::Node));
         return;
     }
-    vk::Pass pass = graph.addPass("svdag/append");
+    vk::Pass pass = graph.addPass("svdag/append", {dag.entries_per_word});
     gpu::AppendParams params{};
     params.from = pass.read(from.nodes);
-    params.from_words = {params.from.address};
     params.to = pass.readWrite(to.nodes);
-    params.to_words = {params.to.address};
+    params.to_entries = {params.to.address};
     params.first_from = first_node;
     params.first_to = static_cast<std::uint32_t>(place.first_nodes[level]);
     params.node_count = node_count;
-    params.word_shift = static_cast<std::uint32_t>(place.first_word - from.node_count * kNodeWords);
+    params.place_shift = static_cast<std::uint32_t>(place.first_place - dag.packing().firstPlace());
     params.child_shift = static_cast<std::uint32_t>(place.first_nodes[level + 1] - from.levels[level + 1].first_node);
     pass.dispatch(node_count, params);
 }
@@ -213,13 +201,14 @@ SvdagForest::Part SvdagForest::joined()
         }
         levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
     }
-    std::uint64_t word_count = node_count * kNodeWords + divideUp(top.lists.size(), kNodeWords) * kNodeWords;
+    std::uint64_t entry_count = divideUp(top.lists.size(), kNodeEntries) * kNodeEntries;
     for (std::size_t i = 0; i < m_parts.size(); ++i)
     {
-        places[i].first_word = word_count;
-        word_count += m_parts[i].dag.entry_count;
+        places[i].first_place = node_count * kNodeEntries + entry_count;
+        entry_count += m_parts[i].dag.entry_count;
     }
-    if (word_count >= gpu::kChildList)
+    const ListPacking packing = {node_count, entry_count, kJoinedPerWord};
+    if (!packing.fits())
     {
         throw Error(ErrorCode::Memory, "the tiles' nodes and lists take more words than 31-bit numbers count; lower "
                                        "the resolution");
@@ -237,18 +226,18 @@ SvdagForest::Part SvdagForest::joined()
             roots.push_back(all.tiles[tile++].root);
         }
     }
-    top = topOf(codes, roots, m_top_levels, node_count * kNodeWords);
+    top = topOf(codes, roots, m_top_levels, packing.firstPlace());
 
     Octree& tree = all.dag.tree;
     tree.grid = m_grid;
     tree.node_count = static_cast<std::uint32_t>(node_count);
     tree.levels = std::move(levels);
-    all.dag.entry_count = word_count - node_count * kNodeWords;
-    const std::uint64_t pool_nodes = divideUp(word_count, kNodeWords);
-    m_device.device().memory().require(pool_nodes * sizeof(gpu::Node), "joining the tiles");
-    tree.nodes = {m_device.device(), "svdag/forest", pool_nodes};
+    all.dag.entry_count = entry_count;
+    all.dag.entries_per_word = packing.per_word;
+    m_device.device().memory().require(packing.poolNodes() * sizeof(gpu::Node), "joining the tiles");
+    tree.nodes = {m_device.device(), "svdag/forest", packing.poolNodes()};
     m_device.upload(tree.nodes, std::span<const gpu::Node>(top.nodes));
-    m_device.upload(tree.nodes, std::span<const gpu::Node>(asNodes(std::move(top.lists))), node_count);
+    m_device.upload(tree.nodes, std::span<const gpu::Node>(entriesToNodes(top.lists, packing.per_word)), node_count);
     const std::vector<vk::PassTime> passes = m_device.run(
         [&](vk::FrameGraph& graph)
         {
@@ -256,7 +245,7 @@ SvdagForest::Part SvdagForest::joined()
             {
                 for (std::size_t level = m_top_levels; level < level_count; ++level)
                 {
-                    appendLevel(graph, m_parts[i].dag.tree, level, places[i], tree);
+                    appendLevel(graph, m_parts[i].dag, level, places[i], tree);
                 }
             }
         });
@@ -274,13 +263,13 @@ void SvdagForest::learnRoots(Part& part) const
     {
         entry_count += static_cast<std::uint64_t>(std::popcount(maskOf(node)));
     }
-    const std::vector<gpu::Node> lists =
-        m_device.download(tree.nodes, tree.node_count, divideUp(entry_count, kNodeWords));
+    const ListPacking packing = {tree.node_count, entry_count, part.dag.entries_per_word};
+    const std::vector<gpu::uint> lists =
+        nodesToEntries(m_device.download(tree.nodes, tree.node_count, packing.poolNodes() - tree.node_count), packing);
     const auto childOf = [&](const gpu::Node& node, std::uint64_t cell)
     {
         const auto before = static_cast<std::uint64_t>(std::popcount(maskOf(node) & ((std::uint64_t{1} << cell) - 1)));
-        const std::uint64_t word = (node.base_lo & ~gpu::kChildList) - tree.node_count * kNodeWords + before;
-        return std::bit_cast<std::array<gpu::uint, kNodeWords>>(lists[word / kNodeWords])[word % kNodeWords];
+        return lists[(node.base_lo & ~gpu::kChildList) - packing.firstPlace() + before];
     };
     for (Tile& tile : part.tiles)
     {

@@ -59,7 +59,7 @@ bool standsByLevels(const TreeView& tree)
         return false;
     }
     const Octree::Level& last = octree.levels.back();
-    const std::uint64_t node_count = tree.hasLists() ? octree.node_count : octree.nodes.count();
+    const std::uint64_t node_count = tree.svdag() != nullptr ? octree.node_count : octree.nodes.count();
     return std::uint64_t{last.first_node} + last.node_count == node_count;
 }
 
@@ -78,7 +78,7 @@ bool showsAttributes(const TraceOptions& options)
 vk::Specialization traverseConstants(const TreeView& tree, const TraceOptions& options)
 {
     return {tree.octree().grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), options.hasDetail() ? 1U : 0U,
-            options.steps_max, tree.hasLists() ? 1U : 0U};
+            options.steps_max, tree.entriesPerWord()};
 }
 
 vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more)
@@ -266,7 +266,7 @@ void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
     }
     const std::uint32_t levels = std::min(octree.grid.nodeLevels(), gpu::kBeamLevels);
     const std::uint32_t cells = 1U << (2 * levels);
-    const vk::Specialization lists = {tree.hasLists() ? 1U : 0U};
+    const vk::Specialization lists = {tree.entriesPerWord()};
     {
         vk::Pass pass = graph.addPass("trace/beam_mark", lists);
         const gpu::BeamMarkParams params = {pass.read(octree.nodes), pass.write(beam.occupied), levels, cells};
@@ -297,7 +297,7 @@ void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
         const gpu::BeamPathsParams params = {pass.read(octree.nodes), pass.write(beam.paths)};
         pass.dispatch(kPathCellCount, params);
     }
-    if (tree.hasLists() && octree.hasAttributes())
+    if (tree.svdag() != nullptr && octree.hasAttributes())
     {
         buildRankTable(graph, *tree.svdag(), beam);
     }
@@ -310,7 +310,7 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     traceBeam(graph, octree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
     const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !options.hasDetail();
-    const bool wants_ranks = tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options);
+    const bool wants_ranks = tree.svdag() != nullptr && showsAttributes(options) && usesAttributes(octree, options);
     const bool has_ranks = wants_ranks && !options.hasDetail() && hasRankTable(*tree.svdag(), beam);
     const vk::Specialization constants =
         withFlags(traverseConstants(tree, options),
@@ -337,7 +337,7 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
             const gpu::RankSource source = rankSource(pass, *tree.svdag());
             params.before = source.before;
             params.voxels_before_leaf = source.voxels_before_leaf;
-            params.first_short_word = source.first_short_word;
+            params.first_short_place = source.first_short_place;
             return params;
         };
         addRounds<gpu::PrimaryRanksParams>(graph, "trace/primary_ranks", constants, rounds, buffers.rounds,
@@ -479,7 +479,7 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
                                rounds, divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
                                [&](vk::Pass& pass, const gpu::RaysParams& params)
                                { pass.dispatch(rays.count(), params); });
-    if (tree.hasLists() && octree.hasAttributes())
+    if (tree.svdag() != nullptr && octree.hasAttributes())
     {
         rankHits(graph, *tree.svdag(), options, hits, rays.count());
     }

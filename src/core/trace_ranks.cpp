@@ -17,7 +17,8 @@ void addRanks(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& optio
     {
         return;
     }
-    vk::Pass pass = graph.addPass("trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U});
+    vk::Pass pass =
+        graph.addPass("trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U, dag.entries_per_word});
     gpu::RanksParams params{};
     params.source = rankSource(pass, dag);
     dispatch(pass, params);
@@ -32,12 +33,12 @@ bool hasRankTable(const Svdag& dag, const BeamGrid& beam)
 
 gpu::RankSource rankSource(vk::Pass& pass, const Svdag& dag)
 {
-    const std::uint64_t first_word = std::uint64_t{dag.tree.node_count} * (sizeof(gpu::Node) / sizeof(gpu::uint));
+    const std::uint64_t first_place = dag.packing().firstPlace();
     gpu::RankSource source{};
     source.pool = pass.read(dag.tree.nodes);
-    source.before = {pass.read(dag.before).address - first_word * sizeof(gpu::BeforeChild)};
+    source.before = {pass.read(dag.before).address - first_place * sizeof(gpu::BeforeChild)};
     source.voxels_before_leaf = pass.read(dag.voxels_before_leaf);
-    source.first_short_word = static_cast<gpu::uint>(first_word + dag.long_entry_count);
+    source.first_short_place = static_cast<gpu::uint>(first_place + dag.long_entry_count);
     return source;
 }
 
@@ -48,7 +49,7 @@ void buildRankTable(vk::FrameGraph& graph, const Svdag& dag, BeamGrid& beam)
         return;
     }
     const bool leaves = dag.tree.grid.nodeLevels() == gpu::kPathLevels + 1;
-    vk::Pass pass = graph.addPass("trace/beam_ranks", {leaves ? 1U : 0U});
+    vk::Pass pass = graph.addPass("trace/beam_ranks", {leaves ? 1U : 0U, dag.entries_per_word});
     const gpu::BeamRanksParams params = {rankSource(pass, dag), pass.readWrite(beam.paths)};
     pass.dispatch(gpu::kRankTableFirst, params);
 }

@@ -120,13 +120,13 @@ Fault checkLists(const TreeData& tree, std::size_t level, std::uint64_t& next_en
     for (std::uint32_t i = first_node; i < first_node + node_count; ++i)
     {
         const gpu::Node& node = tree.nodes[i];
-        const std::uint64_t word = tree.firstListWord() + next_entry;
-        const std::uint64_t second_word = word + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
-        if (node.base_lo != (gpu::kChildList | word) || node.base_hi != (gpu::kChildList | second_word))
+        const std::uint64_t place = tree.packing().firstPlace() + next_entry;
+        const std::uint64_t second_place = place + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
+        if (node.base_lo != (gpu::kChildList | place) || node.base_hi != (gpu::kChildList | second_place))
         {
             return fmt::format("node {} of level {} has its lists at {:#x} and {:#x}, where {:#x} and {:#x} come next",
-                               i, level, node.base_lo, node.base_hi, gpu::kChildList | word,
-                               gpu::kChildList | second_word);
+                               i, level, node.base_lo, node.base_hi, gpu::kChildList | place,
+                               gpu::kChildList | second_place);
         }
         const std::uint64_t end = next_entry + cellCount(node);
         if (end > tree.lists.size())
@@ -172,7 +172,7 @@ Fault checkDagLeaves(const TreeData& tree)
 
 Fault checkDagNodes(const TreeData& tree)
 {
-    if (tree.firstListWord() + tree.lists.size() >= gpu::kChildList)
+    if (!tree.packing().fits())
     {
         return fmt::format("{} nodes and {} entries of lists are more than a DAG can have", tree.nodes.size(),
                            tree.lists.size());
@@ -250,7 +250,7 @@ Fault checkDagCounts(const TreeData& tree)
             }
             else
             {
-                const std::uint64_t first = (node.base_lo & ~gpu::kChildList) - tree.firstListWord();
+                const std::uint64_t first = (node.base_lo & ~gpu::kChildList) - tree.packing().firstPlace();
                 for (std::uint64_t entry = first; entry < first + cellCount(node); ++entry)
                 {
                     if (Fault fault = checkBefore(tree, entry, sum))

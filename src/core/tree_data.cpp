@@ -66,34 +66,13 @@ Octree uploadCommon(vk::HeadlessDevice& device, const TreeData& tree)
     return octree;
 }
 
-constexpr std::uint64_t kWordsOfNode = sizeof(gpu::Node) / sizeof(gpu::uint);
-
-// As many nodes as nodes and lists take in a pool.
-std::uint64_t poolNodes(std::uint64_t node_count, std::uint64_t entry_count)
-{
-    return node_count + divideUp(entry_count, kWordsOfNode);
-}
-
-gpu::Node nodeOfWords(std::span<const gpu::uint> words)
-{
-    std::array<gpu::uint, kWordsOfNode> whole{};
-    std::copy(words.begin(), words.end(), whole.begin());
-    return std::bit_cast<gpu::Node>(whole);
-}
-
 vk::BufferOf<gpu::Node> uploadPool(vk::HeadlessDevice& device, const TreeData& tree)
 {
-    vk::BufferOf<gpu::Node> pool(device.device(), "svdag/pool", poolNodes(tree.nodes.size(), tree.lists.size()));
+    const ListPacking packing = tree.packing();
+    vk::BufferOf<gpu::Node> pool(device.device(), "svdag/pool", packing.poolNodes());
     device.upload(pool, std::span(tree.nodes));
-    std::vector<gpu::Node> lists;
-    lists.reserve(divideUp(tree.lists.size(), kWordsOfNode));
-    for (std::span<const gpu::uint> rest = tree.lists; !rest.empty();)
-    {
-        const std::size_t count = std::min<std::size_t>(rest.size(), kWordsOfNode);
-        lists.push_back(nodeOfWords(rest.first(count)));
-        rest = rest.subspan(count);
-    }
-    device.upload(pool, std::span<const gpu::Node>(lists), tree.nodes.size());
+    const std::vector<gpu::Node> lists = entriesToNodes(tree.lists, packing.per_word);
+    device.upload(pool, std::span(lists), tree.nodes.size());
     return pool;
 }
 
@@ -106,12 +85,18 @@ const char* structureName(TreeStructure structure)
 
 std::uint64_t TreeData::geometryBytes() const
 {
-    return bytesOf(nodes) + bytesOf(lists) + bytesOf(before) + bytesOf(voxels_before_leaf);
+    return bytesOf(nodes) + packing().bytes();
+}
+
+std::uint64_t TreeData::rankBytes() const
+{
+    return bytesOf(before) + bytesOf(voxels_before_leaf);
 }
 
 std::uint64_t TreeData::attributeBytes() const
 {
-    return bytesOf(voxel_attributes) + bytesOf(node_attributes) + bytesOf(emission_words) + bytesOf(emission);
+    return rankBytes() + bytesOf(voxel_attributes) + bytesOf(node_attributes) + bytesOf(emission_words) +
+           bytesOf(emission);
 }
 
 TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree)
@@ -124,19 +109,12 @@ TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree)
 
 TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag)
 {
-    requireAsBuilt(dag.tree, poolNodes(dag.tree.node_count, dag.entry_count));
+    requireAsBuilt(dag.tree, dag.packing().poolNodes());
     TreeData tree = downloadCommon(device, dag.tree);
     tree.structure = TreeStructure::Svdag;
     tree.octree_node_count = dag.octree_node_count;
     tree.long_entry_count = dag.long_entry_count;
-    const std::vector<gpu::Node> lists = device.download(dag.tree.nodes, dag.tree.node_count);
-    tree.lists.reserve(lists.size() * kWordsOfNode);
-    for (const gpu::Node& node : lists)
-    {
-        const auto words = std::bit_cast<std::array<gpu::uint, kWordsOfNode>>(node);
-        tree.lists.insert(tree.lists.end(), words.begin(), words.end());
-    }
-    tree.lists.resize(dag.entry_count);
+    tree.lists = nodesToEntries(device.download(dag.tree.nodes, dag.tree.node_count), dag.packing());
     tree.before = device.download(dag.before);
     tree.voxels_before_leaf = device.download(dag.voxels_before_leaf);
     return tree;
@@ -144,9 +122,8 @@ TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag)
 
 DeviceTree uploadTree(vk::HeadlessDevice& device, const TreeData& tree)
 {
-    const std::uint64_t pool_bytes = poolNodes(tree.nodes.size(), tree.lists.size()) * sizeof(gpu::Node);
-    device.device().memory().require(
-        pool_bytes + bytesOf(tree.before) + bytesOf(tree.voxels_before_leaf) + tree.attributeBytes(), "the tree");
+    const std::uint64_t pool_bytes = tree.packing().poolNodes() * sizeof(gpu::Node);
+    device.device().memory().require(pool_bytes + tree.attributeBytes(), "the tree");
     Octree octree = uploadCommon(device, tree);
     if (tree.structure == TreeStructure::Svo)
     {
@@ -158,6 +135,7 @@ DeviceTree uploadTree(vk::HeadlessDevice& device, const TreeData& tree)
     dag.tree.nodes = tree.nodes.empty() ? vk::BufferOf<gpu::Node>() : uploadPool(device, tree);
     dag.octree_node_count = tree.octree_node_count;
     dag.entry_count = tree.lists.size();
+    dag.entries_per_word = tree.packing().per_word;
     dag.long_entry_count = tree.long_entry_count;
     dag.before = uploadVector(device, "svdag/before", tree.before);
     dag.voxels_before_leaf = uploadVector(device, "svdag/voxels_before_leaf", tree.voxels_before_leaf);

@@ -48,19 +48,22 @@ struct TreeData
 
     [[nodiscard]] bool hasAttributes() const { return !voxel_attributes.empty(); }
 
-    /// Bytes of nodes, lists and what stands beside the lists; bytes of everything that tells how voxels look.
+    /// Bytes, as in device memory and in files: of nodes and lists; of what stands beside the lists, so that voxels
+    /// find their attributes; of everything that tells how voxels look, the latter included.
     [[nodiscard]] std::uint64_t geometryBytes() const;
+    [[nodiscard]] std::uint64_t rankBytes() const;
     [[nodiscard]] std::uint64_t attributeBytes() const;
 
     /// The rank-th child of an inner node, in a tree that checkTree accepts.
     [[nodiscard]] std::uint32_t child(const gpu::Node& node, std::uint32_t rank) const
     {
-        return structure == TreeStructure::Svo ? node.base_lo + rank
-                                               : lists[(node.base_lo & ~gpu::kChildList) - firstListWord() + rank];
+        return structure == TreeStructure::Svo
+                   ? node.base_lo + rank
+                   : lists[(node.base_lo & ~gpu::kChildList) - packing().firstPlace() + rank];
     }
 
-    /// The number of the first list's first word in the pool.
-    [[nodiscard]] std::uint64_t firstListWord() const { return nodes.size() * (sizeof(gpu::Node) / sizeof(gpu::uint)); }
+    /// Of the lists, in a pool and in files.
+    [[nodiscard]] ListPacking packing() const { return ListPacking::tightest(nodes.size(), lists.size()); }
 };
 
 /// Which cells of a node are occupied, bit by bit.

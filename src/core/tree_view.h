@@ -20,8 +20,8 @@ public:
     /// The DAG; null for an octree.
     [[nodiscard]] const Svdag* svdag() const { return m_svdag; }
 
-    /// Whether nodes may have lists of children (shaders/shared/svdag.h).
-    [[nodiscard]] bool hasLists() const { return m_svdag != nullptr; }
+    /// Entries of a word of lists of children (shaders/shared/svdag.h); 0: nodes have none.
+    [[nodiscard]] std::uint32_t entriesPerWord() const { return m_svdag == nullptr ? 0 : m_svdag->entries_per_word; }
 
 private:
     const Octree* m_octree;

@@ -132,7 +132,8 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     std::vector<Content> contents;
     addContent(contents, ZvoSectionId::Levels, levels);
     addContent(contents, ZvoSectionId::Nodes, tree.nodes);
-    addContent(contents, ZvoSectionId::Lists, tree.lists);
+    const std::vector<std::uint64_t> list_words = packEntries(tree.lists, tree.packing().per_word);
+    addContent(contents, ZvoSectionId::Lists, list_words);
     addContent(contents, ZvoSectionId::Before, tree.before);
     addContent(contents, ZvoSectionId::VoxelsBeforeLeaf, tree.voxels_before_leaf);
     addContent(contents, ZvoSectionId::VoxelAttributes, tree.voxel_attributes);

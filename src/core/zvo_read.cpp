@@ -281,7 +281,7 @@ private:
         case ZvoSectionId::Nodes:
             return readArray(section, tree.nodes, header.node_count);
         case ZvoSectionId::Lists:
-            return readArray(section, tree.lists, header.entry_count);
+            return readLists(section);
         case ZvoSectionId::Before:
             return readArray(section, tree.before, header.long_entry_count);
         case ZvoSectionId::VoxelsBeforeLeaf:
@@ -366,6 +366,19 @@ private:
             }
             m_file.tree.levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(count)});
             first_node += count;
+        }
+    }
+
+    void readLists(const ZvoSection& section)
+    {
+        const ZvoHeader& header = m_file.header;
+        const ListPacking packing = ListPacking::tightest(header.node_count, header.entry_count);
+        std::vector<std::uint64_t> words;
+        readArray(section, words, packing.wordCount());
+        m_file.tree.lists = unpackEntries(words, packing.entry_count, packing.per_word);
+        if (packEntries(m_file.tree.lists, packing.per_word) != words)
+        {
+            fail(fmt::format("there is something between the entries of lists; {}", kExportAgain));
         }
     }
 

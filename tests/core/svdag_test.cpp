@@ -40,7 +40,7 @@ vk::HeadlessDevice& device()
 /// octree compressed, checked against what the oracle makes of it.
 CompressResult compressedAsExpected(Octree octree, const CompressOptions& options = {})
 {
-    const Svdag expected = test::svdagOf(device(), octree);
+    const Svdag expected = test::svdagOf(device(), octree, options.entries_per_word);
     std::vector<std::uint32_t> candidate_counts;
     for (const Octree::Level& level : octree.levels)
     {
@@ -158,6 +158,53 @@ TEST(Svdag, OfNoiseIsTheOctree)
         Octree octree = test::octreeOf(device(), codes, depth);
         const std::uint32_t node_count = octree.node_count;
         EXPECT_EQ(compress(device(), std::move(octree)).dag.tree.node_count, node_count);
+    }
+}
+
+TEST(Svdag, OfMoreThan65536NodesHasThreeEntriesAWord)
+{
+    for (const std::uint64_t leaf_count : {65536, 70000})
+    {
+        // Every leaf has its own number as its voxels: all differ.
+        Codes codes;
+        for (std::uint64_t leaf = 0; leaf < leaf_count; ++leaf)
+        {
+            for (std::uint64_t voxel = 0; voxel < 18; ++voxel)
+            {
+                if (((leaf + 1) >> voxel & 1) != 0)
+                {
+                    codes.push_back(leaf << 6 | voxel);
+                }
+            }
+        }
+        Octree octree = test::octreeOf(device(), codes, 8);
+        EXPECT_GT(octree.node_count, 65536U);
+        const CompressResult result = compressedAsExpected(std::move(octree));
+        EXPECT_EQ(result.dag.entries_per_word, 3U);
+    }
+}
+
+TEST(Svdag, OfAnyEntriesAWordIsTheOracles)
+{
+    std::mt19937 random(9);
+    for (const std::uint32_t depth : {3U, 4U, 8U})
+    {
+        const Codes codes = test::randomCodes(depth, 700, random);
+        for (const std::uint32_t entries : {2U, 3U, 4U})
+        {
+            SCOPED_TRACE(testing::Message() << entries << " entries a word at depth " << depth);
+            Octree octree = test::octreeOf(device(), codes, depth);
+            test::addAttributes(device(), octree);
+            CompressOptions options;
+            options.entries_per_word = entries;
+            CompressResult result = compressedAsExpected(std::move(octree), options);
+            EXPECT_EQ(result.dag.entries_per_word, entries);
+            expectExpandsTo(result.dag, codes);
+            // A DAG of it has four again.
+            const Svdag again = compress(device(), std::move(result.dag)).dag;
+            EXPECT_EQ(again.entries_per_word, 4U);
+            expectExpandsTo(again, codes);
+        }
     }
 }
 

@@ -220,6 +220,28 @@ TEST(TraceSvdag, EveryCameraSeesTheSameWithEveryStackWithAndWithoutBeam)
     }
 }
 
+TEST(TraceSvdag, AnyEntriesAWordGiveTheSame)
+{
+    for (const auto& [depth, codes] : codeSets())
+    {
+        Octree octree = test::octreeOf(device(), codes, depth);
+        test::addAttributes(device(), octree);
+        const std::vector<ViewCamera> views = test::manyCameras(octree.grid);
+        for (const std::uint32_t entries : {2U, 3U})
+        {
+            const oracle::ReferenceDag reference = test::referenceDagOf(device(), octree, entries);
+            const Svdag dag = test::svdagOf(device(), octree, reference);
+            for (const bool table : {true, false})
+            {
+                const TraceCamera camera = traceCamera(views[entries], octree.grid, 41);
+                expectSamePictures(octree, dag, reference, camera, 53, 41, {}, false, table);
+                expectSamePictures(octree, dag, reference, traceCamera(views.front(), octree.grid, 41), 53, 41, {},
+                                   true, table);
+            }
+        }
+    }
+}
+
 TEST(TraceSvdag, LevelsOfDetailStopAtTheSameNodes)
 {
     for (const auto& [depth, codes] : codeSets())

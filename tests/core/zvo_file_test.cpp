@@ -100,7 +100,7 @@ TEST(ZvoFile, BytesStandWhereTheDocumentSays)
     EXPECT_EQ(at<std::uint64_t>(file, 112), crc64(std::span(file).subspan(128, section_count * 48)));
     EXPECT_EQ(at<std::uint64_t>(file, 120), crc64(std::span(file).first(120)));
     std::size_t end = 128 + section_count * 48;
-    const std::vector<std::uint32_t> widths = {8, 16, 4, 8, 4, 8, 8, 8, 4};
+    const std::vector<std::uint32_t> widths = {8, 16, 8, 8, 4, 8, 8, 8, 4};
     for (std::uint32_t i = 0; i < section_count; ++i)
     {
         const std::size_t entry = 128 + std::size_t{48} * i;
@@ -275,7 +275,7 @@ const std::vector<FileFault>& fileFaults()
         {"MoreLongEntriesThanEntries", set<std::uint64_t>(96, UINT32_MAX), "more list entries are long"},
         {"VoxelsMore", set<std::uint64_t>(64, 1000000), "attributes of voxels where the header asks for 1000000"},
         {"NodesMore", set<std::uint64_t>(72, UINT32_MAX), "nodes where the header asks for 4294967295"},
-        {"EntriesMore", set<std::uint64_t>(88, UINT32_MAX), "lists where the header asks for 4294967295"},
+        {"EntriesMore", set<std::uint64_t>(88, UINT32_MAX), "lists where the header asks for 1073741824"},
         {"OctreeNodesMore", set<std::uint64_t>(80, 5), "attributes of nodes where the header asks for 5"},
         {"SectionsMany", set(20, 1025U), "1025 sections are more than the 1024"},
         {"SectionsManyMore", set(20, UINT32_MAX), "sections are more"},

@@ -95,12 +95,12 @@ Names tracePictures(const TreeView& tree)
 {
     Names names;
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    BeamGrid beam(device().device(), tree.hasLists());
+    BeamGrid beam(device().device(), tree.svdag() != nullptr);
     TraceBuffers buffers(device().device(), 17, 9);
     addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); }));
     for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
     {
-        if (tree.hasLists() && stack != TraceStack::Registers)
+        if (tree.svdag() != nullptr && stack != TraceStack::Registers)
         {
             continue; // lists and stacks know nothing of each other, and every variant has to be compiled
         }

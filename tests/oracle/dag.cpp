@@ -28,7 +28,7 @@ std::uint32_t maskBelow(const gpu::Node& node, std::uint32_t cell)
     return (cell < 32 ? node.mask_lo : node.mask_hi) & ((1U << (cell & 31)) - 1);
 }
 
-/// base + popcount(mask & bits below cell): a child or, in a leaf, a voxel; for a list, the number of the word.
+/// base + popcount(mask & bits below cell): a child or, in a leaf, a voxel; for a list, the place of the entry.
 std::uint64_t placeOf(const gpu::Node& node, std::uint32_t cell)
 {
     const std::uint32_t base = (cell < 32 ? node.base_lo : node.base_hi) & ~gpu::kChildList;
@@ -52,12 +52,45 @@ gpu::uint wordOf(std::span<const gpu::Node> nodes, std::uint64_t word)
     }
 }
 
-/// Nodes for words, zeros behind the last one.
-void appendWords(std::vector<gpu::Node>& nodes, const std::vector<gpu::uint>& words)
+/// Entries that 64 bits hold in a DAG of so many nodes.
+std::uint32_t entriesPerWord(std::uint64_t node_count)
 {
-    const auto at = [&](std::size_t word) { return word < words.size() ? words[word] : 0; };
-    for (std::size_t word = 0; word < words.size(); word += kWordsPerNode)
-        nodes.push_back({at(word), at(word + 1), at(word + 2), at(word + 3)});
+    return node_count <= 65536 ? 4 : node_count <= 2097152 ? 3 : 2;
+}
+
+/// Nodes for entries, bit by bit, zeros behind the last one.
+void appendEntries(std::vector<gpu::Node>& nodes, const std::vector<std::uint32_t>& entries, std::uint32_t per_word)
+{
+    const std::uint32_t width = 64 / per_word;
+    std::vector<bool> bits;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+    {
+        bits.resize(i / per_word * 64 + i % per_word * width);
+        for (std::uint32_t bit = 0; bit < width; ++bit)
+            bits.push_back((entries[i] >> bit & 1) != 0);
+    }
+    constexpr std::size_t kNodeBits = 32 * kWordsPerNode;
+    bits.resize((bits.size() + kNodeBits - 1) / kNodeBits * kNodeBits);
+    for (std::size_t first = 0; first < bits.size(); first += kNodeBits)
+    {
+        std::uint32_t words[kWordsPerNode] = {};
+        for (std::size_t bit = 0; bit < kNodeBits; ++bit)
+            words[bit / 32] |= (bits[first + bit] ? 1U : 0U) << bit % 32;
+        nodes.push_back({words[0], words[1], words[2], words[3]});
+    }
+}
+
+/// The entry at a place, bit by bit.
+std::uint32_t entryAt(std::span<const gpu::Node> nodes, std::uint64_t place, std::uint32_t per_word)
+{
+    const std::uint32_t width = 64 / per_word;
+    std::uint32_t entry = 0;
+    for (std::uint32_t i = 0; i < width; ++i)
+    {
+        const std::uint64_t bit = place / per_word * 64 + place % per_word * width + i;
+        entry |= (wordOf(nodes, bit / 32) >> bit % 32 & 1) << i;
+    }
+    return entry;
 }
 
 /// How much of an octree is below a node.
@@ -148,7 +181,8 @@ std::vector<std::uint32_t> depthFirst(std::span<const gpu::Node> nodes, std::siz
 
 } // namespace
 
-ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels)
+ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels,
+                          std::uint32_t entries_per_word)
 {
     ReferenceDag dag;
     dag.octree_node_count = static_cast<std::uint32_t>(nodes.size());
@@ -162,7 +196,10 @@ ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const Node
         dag.node_count += count;
     }
 
-    std::vector<gpu::uint> lists;
+    const std::uint32_t per_word = entries_per_word != 0 ? entries_per_word : entriesPerWord(dag.node_count);
+    dag.entries_per_word = per_word;
+    const std::uint64_t first_place = std::uint64_t{2} * dag.node_count * per_word;
+    std::vector<std::uint32_t> lists;
     std::vector<std::uint32_t> short_entries;
     for (std::size_t level = 0; level < levels.size(); ++level)
     {
@@ -172,7 +209,7 @@ ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const Node
         {
             gpu::Node node = nodes[index];
             const auto lower_count = static_cast<std::uint32_t>(std::popcount(node.mask_lo));
-            const auto list = static_cast<std::uint32_t>(kWordsPerNode * std::size_t{dag.node_count} + lists.size());
+            const auto list = static_cast<std::uint32_t>(first_place + lists.size());
             node.base_lo = leaf ? 0 : gpu::kChildList | list;
             node.base_hi = node.base_lo + lower_count;
             dag.pool.push_back(node);
@@ -192,7 +229,7 @@ ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const Node
             }
         }
     }
-    appendWords(dag.pool, lists);
+    appendEntries(dag.pool, lists, per_word);
     dag.entry_count = lists.size();
     dag.long_entry_count = dag.before.size();
     for (std::size_t i = 0; i < short_entries.size(); i += 2)
@@ -209,12 +246,14 @@ class Expander
 public:
     Expander(std::span<const gpu::Node> pool, std::span<const NodeRange> levels, std::uint64_t entry_count,
              std::uint64_t long_entry_count, std::span<const gpu::BeforeChild> before,
-             std::span<const gpu::uint> voxels_before_leaf)
+             std::span<const gpu::uint> voxels_before_leaf, std::uint32_t entries_per_word)
         : m_pool(pool), m_levels(levels), m_entry_count(entry_count), m_long_entry_count(long_entry_count),
           m_before(before), m_voxels_before_leaf(voxels_before_leaf)
     {
         for (const NodeRange& range : levels)
             m_node_count += range.node_count;
+        m_per_word = entries_per_word != 0 ? entries_per_word : entriesPerWord(m_node_count);
+        m_first_place = 2 * m_node_count * m_per_word;
     }
 
     DagContents expand()
@@ -243,16 +282,16 @@ private:
         good = good && (m_levels.empty() || m_levels[0].node_count == 1);
         if (!good)
             violate("levels do not follow each other from a single root on");
-        const std::uint64_t words = kWordsPerNode * m_node_count + m_entry_count;
-        const std::uint64_t pool_nodes = (words + kWordsPerNode - 1) / kWordsPerNode;
+        const std::uint64_t list_words = (m_entry_count + m_per_word - 1) / m_per_word; // of 64 bits
+        const std::uint64_t pool_nodes = m_node_count + (list_words + 1) / 2;
         if (m_pool.size() != pool_nodes || m_long_entry_count > m_entry_count)
         {
             violate("pool has " + std::to_string(m_pool.size()) + " nodes' room, not " + std::to_string(pool_nodes));
             return false;
         }
-        for (std::uint64_t word = words; word < kWordsPerNode * m_pool.size(); ++word)
-            if (wordOf(m_pool, word) != 0)
-                violate("word " + std::to_string(word) + " behind the lists is not 0");
+        for (std::uint64_t place = m_entry_count; place < 2 * m_per_word * (m_pool.size() - m_node_count); ++place)
+            if (entryAt(m_pool, m_first_place + place, m_per_word) != 0)
+                violate("entry " + std::to_string(place) + " behind the lists is not 0");
         const std::uint64_t short_words = (m_entry_count - m_long_entry_count + 1) / 2;
         m_ranked = m_before.size() == m_long_entry_count && m_voxels_before_leaf.size() == short_words;
         if (!m_ranked && !(m_before.empty() && m_voxels_before_leaf.empty()))
@@ -293,26 +332,25 @@ private:
         }
     }
 
-    void visitChild(std::uint64_t word, std::size_t level, std::uint64_t code, std::uint64_t number,
+    void visitChild(std::uint64_t place, std::size_t level, std::uint64_t code, std::uint64_t number,
                     std::uint64_t voxels, std::uint64_t nodes, const std::string& parent)
     {
         const bool above_leaves = level + 2 == m_levels.size();
-        const std::uint64_t first_word = kWordsPerNode * m_node_count + (above_leaves ? m_long_entry_count : 0);
-        const std::uint64_t end_word =
-            kWordsPerNode * m_node_count + (above_leaves ? m_entry_count : m_long_entry_count);
-        if (word < first_word || word >= end_word)
+        const std::uint64_t first = m_first_place + (above_leaves ? m_long_entry_count : 0);
+        const std::uint64_t end = m_first_place + (above_leaves ? m_entry_count : m_long_entry_count);
+        if (place < first || place >= end)
         {
-            violate(parent + ": list leads to word " + std::to_string(word));
+            violate(parent + ": list leads to place " + std::to_string(place));
             return;
         }
-        const gpu::uint child = wordOf(m_pool, word);
+        const std::uint32_t child = entryAt(m_pool, place, m_per_word);
         const NodeRange& range = m_levels[level + 1];
         if (child < range.first_node || child - range.first_node >= range.node_count)
         {
             violate(parent + ": child " + std::to_string(child) + " is not of the next level");
             return;
         }
-        const std::uint64_t entry = word - kWordsPerNode * m_node_count;
+        const std::uint64_t entry = place - m_first_place;
         std::uint64_t voxels_before = 0;
         std::uint64_t nodes_before = number;
         if (m_ranked)
@@ -330,6 +368,8 @@ private:
     std::span<const gpu::BeforeChild> m_before;
     std::span<const gpu::uint> m_voxels_before_leaf;
     std::uint64_t m_node_count = 0;
+    std::uint32_t m_per_word = 0; // entries, of 64 bits
+    std::uint64_t m_first_place = 0;
     bool m_ranked = false;
     DagContents m_contents;
 };
@@ -338,9 +378,9 @@ private:
 
 DagContents expandDag(std::span<const gpu::Node> pool, std::span<const NodeRange> levels, std::uint64_t entry_count,
                       std::uint64_t long_entry_count, std::span<const gpu::BeforeChild> before,
-                      std::span<const gpu::uint> voxels_before_leaf)
+                      std::span<const gpu::uint> voxels_before_leaf, std::uint32_t entries_per_word)
 {
-    return Expander(pool, levels, entry_count, long_entry_count, before, voxels_before_leaf).expand();
+    return Expander(pool, levels, entry_count, long_entry_count, before, voxels_before_leaf, entries_per_word).expand();
 }
 
 } // namespace zvo::oracle

@@ -22,13 +22,15 @@ struct ReferenceDag
     std::uint32_t octree_node_count = 0;
     std::uint64_t entry_count = 0;
     std::uint64_t long_entry_count = 0;
+    std::uint32_t entries_per_word = 0;        // of 64 bits
     std::vector<gpu::BeforeChild> before;      // [long_entry_count]
     std::vector<gpu::uint> voxels_before_leaf; // [ceil((entry_count - long_entry_count) / 2)]
     std::vector<std::uint32_t> depth_first;    // [octree_node_count] the octree's nodes in depth-first order
 };
 
-/// Compresses an octree that checkOctree() accepts.
-ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels);
+/// Compresses an octree that checkOctree() accepts. entries_per_word: 2 or 3, or 0: as many as node numbers allow.
+ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels,
+                          std::uint32_t entries_per_word = 0);
 
 constexpr std::uint64_t kNoRank = ~std::uint64_t{0};
 
@@ -51,10 +53,10 @@ struct DagContents
 
 /// Walks all paths of a DAG from its root. Children must be nodes of the next level; what is not is a violation, and
 /// the walk goes on without it. Ranks come from before and voxels_before_leaf; they are kNoRank where both are empty
-/// though there are entries. pool holds node_count nodes and entry_count words behind them, long_entry_count of them
-/// long.
+/// though there are entries. pool holds the nodes of all levels and entry_count entries behind them, entries_per_word
+/// to 64 bits (0: as above), long_entry_count of them long.
 DagContents expandDag(std::span<const gpu::Node> pool, std::span<const NodeRange> levels, std::uint64_t entry_count,
                       std::uint64_t long_entry_count, std::span<const gpu::BeforeChild> before,
-                      std::span<const gpu::uint> voxels_before_leaf);
+                      std::span<const gpu::uint> voxels_before_leaf, std::uint32_t entries_per_word = 0);
 
 } // namespace zvo::oracle

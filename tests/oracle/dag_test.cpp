@@ -13,7 +13,8 @@ namespace
 
 DagContents contentsOf(const ReferenceDag& dag)
 {
-    return expandDag(dag.pool, dag.levels, dag.entry_count, dag.long_entry_count, dag.before, dag.voxels_before_leaf);
+    return expandDag(dag.pool, dag.levels, dag.entry_count, dag.long_entry_count, dag.before, dag.voxels_before_leaf,
+                     dag.entries_per_word);
 }
 
 std::vector<std::uint32_t> wordsOf(const std::vector<gpu::Node>& nodes)
@@ -71,13 +72,14 @@ TEST(OracleDag, HandMadeOctreeIsCompressed)
     const ReferenceDag dag = referenceDag(octree.nodes, octree.levels);
     const std::uint32_t list = 0x80000000;
     EXPECT_EQ(wordsOf(dag.pool), (std::vector<std::uint32_t>{
-                                     0b100001, list | 20, 0x80000000, list | 22, // root
-                                     0b10,     list | 23, 256,        list | 24, // P
-                                     1,        list | 25, 0,          list | 26, // R
+                                     0b100001, list | 40, 0x80000000, list | 42, // root
+                                     0b10,     list | 43, 256,        list | 44, // P
+                                     1,        list | 45, 0,          list | 46, // R
                                      0b101,    0,         0,          2,         // A
                                      0,        0,         1,          0,         // B
-                                     1,        1,         2,          3,         4, 4, 0, 0,
+                                     0x10001,  0x30002,   0x40004,    0,         // four entries a word
                                  }));
+    EXPECT_EQ(dag.entries_per_word, 4);
     ASSERT_EQ(dag.levels.size(), 3);
     EXPECT_EQ(dag.levels[1].first_node, 1);
     EXPECT_EQ(dag.levels[1].node_count, 2);
@@ -95,6 +97,28 @@ TEST(OracleDag, HandMadeOctreeIsCompressed)
     }
     EXPECT_EQ(dag.voxels_before_leaf, (std::vector<std::uint32_t>{2 << 16, 0}));
     EXPECT_EQ(dag.depth_first, (std::vector<std::uint32_t>{0, 1, 4, 5, 2, 6, 7, 3, 8}));
+}
+
+TEST(OracleDag, HandMadeListsHaveFewerEntriesAWordIfAsked)
+{
+    const HandMade octree;
+    const std::uint32_t list = 0x80000000;
+    const ReferenceDag three = referenceDag(octree.nodes, octree.levels, 3);
+    const std::vector<std::uint32_t> words = wordsOf(three.pool);
+    EXPECT_EQ(words[1], list | 30);
+    // 1, 1, 2 and 3, 4, 4: 21 bits each.
+    EXPECT_EQ((std::vector(words.begin() + 20, words.end())),
+              (std::vector<std::uint32_t>{1 | 1 << 21, 2 << 10, 3 | 4 << 21, 4 << 10}));
+    const ReferenceDag two = referenceDag(octree.nodes, octree.levels, 2);
+    const std::vector<std::uint32_t> wide = wordsOf(two.pool);
+    EXPECT_EQ(wide[1], list | 20);
+    EXPECT_EQ((std::vector(wide.begin() + 20, wide.end())), (std::vector<std::uint32_t>{1, 1, 2, 3, 4, 4, 0, 0}));
+    for (const ReferenceDag& dag : {three, two})
+    {
+        const DagContents contents = contentsOf(dag);
+        EXPECT_EQ(contents.violations, std::vector<std::string>{});
+        EXPECT_EQ(contents.voxels, contentsOf(referenceDag(octree.nodes, octree.levels)).voxels);
+    }
 }
 
 TEST(OracleDag, HandMadeDagExpands)

@@ -20,14 +20,14 @@ template <typename T> vk::BufferOf<T> copyOf(vk::HeadlessDevice& device, const v
 
 } // namespace
 
-oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const Octree& octree)
+oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const Octree& octree, std::uint32_t entries_per_word)
 {
-    return oracle::referenceDag(device.download(octree.nodes), levelsOf(octree));
+    return oracle::referenceDag(device.download(octree.nodes), levelsOf(octree), entries_per_word);
 }
 
-Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree)
+Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, std::uint32_t entries_per_word)
 {
-    return svdagOf(device, octree, referenceDagOf(device, octree));
+    return svdagOf(device, octree, referenceDagOf(device, octree, entries_per_word));
 }
 
 Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, const oracle::ReferenceDag& reference)
@@ -44,6 +44,7 @@ Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, const oracle::Re
     {
         dag.tree.levels.push_back({range.first_node, range.node_count});
     }
+    dag.entries_per_word = reference.entries_per_word;
     dag.tree.nodes = device.makeBuffer("pool", std::span(reference.pool));
     dag.tree.voxel_attributes = copyOf(device, octree.voxel_attributes);
     dag.tree.emission_words = copyOf(device, octree.emission_words);
@@ -71,7 +72,7 @@ oracle::DagContents contentsOf(vk::HeadlessDevice& device, const Svdag& dag)
     const std::vector<gpu::BeforeChild> before = device.download(dag.before);
     const std::vector<gpu::uint> voxels_before_leaf = device.download(dag.voxels_before_leaf);
     return oracle::expandDag(device.download(dag.tree.nodes), levelsOf(dag.tree), dag.entry_count, dag.long_entry_count,
-                             before, voxels_before_leaf);
+                             before, voxels_before_leaf, dag.entries_per_word);
 }
 
 } // namespace zvo::test

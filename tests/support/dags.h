@@ -10,10 +10,11 @@ namespace zvo::test
 {
 
 /// The octree's nodes, compressed by the oracle. octree must have its levels.
-oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const Octree& octree);
+oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const Octree& octree,
+                                    std::uint32_t entries_per_word = 0);
 
 /// The DAG of octree, with copies of its attributes, those of nodes in depth-first order.
-Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree);
+Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, std::uint32_t entries_per_word = 0);
 Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, const oracle::ReferenceDag& reference);
 
 /// Voxels and nodes of dag and what is wrong with it.

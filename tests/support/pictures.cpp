@@ -23,7 +23,7 @@ Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, BeamGrid& 
 Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, const TraceCamera& camera, std::uint32_t width,
                     std::uint32_t height, const TraceOptions& options)
 {
-    BeamGrid beam(device.device(), tree.hasLists());
+    BeamGrid beam(device.device(), tree.svdag() != nullptr);
     TraceBuffers buffers(device.device(), width, height);
     return takePicture(device, tree, beam, camera, buffers, options);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <map>
 #include <numeric>
@@ -142,6 +143,7 @@ TreeData dagOf(const TreeData& octree)
         dag.levels.push_back({node_count, static_cast<std::uint32_t>(level.nodes.size())});
         node_count += dag.levels.back().node_count;
     }
+    assert(node_count <= 65536); // a word has four entries
     std::vector<std::uint32_t> short_counts;
     for (std::size_t level = 0; level < levels.size(); ++level)
     {
@@ -153,7 +155,7 @@ TreeData dagOf(const TreeData& octree)
             const auto lower = static_cast<std::uint32_t>(std::popcount(mask_lo));
             const bool is_leaf = level + 1 == levels.size();
             const std::uint32_t base =
-                is_leaf ? 0 : gpu::kChildList + 4 * node_count + static_cast<std::uint32_t>(dag.lists.size());
+                is_leaf ? 0 : gpu::kChildList + 8 * node_count + static_cast<std::uint32_t>(dag.lists.size());
             dag.nodes.push_back({mask_lo, base, mask_hi, base + lower});
             gpu::BeforeChild before = {0, 0};
             for (const std::uint32_t child : subtree.second)
