@@ -4,7 +4,6 @@
 #include "zvo/error.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace zvo
@@ -93,13 +92,6 @@ void DynamicOctree::forgetPoses()
     m_movers.forgetPoses(states);
 }
 
-std::uint64_t DynamicOctree::beginFrame()
-{
-    const std::uint64_t frame = m_history.beginFrame();
-    m_retired.beginFrame(frame);
-    return frame;
-}
-
 RootPlace DynamicOctree::rootOf(const RootStep& step) const
 {
     if (step.pending)
@@ -137,6 +129,7 @@ std::optional<OverlayRegion> DynamicOctree::allocateRegion(vk::FrameGraph& graph
 {
     const std::uint64_t nodes = m_sizes.likelyNodes();
     const std::uint64_t voxels = m_sizes.likelyVoxels();
+    m_overlays.catchUp(graph, m_retired);
     if (const std::optional<OverlayRegion> region = m_overlays.arena().allocate(nodes, voxels))
     {
         return region;
@@ -170,29 +163,35 @@ bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
     {
         throw Error(ErrorCode::Usage, "more updates are under way than frames in flight were announced");
     }
-    if (m_job == nullptr)
-    {
-        if (m_movers.isEmpty())
-        {
-            m_history.push(std::nullopt, {});
-            showRoot(graph, m_overlays.octree(), m_roots, {staticRoot(), 0});
-            m_needs_update = false;
-            return true;
-        }
-        if (!beginJob(graph))
-        {
-            m_needs_update = true;
-            return false;
-        }
-    }
+    m_has_recorded = true;
     try
     {
-        recordJob(graph, budget_ms);
+        return updateOrWait(graph, budget_ms);
     }
     catch (...)
     {
         dropJob();
+        m_needs_update = true;
         throw;
+    }
+}
+
+bool DynamicOctree::updateOrWait(vk::FrameGraph& graph, double budget_ms)
+{
+    if (m_job == nullptr && m_movers.isEmpty())
+    {
+        showRoot(graph, m_overlays.octree(), m_roots, {staticRoot(), 0});
+        m_owes_root = false;
+        m_history.push(std::nullopt, {});
+    }
+    else if (m_job != nullptr || beginJob(graph))
+    {
+        recordJob(graph, budget_ms);
+    }
+    else
+    {
+        m_needs_update = true;
+        return false;
     }
     m_needs_update = false;
     return m_job == nullptr;
@@ -219,6 +218,11 @@ void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
 // What can fail for want of memory comes first, and changes nothing. False if the update has to wait for frames.
 bool DynamicOctree::beginJob(vk::FrameGraph& graph)
 {
+    if (m_owes_root)
+    {
+        showRoot(graph, m_overlays.octree(), m_roots, rootOf(m_history.current()));
+        m_owes_root = false;
+    }
     m_movers.makeLayers();
     m_sizes.begin(m_movers.leafCapacity());
     prepareBuffers();
@@ -285,27 +289,39 @@ void DynamicOctree::dropJob()
     --m_result_count; // its result was not written
 }
 
-bool DynamicOctree::show(vk::FrameGraph& graph, const std::optional<RootStep>& step)
-{
-    if (!step)
-    {
-        return false;
-    }
-    dropJob();
-    showRoot(graph, m_overlays.octree(), m_roots, rootOf(*step));
-    m_needs_update = false;
-    m_movers.bringBack(step->layers);
-    return true;
-}
-
 bool DynamicOctree::undo(vk::FrameGraph& graph)
 {
-    return show(graph, m_history.undo());
+    return show(graph, &RootHistory::undo, &RootHistory::redo);
 }
 
 bool DynamicOctree::redo(vk::FrameGraph& graph)
 {
-    return show(graph, m_history.redo());
+    return show(graph, &RootHistory::redo, &RootHistory::undo);
+}
+
+// Shows the step that move leads to; goes back where that fails.
+bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove back)
+{
+    const std::optional<RootStep> step = (m_history.*move)();
+    if (!step)
+    {
+        return false;
+    }
+    try
+    {
+        showRoot(graph, m_overlays.octree(), m_roots, rootOf(*step));
+    }
+    catch (...)
+    {
+        (m_history.*back)();
+        throw;
+    }
+    m_has_recorded = true;
+    m_owes_root = false;
+    dropJob();
+    m_needs_update = false;
+    m_movers.bringBack(step->layers);
+    return true;
 }
 
 // Drops the job for reasons of its own: another update has to begin.
@@ -313,68 +329,6 @@ void DynamicOctree::giveUpJob()
 {
     m_needs_update = m_needs_update || m_job != nullptr;
     dropJob();
-}
-
-UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
-{
-    const gpu::UpdateStatus status = m_results.mappedData()[pending.result];
-    m_sizes.learn(status, pending.region, pending.touched);
-    if (status.failed == 0)
-    {
-        m_history.complete(pending.step, status.node_count, status.voxel_count);
-    }
-    else
-    {
-        m_needs_update = m_needs_update || m_history.current().id == pending.step;
-        m_history.fail(pending.step);
-    }
-    if ((status.failed & ~gpu::kFailedFragments) == 0) // it came as far as to count them
-    {
-        setShift(status.max_fragments);
-    }
-    return {pending.step,         status.failed,        status.node_count,          status.voxel_count,
-            status.touched_count, status.dynamic_count, m_movers.droppedTriangles()};
-}
-
-// Drops as many value bits of the layers' sums as it takes for so many fragments, and no more: where that changes, all
-// layers are made again. One update is merged with too few bits after the fragments have become fewer.
-void DynamicOctree::setShift(std::uint32_t fragments)
-{
-    const std::uint32_t shift = std::max(
-        m_overlays.sums().sum_shift, static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
-    if (shift == m_sum_shift)
-    {
-        return;
-    }
-    m_sum_shift = shift;
-    giveUpJob();
-    m_movers.forgetLayers();
-}
-
-std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)
-{
-    while (!m_pending_slices.empty() && m_pending_slices.front().frame <= frame)
-    {
-        if (m_pending_slices.front().frame == frame)
-        {
-            m_budget.learn(m_pending_slices.front().slices, passes);
-        }
-        m_pending_slices.pop_front();
-    }
-    if (m_movers.frameDone(frame))
-    {
-        giveUpJob();
-    }
-    std::vector<UpdateReport> reports;
-    while (!m_pending_updates.empty() && m_pending_updates.front().frame <= frame)
-    {
-        const PendingUpdate pending = m_pending_updates.front();
-        m_pending_updates.pop_front();
-        reports.push_back(learnUpdate(pending));
-    }
-    m_history.frameDone(frame);
-    m_retired.frameDone(frame);
-    return reports;
 }
 
 } // namespace zvo

@@ -57,7 +57,8 @@ struct UpdateReport
 /// Whatever was made of the octree before (a BeamGrid, addresses of its buffers) is out of date after each of the three
 /// calls. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an update needs
 /// beyond the memory there is, it reports; the frame then shows the last root that is complete, and a later update has
-/// more memory.
+/// more memory. Where recording a frame or submitting it fails, whatever it was, frameLost() takes the frame back, and
+/// the octree goes on.
 class DynamicOctree
 {
 public:
@@ -88,16 +89,17 @@ public:
     /// (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of movers count
     /// for the update after this one. 0: no bound. Returns whether the update is complete. While memory is short and
     /// frames in flight hold what it takes, records nothing: needsUpdate() says so.
-    /// Throws Error{Memory} when the device's budget does not suffice, and Error{Usage} for more updates than
-    /// frames_in_flight allow: then nothing was recorded, and what was shown still is. After other errors the octree is
-    /// of no use.
+    /// Throws Error{Usage} for more updates than frames_in_flight allow, Error{Memory} when the device's budget or the
+    /// device's memory does not suffice, and what making a kernel throws. Then the update is given up, needsUpdate()
+    /// says so, and the frame shows what it showed before. It may be submitted all the same; if not: frameLost().
     bool update(vk::FrameGraph& graph, double budget_ms = 0);
 
     /// Whether an update is under way that the next update() goes on with.
     [[nodiscard]] bool isUpdating() const { return m_job != nullptr; }
 
     /// Records that the step before, or behind, the one that is shown is shown again. Movers are where they were then;
-    /// an update under way is given up. False if there is none.
+    /// an update under way is given up. False if there is none. Throws what making a kernel throws: then nothing
+    /// changes.
     bool undo(vk::FrameGraph& graph);
     bool redo(vk::FrameGraph& graph);
 
@@ -105,8 +107,15 @@ public:
     /// its passes, how much goes into a budget.
     std::vector<UpdateReport> frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes = {});
 
-    /// Whether what is missing has to be shown by another update(): one failed, was given up or had to wait, and none
-    /// was recorded since, nor undo() or redo().
+    /// The frame that began last does not reach the device, or not all of it: something threw between beginFrame() and
+    /// the end of its submission. What it has recorded was not: the history and octree() are those from before it,
+    /// which can be traced and updated. Movers stay where they were put, by undo() and redo() as well: needsUpdate().
+    /// Frames before it count as ever. Where the device came as far as that, octree() shows what the frame was to show,
+    /// until the next update(), undo() or redo(). Not for frames that were submitted: frameDone(), however they ended.
+    void frameLost();
+
+    /// Whether what is missing has to be shown by another update(): one failed, was given up, was lost or had to wait,
+    /// and none was recorded since, nor undo() or redo().
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
 
     /// What to trace. Its node_count and voxel_count are those of the static octree (1 node for an empty one). It has
@@ -143,7 +152,10 @@ private:
         std::vector<UpdateSlice> slices;
     };
 
+    using HistoryMove = std::optional<RootStep> (RootHistory::*)();
+
     void forgetPoses();
+    bool updateOrWait(vk::FrameGraph& graph, double budget_ms);
     bool beginJob(vk::FrameGraph& graph);
     void prepareBuffers();
     std::optional<OverlayRegion> allocateRegion(vk::FrameGraph& graph);
@@ -151,7 +163,7 @@ private:
     void finishJob(vk::FrameGraph& graph);
     void dropJob();
     void giveUpJob();
-    bool show(vk::FrameGraph& graph, const std::optional<RootStep>& step);
+    bool show(vk::FrameGraph& graph, HistoryMove move, HistoryMove back);
     UpdateReport learnUpdate(const PendingUpdate& pending);
     void setShift(std::uint32_t fragments);
     [[nodiscard]] RootPlace rootOf(const RootStep& step) const;
@@ -178,6 +190,8 @@ private:
     std::unique_ptr<Job> m_job;
     UpdateBudget m_budget;
     bool m_needs_update = false;
+    bool m_has_recorded = false; // the last frame: it matters whether it is lost
+    bool m_owes_root = false;    // a lost frame may have shown another root than the current one
 };
 
 } // namespace zvo

@@ -357,6 +357,15 @@ bool MoverSet::frameDone(std::uint64_t frame)
     return has_failed;
 }
 
+void MoverSet::frameLost(std::uint64_t frame)
+{
+    while (!m_pending.empty() && m_pending.back().frame == frame)
+    {
+        m_pending.pop_back();
+    }
+    forgetLayers();
+}
+
 std::map<std::string, std::uint64_t> MoverSet::droppedTriangles()
 {
     std::map<std::string, std::uint64_t> dropped;

@@ -86,6 +86,9 @@ public:
     /// made again: returns whether there are any.
     bool frameDone(std::uint64_t frame);
 
+    /// What was recorded in a frame, the last one, may not reach the device: everything is voxelized again.
+    void frameLost(std::uint64_t frame);
+
     /// Triangles left out, by reason, of all movers as they were voxelized last.
     [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
 

@@ -35,14 +35,12 @@ Octree adopted(Octree&& from)
     return octree;
 }
 
-template <typename T>
-void lengthen(vk::FrameGraph& graph, vk::BufferOf<T>& buffer, vk::BufferOf<T>&& longer, vk::Retired& retired)
+template <typename T> void copyAll(vk::FrameGraph& graph, const vk::BufferOf<T>& from, vk::BufferOf<T>& to)
 {
-    if (buffer.count() != 0)
+    if (from.count() != 0)
     {
-        graph.copy(buffer, 0, longer, 0, buffer.bytes());
+        graph.copy(from, 0, to, 0, from.bytes());
     }
-    retired.keep(std::exchange(buffer, std::move(longer)));
 }
 
 } // namespace
@@ -72,6 +70,7 @@ OverlayOctree::OverlayOctree(vk::HeadlessDevice& device, BuildResult built, cons
                            sizeof(gpu::Attribute));
             }
         });
+    m_before.reset();
 }
 
 OverlaySpace OverlayOctree::staticSpace() const
@@ -115,6 +114,12 @@ void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64
         throw Error(ErrorCode::Memory, "overlays need more nodes or voxels than 32-bit numbers count: keep fewer steps "
                                        "of history, or lower the resolution");
     }
+    lengthen(graph, node_capacity, voxel_capacity, retired);
+    m_arena.grow(static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity));
+}
+
+OverlayOctree::Buffers OverlayOctree::makeBuffers(std::uint64_t node_capacity, std::uint64_t voxel_capacity)
+{
     const std::uint64_t attribute_nodes = m_has_attributes ? node_capacity : 0;
     const std::uint64_t attribute_voxels = m_has_attributes ? voxel_capacity : 0;
     const std::uint64_t emission_words = m_emits ? voxel_capacity / kVoxelBlock : 0;
@@ -123,31 +128,78 @@ void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64
                                            (attribute_nodes + attribute_voxels) * sizeof(gpu::Attribute) +
                                            emission_words * sizeof(gpu::uvec2) + emission * sizeof(gpu::uint),
                                        "room for overlays");
-
-    // All of them, before anything is recorded.
     vk::Device& d = m_device.device();
-    vk::BufferOf<gpu::Node> longer_nodes(d, m_octree.nodes.name(), node_capacity);
-    vk::BufferOf<gpu::Attribute> averages(d, m_octree.node_attributes.name(), attribute_nodes);
-    vk::BufferOf<gpu::Attribute> attributes(d, m_octree.voxel_attributes.name(), attribute_voxels);
-    vk::BufferOf<gpu::uvec2> words(d, m_octree.emission_words.name(), emission_words);
-    vk::BufferOf<gpu::uint> emission_values(d, m_octree.emission.name(), emission);
-    lengthen(graph, m_octree.nodes, std::move(longer_nodes), retired);
+    return {{d, m_octree.nodes.name(), node_capacity},
+            {d, m_octree.node_attributes.name(), attribute_nodes},
+            {d, m_octree.voxel_attributes.name(), attribute_voxels},
+            {d, m_octree.emission_words.name(), emission_words},
+            {d, m_octree.emission.name(), emission}};
+}
+
+void OverlayOctree::swapBuffers(Buffers& buffers)
+{
+    std::swap(m_octree.nodes, buffers.nodes);
+    std::swap(m_octree.node_attributes, buffers.node_attributes);
+    std::swap(m_octree.voxel_attributes, buffers.voxel_attributes);
+    std::swap(m_octree.emission_words, buffers.emission_words);
+    std::swap(m_octree.emission, buffers.emission);
+}
+
+void OverlayOctree::lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity, std::uint64_t voxel_capacity,
+                             vk::Retired& retired)
+{
+    Buffers from = makeBuffers(node_capacity, voxel_capacity); // all of them, before anything is recorded
+    swapBuffers(from);
+    copyAll(graph, from.nodes, m_octree.nodes);
     if (m_has_attributes)
     {
-        lengthen(graph, m_octree.node_attributes, std::move(averages), retired);
-        lengthen(graph, m_octree.voxel_attributes, std::move(attributes), retired);
+        copyAll(graph, from.node_attributes, m_octree.node_attributes);
+        copyAll(graph, from.voxel_attributes, m_octree.voxel_attributes);
     }
     if (m_emits)
     {
-        const bool had_words = m_octree.emission_words.count() != 0;
-        lengthen(graph, m_octree.emission_words, std::move(words), retired);
-        lengthen(graph, m_octree.emission, std::move(emission_values), retired);
-        if (!had_words) // nothing of the static octree emits
+        copyAll(graph, from.emission_words, m_octree.emission_words);
+        copyAll(graph, from.emission, m_octree.emission);
+        if (from.emission_words.count() == 0) // nothing of the static octree emits
         {
             graph.fill(m_octree.emission_words, 0);
         }
     }
-    m_arena.grow(static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity));
+    if (m_before) // made in this frame
+    {
+        retired.keep(std::move(from));
+    }
+    else
+    {
+        m_before = std::move(from);
+    }
+}
+
+void OverlayOctree::frameSubmitted(vk::Retired& retired)
+{
+    if (m_before)
+    {
+        retired.keep(std::move(*m_before));
+        m_before.reset();
+    }
+}
+
+void OverlayOctree::frameLost(vk::Retired& retired)
+{
+    if (m_before)
+    {
+        swapBuffers(*m_before);
+        frameSubmitted(retired);
+    }
+}
+
+void OverlayOctree::catchUp(vk::FrameGraph& graph, vk::Retired& retired)
+{
+    const OverlaySpace& space = m_arena.space();
+    if (m_octree.nodes.count() != space.node_capacity)
+    {
+        lengthen(graph, space.node_capacity, space.voxel_capacity, retired);
+    }
 }
 
 } // namespace zvo

@@ -8,6 +8,7 @@
 #include "vk/retired.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace zvo
 {
@@ -38,6 +39,17 @@ public:
     /// then nothing was recorded and nothing has changed.
     void grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels, vk::Retired& retired);
 
+    /// The frame in which grow() was called reaches the device: the buffers from before go to retired.
+    void frameSubmitted(vk::Retired& retired);
+
+    /// It does not, or not all of it: the buffers are those from before it again, with all their contents. The arena
+    /// keeps its size; regions may lie beyond the buffers until catchUp().
+    void frameLost(vk::Retired& retired);
+
+    /// Before a region is used that was handed out after frameLost(): makes the buffers as long as the arena, as grow()
+    /// does. Nothing to do otherwise. Throws as grow().
+    void catchUp(vk::FrameGraph& graph, vk::Retired& retired);
+
     /// Its counts are those of the static octree (1 node for an empty one).
     [[nodiscard]] const Octree& octree() const { return m_octree; }
     [[nodiscard]] Octree& octree() { return m_octree; }
@@ -54,6 +66,20 @@ public:
     [[nodiscard]] std::uint32_t emissionOffset() const;
 
 private:
+    // That grow: empty where the octree has no such thing.
+    struct Buffers
+    {
+        vk::BufferOf<gpu::Node> nodes;
+        vk::BufferOf<gpu::Attribute> node_attributes;
+        vk::BufferOf<gpu::Attribute> voxel_attributes;
+        vk::BufferOf<gpu::uvec2> emission_words;
+        vk::BufferOf<gpu::uint> emission;
+    };
+
+    [[nodiscard]] Buffers makeBuffers(std::uint64_t node_capacity, std::uint64_t voxel_capacity);
+    void swapBuffers(Buffers& buffers);
+    void lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity, std::uint64_t voxel_capacity,
+                  vk::Retired& retired);
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;
     [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
     [[nodiscard]] OverlaySpace staticSpace() const;
@@ -66,6 +92,7 @@ private:
     FragmentSums m_sums;
     Octree m_octree;
     OverlayArena m_arena;
+    std::optional<Buffers> m_before; // of the octree when the last frame began, if they have been replaced in it
 };
 
 } // namespace zvo

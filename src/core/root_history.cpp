@@ -23,6 +23,40 @@ RootHistory::~RootHistory()
     frameDone(m_frame);
 }
 
+std::uint64_t RootHistory::beginFrame()
+{
+    forgetSteps();
+    return ++m_frame;
+}
+
+// Before the line changes: what frameLost() goes back to.
+void RootHistory::keepSteps()
+{
+    if (m_steps_before.empty() && m_frame != m_frame_done)
+    {
+        m_steps_before = m_steps;
+    }
+}
+
+void RootHistory::forgetSteps()
+{
+    m_steps_before.clear();
+    m_current_before = m_current;
+}
+
+void RootHistory::frameLost()
+{
+    while (!m_updates.empty() && m_updates.back().frame == m_frame)
+    {
+        m_updates.pop_back();
+    }
+    if (!m_steps_before.empty())
+    {
+        m_steps = std::exchange(m_steps_before, {});
+    }
+    m_current = m_current_before;
+}
+
 std::optional<OverlayRegion> RootHistory::allocate(std::uint64_t nodes, std::uint64_t voxels)
 {
     if (const std::optional<OverlayRegion> region = m_arena.allocate(nodes, voxels))
@@ -53,6 +87,7 @@ std::optional<OverlayRegion> RootHistory::allocate(std::uint64_t nodes, std::uin
             later.release(step->lease->region);
         }
     }
+    keepSteps();
     for (std::size_t count = m_steps.size() - end + first - 1; count != 0; --count)
     {
         dropStep();
@@ -78,16 +113,19 @@ OverlayArena RootHistory::arenaLater() const
     {
         seen.insert(step.get());
     }
+    const auto release = [&](const std::shared_ptr<Step>& step)
+    {
+        if (seen.insert(step.get()).second && step->lease)
+        {
+            later.release(step->lease->region);
+        }
+    };
     for (const Update& update : m_updates)
     {
-        for (const auto& step : {update.step, update.fallback})
-        {
-            if (seen.insert(step.get()).second && step->lease)
-            {
-                later.release(step->lease->region);
-            }
-        }
+        release(update.step);
+        release(update.fallback);
     }
+    std::ranges::for_each(m_steps_before, release);
     return later;
 }
 
@@ -112,8 +150,9 @@ std::uint64_t RootHistory::push(const std::optional<OverlayRegion>& region, std:
     {
         step->lease.emplace(*this, *region);
         step->pending = true;
-        m_updates.push_back({step, m_steps[m_current]});
+        m_updates.push_back({step, m_steps[m_current], m_frame});
     }
+    keepSteps();
     m_steps.erase(m_steps.begin() + static_cast<std::ptrdiff_t>(m_current) + 1, m_steps.end());
     m_steps.push_back(step);
     ++m_current;
@@ -150,21 +189,28 @@ void RootHistory::fail(std::uint64_t id)
             later.fallback = update.fallback;
         }
     }
-    const auto place = std::find(m_steps.begin(), m_steps.end(), update.step);
-    if (place == m_steps.end())
+    const std::optional<std::size_t> gone = removeFailed(m_steps, update);
+    const std::optional<std::size_t> gone_before = m_steps_before.empty() ? gone : removeFailed(m_steps_before, update);
+    m_current -= gone && m_current >= *gone ? 1 : 0;
+    m_current_before -= gone_before && m_current_before >= *gone_before ? 1 : 0;
+}
+
+// Returns which step is gone, if none stands in its place.
+std::optional<std::size_t> RootHistory::removeFailed(Steps& steps, const Update& update)
+{
+    const auto place = std::find(steps.begin(), steps.end(), update.step);
+    if (place == steps.end())
     {
-        return;
+        return std::nullopt;
     }
     if (*std::prev(place) != update.fallback)
     {
         *place = update.fallback;
-        return;
+        return std::nullopt;
     }
-    if (m_current >= static_cast<std::size_t>(place - m_steps.begin()))
-    {
-        --m_current;
-    }
-    m_steps.erase(place);
+    const std::ptrdiff_t index = place - steps.begin();
+    steps.erase(place);
+    return index;
 }
 
 std::optional<RootStep> RootHistory::undo()
@@ -180,6 +226,10 @@ std::optional<RootStep> RootHistory::redo()
 void RootHistory::frameDone(std::uint64_t frame)
 {
     assert(frame <= m_frame);
+    if (frame == m_frame)
+    {
+        forgetSteps();
+    }
     m_frame_done = std::max(m_frame_done, frame);
     for (; !m_waiting.empty() && m_waiting.front().frame <= m_frame_done; m_waiting.pop_front())
     {

@@ -55,7 +55,8 @@ struct RootStep
 /// the order of pushes, whether or not the step is still in the line.
 ///
 /// *Frames* in flight: the device may use a region as long as a frame is not done that began before the history dropped
-/// it. Such regions wait. Without beginFrame(), they do not: the caller then waits for the device himself.
+/// it. Such regions wait. Without beginFrame(), they do not: the caller then waits for the device himself. What happened
+/// to the line in a frame can be taken back until the next one begins (frameLost()); until then its steps are kept.
 ///
 /// *Bounds*: after push() there are at most steps_max steps beside the first one, and their regions have at most
 /// bytes_max bytes, or there is only the pushed one. The oldest fall off for that. Regions that wait, or are kept for a
@@ -107,13 +108,18 @@ public:
     [[nodiscard]] std::size_t redoCount() const { return m_steps.size() - 1 - m_current; }
 
     /// A frame begins to be recorded; returns its number: 1, 2, 3...
-    std::uint64_t beginFrame() { return ++m_frame; }
+    std::uint64_t beginFrame();
 
     /// The device is done with that frame and all before it.
     void frameDone(std::uint64_t frame);
 
+    /// The frame that began last does not reach the device, or not all of it: the steps are those there were when it
+    /// began, but for updates of earlier frames that have ended since. Its updates must not be ended; their regions
+    /// wait for a frame. The caller sees to it that the root slot shows current() before those are used again.
+    void frameLost();
+
     /// Calls see with every layer state that current(), undo() and redo() may still return, in any order, some of them
-    /// twice: those of the steps, and of steps that are kept for a pending one.
+    /// twice: those of the steps, and of steps that are kept for a pending one or for frameLost().
     template <typename See> void forEachLayer(const See& see) const
     {
         for (const auto& step : m_steps)
@@ -123,6 +129,10 @@ public:
         for (const Update& update : m_updates)
         {
             std::ranges::for_each(update.fallback->layers, see);
+        }
+        for (const auto& step : m_steps_before)
+        {
+            std::ranges::for_each(step->layers, see);
         }
     }
 
@@ -149,10 +159,12 @@ private:
         std::vector<LayerState> layers;
         bool pending = false;
     };
+    using Steps = std::deque<std::shared_ptr<Step>>;
     struct Update
     {
         std::shared_ptr<Step> step;
         std::shared_ptr<Step> fallback; // what it followed
+        std::uint64_t frame;
     };
     struct Waiting
     {
@@ -162,6 +174,9 @@ private:
 
     [[nodiscard]] RootStep describe(std::size_t index) const;
     [[nodiscard]] OverlayArena arenaLater() const;
+    static std::optional<std::size_t> removeFailed(Steps& steps, const Update& update);
+    void keepSteps();
+    void forgetSteps();
     Update endUpdate(std::uint64_t id);
     bool dropStep();
 
@@ -170,10 +185,13 @@ private:
     std::uint64_t m_frame = 0; // the last one that has begun
     std::uint64_t m_frame_done = 0;
     std::uint64_t m_last_id = 0;
-    std::deque<Waiting> m_waiting;             // in order of frames
-    std::deque<std::shared_ptr<Step>> m_steps; // the line; [0]: the static octree
-    std::size_t m_current = 0;                 // index in m_steps
-    std::deque<Update> m_updates;              // of pending steps, in order of pushes
+    std::deque<Waiting> m_waiting; // in order of frames
+    Steps m_steps;                 // the line; [0]: the static octree
+    std::size_t m_current = 0;     // index in m_steps
+    std::deque<Update> m_updates;  // of pending steps, in order of pushes
+    // When the last frame began: the line, if it has changed since, or nothing, and the index of what was current in it.
+    Steps m_steps_before;
+    std::size_t m_current_before = 0;
 };
 
 } // namespace zvo

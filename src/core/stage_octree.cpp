@@ -67,7 +67,15 @@ StageUpdate StageOctree::update(double seconds)
     for (; result.retry_count < kAttemptsMax; ++result.retry_count)
     {
         const std::uint64_t frame = m_dynamic->beginFrame();
-        result.passes = m_device.run([&](vk::FrameGraph& graph) { m_dynamic->update(graph); });
+        try
+        {
+            result.passes = m_device.run([&](vk::FrameGraph& graph) { m_dynamic->update(graph); });
+        }
+        catch (...)
+        {
+            m_dynamic->frameLost();
+            throw;
+        }
         const std::vector<UpdateReport> reports = m_dynamic->frameDone(frame);
         if (!m_dynamic->needsUpdate())
         {

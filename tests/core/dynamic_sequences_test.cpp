@@ -68,6 +68,7 @@ rc::Gen<Command> anyCommand()
                                                                          {3, Action::Undo},
                                                                          {3, Action::Redo},
                                                                          {4, Action::Submit},
+                                                                         {2, Action::Lose},
                                                                          {2, Action::Wait}})),
         rc::gen::set(&Command::mover, anyBetween<std::uint32_t>(0, test::DynamicMachine::kMoversMax)),
         rc::gen::set(

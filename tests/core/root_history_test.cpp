@@ -318,6 +318,54 @@ TEST_F(RootHistoryTest, NoStepIsDroppedInVain)
     EXPECT_EQ(history.allocate(20, 0), (OverlayRegion{1, 20, 0, 0}));
 }
 
+TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
+{
+    RootHistory history(m_arena, {.steps_max = 3});
+    push(history);
+    push(history);
+    push(history);
+    const std::uint64_t before = history.beginFrame();
+    history.undo();
+    const std::uint64_t pending = pushPending(history); // instead of 3
+    const std::uint64_t lost = history.beginFrame();
+    pushPending(history); // 1 falls off, ...
+    pushPending(history); // ... and 2
+    history.undo();
+    EXPECT_EQ(history.undoCount(), 2u);
+    history.frameLost();
+    EXPECT_EQ(history.current().id, pending);
+    EXPECT_EQ(history.redoCount(), 0u);
+    EXPECT_EQ(history.stepBytes(), 30u);
+    EXPECT_EQ(history.waitingBytes(), 30u) << "of step 3, and of those that were lost";
+    history.frameDone(before);
+    history.complete(pending, 10, 0);
+    EXPECT_EQ(history.waitingBytes(), 20u) << "the device may have begun with the lost frame";
+    history.frameDone(lost);
+    EXPECT_EQ(m_arena.heldBytes(), 30u);
+    EXPECT_TRUE(shows(*history.undo(), 2));
+    EXPECT_TRUE(shows(*history.undo(), 1));
+    EXPECT_EQ(push(history), 7u) << "numbers are not used again";
+}
+
+TEST_F(RootHistoryTest, UpdatesOfEarlierFramesMayFailBeforeAFrameIsLost)
+{
+    RootHistory history(m_arena, kUnbounded);
+    push(history);
+    const std::uint64_t before = history.beginFrame();
+    const std::uint64_t failed = pushPending(history);
+    const std::uint64_t next = pushPending(history);
+    history.beginFrame();
+    history.undo();
+    pushPending(history);
+    history.frameDone(before);
+    history.fail(failed);
+    history.complete(next, 10, 0);
+    history.frameLost();
+    EXPECT_EQ(history.current().id, next);
+    EXPECT_EQ(history.undo()->id, 1u);
+    EXPECT_EQ(history.undoCount(), 1u);
+}
+
 TEST_F(RootHistoryTest, GivesEverythingBackAtItsEnd)
 {
     {
@@ -468,6 +516,21 @@ public:
         check();
     }
 
+    /// The frame that is being recorded is lost: it did nothing, though its regions may be written.
+    void loseFrame()
+    {
+        const std::uint64_t frame = m_frames.back().number;
+        while (!m_updates.empty() && m_updates.back().frame == frame)
+        {
+            m_updates.pop_back();
+        }
+        m_history.frameLost();
+        m_steps = m_before.steps;
+        m_current = m_before.current;
+        m_shown = m_truth[m_steps[m_current]];
+        nextFrame();
+    }
+
     /// The device is done with the oldest frame but the one being recorded.
     void finishFrame()
     {
@@ -501,7 +564,8 @@ public:
             {
                 later.before = later.before == update.id ? update.before : later.before;
             }
-            removeFailed(update);
+            removeFailed(m_steps, m_current, update);
+            removeFailed(m_before.steps, m_before.current, update);
         }
         RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
     }
@@ -587,7 +651,12 @@ private:
         std::map<int, OverlayRegion> regions; // that it reads or writes, by writer
     };
 
-    void beginFrame() { m_frames.push_back({m_history.beginFrame(), {}}); }
+    void beginFrame()
+    {
+        m_frames.push_back({m_history.beginFrame(), {}});
+        m_before = {m_steps, m_current};
+        m_line_changed = false;
+    }
 
     void mark(const OverlayRegion& region, int writer)
     {
@@ -620,18 +689,18 @@ private:
     }
 
     // As if it had never been pushed, but for what fell off when it was.
-    void removeFailed(const Update& update)
+    static void removeFailed(std::vector<std::uint64_t>& steps, std::size_t& current, const Update& update)
     {
-        for (std::size_t i = 0; i < m_steps.size(); ++i)
+        for (std::size_t i = 0; i < steps.size(); ++i)
         {
-            if (m_steps[i] == update.id && m_steps[i - 1] == update.before)
+            if (steps[i] == update.id && steps[i - 1] == update.before)
             {
-                m_steps.erase(m_steps.begin() + static_cast<std::ptrdiff_t>(i));
-                m_current -= m_current >= i ? 1 : 0;
+                steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
+                current -= current >= i ? 1 : 0;
             }
-            else if (m_steps[i] == update.id)
+            else if (steps[i] == update.id)
             {
-                m_steps[i] = update.before;
+                steps[i] = update.before;
             }
         }
     }
@@ -691,6 +760,7 @@ private:
         {
             RC_ASSERT(!fitsBesideSteps(nodes, voxels)); // this drop was needed
             RC_ASSERT(dropStep());
+            m_line_changed = true;
         }
         if (region)
         {
@@ -715,6 +785,7 @@ private:
 
     void pushed(std::uint64_t id)
     {
+        m_line_changed = true;
         m_steps.resize(m_current + 1);
         m_steps.push_back(id);
         ++m_current;
@@ -752,6 +823,10 @@ private:
         {
             expected.insert(static_cast<std::uint32_t>(m_told[update.before].writer));
         }
+        for (const std::uint64_t id : m_line_changed ? m_before.steps : std::vector<std::uint64_t>{})
+        {
+            expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
+        }
         expected.erase(0);
         std::set<std::uint32_t> seen;
         m_history.forEachLayer([&](const LayerState& state) { seen.insert(state.layer); });
@@ -771,6 +846,12 @@ private:
     std::deque<Update> m_updates;
     std::vector<std::uint64_t> m_steps{0}; // ids
     std::size_t m_current = 0;
+    struct
+    {
+        std::vector<std::uint64_t> steps;
+        std::size_t current = 0;
+    } m_before; // the line when the frame began
+    bool m_line_changed = false; // since
     std::map<std::uint64_t, Root> m_truth; // of each step, on the device
     std::map<std::uint64_t, Told> m_told;
     std::map<int, OverlayRegion> m_owned; // by writer
@@ -785,6 +866,7 @@ enum class Act
     Redo,
     GiveUp,
     NextFrame,
+    LoseFrame,
     FinishFrame,
     EndUpdate
 };
@@ -792,7 +874,8 @@ enum class Act
 std::ostream& operator<<(std::ostream& out, Act act)
 {
     static const std::vector<const char*> names{"update",  "failing update", "show static",  "undo",      "redo",
-                                                "give up", "next frame",     "finish frame", "end update"};
+                                                "give up", "next frame",     "lose frame",   "finish frame",
+                                                "end update"};
     return out << names[static_cast<std::size_t>(act)];
 }
 
@@ -819,6 +902,7 @@ TEST(RootHistory, WhatTheDeviceMayUseIsNeverGivenToAnother)
                                                                   {3, Act::Redo},
                                                                   {1, Act::GiveUp},
                                                                   {8, Act::NextFrame},
+                                                                  {3, Act::LoseFrame},
                                                                   {7, Act::FinishFrame},
                                                                   {9, Act::EndUpdate}}),
                                    rc::gen::inRange(1u, 30u), rc::gen::inRange(0u, 300u), rc::gen::inRange(0u, 99u))));
@@ -843,6 +927,9 @@ TEST(RootHistory, WhatTheDeviceMayUseIsNeverGivenToAnother)
                     break;
                 case Act::NextFrame:
                     simulation.nextFrame();
+                    break;
+                case Act::LoseFrame:
+                    simulation.loseFrame();
                     break;
                 case Act::FinishFrame:
                     simulation.finishFrame();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/dynamic_machine.h"
 
+#include "zvo/error.h"
+
 #include <rapidcheck.h>
 
 #include <algorithm>
@@ -20,7 +22,7 @@ constexpr int kAttemptsMax = 64;
 constexpr std::uint32_t kUpdatesPerFrame = 4; // that DynamicOctree takes
 constexpr double kTinyBudgetMs = 1e-6;
 constexpr std::array kActionNames = {"add",  "place", "bend",   "remove", "update", "slice",
-                                     "undo", "redo",  "submit", "wait",   "settle"};
+                                     "undo", "redo",  "submit", "lose",   "wait",   "settle"};
 
 const Cell* findCell(const std::vector<Cell>& cells, const Cell& cell)
 {
@@ -92,7 +94,8 @@ void DynamicMachine::run(const Command& command)
         add(command.item);
         break;
     case Command::Action::Submit:
-        submit();
+    case Command::Action::Lose:
+        submit(command.action == Command::Action::Lose);
         break;
     case Command::Action::Wait:
         wait();
@@ -131,13 +134,47 @@ void DynamicMachine::add(const Item& item)
     if (m_wanted.size() < kMoversMax)
     {
         const Item added = {item.mesh, item.place, item.mesh < MoverScenery::kRigidCount ? 0 : item.bend};
-        const MoverId id = m_octree->add(m_scenery.mover(added.mesh, m_setting.attributes), m_scenery.poseOf(added));
+        const std::shared_ptr<const MoverMesh> mesh = m_scenery.mover(added.mesh, m_setting.attributes);
+        MoverId id = 0;
+        while (!mayFail([&] { id = m_octree->add(mesh, m_scenery.poseOf(added)); }))
+        {
+        }
         m_wanted[id] = added;
     }
 }
 
+void DynamicMachine::setFailures(std::function<void()> arm, std::function<void()> disarm)
+{
+    m_arm = std::move(arm);
+    m_disarm = std::move(disarm);
+}
+
+// Whether call succeeded. fails: it is to fail even where nothing is armed.
+bool DynamicMachine::mayFail(const std::function<void()>& call, bool fails)
+{
+    if (!m_arm && !fails)
+    {
+        call();
+        return true;
+    }
+    bool succeeds = true;
+    try
+    {
+        m_arm ? m_arm() : void();
+        call();
+    }
+    catch (const Error&)
+    {
+        succeeds = false;
+        ++m_failure_count;
+    }
+    m_disarm ? m_disarm() : void();
+    return succeeds;
+}
+
 // Gives the device a frame of the commands so far; waits where too many are under way.
-void DynamicMachine::submit()
+// loses: it fails. What the frame did to movers stays done; the line is that from before it.
+void DynamicMachine::submit(bool loses)
 {
     if (m_commands.empty())
     {
@@ -148,7 +185,27 @@ void DynamicMachine::submit()
         waitForOldest();
     }
     const std::uint64_t frame = m_octree->beginFrame();
-    vk::Submission submission = m_device.submit(
+    const StepLine<Shown> before = m_line;
+    vk::Submission submission;
+    m_has_recorded = false;
+    if (mayFail([&] { submission = submitFrame(frame, loses); }, loses))
+    {
+        m_flights.push_back({frame, m_line.current(), std::move(submission)});
+    }
+    else
+    {
+        m_octree->frameLost();
+        m_line.takeBack(before);
+        m_is_owed = m_is_owed || m_has_recorded;
+        RC_ASSERT(!m_is_owed || m_octree->isUpdating() || m_octree->needsUpdate());
+    }
+    m_commands.clear();
+    m_update_count = 0;
+}
+
+vk::Submission DynamicMachine::submitFrame(std::uint64_t frame, bool loses)
+{
+    return m_device.submit(
         [&](vk::FrameGraph& graph)
         {
             for (const Command& command : m_commands)
@@ -157,10 +214,11 @@ void DynamicMachine::submit()
             }
             takerOf(frame).record(graph, m_octree->octree(), m_beam, m_camera, m_setting.shot);
             graph.releaseToHost();
+            if (loses)
+            {
+                throw Error(ErrorCode::Other, "the frame is lost");
+            }
         });
-    m_flights.push_back({frame, m_line.current(), std::move(submission)});
-    m_commands.clear();
-    m_update_count = 0;
 }
 
 void DynamicMachine::record(vk::FrameGraph& graph, const Command& command)
@@ -208,6 +266,7 @@ void DynamicMachine::update(vk::FrameGraph& graph, double budget_ms)
     {
         m_under_way = m_wanted;
     }
+    m_has_recorded = true;
     const bool is_complete = m_octree->update(graph, budget_ms);
     RC_ASSERT(is_complete == !m_octree->isUpdating());
     RC_ASSERT(is_complete || budget_ms != 0);
@@ -224,6 +283,7 @@ void DynamicMachine::show(vk::FrameGraph& graph, bool undo)
     RC_ASSERT((undo ? m_octree->undo(graph) : m_octree->redo(graph)) == moved);
     if (moved)
     {
+        m_has_recorded = true;
         m_is_owed = false;
         m_wanted = m_line.shown();
     }
@@ -232,7 +292,8 @@ void DynamicMachine::show(vk::FrameGraph& graph, bool undo)
 void DynamicMachine::waitForOldest()
 {
     const auto [frame, step] = std::pair(m_flights.front().frame, m_flights.front().step);
-    const std::vector<vk::PassTime> passes = m_flights.front().submission.wait();
+    std::vector<vk::PassTime> passes;
+    mayFail([&] { passes = m_flights.front().submission.wait(); }); // then it is done, too
     for (const UpdateReport& report : m_octree->frameDone(frame, passes))
     {
         m_is_owed = m_is_owed || (report.failed != 0 && report.step == m_line.current());

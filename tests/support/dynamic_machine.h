@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <ostream>
@@ -29,6 +30,7 @@ struct Command
         Undo,
         Redo,
         Submit, // what was recorded so far, without waiting
+        Lose,   // the same, but it fails when all is recorded
         Wait,   // for all frames; what is shown is compared
         Settle  // updates until everything is shown, and compares
     };
@@ -53,6 +55,12 @@ public:
 
     void run(const Command& command);
 
+    /// arm makes something fail until disarm is called: around whatever may fail. Frames that fail are lost.
+    void setFailures(std::function<void()> arm, std::function<void()> disarm);
+
+    /// Frames that were lost, and movers that were added only when nothing failed.
+    [[nodiscard]] std::uint64_t failureCount() const { return m_failure_count; }
+
     /// Settles, goes back to the first step, and compares the static octree with what it was.
     void finish();
 
@@ -68,7 +76,9 @@ private:
     };
 
     void add(const Item& item);
-    void submit();
+    bool mayFail(const std::function<void()>& call, bool fails = false);
+    void submit(bool loses = false);
+    [[nodiscard]] vk::Submission submitFrame(std::uint64_t frame, bool loses);
     void record(vk::FrameGraph& graph, const Command& command);
     void update(vk::FrameGraph& graph, double budget_ms);
     void show(vk::FrameGraph& graph, bool undo);
@@ -102,6 +112,10 @@ private:
     Shown m_under_way;                                // what the update under way is going to show
     bool m_is_owed = false;                           // an update was asked for, and is not shown
     StepLine<Shown> m_line;
+    bool m_has_recorded = false;                      // in the last frame
+    std::function<void()> m_arm;
+    std::function<void()> m_disarm;
+    std::uint64_t m_failure_count = 0;
 };
 
 } // namespace zvo::test

@@ -70,6 +70,14 @@ public:
         m_line.erase(place);
     }
 
+    /// The line becomes what it was before a frame that is lost. Numbers are not used again.
+    void takeBack(const StepLine& before)
+    {
+        const std::uint64_t last = m_last;
+        *this = before;
+        m_last = last;
+    }
+
     /// By one step back or on; false at the ends.
     bool move(int by)
     {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// DynamicOctree: what becomes of frames, and what is learnt from them.
+#include "core/dynamic_octree.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace zvo
+{
+
+std::uint64_t DynamicOctree::beginFrame()
+{
+    m_overlays.frameSubmitted(m_retired); // before its number changes
+    const std::uint64_t frame = m_history.beginFrame();
+    m_retired.beginFrame(frame);
+    m_has_recorded = false;
+    return frame;
+}
+
+void DynamicOctree::frameLost()
+{
+    if (!m_has_recorded)
+    {
+        return;
+    }
+    const std::uint64_t frame = m_retired.frame();
+    dropJob();
+    for (; !m_pending_updates.empty() && m_pending_updates.back().frame == frame; m_pending_updates.pop_back())
+    {
+        --m_result_count;
+    }
+    while (!m_pending_slices.empty() && m_pending_slices.back().frame == frame)
+    {
+        m_pending_slices.pop_back();
+    }
+    m_overlays.frameLost(m_retired);
+    m_movers.frameLost(frame);
+    m_history.frameLost();
+    m_needs_update = true;
+    m_owes_root = true;
+    m_has_recorded = false;
+}
+
+UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
+{
+    const gpu::UpdateStatus status = m_results.mappedData()[pending.result];
+    m_sizes.learn(status, pending.region, pending.touched);
+    if (status.failed == 0)
+    {
+        m_history.complete(pending.step, status.node_count, status.voxel_count);
+    }
+    else
+    {
+        m_needs_update = m_needs_update || m_history.current().id == pending.step;
+        m_history.fail(pending.step);
+    }
+    if ((status.failed & ~gpu::kFailedFragments) == 0) // it came as far as to count them
+    {
+        setShift(status.max_fragments);
+    }
+    return {pending.step,         status.failed,        status.node_count,          status.voxel_count,
+            status.touched_count, status.dynamic_count, m_movers.droppedTriangles()};
+}
+
+// Drops as many value bits of the layers' sums as it takes for so many fragments, and no more: where that changes, all
+// layers are made again. One update is merged with too few bits after the fragments have become fewer.
+void DynamicOctree::setShift(std::uint32_t fragments)
+{
+    const std::uint32_t shift = std::max(
+        m_overlays.sums().sum_shift, static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
+    if (shift == m_sum_shift)
+    {
+        return;
+    }
+    m_sum_shift = shift;
+    giveUpJob();
+    m_movers.forgetLayers();
+}
+
+std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)
+{
+    while (!m_pending_slices.empty() && m_pending_slices.front().frame <= frame)
+    {
+        if (m_pending_slices.front().frame == frame)
+        {
+            m_budget.learn(m_pending_slices.front().slices, passes);
+        }
+        m_pending_slices.pop_front();
+    }
+    if (m_movers.frameDone(frame))
+    {
+        giveUpJob();
+    }
+    std::vector<UpdateReport> reports;
+    while (!m_pending_updates.empty() && m_pending_updates.front().frame <= frame)
+    {
+        const PendingUpdate pending = m_pending_updates.front();
+        m_pending_updates.pop_front();
+        reports.push_back(learnUpdate(pending));
+    }
+    m_history.frameDone(frame);
+    if (frame == m_retired.frame())
+    {
+        m_overlays.frameSubmitted(m_retired);
+        m_has_recorded = false;
+    }
+    m_retired.frameDone(frame);
+    return reports;
+}
+
+} // namespace zvo
