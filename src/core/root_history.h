@@ -55,8 +55,9 @@ struct RootStep
 /// the order of pushes, whether or not the step is still in the line.
 ///
 /// *Frames* in flight: the device may use a region as long as a frame is not done that began before the history dropped
-/// it. Such regions wait. Without beginFrame(), they do not: the caller then waits for the device himself. What happened
-/// to the line in a frame can be taken back until the next one begins (frameLost()); until then its steps are kept.
+/// it. Such regions wait. Without beginFrame(), they do not: the caller then waits for the device himself. What
+/// happened to the line in a frame can be taken back until the next one begins (frameLost()); until then its steps are
+/// kept.
 ///
 /// *Bounds*: after push() there are at most steps_max steps beside the first one, and their regions have at most
 /// bytes_max bytes, or there is only the pushed one. The oldest fall off for that. Regions that wait, or are kept for a
@@ -189,7 +190,8 @@ private:
     Steps m_steps;                 // the line; [0]: the static octree
     std::size_t m_current = 0;     // index in m_steps
     std::deque<Update> m_updates;  // of pending steps, in order of pushes
-    // When the last frame began: the line, if it has changed since, or nothing, and the index of what was current in it.
+    // When the last frame began: the line, if it has changed since, or nothing, and the index of what was current in
+    // it.
     Steps m_steps_before;
     std::size_t m_current_before = 0;
 };

@@ -6,6 +6,7 @@
 #include "oracle/deform.h"
 #include "support/device.h"
 #include "support/dynamic_machine.h"
+#include "support/failing_vulkan.h"
 #include "support/properties.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 namespace zvo
@@ -166,6 +168,35 @@ TEST(DynamicSequences, ShowWhatARebuildShows)
                             }
                             machine.finish();
                         });
+}
+
+// With Vulkan calls that fail wherever it is, with three frames in flight as well: those frames are lost.
+TEST(DynamicSequences, GoOnWhateverFails)
+{
+    constexpr std::uint32_t kCallsMax = 50; // of most frames
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.get_instance_proc_addr = test::failingVulkan();
+    test::failCall(UINT64_MAX);
+    vk::HeadlessDevice failing(options, zvoKernels());
+    std::array sceneries = {MoverScenery(failing, false), MoverScenery(failing, true)};
+    const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
+    std::uint64_t failure_count = 0;
+    test::checkProperty(8,
+                        [&]
+                        {
+                            const DynamicSetting setting = *anySetting();
+                            std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+                            test::DynamicMachine machine(failing, setting, sceneries.at(setting.emits ? 1 : 0));
+                            machine.setFailures([&] { test::failCall(random() % kCallsMax * (1 + random() % 3)); },
+                                                [] { test::failCall(UINT64_MAX); });
+                            for (const Command& command : *any_commands)
+                            {
+                                machine.run(command);
+                            }
+                            machine.finish();
+                            failure_count += machine.failureCount();
+                        });
+    EXPECT_GT(failure_count, 50U);
 }
 
 } // namespace

@@ -850,8 +850,8 @@ private:
     {
         std::vector<std::uint64_t> steps;
         std::size_t current = 0;
-    } m_before; // the line when the frame began
-    bool m_line_changed = false; // since
+    } m_before;                            // the line when the frame began
+    bool m_line_changed = false;           // since
     std::map<std::uint64_t, Root> m_truth; // of each step, on the device
     std::map<std::uint64_t, Told> m_told;
     std::map<int, OverlayRegion> m_owned; // by writer
@@ -873,9 +873,9 @@ enum class Act
 
 std::ostream& operator<<(std::ostream& out, Act act)
 {
-    static const std::vector<const char*> names{"update",  "failing update", "show static",  "undo",      "redo",
-                                                "give up", "next frame",     "lose frame",   "finish frame",
-                                                "end update"};
+    static const std::vector<const char*> names{"update",       "failing update", "show static", "undo",
+                                                "redo",         "give up",        "next frame",  "lose frame",
+                                                "finish frame", "end update"};
     return out << names[static_cast<std::size_t>(act)];
 }
 

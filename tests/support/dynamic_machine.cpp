@@ -268,12 +268,19 @@ void DynamicMachine::update(vk::FrameGraph& graph, double budget_ms)
     }
     m_has_recorded = true;
     const bool is_complete = m_octree->update(graph, budget_ms);
-    RC_ASSERT(is_complete == !m_octree->isUpdating());
-    RC_ASSERT(is_complete || budget_ms != 0);
+    const bool waits = m_arm && !is_complete && !m_octree->isUpdating(); // for memory
+    RC_ASSERT(!waits || m_octree->needsUpdate());
+    RC_ASSERT(waits || is_complete == !m_octree->isUpdating());
+    RC_ASSERT(waits || is_complete || budget_ms != 0);
     m_is_owed = !is_complete;
     if (is_complete)
     {
         m_line.push(m_under_way, !m_under_way.empty());
+    }
+    const RootHistory& history = m_octree->history();
+    while (m_arm && (m_line.undoCount() > history.undoCount() || m_line.redoCount() > history.redoCount()))
+    {
+        m_line.drop();
     }
 }
 

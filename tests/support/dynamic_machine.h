@@ -112,7 +112,7 @@ private:
     Shown m_under_way;                                // what the update under way is going to show
     bool m_is_owed = false;                           // an update was asked for, and is not shown
     StepLine<Shown> m_line;
-    bool m_has_recorded = false;                      // in the last frame
+    bool m_has_recorded = false; // in the last frame
     std::function<void()> m_arm;
     std::function<void()> m_disarm;
     std::uint64_t m_failure_count = 0;

@@ -23,6 +23,9 @@ void failCall(std::uint64_t number, VkResult result = VK_ERROR_OUT_OF_DEVICE_MEM
 /// Lets all calls from the failing one on fail, as on a device that is lost.
 void failAllFrom(std::uint64_t number, VkResult result);
 
+/// Whether names of objects count as calls that can fail, as they do at first: work goes on without them.
+void countNames(bool counts);
+
 /// Calls that could have failed since failCall().
 std::uint64_t fallibleCallCount();
 

@@ -70,6 +70,15 @@ public:
         m_line.erase(place);
     }
 
+    /// One step falls off: the last of those of redo, or else the oldest.
+    void drop()
+    {
+        RC_ASSERT(m_at > 1 || redoCount() != 0);
+        const bool is_undone = redoCount() != 0;
+        m_line.erase(is_undone ? m_line.end() - 1 : m_line.begin() + 1);
+        m_at -= is_undone ? 0 : 1;
+    }
+
     /// The line becomes what it was before a frame that is lost. Numbers are not used again.
     void takeBack(const StepLine& before)
     {

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// Vulkan calls that fail while movers are added, moved and shown: an error comes out, what was shown still is, and the
+// octree goes on.
+#include "core/dynamic_octree.h"
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/failing_vulkan.h"
+#include "support/mover_scenery.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::Cell;
+using test::DynamicSetting;
+using test::Item;
+using test::MoverScenery;
+using Kind = test::Place::Kind;
+
+constexpr Item kRigid = {0, {Kind::Inside, {1, 1, 1}}};
+constexpr Item kApart = {0, {Kind::Mirrored, {2, 0, 2}}};
+constexpr Item kBent = {4, {Kind::Turned, {0, 2, 1}}, 3};
+
+vk::HeadlessOptions options()
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.get_instance_proc_addr = test::failingVulkan();
+    options.slices.submission_ms = 0;         // the same calls in every run, however busy the machine is
+    options.memory_budget_bytes = 512U << 20; // and small blocks of memory
+    return options;
+}
+
+// An octree of which every frame fails at each of its calls, one after the other, before it succeeds. Everything is
+// compared with octrees that are made anew.
+class Session
+{
+public:
+    // fail: test::failCall or failAllFrom.
+    Session(vk::HeadlessDevice& device, MoverScenery& scenery, const DynamicSetting& setting,
+            const std::function<void(std::uint64_t)>& fail)
+        : m_device(device), m_scenery(scenery), m_setting(setting), m_fail(fail)
+    {
+        const DynamicOptions options = setting.options(scenery.emissionScale());
+        m_octree = std::make_unique<DynamicOctree>(device, scenery.buildStatic(setting), options);
+        m_cells = cells();
+        m_steps = {{{}, m_cells}};
+    }
+
+    MoverId add(const Item& item)
+    {
+        const std::shared_ptr<const MoverMesh> mesh = m_scenery.mover(item.mesh, true);
+        MoverId id = 0;
+        for (std::uint64_t number = 0; !succeeds(number, [&] { id = m_octree->add(mesh, m_scenery.poseOf(item)); });
+             ++number)
+        {
+            expectCells(m_cells);
+        }
+        m_items[id] = item;
+        return id;
+    }
+
+    void place(MoverId mover, const Item& item)
+    {
+        m_octree->place(mover, m_scenery.poseOf(item));
+        m_items[mover] = item;
+    }
+
+    void remove(MoverId mover)
+    {
+        m_octree->remove(mover);
+        m_items.erase(mover);
+    }
+
+    // Updates until everything is shown.
+    void update()
+    {
+        do
+        {
+            frame([&](vk::FrameGraph& graph) { m_octree->update(graph); });
+            ASSERT_LT(++m_frame_count, 500U);
+        } while (m_octree->needsUpdate());
+        std::multiset<Item> items;
+        for (const auto& [id, item] : m_items)
+        {
+            items.insert(item);
+        }
+        expectCells(m_scenery.rebuilt(m_setting, true, items)->cells);
+        m_steps.resize(m_current + 1);
+        m_steps.push_back({m_items, m_cells});
+        ++m_current;
+        while (m_octree->history().undoCount() < m_current && m_current > 1) // for want of memory
+        {
+            m_steps.erase(m_steps.begin() + 1);
+            --m_current;
+            ++m_dropped_count;
+        }
+        EXPECT_EQ(m_octree->history().undoCount(), m_current);
+    }
+
+    void undo()
+    {
+        frame([&](vk::FrameGraph& graph) { EXPECT_TRUE(m_octree->undo(graph)); });
+        show(m_current - 1);
+    }
+
+    void redo()
+    {
+        frame([&](vk::FrameGraph& graph) { EXPECT_TRUE(m_octree->redo(graph)); });
+        show(m_current + 1);
+    }
+
+    [[nodiscard]] std::size_t undoCount() const { return m_current; }
+    [[nodiscard]] std::uint64_t errorCount() const { return m_error_count; }
+    [[nodiscard]] const std::set<std::string>& failedFunctions() const { return m_failed_functions; }
+
+private:
+    struct Step
+    {
+        std::map<MoverId, Item> items;
+        std::vector<Cell> cells;
+    };
+
+    // Takes what is free of the memory that is allocated: for anything more, more will have to be.
+    std::vector<vk::Buffer> ballast()
+    {
+        constexpr std::uint64_t kBlockBytes = vk::MemoryAllocator::kLimitedBlockBytes;
+        const vk::MemoryAllocator& memory = m_device.device().memory();
+        std::vector<vk::Buffer> pieces;
+        const auto add = [&](std::uint64_t bytes) { pieces.emplace_back(m_device.device(), "ballast", bytes); };
+        for (std::uint64_t bytes = kBlockBytes / 2; bytes >= 128; bytes /= 8)
+        {
+            for (const std::uint64_t held = memory.heldBytes(); memory.heldBytes() == held;)
+            {
+                add(bytes);
+            }
+            pieces.pop_back();
+            add(kBlockBytes / 2); // of the block that has just been allocated
+            add(kBlockBytes / 2);
+        }
+        return pieces;
+    }
+
+    std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->octree()); }
+
+    void expectCells(const std::vector<Cell>& expected)
+    {
+        EXPECT_EQ(test::difference(cells(), expected), "") << "after " << m_failed;
+    }
+
+    void show(std::size_t step)
+    {
+        m_current = step;
+        m_items = m_steps.at(step).items;
+        expectCells(m_steps.at(step).cells);
+    }
+
+    // Whether call succeeds, of which one Vulkan call fails.
+    bool succeeds(std::uint64_t number, const std::function<void()>& call)
+    {
+        const std::vector<vk::Buffer> full = ballast();
+        m_fail(number);
+        bool result = true;
+        try
+        {
+            call();
+        }
+        catch (const Error& error)
+        {
+            EXPECT_NE(test::failedFunction(), "") << error.what();
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+            m_failed_functions.insert(test::failedFunction());
+            ++m_error_count;
+            result = false;
+        }
+        m_failed = test::failedFunction();
+        test::failCall(UINT64_MAX);
+        return result;
+    }
+
+    void frame(const std::function<void(vk::FrameGraph&)>& record)
+    {
+        std::vector<std::vector<Cell>> seen; // once the frame has run, though it failed
+        bool has_restarted = false;
+        for (std::uint64_t number = 0;; ++number)
+        {
+            const RootHistory& history = m_octree->history();
+            const auto counts = std::pair(history.undoCount(), history.redoCount());
+            const std::uint64_t frame = m_octree->beginFrame();
+            if (succeeds(number, [&] { m_device.run(record); }))
+            {
+                m_octree->frameDone(frame);
+                if (m_failed.empty() || !m_octree->needsUpdate())
+                {
+                    break;
+                }
+                expectCells(m_cells); // it waits for memory
+                continue;
+            }
+            m_octree->frameLost();
+            if (!has_restarted && m_failed == "vkCreateShaderModule") // other things were made, which are kept: fewer
+            {                                                         // calls come before this
+                has_restarted = true;
+                number = 0;
+            }
+            EXPECT_EQ(std::pair(history.undoCount(), history.redoCount()), counts);
+            if (!seen.empty() || m_failed == "vkWaitForFences" || m_failed == "vkGetQueryPoolResults")
+            {
+                seen.push_back(cells());
+            }
+            else
+            {
+                expectCells(m_cells);
+            }
+        }
+        const std::vector<Cell> before = std::exchange(m_cells, cells());
+        for (const std::vector<Cell>& one : seen)
+        {
+            EXPECT_TRUE(one == before || one == m_cells);
+        }
+    }
+
+    vk::HeadlessDevice& m_device;
+    MoverScenery& m_scenery;
+    DynamicSetting m_setting;
+    std::function<void(std::uint64_t)> m_fail;
+    std::unique_ptr<DynamicOctree> m_octree;
+    std::map<MoverId, Item> m_items;
+    std::vector<Cell> m_cells; // that are shown
+    std::vector<Step> m_steps;
+    std::size_t m_current = 0; // of m_steps
+    std::string m_failed;
+    std::set<std::string> m_failed_functions;
+    std::uint64_t m_error_count = 0;
+    std::uint32_t m_dropped_count = 0;
+    std::uint32_t m_frame_count = 0;
+};
+
+void play(Session& session)
+{
+    const MoverId rigid = session.add(kRigid);
+    session.update();
+    const MoverId bent = session.add(kBent);
+    session.place(rigid, kApart);
+    session.update();
+    session.undo();
+    session.undo();
+    session.redo();
+    session.redo();
+    session.remove(bent);
+    session.update();
+    session.place(rigid, kRigid);
+    session.update();
+    session.remove(rigid);
+    session.update(); // shows the static octree
+    while (session.undoCount() != 0)
+    {
+        session.undo();
+    }
+}
+
+TEST(DynamicFailingCalls, EveryOneOfAFrameIsAnErrorAndTheOctreeGoesOn)
+{
+    test::failCall(UINT64_MAX);
+    test::countNames(false);
+    std::set<std::string> failed;
+    std::uint64_t error_count = 0;
+    {
+        vk::HeadlessDevice device(options(), zvoKernels());
+        const std::uint64_t used_before = device.device().memory().usedBytes();
+        for (const bool fails_on : {false, true})
+        {
+            SCOPED_TRACE(fails_on);
+            const auto fail = [&](std::uint64_t number) {
+                fails_on ? test::failAllFrom(number, VK_ERROR_DEVICE_LOST)
+                         : test::failCall(number, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+            };
+            MoverScenery scenery(device, true);
+            Session session(device, scenery, {.depth = 4, .minimal_capacities = true}, fail);
+            play(session);
+            failed.insert(session.failedFunctions().begin(), session.failedFunctions().end());
+            error_count += session.errorCount();
+        }
+        EXPECT_EQ(device.device().memory().usedBytes(), used_before);
+    }
+    EXPECT_TRUE(test::liveObjects().empty()) << test::liveObjects().front();
+    test::countNames(true);
+    EXPECT_GT(error_count, 500U);
+    for (const char* function :
+         {"vkAllocateMemory", "vkBeginCommandBuffer", "vkBindBufferMemory", "vkCreateBuffer",
+          "vkCreateComputePipelines", "vkCreatePipelineLayout", "vkCreateShaderModule", "vkEndCommandBuffer",
+          "vkGetQueryPoolResults", "vkQueueSubmit2", "vkResetCommandPool", "vkResetFences", "vkWaitForFences"})
+    {
+        EXPECT_TRUE(failed.contains(function)) << function;
+    }
+}
+
+} // namespace
+} // namespace zvo
