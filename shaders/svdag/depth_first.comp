@@ -9,12 +9,21 @@
 #include "svdag/candidate.glsl"
 
 layout(constant_id = 1) const bool kAboveLeaves = false; // the children are leaves
+layout(constant_id = 2) const bool kPacked = false;      // attributes are words
 
 layout(local_size_x = kSvdagGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     DepthFirstParams params;
 };
+
+void moveAttribute(uint from, uint to)
+{
+    if (kPacked)
+        uint_Ptr(uint64_t(params.to)).data[to] = uint_ConstPtr(uint64_t(params.from)).data[from];
+    else
+        params.to.data[to] = params.from.data[from];
+}
 
 void main()
 {
@@ -25,14 +34,14 @@ void main()
     Node node = params.nodes.data[self];
     uint count = childCount(node);
     uint rank = params.ranks.data[self];
-    params.to.data[rank] = params.from.data[self];
+    moveAttribute(self, rank);
     uint first_entry = params.first_entries.data[params.classes.data[self]];
     for (uint i = 0u; i < count; ++i)
     {
         uint child = childPlace(node, i);
         uint child_rank = rank + 1u + (kAboveLeaves ? i : params.before.data[first_entry + i].nodes);
         if (kAboveLeaves)
-            params.to.data[child_rank] = params.from.data[child];
+            moveAttribute(child, child_rank);
         else
             params.ranks.data[child] = child_rank;
     }

@@ -113,8 +113,8 @@ struct DepthFirstParams // push constants of svdag/depth_first
     GPU_CONST_PTR(uint) classes;
     GPU_CONST_PTR(uint) first_entries;
     GPU_CONST_PTR(BeforeChild) before;
-    GPU_CONST_PTR(Attribute) from; // [nodes of the octree] breadth first
-    GPU_PTR(Attribute) to;         // [nodes of the octree] depth first
+    GPU_CONST_PTR(Attribute) from; // [nodes of the octree] breadth first; words if they are packed
+    GPU_PTR(Attribute) to;         // [nodes of the octree] depth first, likewise
     GPU_PTR(uint) ranks;           // [nodes of the octree] in depth-first order; the level's are known
     uint first_node;
     uint node_count;

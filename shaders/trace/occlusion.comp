@@ -5,7 +5,7 @@
 // an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute.glsl"
+#include "lib/attribute_forms.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
@@ -13,7 +13,7 @@
 #include "lib/surface_normal.glsl"
 
 layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const bool kAttributes = true;
+layout(constant_id = 6) const uint kForm = kForm8; // of attributes
 layout(constant_id = 7) const bool kShadows = true; // trace/shadow has run
 
 layout(local_size_x = kTilePixels) in;
@@ -55,7 +55,7 @@ void main()
     vec3 direction = params.forward;
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
-    LitPoint point = litPoint(hit, direction, kAttributes, params.attributes, params.node_attributes);
+    LitPoint point = litPoint(hit, direction, kForm, params.attributes, params.node_attributes);
     mat3 frame = frameAround(point.normal);
     float end = isMiss(hit) ? 0.0 : params.radius;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));

@@ -4,7 +4,7 @@
 // Misses keep what is there (trace/sky).
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute.glsl"
+#include "lib/attribute_forms.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
@@ -15,7 +15,7 @@
 layout(constant_id = 0) const uint kView = kViewColor;
 layout(constant_id = 1) const uint kNodeLevels = 5u;
 layout(constant_id = 2) const bool kOrthographic = false;
-layout(constant_id = 3) const bool kAttributes = true;
+layout(constant_id = 3) const uint kForm = kForm8; // of attributes
 layout(constant_id = 4) const bool kEmission = false;
 layout(constant_id = 5) const bool kLight = true; // params.light was filled
 
@@ -36,24 +36,29 @@ struct Surface
     vec3 emission;
 };
 
+vec3 emissionAt(uint voxel)
+{
+    uvec2 word = params.emission_words.data[voxel >> 5];
+    uint bit = 1u << (voxel & 31u);
+    if ((word.x & bit) == 0u)
+        return vec3(0.0);
+    uint rank = word.y + bitCount(word.x & (bit - 1u));
+    return params.emission_scale * decodeRgb9e5(params.emission.data[rank]);
+}
+
 Surface surfaceAt(Hit hit, vec3 direction)
 {
     vec3 face_normal = faceNormal(hitFace(hit), direction);
     Surface surface = Surface(kPlainAlbedo, face_normal, vec3(0.0));
-    if (kAttributes && !isMiss(hit))
+    if (kForm != kFormNone && !isMiss(hit))
     {
         bool voxel = hitLevel(hit) == kNodeLevels;
-        uint64_t_ConstPtr words = uint64_t_ConstPtr(voxel ? uint64_t(params.attributes)
-                                                          : uint64_t(params.node_attributes));
-        uvec2 stored = unpackUint2x32(words.data[hit.index]);
-        surface.albedo = decodeSrgb(unpackUnorm4x8(stored.x).rgb);
-        surface.normal = shadingNormal(stored.y, face_normal, direction);
-        if (kEmission && voxel && ((stored.x >> 24) & kAttributeEmissive) != 0u)
-        {
-            uvec2 word = params.emission_words.data[hit.index >> 5];
-            uint rank = word.y + bitCount(word.x & ((1u << (hit.index & 31u)) - 1u));
-            surface.emission = params.emission_scale * decodeRgb9e5(params.emission.data[rank]);
-        }
+        Attribute stored = readAttribute(kForm, voxel, params.attributes, params.node_attributes, hit.index);
+        surface.albedo = decodeSrgb(unpackUnorm4x8(stored.color).rgb);
+        surface.normal = shadingNormal(stored.normal, face_normal, direction);
+        bool may_emit = kForm != kForm8 || ((stored.color >> 24) & kAttributeEmissive) != 0u;
+        if (kEmission && voxel && may_emit)
+            surface.emission = emissionAt(hit.index);
     }
     return surface;
 }

@@ -4,7 +4,7 @@
 // then, light holds the time of the last event, a float greater than all light.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute.glsl"
+#include "lib/attribute_forms.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
@@ -12,7 +12,7 @@
 #include "lib/surface_normal.glsl"
 
 layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const bool kAttributes = true;
+layout(constant_id = 6) const uint kForm = kForm8; // of attributes
 layout(constant_id = 7) const bool kContinue = false; // only rays that the round before left unfinished
 layout(constant_id = 8) const bool kMore = false;     // another round follows
 
@@ -52,7 +52,7 @@ void main()
     vec3 direction = params.forward;
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
-    LitPoint point = litPoint(hit, direction, kAttributes, params.attributes, params.node_attributes);
+    LitPoint point = litPoint(hit, direction, kForm, params.attributes, params.node_attributes);
     vec3 origin = point.origin + kLiftSun * point.edge * params.to_sun;
     bool faces_sun = !isMiss(hit) && dot(point.normal, params.to_sun) > 0.0;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));

@@ -209,7 +209,7 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(uvec2) live;
     GPU_CONST_PTR(Hit) hits;
-    GPU_CONST_PTR(Attribute) attributes;      // of voxels; kAttributes only
+    GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the form of kForm
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
@@ -259,7 +259,7 @@ struct ShadeParams // push constants of trace/shade
     GPU_CONST_PTR(uvec2) live;
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(uint) light;           // of trace/shadow and trace/occlusion; kViewIterations: the iterations
-    GPU_CONST_PTR(Attribute) attributes; // of voxels
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, as above
     GPU_CONST_PTR(Attribute) node_attributes;
     GPU_CONST_PTR(uvec2) emission_words;
     GPU_CONST_PTR(uint) emission;

@@ -23,6 +23,11 @@ BuildResult checked(BuildResult built, const DynamicOptions& options)
     {
         throw Error(ErrorCode::Usage, "dynamic updates need a frame in flight and a step of history at least");
     }
+    if (isPacked(built.octree.attributeForm()))
+    {
+        throw Error(ErrorCode::Usage,
+                    "movers can be merged only with attributes of 8 bytes: build the octree with them");
+    }
     const bool averages = built.octree.hasAttributes() && options.merge == MergeRule::Average;
     if (averages && built.sums.sums.count() != built.octree.voxel_count)
     {

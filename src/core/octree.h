@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/attribute_form.h"
 #include "core/grid.h"
 #include "shared/octree.h"
 #include "vk/buffer.h"
@@ -28,17 +29,24 @@ struct Octree
     std::vector<Level> levels; // grid.nodeLevels() of them; empty without voxels, or where nodes stand elsewhere
 
     vk::BufferOf<gpu::Node> nodes;                 // [node_count]
-    vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty without attributes
+    vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty
     vk::BufferOf<gpu::Attribute> node_attributes;  // [node_count], averages of what is below, or empty
+    PackedAttributes packed;                       // the same in another form, in place of both
     vk::BufferOf<gpu::uvec2> emission_words; // [ceil(voxel_count / 32)] bits of emissive voxels, rank of the first one
     vk::BufferOf<gpu::uint> emission;        // [emissive voxels] radiance / emission_scale as RGB9E5
     float emission_scale = 1.0F;
 
-    [[nodiscard]] bool hasAttributes() const { return voxel_attributes.count() != 0; }
+    [[nodiscard]] AttributeForm attributeForm() const
+    {
+        return voxel_attributes.count() != 0 ? AttributeForm::Bytes8 : packed.form;
+    }
+    [[nodiscard]] bool hasAttributes() const { return attributeForm() != AttributeForm::None; }
+    [[nodiscard]] bool hasNodeAttributes() const { return node_attributes.count() + packed.nodes.count() != 0; }
     [[nodiscard]] std::uint64_t geometryBytes() const { return std::uint64_t{node_count} * sizeof(gpu::Node); }
     [[nodiscard]] std::uint64_t attributeBytes() const
     {
-        return voxel_attributes.bytes() + node_attributes.bytes() + emission_words.bytes() + emission.bytes();
+        return voxel_attributes.bytes() + node_attributes.bytes() + packed.bytes() + emission_words.bytes() +
+               emission.bytes();
     }
 };
 

@@ -367,6 +367,8 @@ std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree)
     hashBuffer(device, sha, octree.nodes);
     hashBuffer(device, sha, octree.voxel_attributes);
     hashBuffer(device, sha, octree.node_attributes);
+    hashBuffer(device, sha, octree.packed.voxels);
+    hashBuffer(device, sha, octree.packed.nodes);
     hashBuffer(device, sha, octree.emission_words);
     hashBuffer(device, sha, octree.emission);
     return sha.hexDigest();

@@ -181,14 +181,23 @@ void orderDepthFirst(vk::FrameGraph& graph, const Octree& octree, ClassBuffers& 
     {
         const auto [first_node, node_count] = octree.levels[level];
         const bool above_leaves = level + 2 == octree.levels.size();
-        vk::Pass pass = graph.addPass("svdag/depth_first", {0U, above_leaves ? 1U : 0U});
+        const bool packed = isPacked(octree.attributeForm());
+        vk::Pass pass = graph.addPass("svdag/depth_first", {0U, above_leaves ? 1U : 0U, packed ? 1U : 0U});
         gpu::DepthFirstParams params{};
         params.nodes = pass.read(octree.nodes);
         params.classes = pass.read(classes.classes);
         params.first_entries = pass.read(classes.first_entries);
         params.before = pass.read(dag.before);
-        params.from = pass.read(octree.node_attributes);
-        params.to = pass.readWrite(dag.tree.node_attributes);
+        if (packed)
+        {
+            params.from = {pass.read(octree.packed.nodes).address};
+            params.to = {pass.readWrite(dag.tree.packed.nodes).address};
+        }
+        else
+        {
+            params.from = pass.read(octree.node_attributes);
+            params.to = pass.readWrite(dag.tree.node_attributes);
+        }
         params.ranks = pass.readWrite(ranks);
         params.first_node = first_node;
         params.node_count = node_count;
@@ -222,6 +231,8 @@ void moveVoxels(Octree& from, Octree& to)
     to.grid = from.grid;
     to.voxel_count = from.voxel_count;
     to.voxel_attributes = std::move(from.voxel_attributes);
+    to.packed.form = from.packed.form;
+    to.packed.voxels = std::move(from.packed.voxels);
     to.emission_words = std::move(from.emission_words);
     to.emission = std::move(from.emission);
     to.emission_scale = from.emission_scale;
@@ -261,10 +272,12 @@ CompressResult compress(vk::HeadlessDevice& device, Octree octree, const Compres
         if (octree.levels.size() < 2) // one node
         {
             dag.tree.node_attributes = std::move(octree.node_attributes);
+            dag.tree.packed.nodes = std::move(octree.packed.nodes);
         }
         else if (octree.hasAttributes())
         {
-            dag.tree.node_attributes = {device.device(), "svdag/node_attributes", octree.node_count};
+            dag.tree.node_attributes = {device.device(), "svdag/node_attributes", octree.node_attributes.count()};
+            dag.tree.packed.nodes = {device.device(), "packed node attributes", octree.packed.nodes.count()};
             append(result.passes,
                    device.run([&](vk::FrameGraph& graph) { orderDepthFirst(graph, octree, classes.buffers, dag); }));
         }
@@ -285,6 +298,7 @@ CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOpt
     }
     moveVoxels(dag.tree, result.dag.tree);
     result.dag.tree.node_attributes = std::move(dag.tree.node_attributes);
+    result.dag.tree.packed.nodes = std::move(dag.tree.packed.nodes);
     return result;
 }
 

@@ -66,7 +66,26 @@ bool standsByLevels(const TreeView& tree)
 // Attributes for every hit that can occur.
 bool usesAttributes(const Octree& octree, const TraceOptions& options)
 {
-    return octree.hasAttributes() && (!options.hasDetail() || octree.node_attributes.count() != 0);
+    return octree.hasAttributes() && (!options.hasDetail() || octree.hasNodeAttributes());
+}
+
+// The form in which kernels read attributes; None: they need not.
+std::uint32_t formToRead(const Octree& octree, const TraceOptions& options)
+{
+    return static_cast<std::uint32_t>(usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None);
+}
+
+// Attributes, whatever their form.
+template <typename Params> void readAttributes(vk::Pass& pass, const Octree& octree, Params& params)
+{
+    if (isPacked(octree.attributeForm()))
+    {
+        params.attributes = {pass.read(octree.packed.voxels).address};
+        params.node_attributes = {pass.read(octree.packed.nodes).address};
+        return;
+    }
+    params.attributes = pass.read(octree.voxel_attributes);
+    params.node_attributes = pass.read(octree.node_attributes);
 }
 
 bool showsAttributes(const TraceOptions& options)
@@ -79,6 +98,12 @@ vk::Specialization traverseConstants(const TreeView& tree, const TraceOptions& o
 {
     return {tree.octree().grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), options.hasDetail() ? 1U : 0U,
             options.steps_max, tree.entriesPerWord()};
+}
+
+vk::Specialization withConstants(vk::Specialization constants, std::initializer_list<std::uint32_t> more)
+{
+    constants.insert(constants.end(), more.begin(), more.end());
+    return constants;
 }
 
 vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more)
@@ -190,8 +215,7 @@ Params lightParams(vk::Pass& pass, const Octree& octree, const TraceCamera& came
     params.nodes = pass.read(octree.nodes);
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
-    params.attributes = pass.read(octree.voxel_attributes);
-    params.node_attributes = pass.read(octree.node_attributes);
+    readAttributes(pass, octree, params);
     params.status = pass.readWrite(buffers.status);
     params.forward = camera.rays.forward;
     params.step_x = camera.rays.step_x;
@@ -364,7 +388,7 @@ void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& 
 {
     const Octree& octree = tree.octree();
     const vk::Specialization constants =
-        withFlags(traverseConstants(tree, options), {camera.orthographic, usesAttributes(octree, options)});
+        withConstants(traverseConstants(tree, options), {camera.orthographic ? 1U : 0U, formToRead(octree, options)});
     if (options.shadows)
     {
         const gpu::vec3 to_sun = sunDirection(options);
@@ -416,18 +440,16 @@ void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camer
     {
         graph.fill(buffers.image, kBlack);
     }
-    const bool attributes = usesAttributes(octree, options);
-    const vk::Specialization constants =
-        withFlags({static_cast<std::uint32_t>(options.view), octree.grid.nodeLevels()},
-                  {camera.orthographic, attributes, attributes && octree.emission.count() != 0,
-                   needsLight(options) || options.view == View::Iterations});
+    const vk::Specialization constants = withFlags({static_cast<std::uint32_t>(options.view), octree.grid.nodeLevels(),
+                                                    camera.orthographic ? 1U : 0U, formToRead(octree, options)},
+                                                   {usesAttributes(octree, options) && octree.emission.count() != 0,
+                                                    needsLight(options) || options.view == View::Iterations});
     vk::Pass pass = graph.addPass("trace/shade", constants);
     gpu::ShadeParams params{};
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
     params.light = pass.read(buffers.light);
-    params.attributes = pass.read(octree.voxel_attributes);
-    params.node_attributes = pass.read(octree.node_attributes);
+    readAttributes(pass, octree, params);
     params.emission_words = pass.read(octree.emission_words);
     params.emission = pass.read(octree.emission);
     params.image = pass.readWrite(buffers.image);

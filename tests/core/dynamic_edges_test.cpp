@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Dynamic updates at their limits: a result that is defined, or an error that says what is wrong.
+#include "core/attribute_pack.h"
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
 #include "support/device.h"
@@ -449,6 +450,13 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
     other.merge = MergeRule::DynamicWins; // keeps no sums
     expectError(ErrorCode::Usage, "sums were kept",
                 [&] { DynamicOctree(device(), world.scenery().buildStatic(other), setting.options(scale)); });
+    expectError(ErrorCode::Usage, "attributes of 8 bytes",
+                [&]
+                {
+                    BuildResult built = world.scenery().buildStatic(setting);
+                    packTree(device(), AttributeForm::Bytes4, built.octree);
+                    DynamicOctree(device(), std::move(built), setting.options(scale));
+                });
 }
 
 TEST(DynamicEdges, MoreUpdatesThanFramesInFlightAreRefused)

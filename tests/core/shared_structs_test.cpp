@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Structs that C++ and GLSL share lie in memory alike.
+#include "attributes/attributes.h"
 #include "core/kernels.h"
 #include "deform/deform.h"
 #include "octree/octree.h"

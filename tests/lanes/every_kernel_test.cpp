@@ -2,6 +2,7 @@
 // Every kernel of the library, run once on work so small that a tool which slows programs down a hundredfold can watch:
 // valgrind, instrumented kernels, poisoned memory.
 #include "core/animation.h"
+#include "core/attribute_pack.h"
 #include "core/deform_mesh.h"
 #include "core/dynamic_octree.h"
 #include "core/grid.h"
@@ -223,6 +224,16 @@ Names compressOctree(Octree octree, const CompressOptions& options)
     return names;
 }
 
+// Pictures of the octree with its attributes in fewer bytes. Pictures are there in all forms.
+Names tracePacked(BuildResult built, AttributeForm form)
+{
+    Names names;
+    addNames(names, packTree(device(), form, built.octree));
+    EXPECT_EQ(built.octree.attributeForm(), form);
+    names.merge(tracePictures(built.octree));
+    return names;
+}
+
 // The same DAG, joined of eight tiles.
 Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const Octree& octree)
 {
@@ -274,6 +285,7 @@ TEST(EveryKernel, RunsOnASmallScene)
             names.merge(mergeMovers(scene, grid, c.coverage));
             names.merge(tracePictures(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
+            names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), AttributeForm::Bytes4));
         }
         if (c.depth == 7)
         {

@@ -34,10 +34,10 @@ std::string numbersOf(const Svdag& dag)
     const Octree& tree = dag.tree;
     std::string text = fmt::format(
         "depth {} origin {} {} {} voxels of {}, {} voxels, {} nodes for {}, {} entries, {} long, emission of "
-        "{}, levels:",
+        "{}, attributes {}, levels:",
         tree.grid.depth, tree.grid.origin.x, tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size,
         tree.voxel_count, tree.node_count, dag.octree_node_count, dag.entry_count, dag.long_entry_count,
-        tree.emission_scale);
+        tree.emission_scale, formName(tree.attributeForm()));
     for (const Octree::Level& level : tree.levels)
     {
         text += fmt::format(" {}+{}", level.first_node, level.node_count);
@@ -61,6 +61,8 @@ std::string difference(vk::HeadlessDevice& device, const Svdag& actual, const Sv
           bufferDifference(device, actual.voxels_before_leaf, expected.voxels_before_leaf, "words of short entries"),
           bufferDifference(device, a.voxel_attributes, b.voxel_attributes, "voxel attributes"),
           bufferDifference(device, a.node_attributes, b.node_attributes, "node attributes"),
+          bufferDifference(device, a.packed.voxels, b.packed.voxels, "words of packed voxel attributes"),
+          bufferDifference(device, a.packed.nodes, b.packed.nodes, "words of packed node attributes"),
           bufferDifference(device, a.emission_words, b.emission_words, "emission words"),
           bufferDifference(device, a.emission, b.emission, "emissions")})
     {

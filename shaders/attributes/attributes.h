@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What the kernels that pack attributes share with the host (docs/attributes.md).
+#ifndef ZVO_SHADERS_ATTRIBUTES_ATTRIBUTES_H
+#define ZVO_SHADERS_ATTRIBUTES_ATTRIBUTES_H
+
+#include "shared/attribute_forms.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kPackGroup = 64u; // threads of a workgroup, one an attribute
+
+struct PackWordsParams // push constants of attributes/pack4
+{
+    GPU_CONST_PTR(Attribute) attributes; // [count]
+    GPU_PTR(uint) words;                 // [count]
+    uint count;
+};
+
+GPU_NAMESPACE_END
+
+#endif

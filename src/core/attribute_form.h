@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Forms in which trees store what their voxels and nodes look like (docs/attributes.md).
+#pragma once
+
+#include "shared/attribute_forms.h"
+#include "vk/buffer.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace zvo
+{
+
+/// How attributes are stored.
+enum class AttributeForm : std::uint32_t
+{
+    None = gpu::kFormNone, ///< voxels look all alike
+    Bytes4 = gpu::kForm4,  ///< colours of 16 bits, normals of 16
+    Bytes8 = gpu::kForm8,  ///< gpu::Attribute, as they are made
+};
+
+/// As options and messages call it: "none", "4", "8".
+const char* formName(AttributeForm form);
+
+/// Whether attributes in that form are words that a kernel packed: of fewer bytes than gpu::Attribute.
+constexpr bool isPacked(AttributeForm form)
+{
+    return form != AttributeForm::None && form != AttributeForm::Bytes8;
+}
+
+/// 32-bit words of count attributes in a packed form.
+std::uint64_t packedWords(AttributeForm form, std::uint64_t count);
+
+/// The index-th of attributes that were packed into words. It has no flags.
+gpu::Attribute unpackAttribute(AttributeForm form, std::span<const gpu::uint> words, std::uint64_t index);
+
+/// Attributes in a packed form, in device memory.
+struct PackedAttributes
+{
+    AttributeForm form = AttributeForm::None; // of voxels; None: there are none
+    vk::BufferOf<gpu::uint> voxels;           // [packedWords(form, voxels)]
+    vk::BufferOf<gpu::uint> nodes;            // [packedWords(form, nodes)]
+
+    [[nodiscard]] std::uint64_t bytes() const { return voxels.bytes() + nodes.bytes(); }
+};
+
+/// The same in the host's memory.
+struct PackedWords
+{
+    AttributeForm form = AttributeForm::None;
+    std::vector<gpu::uint> voxels;
+    std::vector<gpu::uint> nodes;
+};
+
+} // namespace zvo
