@@ -106,7 +106,7 @@ void writePly(const TreeData& tree, Output& output)
                      append(pieces.bytes(), voxelCentre(tree.grid, code));
                      if (tree.hasAttributes())
                      {
-                         appendAttribute(pieces.bytes(), tree.voxel_attributes[voxel]);
+                         appendAttribute(pieces.bytes(), tree.voxelAttribute(voxel));
                      }
                      ++voxel;
                      pieces.endVoxel();

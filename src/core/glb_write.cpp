@@ -80,7 +80,7 @@ std::vector<Face> facesOf(const TreeData& tree, const Side& side)
                      if (!hasVoxel(tree, neighbour))
                      {
                          const std::uint32_t color =
-                             tree.hasAttributes() ? tree.voxel_attributes[voxel].color & kColorMask : kPlainColor;
+                             tree.hasAttributes() ? tree.voxelAttribute(voxel).color & kColorMask : kPlainColor;
                          faces.push_back({Face::keyOf(static_cast<std::uint32_t>(cell[side.axis]),
                                                       static_cast<std::uint32_t>(cell[side.v()]),
                                                       static_cast<std::uint32_t>(cell[side.u()])),

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 #include <utility>
 
 namespace zvo
@@ -16,9 +17,11 @@ namespace
 
 using Fault = std::optional<std::string>;
 
-constexpr std::uint32_t kFlagShift = 24;         // of Attribute::color
-constexpr std::uint32_t kVoxelsOfWord = 32;      // of emission_words
-constexpr std::uint32_t kLowerOctant = 0xffU;    // of Node::mask_lo
+constexpr std::uint32_t kFlagShift = 24;      // of Attribute::color
+constexpr std::uint32_t kVoxelsOfWord = 32;   // of emission_words
+constexpr std::uint32_t kLowerOctant = 0xffU; // of Node::mask_lo
+constexpr std::uint32_t kByteMask = 0xffU;
+constexpr std::uint32_t kBelowMinusOne = 0x80U;  // as a snorm8
 constexpr std::uint32_t kHalfWordMask = 0xffffU; // of voxels_before_leaf
 
 std::uint32_t cellCount(const gpu::Node& node)
@@ -274,6 +277,46 @@ Fault checkDagCounts(const TreeData& tree)
     return std::nullopt;
 }
 
+// Normals have no snorm8 below -1.
+Fault checkWords4(std::span<const gpu::uint> words, const char* whose)
+{
+    for (std::size_t i = 0; i < words.size(); ++i)
+    {
+        const std::uint32_t normal = words[i] >> gpu::kNormalShift4;
+        if ((normal & kByteMask) == kBelowMinusOne || normal >> 8 == kBelowMinusOne)
+        {
+            return fmt::format("attribute {} of the {} has a normal outside of the unit square", i, whose);
+        }
+    }
+    return std::nullopt;
+}
+
+Fault checkPacked(const TreeData& tree)
+{
+    const PackedWords& packed = tree.packed;
+    const bool is_packed = packed.form == AttributeForm::Bytes4;
+    if (!is_packed && packed.form != AttributeForm::None)
+    {
+        return "the attributes have an unknown form";
+    }
+    if (is_packed && (!tree.voxel_attributes.empty() || !tree.node_attributes.empty()))
+    {
+        return "there are attributes in two forms";
+    }
+    const std::uint64_t voxel_words = is_packed ? packedWords(packed.form, tree.voxel_count) : 0;
+    const std::uint64_t node_words = is_packed ? packedWords(packed.form, tree.octree_node_count) : 0;
+    if (packed.voxels.size() != voxel_words || packed.nodes.size() != node_words)
+    {
+        return fmt::format("packed attributes of voxels and nodes take {} and {} words, where they must take {} and {}",
+                           packed.voxels.size(), packed.nodes.size(), voxel_words, node_words);
+    }
+    if (Fault fault = checkWords4(packed.voxels, "voxels"))
+    {
+        return fault;
+    }
+    return checkWords4(packed.nodes, "nodes");
+}
+
 Fault checkAttributes(const TreeData& tree)
 {
     const std::size_t voxels = tree.voxel_attributes.empty() ? 0 : tree.voxel_count;
@@ -401,6 +444,10 @@ std::optional<std::string> checkTree(const TreeData& tree)
         return fault;
     }
     if (Fault fault = checkAttributes(tree))
+    {
+        return fault;
+    }
+    if (Fault fault = checkPacked(tree))
     {
         return fault;
     }

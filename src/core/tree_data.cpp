@@ -39,6 +39,7 @@ TreeData downloadCommon(vk::HeadlessDevice& device, const Octree& octree)
     tree.nodes = device.download(octree.nodes, 0, octree.node_count);
     tree.voxel_attributes = device.download(octree.voxel_attributes);
     tree.node_attributes = device.download(octree.node_attributes);
+    tree.packed = {octree.packed.form, device.download(octree.packed.voxels), device.download(octree.packed.nodes)};
     tree.emission_words = device.download(octree.emission_words);
     tree.emission = device.download(octree.emission);
     tree.emission_scale = octree.emission_scale;
@@ -60,6 +61,8 @@ Octree uploadCommon(vk::HeadlessDevice& device, const TreeData& tree)
     octree.levels = tree.levels;
     octree.voxel_attributes = uploadVector(device, "octree/voxel_attributes", tree.voxel_attributes);
     octree.node_attributes = uploadVector(device, "octree/node_attributes", tree.node_attributes);
+    octree.packed = {tree.packed.form, uploadVector(device, "packed voxel attributes", tree.packed.voxels),
+                     uploadVector(device, "packed node attributes", tree.packed.nodes)};
     octree.emission_words = uploadVector(device, "octree/emission_words", tree.emission_words);
     octree.emission = uploadVector(device, "octree/emission", tree.emission);
     octree.emission_scale = tree.emission_scale;
@@ -95,8 +98,8 @@ std::uint64_t TreeData::rankBytes() const
 
 std::uint64_t TreeData::attributeBytes() const
 {
-    return rankBytes() + bytesOf(voxel_attributes) + bytesOf(node_attributes) + bytesOf(emission_words) +
-           bytesOf(emission);
+    return rankBytes() + bytesOf(voxel_attributes) + bytesOf(node_attributes) + bytesOf(packed.voxels) +
+           bytesOf(packed.nodes) + bytesOf(emission_words) + bytesOf(emission);
 }
 
 TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree)

@@ -26,7 +26,7 @@ constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without 
 
 std::uint32_t colorOf(const TreeData& tree, std::size_t voxel)
 {
-    return tree.hasAttributes() ? tree.voxel_attributes[voxel].color & (kColorCount - 1) : kPlainColor;
+    return tree.hasAttributes() ? tree.voxelAttribute(voxel).color & (kColorCount - 1) : kPlainColor;
 }
 
 // zvo's cell as MagicaVoxel's voxel.

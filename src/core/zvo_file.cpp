@@ -33,7 +33,9 @@ struct Content
     std::span<const std::byte> bytes;
 };
 
-template <typename T> void addContent(std::vector<Content>& contents, ZvoSectionId id, const std::vector<T>& values)
+template <typename T>
+void addContent(std::vector<Content>& contents, ZvoSectionId id, const std::vector<T>& values,
+                ZvoFormat format = ZvoFormat::Plain)
 {
     if (values.empty())
     {
@@ -42,7 +44,7 @@ template <typename T> void addContent(std::vector<Content>& contents, ZvoSection
     Content& content = contents.emplace_back();
     content.bytes = std::as_bytes(std::span(values));
     content.section.id = static_cast<std::uint32_t>(id);
-    content.section.format = static_cast<std::uint32_t>(ZvoFormat::Plain);
+    content.section.format = static_cast<std::uint32_t>(format);
     content.section.flags = kZvoMustUnderstand;
     content.section.bytes = content.bytes.size();
     content.section.count = values.size();
@@ -137,7 +139,9 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     addContent(contents, ZvoSectionId::Before, tree.before);
     addContent(contents, ZvoSectionId::VoxelsBeforeLeaf, tree.voxels_before_leaf);
     addContent(contents, ZvoSectionId::VoxelAttributes, tree.voxel_attributes);
+    addContent(contents, ZvoSectionId::VoxelAttributes, tree.packed.voxels, ZvoFormat::Attributes4);
     addContent(contents, ZvoSectionId::NodeAttributes, tree.node_attributes);
+    addContent(contents, ZvoSectionId::NodeAttributes, tree.packed.nodes, ZvoFormat::Attributes4);
     addContent(contents, ZvoSectionId::EmissionWords, tree.emission_words);
     addContent(contents, ZvoSectionId::Emission, tree.emission);
 

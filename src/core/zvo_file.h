@@ -43,10 +43,11 @@ enum class ZvoSectionId : std::uint32_t
     Emission = 9,         ///< RGB9E5
 };
 
-/// The form of a section's elements. Others than Plain are for attributes alone; 2 (4 bytes) and 3 (blocks) are taken.
+/// The form of a section's elements. Others than Plain are for attributes alone; 3 (blocks) is taken.
 enum class ZvoFormat : std::uint32_t
 {
-    Plain = 1, ///< as in device memory; attributes: gpu::Attribute, 8 bytes
+    Plain = 1,       ///< as in device memory; attributes: gpu::Attribute, 8 bytes
+    Attributes4 = 2, ///< a word each (shared/attribute_forms.h)
 };
 
 /// Flag of a section: who does not know its id or format must refuse the file.

@@ -287,9 +287,9 @@ private:
         case ZvoSectionId::VoxelsBeforeLeaf:
             return readArray(section, tree.voxels_before_leaf, divideUp(short_count, 2));
         case ZvoSectionId::VoxelAttributes:
-            return readArray(section, tree.voxel_attributes, header.voxel_count);
+            return readVoxelAttributes(section);
         case ZvoSectionId::NodeAttributes:
-            return readArray(section, tree.node_attributes, header.octree_node_count);
+            return readNodeAttributes(section);
         case ZvoSectionId::EmissionWords:
             return readArray(section, tree.emission_words, divideUp(header.voxel_count, 32));
         case ZvoSectionId::Emission:
@@ -326,10 +326,40 @@ private:
         }
     }
 
-    template <typename T> void readArray(const ZvoSection& section, std::vector<T>& target, std::uint64_t count)
+    void readVoxelAttributes(const ZvoSection& section)
+    {
+        TreeData& tree = m_file.tree;
+        if (section.format != static_cast<std::uint32_t>(ZvoFormat::Attributes4))
+        {
+            return readArray(section, tree.voxel_attributes, m_file.header.voxel_count);
+        }
+        tree.packed.form = AttributeForm::Bytes4;
+        readArray(section, tree.packed.voxels, m_file.header.voxel_count, ZvoFormat::Attributes4);
+    }
+
+    // Voxels, whose section comes first, say in which form nodes are.
+    void readNodeAttributes(const ZvoSection& section)
+    {
+        TreeData& tree = m_file.tree;
+        const bool packed = isPacked(tree.packed.form);
+        const ZvoFormat format = packed ? ZvoFormat::Attributes4 : ZvoFormat::Plain;
+        const bool is_known = section.format == static_cast<std::uint32_t>(ZvoFormat::Plain) ||
+                              section.format == static_cast<std::uint32_t>(ZvoFormat::Attributes4);
+        if (is_known && section.format != static_cast<std::uint32_t>(format))
+        {
+            fail(fmt::format("attributes of nodes have format {}, which does not go with that of voxels; {}",
+                             section.format, kExportAgain));
+        }
+        const std::uint64_t count = m_file.header.octree_node_count;
+        packed ? readArray(section, tree.packed.nodes, count, format) : readArray(section, tree.node_attributes, count);
+    }
+
+    template <typename T>
+    void readArray(const ZvoSection& section, std::vector<T>& target, std::uint64_t count,
+                   ZvoFormat format = ZvoFormat::Plain)
     {
         const std::string name = sectionName(section.id);
-        if (section.format != static_cast<std::uint32_t>(ZvoFormat::Plain))
+        if (section.format != static_cast<std::uint32_t>(format))
         {
             fail(fmt::format("{} have format {}, unknown to this version; use a newer zvo", name, section.format));
         }

@@ -50,7 +50,7 @@ std::map<Face, std::uint32_t> expectedFaces(const TreeData& tree)
                  {
                      const glm::ivec3 cell(cellOfCode(code));
                      voxels[{cell.x, cell.y, cell.z}] =
-                         tree.hasAttributes() ? tree.voxel_attributes[number].color & 0xffffffU : 0xcbcbcbU;
+                         tree.hasAttributes() ? tree.voxelAttribute(number).color & 0xffffffU : 0xcbcbcbU;
                      ++number;
                  });
     std::map<Face, std::uint32_t> faces;

@@ -251,13 +251,13 @@ TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColours)
         forEachVoxel(sample.tree, [&codes](std::uint64_t code) { codes.push_back(code); });
         EXPECT_EQ(back.codes, codes) << sample.name;
         std::map<std::uint32_t, std::uint32_t> used;
-        for (const gpu::Attribute& attribute : sample.tree.voxel_attributes)
+        for (std::size_t i = 0; i < codes.size() && sample.tree.hasAttributes(); ++i)
         {
-            ++used[attribute.color & 0xffffffU];
+            ++used[sample.tree.voxelAttribute(i).color & 0xffffffU];
         }
         for (std::size_t i = 0; i < codes.size() && used.size() <= 255; ++i)
         {
-            const std::uint32_t expected = used.empty() ? 0xcbcbcbU : sample.tree.voxel_attributes[i].color & 0xffffffU;
+            const std::uint32_t expected = used.empty() ? 0xcbcbcbU : sample.tree.voxelAttribute(i).color & 0xffffffU;
             ASSERT_EQ(back.colors[i], expected) << sample.name;
         }
     }

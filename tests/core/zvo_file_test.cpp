@@ -121,7 +121,8 @@ TEST(ZvoFile, BytesStandWhereTheDocumentSays)
 
 TEST(ZvoFile, EveryChangeOfAByteIsRefused)
 {
-    for (const char* const name : {"random_3_with_attributes", "random_3_with_attributes_dag", "one_voxel", "nothing"})
+    for (const char* const name : {"random_3_with_attributes", "random_3_with_attributes_dag",
+                                   "random_3_with_attributes_4", "one_voxel", "nothing"})
     {
         const Bytes file = zvoBytes(sampleNamed(name));
         for (std::size_t i = 0; i < file.size(); ++i)
@@ -290,7 +291,16 @@ const std::vector<FileFault>& fileFaults()
          "section table does not match its checksum"},
         {"SectionIdZero", set(entryAt(0, 0), 0U), "stands behind"},
         {"SectionsOutOfOrder", set(entryAt(2, 0), 2U), "nodes stands behind nodes"},
-        {"SectionFormat", set(entryAt(5, 4), 2U), "attributes of voxels have format 2"},
+        {"SectionFormat", set(entryAt(5, 4), 4U), "attributes of voxels have format 4, unknown"},
+        {"SectionFormatOfNodes", set(entryAt(1, 4), 2U), "nodes have format 2, unknown"},
+        {"SectionFormatOfOtherAttributes", set(entryAt(5, 4), 2U), "attributes of voxels take"},
+        {"SectionFormatsDiffer", set(entryAt(6, 4), 2U), "format 2, which does not go with that of voxels"},
+        {"SectionFormatsDifferToo", set(entryAt(6, 4), 1U), "format 1, which does not go with that of voxels",
+         "random_5_with_attributes_4_dag"},
+        {"NoPackedVoxelAttributes", withoutSection(ZvoSectionId::VoxelAttributes), "format 2, which does not go with",
+         "random_5_with_attributes_4"},
+        {"NoPackedNodeAttributes", withoutSection(ZvoSectionId::NodeAttributes), "and 0 words",
+         "random_5_with_attributes_4"},
         {"SectionFlags", set(entryAt(1, 8), 0U), "flags or reserved bytes of nodes"},
         {"SectionReserved", set(entryAt(1, 12), 1U), "flags or reserved bytes of nodes"},
         {"SectionOffset", set<std::uint64_t>(entryAt(1, 16), 64), "nodes starts at byte 64"},

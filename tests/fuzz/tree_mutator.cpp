@@ -78,7 +78,8 @@ TreeData soundTree(std::mt19937& random)
     {
         addAttributes(tree);
     }
-    return random() % 2 == 0 ? tree : dagOf(tree);
+    tree = random() % 2 == 0 ? tree : dagOf(tree);
+    return tree.hasAttributes() && random() % 2 == 0 ? packedTree(tree, AttributeForm::Bytes4) : tree;
 }
 
 void changeSections(ZvoParts& parts, std::mt19937& random)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/tree_samples.h"
 
+#include "oracle/attribute_forms.h"
 #include "oracle/octree_check.h"
 
 #include <algorithm>
@@ -129,6 +130,23 @@ void addAttributes(TreeData& octree)
     octree.emission_scale = 2.5F;
 }
 
+TreeData packedTree(const TreeData& tree, AttributeForm form)
+{
+    TreeData packed = tree;
+    packed.packed.form = form;
+    for (const gpu::Attribute& attribute : tree.voxel_attributes)
+    {
+        packed.packed.voxels.push_back(oracle::packAttribute4(attribute));
+    }
+    for (const gpu::Attribute& attribute : tree.node_attributes)
+    {
+        packed.packed.nodes.push_back(oracle::packAttribute4(attribute));
+    }
+    packed.voxel_attributes.clear();
+    packed.node_attributes.clear();
+    return packed;
+}
+
 TreeData dagOf(const TreeData& octree)
 {
     TreeData dag = octree;
@@ -209,6 +227,15 @@ std::vector<TreeSample> treeSamples()
             samples.push_back({name + "_with_attributes", octree});
             samples.push_back({name + "_with_attributes_dag", dagOf(octree)});
         }
+        if (name == "one_voxel" || name == "random_3" || name == "random_5")
+        {
+            for (const AttributeForm form : {AttributeForm::Bytes4})
+            {
+                const std::string packed_name = name + "_with_attributes_" + formName(form);
+                samples.push_back({packed_name, packedTree(octree, form)});
+                samples.push_back({packed_name + "_dag", packedTree(dagOf(octree), form)});
+            }
+        }
     };
     add("nothing", {}, 5);
     add("one_voxel", {0}, 1);
@@ -259,6 +286,9 @@ std::string treeDifference(const TreeData& actual, const TreeData& expected)
         {"voxels before leaf", actual.voxels_before_leaf == expected.voxels_before_leaf},
         {"voxel attributes", sameBytes(actual.voxel_attributes, expected.voxel_attributes)},
         {"node attributes", sameBytes(actual.node_attributes, expected.node_attributes)},
+        {"form of attributes", actual.attributeForm() == expected.attributeForm()},
+        {"packed voxel attributes", actual.packed.voxels == expected.packed.voxels},
+        {"packed node attributes", actual.packed.nodes == expected.packed.nodes},
         {"emission words", sameBytes(actual.emission_words, expected.emission_words)},
         {"emission", actual.emission == expected.emission},
         {"emission scale", actual.emission_scale == expected.emission_scale},

@@ -18,6 +18,9 @@ TreeData octreeOf(std::span<const std::uint64_t> codes, std::uint32_t depth);
 /// Gives all voxels and nodes of an octree arbitrary attributes, and one voxel in seven emission.
 void addAttributes(TreeData& octree);
 
+/// The same tree with its attributes in a packed form.
+TreeData packedTree(const TreeData& tree, AttributeForm form);
+
 /// The same tree with equal subtrees as one.
 TreeData dagOf(const TreeData& octree);
 
@@ -28,7 +31,7 @@ struct TreeSample
 };
 
 /// Octrees and DAGs, with attributes and without: of no voxel, of one, full ones, regular and random ones; depths 1
-/// to 6.
+/// to 6. Some also with packed attributes, named "..._with_attributes_4" and so on.
 std::vector<TreeSample> treeSamples();
 
 /// What tells two trees apart, or "" for none.
