@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "build.h"
 
+#include "core/attribute_pack.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
@@ -45,17 +46,19 @@ struct Built
     std::uint32_t tile_count = 1;
 };
 
-Built buildSvo(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const VoxelOptions& options)
+Built buildSvo(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const BuildFileOptions& options)
 {
-    BuildResult result = buildOctree(device, scene, grid, {options.coverage, options.attributes, {}});
+    BuildResult result = buildOctree(device, scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
+    const std::vector<vk::PassTime> packing = packTree(device, options.attributes, result.octree);
+    result.passes.insert(result.passes.end(), packing.begin(), packing.end());
     return {downloadTree(device, result.octree), std::move(result.dropped), std::move(result.passes),
             result.retry_count};
 }
 
-Built buildSvdag(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const VoxelOptions& options,
+Built buildSvdag(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const BuildFileOptions& options,
                  Progress& progress)
 {
-    TiledOptions tiled{.coverage = options.coverage, .attributes = options.attributes};
+    TiledOptions tiled{.coverage = options.voxels.coverage, .attributes = options.attributes};
     tiled.progress = [&](double done) { progress.within(done); };
     TiledResult result = buildByTiles(device, scene, grid, tiled);
     return {std::move(result.tree), std::move(result.dropped), std::move(result.passes), result.retry_count,
@@ -74,6 +77,7 @@ Json builtJson(vk::HeadlessDevice& device, const BuildFileOptions& options, std:
     Json json = headJson("zvo.build/1", device.device().report(), options.voxels, tree.grid);
     json["scene"] = {{"triangles", triangle_count}, {"dropped", dropped}};
     json["structure"] = structureName(tree.structure);
+    json["attribute_form"] = formName(tree.attributeForm());
     json["voxels"] = tree.voxel_count;
     json["nodes"] = tree.octree_node_count;
     json["nodes_stored"] = tree.nodes.size();
@@ -88,6 +92,7 @@ Json builtJson(vk::HeadlessDevice& device, const BuildFileOptions& options, std:
     json["build_ms"] = operationMs(built.passes, "octree");
     json["compress_ms"] =
         tree.structure == TreeStructure::Svdag ? Json(operationMs(built.passes, "svdag")) : Json(nullptr);
+    json["pack_ms"] = isPacked(options.attributes) ? Json(operationMs(built.passes, "attributes")) : Json(nullptr);
     json["trace_ms"] = nullptr;
     return json;
 }
@@ -117,8 +122,8 @@ void buildFile(const BuildFileOptions& options)
 
     progress.step("building");
     const bool is_dag = options.structure == TreeStructure::Svdag;
-    const Built built = is_dag ? buildSvdag(device, *gpu_scene, grid, options.voxels, progress)
-                               : buildSvo(device, *gpu_scene, grid, options.voxels);
+    const Built built =
+        is_dag ? buildSvdag(device, *gpu_scene, grid, options, progress) : buildSvo(device, *gpu_scene, grid, options);
     gpu_scene.reset();
     warnOfDropped(built.tree.voxel_count, built.dropped);
 
@@ -135,13 +140,14 @@ void buildFile(const BuildFileOptions& options)
     {
         report->finish();
     }
-    talk(fmt::format("{} voxels of {}^3 from {} triangles; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, "
-                     "build {:.1f} ms{} on {}",
-                     built.tree.voxel_count, grid.resolution(), triangle_count, built.tree.geometryBytes(),
-                     built.tree.attributeBytes(), operationMs(built.passes, "voxelize"),
-                     operationMs(built.passes, "octree"),
-                     is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
-                     device.device().report().name));
+    talk(fmt::format(
+        "{} voxels of {}^3 from {} triangles; {} bytes of nodes, {} of attributes; voxelize {:.1f} ms, "
+        "build {:.1f} ms{}{} on {}",
+        built.tree.voxel_count, grid.resolution(), triangle_count, built.tree.geometryBytes(),
+        built.tree.attributeBytes(), operationMs(built.passes, "voxelize"), operationMs(built.passes, "octree"),
+        is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
+        isPacked(options.attributes) ? fmt::format(", pack {:.1f} ms", operationMs(built.passes, "attributes")) : "",
+        device.device().report().name));
 }
 
 } // namespace zvo::cli

@@ -83,6 +83,18 @@ Json inspectJson(const TreeData& tree, const TreeStats& stats, const std::string
     return json;
 }
 
+std::string attributesText(const TreeData& tree)
+{
+    if (!tree.hasAttributes())
+    {
+        return "none";
+    }
+    return fmt::format("form {}: colour{} normal{}, {:.3f} bytes a voxel", formName(tree.attributeForm()),
+                       tree.emission.empty() ? " and" : ",",
+                       tree.emission.empty() ? "" : fmt::format(", and emission of {}", tree.emission.size()),
+                       perVoxel(tree.attributeBytes(), tree));
+}
+
 std::string summaryText(const ZvoFile& file, const std::string& sha256)
 {
     const TreeData& tree = file.tree;
@@ -95,10 +107,7 @@ std::string summaryText(const ZvoFile& file, const std::string& sha256)
                             tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size));
     add("voxels", fmt::format("{}", tree.voxel_count));
     add("nodes", fmt::format("{} for the {} of the octree", tree.nodes.size(), tree.octree_node_count));
-    add("attributes", !tree.hasAttributes() ? "none"
-                      : tree.emission.empty()
-                          ? "colour and normal"
-                          : fmt::format("colour, normal, and emission of {}", tree.emission.size()));
+    add("attributes", attributesText(tree));
     add("sha256", sha256);
     return text;
 }

@@ -86,6 +86,7 @@ struct BuildFileOptions
 {
     VoxelOptions voxels;
     TreeStructure structure = TreeStructure::Svdag;
+    AttributeForm attributes = AttributeForm::Bytes8; // form of those of voxels
     DeviceOptions device;
     OutputOptions output;
 };

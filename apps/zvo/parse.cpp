@@ -241,13 +241,16 @@ bool parseAttributes(std::string_view option, std::string_view text)
     return text == "full";
 }
 
-bool parseAttributeBytes(std::string_view option, std::string_view text)
+AttributeForm parseAttributeForm(std::string_view option, std::string_view text)
 {
-    if (text != "8" && text != "none")
+    for (const AttributeForm form : {AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8})
     {
-        throw valueError(option, text, "8 or none");
+        if (text == formName(form))
+        {
+            return form;
+        }
     }
-    return text == "8";
+    throw valueError(option, text, "none, 4 or 8");
 }
 
 TreeStructure parseStructure(std::string_view option, std::string_view text)

@@ -62,8 +62,8 @@ UpAxis parseUpAxis(std::string_view option, std::string_view text);
 /// "full": true, "none": false.
 bool parseAttributes(std::string_view option, std::string_view text);
 
-/// "8", bytes a voxel: true, "none": false.
-bool parseAttributeBytes(std::string_view option, std::string_view text);
+/// "none", "4" or "8".
+AttributeForm parseAttributeForm(std::string_view option, std::string_view text);
 
 /// "svo" or "svdag".
 TreeStructure parseStructure(std::string_view option, std::string_view text);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/tiled_build.h"
 
+#include "core/attribute_pack.h"
 #include "core/octree_build.h"
 #include "core/pipeline.h"
 #include "core/svdag_forest.h"
@@ -44,21 +45,20 @@ glm::uvec3 placeOf(std::uint64_t code)
     return place;
 }
 
-// What the voxels of a part of the grid look like.
+// What the voxels of a part of the grid look like, but for their attributes: those go to one place, since parts come in
+// Morton order.
 class Looks
 {
 public:
     std::uint64_t voxel_count = 0;
-    std::uint64_t octree_node_count = 0;          // those above the part included
-    std::vector<gpu::Attribute> voxel_attributes; // [voxel_count]
-    std::vector<gpu::Attribute> node_attributes;  // [octree_node_count] depth first
-    std::vector<std::uint32_t> emissive;          // [ceil(voxel_count / 32)] bits, or fewer with zeros behind
+    std::uint64_t octree_node_count = 0;         // those above the part included
+    std::vector<gpu::Attribute> node_attributes; // [octree_node_count] depth first
+    std::vector<std::uint32_t> emissive;         // [ceil(voxel_count / 32)] bits, or fewer with zeros behind
     std::vector<gpu::uint> emission;
 
     // Adds voxels behind those that there are.
     void appendVoxels(const Looks& more)
     {
-        append(voxel_attributes, more.voxel_attributes);
         append(emission, more.emission);
         for (std::size_t i = 0; i < more.emissive.size(); ++i)
         {
@@ -89,6 +89,13 @@ struct Part
     Looks looks;
 };
 
+// A part that was built whole.
+struct Tile
+{
+    Part part;
+    std::vector<gpu::Attribute> voxel_attributes;
+};
+
 // Tiles of equal depth, ascending: where they stand, and their looks.
 struct Tiles
 {
@@ -101,7 +108,7 @@ class TiledBuilder
 {
 public:
     TiledBuilder(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, const TiledOptions& options)
-        : m_device(device), m_scene(scene), m_grid(grid), m_options(options)
+        : m_device(device), m_scene(scene), m_grid(grid), m_options(options), m_voxels(device, options.attributes)
     {
     }
 
@@ -109,15 +116,19 @@ public:
 
 private:
     std::optional<Part> buildPart(std::uint32_t depth, std::uint64_t code);
-    std::optional<Part> buildWhole(std::uint32_t depth, std::uint64_t code);
+    std::optional<Tile> buildWhole(std::uint32_t depth, std::uint64_t code);
     std::optional<Part> buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth);
     void orderNodes(const Tiles& tiles, std::size_t top_levels, Looks& looks);
     Octree topOctree(const Tiles& tiles, std::size_t top_levels);
+    void finishAttributes(Looks& looks, TreeData& tree);
+
+    [[nodiscard]] bool hasAttributes() const { return m_options.attributes != AttributeForm::None; }
 
     vk::HeadlessDevice& m_device;
     const PlacedScene& m_scene;
     Grid m_grid;
     const TiledOptions& m_options;
+    AttributePacker m_voxels;                                 // attributes of the parts so far
     std::map<std::uint32_t, VoxelizeCapacities> m_capacities; // that sufficed last, by the cube's depth
     TiledResult m_result;
 };
@@ -148,9 +159,10 @@ std::optional<Part> TiledBuilder::buildPart(std::uint32_t depth, std::uint64_t c
     {
         return buildTiles(depth, code, tile_depth);
     }
+    std::optional<Tile> tile;
     try
     {
-        return buildWhole(depth, code);
+        tile = buildWhole(depth, code);
     }
     catch (const Error& error)
     {
@@ -159,18 +171,24 @@ std::optional<Part> TiledBuilder::buildPart(std::uint32_t depth, std::uint64_t c
         {
             throw;
         }
+        m_capacities.erase(depth);
+        return buildTiles(depth, code, tile_depth);
     }
-    m_capacities.erase(depth);
-    return buildTiles(depth, code, tile_depth);
+    if (!tile)
+    {
+        return std::nullopt;
+    }
+    m_voxels.append(std::move(tile->voxel_attributes)); // not before all of the tile is there
+    return std::move(tile->part);
 }
 
-std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t code)
+std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t code)
 {
     const auto last = m_capacities.find(depth);
     const VoxelizeCapacities capacities =
         last != m_capacities.end() ? last->second : likelyCapacities(m_scene.uploaded(), m_grid, depth);
     BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, placeOf(code)},
-                                    {m_options.coverage, m_options.attributes, capacities});
+                                    {m_options.coverage, hasAttributes(), capacities});
     m_capacities[depth] = built.capacities;
     m_result.dropped = built.dropped;
     m_result.retry_count += built.retry_count;
@@ -183,11 +201,12 @@ std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     m_result.retry_count += compressed.retry_count;
     append(m_result.passes, compressed.passes);
     ++m_result.tile_count;
-    Part part;
+    Tile tile;
+    Part& part = tile.part;
     Octree& tree = compressed.dag.tree;
+    tile.voxel_attributes = m_device.download(tree.voxel_attributes);
     part.looks.voxel_count = tree.voxel_count;
     part.looks.octree_node_count = compressed.dag.octree_node_count;
-    part.looks.voxel_attributes = m_device.download(tree.voxel_attributes);
     part.looks.node_attributes = m_device.download(tree.node_attributes);
     for (const gpu::uvec2& word : m_device.download(tree.emission_words))
     {
@@ -199,7 +218,7 @@ std::optional<Part> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     tree.emission_words = {};
     tree.emission = {};
     part.dag = std::move(compressed.dag);
-    return part;
+    return tile;
 }
 
 std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth)
@@ -225,7 +244,7 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
         tiles.codes.push_back(tile);
         part.looks.octree_node_count += looks.octree_node_count - top_levels;
         part.looks.appendVoxels(looks);
-        if (m_options.attributes)
+        if (hasAttributes())
         {
             tiles.roots.push_back(looks.node_attributes[top_levels]);
             looks.node_attributes.erase(looks.node_attributes.begin(),
@@ -243,11 +262,11 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
     {
         throw Error(ErrorCode::Memory, "the scene makes more voxels than 32-bit numbers count; lower the resolution");
     }
-    if (m_options.attributes)
+    if (hasAttributes())
     {
         orderNodes(tiles, top_levels, part.looks);
     }
-    part.dag = forest.finish(m_options.attributes && depth == m_grid.depth);
+    part.dag = forest.finish(hasAttributes() && depth == m_grid.depth);
     append(m_result.passes, forest.passes());
     return part;
 }
@@ -327,23 +346,24 @@ void TiledBuilder::orderNodes(const Tiles& tiles, std::size_t top_levels, Looks&
     }
 }
 
-TiledResult TiledBuilder::build()
+// Attributes and emission of the whole. What has room on the device is packed there, whichever parts it came in.
+void TiledBuilder::finishAttributes(Looks& looks, TreeData& tree)
 {
-    std::optional<Part> part = buildPart(m_grid.depth, 0);
-    TreeData& tree = m_result.tree;
-    if (!part)
+    AttributePacker nodes(m_device, m_options.attributes);
+    nodes.append(std::move(looks.node_attributes));
+    for (AttributePacker* const packer : {&m_voxels, &nodes})
     {
-        part.emplace();
-        part->dag.tree.grid = m_grid;
+        packer->finish();
+        append(m_result.passes, packer->passes);
     }
-    Looks& looks = part->looks;
-    part->dag.tree.voxel_count = static_cast<std::uint32_t>(looks.voxel_count);
-    part->dag.octree_node_count = static_cast<std::uint32_t>(looks.octree_node_count);
-    tree = downloadTree(m_device, part->dag);
-    tree.voxel_attributes = std::move(looks.voxel_attributes);
-    tree.node_attributes = std::move(looks.node_attributes);
+    tree.voxel_attributes = std::move(m_voxels.attributes);
+    tree.node_attributes = std::move(nodes.attributes);
+    if (looks.voxel_count != 0 && isPacked(m_options.attributes))
+    {
+        tree.packed = {m_options.attributes, std::move(m_voxels.words), std::move(nodes.words)};
+    }
     tree.emission = std::move(looks.emission);
-    if (m_options.attributes && looks.voxel_count != 0 && m_scene.uploaded().emission_scale > 0)
+    if (hasAttributes() && looks.voxel_count != 0 && m_scene.uploaded().emission_scale > 0)
     {
         tree.emission_scale = m_scene.uploaded().emission_scale;
     }
@@ -357,6 +377,23 @@ TiledResult TiledBuilder::build()
             rank += static_cast<std::uint32_t>(std::popcount(bits));
         }
     }
+}
+
+TiledResult TiledBuilder::build()
+{
+    std::optional<Part> part = buildPart(m_grid.depth, 0);
+    TreeData& tree = m_result.tree;
+    if (!part)
+    {
+        part.emplace();
+        part->dag.tree.grid = m_grid;
+    }
+    Looks& looks = part->looks;
+    part->dag.tree.voxel_count = static_cast<std::uint32_t>(looks.voxel_count);
+    part->dag.octree_node_count = static_cast<std::uint32_t>(looks.octree_node_count);
+    tree = downloadTree(m_device, part->dag);
+    part->dag = {};
+    finishAttributes(looks, tree);
     return std::move(m_result);
 }
 

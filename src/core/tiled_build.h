@@ -20,7 +20,7 @@ namespace zvo
 struct TiledOptions
 {
     Coverage coverage = Coverage::Thin;
-    bool attributes = true;
+    AttributeForm attributes = AttributeForm::Bytes8;
 
     /// Of the largest tiles: (1 << tile_depth)^3 voxels, an even number. Depths of the grid that are not above it are
     /// built whole.

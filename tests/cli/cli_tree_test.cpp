@@ -132,6 +132,43 @@ TEST(CliTree, PicturesOfFilesAreThoseOfTheScene)
     EXPECT_EQ(report["structure"], "svdag");
 }
 
+// Both structures with packed attributes: pictures, other files and the other structure.
+TEST(CliTree, PackedAttributesGoWhereOthersGo)
+{
+    const TempDir dir;
+    buildBoth(dir);
+    const std::uint64_t plain_bytes = json::parse(succeed(dir, {"inspect", "svdag.zvo", "--json"}))["attribute_bytes"];
+    for (const std::string form : {"4"})
+    {
+        for (const std::string structure : {"svo", "svdag"})
+        {
+            const std::string file = structure + form + ".zvo";
+            succeed(dir, {"build", "cube.glb", "-o", file, "--resolution", "32", "--structure", structure,
+                          "--attributes", form, "--json", structure + form + ".json"});
+            const json report = json::parse(contentOf(dir.path() / (structure + form + ".json")));
+            EXPECT_EQ(report["attribute_form"], form);
+            EXPECT_GT(report["pack_ms"], 0.0);
+            EXPECT_NE(succeed(dir, {"validate", file}).find("sound"), std::string::npos);
+            const std::string text = succeed(dir, {"inspect", file});
+            EXPECT_NE(text.find("form " + form + ": "), std::string::npos) << text;
+            const json inspected = json::parse(succeed(dir, {"inspect", file, "--json"}));
+            EXPECT_LT(inspected["attribute_bytes"], plain_bytes * 6 / 10);
+            EXPECT_EQ(inspected["attribute_bytes"], report["bytes"]["attributes"]);
+            succeed(dir, {"render", file, "-o", structure + form + ".png", "--size", "96x64"});
+            for (const std::string format : {"ply", "vox", "morton", "glb"})
+            {
+                succeed(dir, {"convert", file, "-o", structure + form + "." + format});
+            }
+        }
+        for (const std::string extension : {".png", ".ply", ".vox", ".morton", ".glb"})
+        {
+            EXPECT_EQ(shaOf(dir, "svo" + form + extension), shaOf(dir, "svdag" + form + extension)) << extension;
+        }
+        succeed(dir, {"convert", "svo" + form + ".zvo", "-o", "again.zvo", "-f"});
+        EXPECT_EQ(shaOf(dir, "again.zvo"), shaOf(dir, "svdag" + form + ".zvo"));
+    }
+}
+
 TEST(CliTree, ConvertWritesWhatVoxelizeWrites)
 {
     const TempDir dir;
@@ -314,17 +351,19 @@ TEST(CliTree, AKillInTheMiddleLeavesTheOldFile)
 TEST(CliTree, FilesAreTheSameBytesOnEveryRun)
 {
     const TempDir dir;
-    buildBoth(dir);
-    for (const std::string structure : {"svo", "svdag"})
+    writeCube(dir);
+    for (const auto& [structure, form] : {std::pair{"svo", "8"}, {"svdag", "8"}, {"svdag", "4"}})
     {
+        const std::vector<std::string> arguments = {"build",   "cube.glb",     "-o", "again.zvo",
+                                                    "-f",      "--resolution", "32", "--structure",
+                                                    structure, "--attributes", form};
+        succeed(dir, arguments);
+        const std::string sha = shaOf(dir, "again.zvo");
         for (const char* const setting : {"LP_NUM_THREADS=0", "LP_NUM_THREADS=3", "LP_NATIVE_VECTOR_WIDTH=128"})
         {
-            const Outcome outcome =
-                runZvo(dir.path(),
-                       {"build", "cube.glb", "-o", "again.zvo", "-f", "--resolution", "32", "--structure", structure},
-                       {setting});
+            const Outcome outcome = runZvo(dir.path(), arguments, {setting});
             EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-            EXPECT_EQ(shaOf(dir, "again.zvo"), shaOf(dir, structure + ".zvo")) << setting;
+            EXPECT_EQ(shaOf(dir, "again.zvo"), sha) << structure << " " << form << " " << setting;
         }
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A DAG that was built tile by tile is the DAG of the whole: nodes, lists, attributes, averages, emission.
+#include "core/attribute_pack.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"
@@ -45,14 +46,19 @@ void expectSame(const TreeData& a, const TreeData& b)
     expectSame(a.voxels_before_leaf, b.voxels_before_leaf, "voxels before leaves");
     expectSame(a.voxel_attributes, b.voxel_attributes, "attributes of voxels");
     expectSame(a.node_attributes, b.node_attributes, "attributes of nodes");
+    EXPECT_EQ(a.attributeForm(), b.attributeForm());
+    expectSame(a.packed.voxels, b.packed.voxels, "packed attributes of voxels");
+    expectSame(a.packed.nodes, b.packed.nodes, "packed attributes of nodes");
     expectSame(a.emission_words, b.emission_words, "emission words");
     expectSame(a.emission, b.emission, "emission");
 }
 
-TreeData wholeDag(vk::HeadlessDevice& on, const GpuScene& scene, const Grid& grid, bool attributes)
+TreeData wholeDag(vk::HeadlessDevice& on, const GpuScene& scene, const Grid& grid, AttributeForm attributes)
 {
-    BuildResult built = buildOctree(on, scene, grid, {Coverage::Thin, attributes, {}});
-    return downloadTree(on, compress(on, std::move(built.octree)).dag);
+    BuildResult built = buildOctree(on, scene, grid, {Coverage::Thin, attributes != AttributeForm::None, {}});
+    Svdag dag = compress(on, std::move(built.octree)).dag;
+    packTree(on, attributes, dag.tree);
+    return downloadTree(on, dag);
 }
 
 TEST(TiledBuild, IsTheWholeWhateverTheTiles)
@@ -62,14 +68,14 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
     for (const std::uint32_t depth : {6U, 7U})
     {
         const Grid grid = Grid::around(scene.bounds(), depth);
-        for (const bool attributes : {true, false})
+        for (const AttributeForm attributes : {AttributeForm::Bytes8, AttributeForm::Bytes4, AttributeForm::None})
         {
             const TreeData expected = wholeDag(device(), uploaded, grid, attributes);
             ASSERT_GT(expected.voxel_count, 1000U);
-            EXPECT_EQ(expected.emission.empty(), !attributes);
+            EXPECT_EQ(expected.emission.empty(), attributes == AttributeForm::None);
             for (const std::uint32_t tile_depth : {4U, 6U, 12U})
             {
-                if (!attributes && tile_depth == 4)
+                if (attributes != AttributeForm::Bytes8 && tile_depth == 4)
                 {
                     continue; // many tiles: once is enough
                 }
@@ -95,7 +101,7 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
 {
     const Scene scene = test::sphereScene({0, 0, 0}, 1.0F, 48);
     const Grid grid = Grid::around(scene.bounds(), 9);
-    const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, true);
+    const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, AttributeForm::Bytes4);
     std::uint32_t tile_count = 1;
     for (const std::uint64_t budget : {18ULL << 20, 8ULL << 20})
     {
@@ -103,8 +109,8 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
         options.memory_budget_bytes = budget;
         vk::HeadlessDevice small(options, zvoKernels());
         const GpuScene uploaded = uploadScene(small, scene, true);
-        EXPECT_THROW(wholeDag(small, uploaded, grid, true), Error);
-        const TiledResult tiled = buildByTiles(small, uploaded, grid, {});
+        EXPECT_THROW(wholeDag(small, uploaded, grid, AttributeForm::Bytes4), Error);
+        const TiledResult tiled = buildByTiles(small, uploaded, grid, {.attributes = AttributeForm::Bytes4});
         expectSame(tiled.tree, expected);
         EXPECT_GT(tiled.tile_count, tile_count);
         EXPECT_LE(small.device().memory().peakBytes(), budget);
@@ -115,7 +121,8 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
 TEST(TiledBuild, OfNothingIsEmpty)
 {
     const GpuScene uploaded = uploadScene(device(), Scene{}, true);
-    const TiledResult tiled = buildByTiles(device(), uploaded, {glm::vec3(0.0F), 1.0F, 8}, {Coverage::Thin, true, 6});
+    const TiledResult tiled =
+        buildByTiles(device(), uploaded, {glm::vec3(0.0F), 1.0F, 8}, {Coverage::Thin, AttributeForm::Bytes8, 6});
     EXPECT_EQ(tiled.tile_count, 0U);
     EXPECT_EQ(tiled.tree.voxel_count, 0U);
     EXPECT_TRUE(tiled.tree.nodes.empty());
@@ -124,8 +131,8 @@ TEST(TiledBuild, OfNothingIsEmpty)
 TEST(TiledBuild, NeedsTilesThatAreNodes)
 {
     const GpuScene uploaded = uploadScene(device(), Scene{}, false);
-    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, false, 5}), Error);
-    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, false, 2}), Error);
+    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, AttributeForm::None, 5}), Error);
+    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, AttributeForm::None, 2}), Error);
 }
 
 } // namespace
