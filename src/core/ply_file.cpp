@@ -2,6 +2,7 @@
 #include "core/ply_file.h"
 
 #include "core/input_error.h"
+#include "core/ply_header.h"
 #include "core/scene_size.h"
 #include "core/srgb.h"
 #include "core/text_cursor.h"
@@ -24,54 +25,12 @@ namespace zvo
 namespace
 {
 
-enum class Encoding
-{
-    Text,
-    LittleEndian,
-    BigEndian
-};
-
-enum class Type
-{
-    Int8,
-    UInt8,
-    Int16,
-    UInt16,
-    Int32,
-    UInt32,
-    Float32,
-    Float64
-};
-
-std::optional<Type> typeOf(std::string_view name)
-{
-    constexpr std::array<std::pair<std::string_view, Type>, 16> kNames = {{{"char", Type::Int8},
-                                                                           {"int8", Type::Int8},
-                                                                           {"uchar", Type::UInt8},
-                                                                           {"uint8", Type::UInt8},
-                                                                           {"short", Type::Int16},
-                                                                           {"int16", Type::Int16},
-                                                                           {"ushort", Type::UInt16},
-                                                                           {"uint16", Type::UInt16},
-                                                                           {"int", Type::Int32},
-                                                                           {"int32", Type::Int32},
-                                                                           {"uint", Type::UInt32},
-                                                                           {"uint32", Type::UInt32},
-                                                                           {"float", Type::Float32},
-                                                                           {"float32", Type::Float32},
-                                                                           {"double", Type::Float64},
-                                                                           {"float64", Type::Float64}}};
-    const auto found =
-        std::find_if(kNames.begin(), kNames.end(), [name](const auto& entry) { return entry.first == name; });
-    return found != kNames.end() ? std::optional(found->second) : std::nullopt;
-}
-
 /// What a colour channel of that type is divided by.
-double channelMax(Type type)
+double channelMax(PlyType type)
 {
-    return type == Type::UInt8    ? std::numeric_limits<std::uint8_t>::max()
-           : type == Type::UInt16 ? std::numeric_limits<std::uint16_t>::max()
-                                  : 1.0;
+    return type == PlyType::UInt8    ? std::numeric_limits<std::uint8_t>::max()
+           : type == PlyType::UInt16 ? std::numeric_limits<std::uint16_t>::max()
+                                     : 1.0;
 }
 
 /// What a number of a vertex means; an index into VertexValues.
@@ -117,20 +76,6 @@ Use useOf(std::string_view name)
     return found != kNames.end() ? found->second : Use::Nothing;
 }
 
-struct Property
-{
-    std::string name;
-    Type type = Type::Float32;
-    std::optional<Type> count_type; // of a list
-};
-
-struct Element
-{
-    std::string name;
-    std::uint64_t count = 0;
-    std::vector<Property> properties;
-};
-
 class PlyReader
 {
 public:
@@ -141,9 +86,10 @@ public:
 
     Primitive read(std::string& note)
     {
-        readHeader();
+        const PlyHeader header = readPlyHeader(m_cursor, m_path);
+        m_encoding = header.encoding;
         m_data = m_cursor.rest();
-        for (const Element& element : m_elements)
+        for (const PlyElement& element : header.elements)
         {
             readElement(element);
         }
@@ -157,91 +103,14 @@ public:
     }
 
 private:
-    [[nodiscard]] Error fail(const std::string& what) const
-    {
-        return inputError(m_path, fmt::format("not a valid PLY file: {}; {}", what, kExportAgain));
-    }
+    [[nodiscard]] Error fail(const std::string& what) const { return plyError(m_path, what); }
 
     [[nodiscard]] Error cutShort() const
     {
         return inputError(m_path, fmt::format("the PLY file ends before its last element; {}", kCutShort));
     }
 
-    void readHeader()
-    {
-        if (m_cursor.line() != "ply")
-        {
-            throw fail("its first line is not \"ply\"");
-        }
-        for (auto line = m_cursor.line(); line; line = m_cursor.line())
-        {
-            TextCursor words(*line);
-            const std::string_view keyword = words.word();
-            if (keyword == "end_header")
-            {
-                return;
-            }
-            if (keyword == "format")
-            {
-                m_encoding = encodingOf(words.word());
-            }
-            else if (keyword == "element")
-            {
-                const std::string name(words.word());
-                const auto count = parseNumber<std::uint64_t>(words.word());
-                if (!count)
-                {
-                    throw fail(fmt::format("\"{}\" has no count", *line));
-                }
-                m_elements.push_back({name, *count, {}});
-            }
-            else if (keyword == "property")
-            {
-                addProperty(words, *line);
-            }
-            else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
-            {
-                throw fail(fmt::format("\"{}\" in its header", *line));
-            }
-        }
-        throw fail("its header has no end");
-    }
-
-    Encoding encodingOf(std::string_view name) const
-    {
-        if (name != "ascii" && name != "binary_little_endian" && name != "binary_big_endian")
-        {
-            throw fail(fmt::format("its format is \"{}\"", name));
-        }
-        return name == "ascii"                  ? Encoding::Text
-               : name == "binary_little_endian" ? Encoding::LittleEndian
-                                                : Encoding::BigEndian;
-    }
-
-    void addProperty(TextCursor& words, std::string_view line)
-    {
-        std::string_view type_name = words.word();
-        Property property;
-        if (type_name == "list")
-        {
-            property.count_type = typeOf(words.word());
-            type_name = words.word();
-            if (!property.count_type)
-            {
-                throw fail(fmt::format("\"{}\" has an unknown type", line));
-            }
-        }
-        const std::optional<Type> type = typeOf(type_name);
-        if (!type || m_elements.empty())
-        {
-            throw fail(fmt::format("\"{}\" has an unknown type or no element", line));
-        }
-        property.type = *type;
-        property.name = words.word();
-        m_elements.back().properties.push_back(property);
-    }
-
-    void readElement(const Element& element)
+    void readElement(const PlyElement& element)
     {
         if (element.properties.empty())
         {
@@ -259,7 +128,7 @@ private:
         const bool has_faces = element.name == "face" || element.name == "tristrips";
         for (std::uint64_t i = 0; i < element.count; ++i)
         {
-            for (const Property& property : element.properties)
+            for (const PlyProperty& property : element.properties)
             {
                 const bool is_face = has_faces && property.count_type &&
                                      (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -279,10 +148,10 @@ private:
         }
     }
 
-    void readVertices(const Element& element)
+    void readVertices(const PlyElement& element)
     {
         std::array<bool, kUseCount + 1> has{};
-        for (const Property& property : element.properties)
+        for (const PlyProperty& property : element.properties)
         {
             has[static_cast<std::size_t>(useOf(property.name))] |= !property.count_type;
         }
@@ -303,7 +172,7 @@ private:
             m_bytes_left.take(vertex_bytes);
             VertexValues values{};
             values[static_cast<std::size_t>(Use::Alpha)] = 1.0;
-            for (const Property& property : element.properties)
+            for (const PlyProperty& property : element.properties)
             {
                 const Use use = property.count_type ? Use::Nothing : useOf(property.name);
                 if (use == Use::Nothing)
@@ -344,7 +213,7 @@ private:
         }
     }
 
-    void readFace(const Property& property)
+    void readFace(const PlyProperty& property)
     {
         const std::uint64_t count = listCount(property);
         std::uint32_t first = 0;
@@ -361,7 +230,7 @@ private:
         }
     }
 
-    void readStrips(const Property& property)
+    void readStrips(const PlyProperty& property)
     {
         const std::uint64_t count = listCount(property);
         std::array<std::uint32_t, 2> last{}; // the vertex before the previous one, and the previous one
@@ -413,7 +282,7 @@ private:
         }
     }
 
-    std::uint64_t listCount(const Property& property)
+    std::uint64_t listCount(const PlyProperty& property)
     {
         const double count = number(*property.count_type);
         if (!(count >= 0.0) || count != std::floor(count) || count > std::numeric_limits<std::uint32_t>::max())
@@ -423,7 +292,7 @@ private:
         return static_cast<std::uint64_t>(count);
     }
 
-    void skip(const Property& property)
+    void skip(const PlyProperty& property)
     {
         const std::uint64_t count = property.count_type ? listCount(property) : 1;
         for (std::uint64_t i = 0; i < count; ++i)
@@ -433,27 +302,27 @@ private:
     }
 
     /// The next number of the data. What is read as text in single precision is rounded once.
-    double number(Type type)
+    double number(PlyType type)
     {
-        if (m_encoding == Encoding::Text)
+        if (m_encoding == PlyEncoding::Text)
         {
             return textNumber(type);
         }
         switch (type)
         {
-        case Type::Int8:
+        case PlyType::Int8:
             return binaryNumber<std::int8_t>();
-        case Type::UInt8:
+        case PlyType::UInt8:
             return binaryNumber<std::uint8_t>();
-        case Type::Int16:
+        case PlyType::Int16:
             return binaryNumber<std::int16_t>();
-        case Type::UInt16:
+        case PlyType::UInt16:
             return binaryNumber<std::uint16_t>();
-        case Type::Int32:
+        case PlyType::Int32:
             return binaryNumber<std::int32_t>();
-        case Type::UInt32:
+        case PlyType::UInt32:
             return binaryNumber<std::uint32_t>();
-        case Type::Float32:
+        case PlyType::Float32:
             return binaryNumber<float>();
         default:
             return binaryNumber<double>();
@@ -468,7 +337,7 @@ private:
         }
         std::array<char, sizeof(T)> bytes;
         std::copy_n(m_data.begin(), sizeof(T), bytes.begin());
-        if ((m_encoding == Encoding::BigEndian) != (std::endian::native == std::endian::big))
+        if ((m_encoding == PlyEncoding::BigEndian) != (std::endian::native == std::endian::big))
         {
             std::reverse(bytes.begin(), bytes.end());
         }
@@ -476,7 +345,7 @@ private:
         return static_cast<double>(std::bit_cast<T>(bytes));
     }
 
-    double textNumber(Type type)
+    double textNumber(PlyType type)
     {
         const std::string_view word = m_cursor.word();
         if (word.empty())
@@ -484,7 +353,7 @@ private:
             throw cutShort();
         }
         const std::optional<double> value =
-            type == Type::Float32 ? std::optional<double>(parseSingle(word)) : parseNumber<double>(word);
+            type == PlyType::Float32 ? std::optional<double>(parseSingle(word)) : parseNumber<double>(word);
         if (!value)
         {
             throw fail(fmt::format("\"{}\" is not a number", word));
@@ -495,9 +364,8 @@ private:
     const std::filesystem::path& m_path;
     TextCursor m_cursor; // in the header, and in the data where it is text
     std::string_view m_data;
-    Encoding m_encoding = Encoding::Text;
+    PlyEncoding m_encoding = PlyEncoding::Text;
     SceneBytesLeft m_bytes_left;
-    std::vector<Element> m_elements;
     std::vector<glm::uvec3> m_triangles;
     Primitive m_primitive;
 };
