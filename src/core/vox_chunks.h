@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// What a MagicaVoxel file says, before its models are placed; vox_file.h reads all of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+namespace zvo
+{
+
+constexpr std::int32_t kVoxPlaceMax = 1 << 24; // of a translation
+constexpr std::size_t kVoxPaletteSize = 255;
+
+/// What a voxel's bytes say: coordinates in its model, and its colour's index.
+struct VoxModelVoxel
+{
+    std::uint8_t x;
+    std::uint8_t y;
+    std::uint8_t z;
+    std::uint8_t index;
+};
+static_assert(sizeof(VoxModelVoxel) == 4);
+
+struct VoxModel
+{
+    glm::ivec3 size{0};
+    std::span<const std::uint8_t> voxels; // VoxModelVoxel each
+
+    [[nodiscard]] std::size_t voxelCount() const { return voxels.size() / sizeof(VoxModelVoxel); }
+    [[nodiscard]] VoxModelVoxel voxel(std::size_t index) const
+    {
+        VoxModelVoxel result{};
+        std::memcpy(&result, voxels.data() + index * sizeof(result), sizeof(result));
+        return result;
+    }
+};
+
+/// A rotation by quarter turns with mirroring, and then a move by whole voxels.
+struct VoxPlacement
+{
+    glm::ivec3 axis{0, 1, 2}; // which coordinate becomes the i-th one
+    glm::ivec3 sign{1};
+    glm::ivec3 move{0};
+
+    // Of points in half voxels: voxels' centres are odd.
+    [[nodiscard]] glm::ivec3 operator()(const glm::ivec3& halves) const
+    {
+        return sign * glm::ivec3(halves[axis.x], halves[axis.y], halves[axis.z]) + 2 * move;
+    }
+
+    // inner first.
+    [[nodiscard]] VoxPlacement after(const VoxPlacement& inner) const
+    {
+        VoxPlacement both;
+        for (int i = 0; i < 3; ++i)
+        {
+            both.axis[i] = inner.axis[axis[i]];
+            both.sign[i] = sign[i] * inner.sign[axis[i]];
+            both.move[i] = sign[i] * inner.move[axis[i]] + move[i];
+        }
+        return both;
+    }
+};
+
+struct VoxNode
+{
+    bool hidden = false;
+    std::int32_t layer = -1;
+    VoxPlacement placement;             // of a transform
+    std::vector<std::int32_t> children; // nodes
+    std::vector<std::int32_t> models;   // of a shape
+};
+
+struct VoxScene
+{
+    std::array<std::uint32_t, kVoxPaletteSize> palette{}; // red in the lowest byte; of indices from 1 on
+    std::vector<VoxModel> models;
+    std::map<std::int32_t, VoxNode> nodes; // empty in files without places
+    std::set<std::int32_t> hidden_layers;
+};
+
+/// Reads all chunks; the scene refers to bytes. Voxels lie in their models; what nodes name may not be there, and they
+/// may go round in circles. name: for messages. Throws Error{Input}.
+VoxScene readVoxScene(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
+
+} // namespace zvo
