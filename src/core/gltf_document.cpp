@@ -2,6 +2,7 @@
 #include "core/gltf_document.h"
 
 #include "core/folder_bounds.h"
+#include "core/gltf_container.h"
 #include "core/gltf_meshopt.h"
 #include "core/gltf_schema.h"
 #include "core/gltf_uri.h"
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 #include <fmt/format.h>
 #include <limits>
 #include <map>
@@ -28,19 +27,8 @@ namespace
 using nlohmann::json;
 using Bytes = std::span<const std::uint8_t>;
 
-static_assert(std::endian::native == std::endian::little, "glTF is little-endian and is read by copying");
-
 constexpr std::uint64_t kUnpackedFreeBytes = std::uint64_t{1} << 30U;
 constexpr std::uint64_t kUnpackedBytesPerByte = 128; // twice what a vertex codec reaches on equal vertices
-constexpr int kJsonDepthMax = 256;                   // nesting that some recursive function still stands
-
-// Binary glTF: a header of magic, version, length; then chunks of length, type and data.
-constexpr std::string_view kGlbMagic = "glTF";
-constexpr std::string_view kJsonChunk = "JSON";
-constexpr std::string_view kBinChunk{"BIN\0", 4};
-constexpr std::uint32_t kGlbVersion = 2;
-constexpr std::size_t kGlbHeaderBytes = 12;
-constexpr std::size_t kChunkHeaderBytes = 8;
 
 /// The parts of the document that tinygltf sees. Buffers and images, whose sizes and files it does not check well
 /// enough, are read here, and animations, of which it refuses some that may be there; extras are not needed.
@@ -69,121 +57,6 @@ constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
 template <typename List, typename Item> bool contains(const List& list, const Item& item)
 {
     return std::find(list.begin(), list.end(), item) != list.end();
-}
-
-std::uint32_t readU32(Bytes bytes, std::size_t offset)
-{
-    std::uint32_t value = 0;
-    std::memcpy(&value, bytes.data() + offset, sizeof(value));
-    return value;
-}
-
-std::string_view asText(Bytes bytes)
-{
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-struct Container
-{
-    Bytes json;
-    Bytes bin; // empty where there is none
-};
-
-Container splitGlb(Bytes file, const std::filesystem::path& path)
-{
-    if (file.size() < kGlbHeaderBytes)
-    {
-        throw gltfError(path,
-                        fmt::format("a binary glTF header has 12 bytes, the file {}; {}", file.size(), kCutShort));
-    }
-    const std::uint32_t version = readU32(file, 4);
-    if (version != kGlbVersion)
-    {
-        throw gltfError(path, fmt::format("binary glTF version {} is not supported; export it as glTF 2.0", version));
-    }
-    const std::uint32_t length = readU32(file, 8);
-    if (length > file.size())
-    {
-        throw gltfError(
-            path, fmt::format("the header announces {} bytes, the file has {}; {}", length, file.size(), kCutShort));
-    }
-    Container container;
-    Bytes rest = file.first(length);
-    rest = rest.subspan(std::min(kGlbHeaderBytes, rest.size()));
-    for (std::size_t chunk = 0; rest.size() >= kChunkHeaderBytes; ++chunk)
-    {
-        const std::uint32_t chunk_bytes = readU32(rest, 0);
-        const std::string_view type = asText(rest.subspan(4, 4));
-        rest = rest.subspan(kChunkHeaderBytes);
-        if (chunk_bytes > rest.size())
-        {
-            throw gltfError(path, fmt::format("chunk {} announces {} bytes, {} are left in the file; {}", chunk,
-                                              chunk_bytes, rest.size(), kCutShort));
-        }
-        if (chunk == 0 && type == kJsonChunk)
-        {
-            container.json = rest.first(chunk_bytes);
-        }
-        else if (chunk == 1 && type == kBinChunk)
-        {
-            container.bin = rest.first(chunk_bytes);
-        }
-        rest = rest.subspan(chunk_bytes);
-    }
-    if (container.json.empty())
-    {
-        throw gltfError(path, fmt::format("the first chunk is not JSON; {}", kExportAgain));
-    }
-    return container;
-}
-
-/// How deep arrays and objects are nested in JSON text.
-int nestingDepth(std::string_view text)
-{
-    int depth = 0;
-    int deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < text.size(); ++i)
-    {
-        const char character = text[i];
-        if (in_string && character == '\\')
-        {
-            ++i; // what is escaped, perhaps a quote
-        }
-        else if (character == '"')
-        {
-            in_string = !in_string;
-        }
-        else if (!in_string && (character == '{' || character == '['))
-        {
-            deepest = std::max(deepest, ++depth);
-        }
-        else if (!in_string && (character == '}' || character == ']'))
-        {
-            --depth;
-        }
-    }
-    return deepest;
-}
-
-json parseJson(std::string_view text, const std::filesystem::path& path)
-{
-    if (nestingDepth(text) > kJsonDepthMax)
-    {
-        throw gltfError(path, fmt::format("its JSON is nested more than {} deep; {}", kJsonDepthMax, kExportAgain));
-    }
-    try
-    {
-        return json::parse(text);
-    }
-    catch (const json::exception& failure)
-    {
-        // The message opens with "[json.exception...] ", which helps nobody.
-        const std::string message = failure.what();
-        const std::size_t start = message.find("] ");
-        throw gltfError(path, fmt::format("not a glTF file: {}; check that it is glTF 2.0 (.gltf or .glb)",
-                                          start == std::string::npos ? message : message.substr(start + 2)));
-    }
 }
 
 void checkVersion(const json& document, const std::filesystem::path& path)
@@ -446,10 +319,8 @@ GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_
     GltfDocument document;
     document.path = path;
     document.storage.push_back(std::move(content));
-    const Bytes file = document.storage.front();
-    const bool binary = asText(file).starts_with(kGlbMagic);
-    const Container container = binary ? splitGlb(file, path) : Container{file, {}};
-    json root = parseJson(asText(container.json), path);
+    const GltfContainer container = openGltfContainer(document.storage.front(), path);
+    json root = parseGltfJson(container.json, path);
     checkVersion(root, path);
     checkGltfSchema(root, path);
     checkExtensions(root, path);
