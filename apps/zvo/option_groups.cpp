@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "option_groups.h"
+
+#include "parse.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr float kVoxelSizeMin = 1e-35F; // 256 / voxel_size must be a finite number
+
+GridPlace parseGridPlace(std::string_view option, std::string_view text)
+{
+    const std::vector<float> v = parseFloats(option, text);
+    if (v.size() != 4 || v[3] < kVoxelSizeMin)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} {}: expected x,y,z,voxel_size with a voxel size above 0", option, text));
+    }
+    return {{v[0], v[1], v[2]}, v[3]};
+}
+
+} // namespace
+
+CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const char* type, const char* what)
+{
+    return app.add_option(name, target, what)->type_name(type);
+}
+
+std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names)
+{
+    if (std::find(names.begin(), names.end(), text) == names.end())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, text, fmt::join(names, ", ")));
+    }
+    return std::string(text);
+}
+
+void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what)
+{
+    addValue(
+        app, name, folder, [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "DIR",
+        what);
+}
+
+void addDeviceOptions(CLI::App& app, DeviceOptions& options)
+{
+    addText(app, "--device", options.device, "NAME", "device by a part of its name, its number in zvo info, or cpu")
+        ->group("Device");
+    addValue(app, "--memory-limit", options.memory_limit, parseBytes, "BYTES",
+             "device memory that may be used, such as 2G or 512M")
+        ->group("Device");
+    addValue(
+        app, "--dispatch-ms", options.dispatch_ms,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 0, 100000)); },
+        "MS", "split work so that the device is busy about this long at a time, 0: never (default 400)")
+        ->group("Device");
+    app.add_flag("--validation", options.validation,
+                 "run with the Vulkan validation layers (core, synchronization); fail if they speak")
+        ->group("Device");
+    app.add_flag("--gpu-validation", options.gpu_validation, "the same with instrumented kernels, slow")
+        ->group("Device");
+}
+
+void addCoverageOption(CLI::App& app, Coverage& coverage)
+{
+    addValue(app, "--coverage", coverage, parseCoverage, "thin|conservative",
+             "which voxels a triangle covers: a gap-free layer, or all that it touches (default thin)");
+}
+
+void addAttributesOption(CLI::App& app, bool& attributes)
+{
+    addValue(app, "--attributes", attributes, parseAttributes, "full|none",
+             "colour, normal and emission of the voxels, or only their places (default full)");
+}
+
+void addStructureOption(CLI::App& app, TreeStructure& structure)
+{
+    addValue(app, "--structure", structure, parseStructure, "svo|svdag",
+             "an octree, or a DAG, which has equal subtrees once (default svdag)");
+}
+
+void addLoadOptions(CLI::App& app, LoadOptions& options)
+{
+    addValue(app, "--up", options.up, parseUpAxis, "AXIS",
+             "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)");
+    addValue(app, "--scale", options.scale, parsePositive, "FACTOR",
+             "multiplies the files' coordinates, after --up (default 1)");
+}
+
+void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also)
+{
+    app.add_option("SCENE", options.scenes,
+                   "glTF 2.0 (.glb, .gltf), OBJ, PLY and STL files; several make one scene; or one scene file "
+                   "(.scene.json), which places them and lets them move" +
+                       also)
+        ->required()
+        ->type_name("FILE");
+    addLoadOptions(app, options.load);
+    addFolder(app, "--scenes", options.scenes_folder,
+              "folder of the files that a scene file names, those that do not lie beside it");
+    addValue(app, "--time", options.time, parseSeconds, "SECONDS",
+             "the time of a scene in which something moves; after its end it begins anew (default 0)");
+    addValue(app, "--resolution", options.depth, parseResolution, "N",
+             "voxels per edge of the grid, a power of two from 2 to 131072 (default: the scene file's, or else 512)");
+    addCoverageOption(app, options.coverage);
+    addValue(app, "--bounds", options.bounds, parseBounds, "x0,y0,z0,x1,y1,z1",
+             "the grid is the cube from corner 0 on, as long as the box's longest edge");
+    addValue(app, "--grid", options.grid_place, parseGridPlace, "x,y,z,SIZE",
+             "the grid has exactly this origin and voxel size, as a JSON report states them");
+}
+
+void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what)
+{
+    addText(app, "-o,--output", options.path, "FILE", what)->required()->group("Output");
+    addText(app, "--json", options.json, "FILE|-", "write a report; - is standard output")->group("Output");
+    app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group("Output");
+}
+
+void addCameraOption(CLI::App& app, std::string& camera)
+{
+    addText(app, "--camera", camera, "NAME|ex,ey,ez,tx,ty,tz[,FOV]",
+            "a camera of the scene, or eye, target and vertical field of view in degrees, or auto, which frames "
+            "everything, or close, where two thirds of the rays hit (default: the scene's first camera, or else auto)");
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Options that several commands have; for options.cpp.
+#pragma once
+
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace zvo::cli
+{
+
+/// An option with one argument that read makes a value of.
+template <typename T, typename Read>
+CLI::Option* addValue(CLI::App& app, const char* name, T& target, Read read, const char* type, const std::string& what)
+{
+    const std::string option = std::string(name).substr(std::string(name).rfind(',') + 1);
+    const auto assign = [&target, read, option](const std::string& text) { target = read(option, text); };
+    return app.add_option_function<std::string>(name, assign, what)->type_name(type);
+}
+
+CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const char* type, const char* what);
+
+void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what);
+
+/// text, which has to be one of names. Throws Error{Usage}.
+std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names);
+
+void addDeviceOptions(CLI::App& app, DeviceOptions& options);
+void addCoverageOption(CLI::App& app, Coverage& coverage);
+void addAttributesOption(CLI::App& app, bool& attributes);
+void addStructureOption(CLI::App& app, TreeStructure& structure);
+void addLoadOptions(CLI::App& app, LoadOptions& options);
+
+/// What becomes voxels, and how, but for attributes. also: more that SCENE may be.
+void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also = "");
+
+/// what: is written to the output.
+void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what);
+
+void addCameraOption(CLI::App& app, std::string& camera);
+
+} // namespace zvo::cli
