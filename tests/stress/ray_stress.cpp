@@ -7,8 +7,7 @@
 #include "core/pipeline.h"
 #include "core/sha256.h"
 #include "core/trace.h"
-#include "oracle/morton.h"
-#include "oracle/ray_bounds.h"
+#include "stress/ray_judge.h"
 #include "stress/stress_rays.h"
 #include "support/device.h"
 #include "support/scenes.h"
@@ -19,14 +18,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <bit>
 #include <charconv>
 #include <cstdlib>
 #include <functional>
-#include <mutex>
 #include <string_view>
-#include <thread>
 
 namespace zvo::stress
 {
@@ -35,9 +30,6 @@ namespace
 {
 
 constexpr std::uint64_t kBatch = 1U << 17;
-constexpr std::uint64_t kChunk = 1U << 12;      // rays that a host thread takes at a time
-constexpr std::size_t kVoxelsForFarRays = 5000; // from far away, the first reference looks at almost every voxel
-constexpr std::uint32_t kReportedMax = 20;      // wrong rays that are printed
 constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
 struct Options
@@ -46,151 +38,14 @@ struct Options
     std::uint64_t seed = 1;
 };
 
-struct Tree
-{
-    std::string name;
-    test::Codes codes;
-    std::uint32_t depth;
-};
-
-struct Tally
-{
-    std::array<std::atomic<std::uint64_t>, 3> kinds{}; // by oracle::RayClass
-    std::atomic<std::uint64_t> exact{0};               // compared bit for bit
-    std::atomic<std::uint64_t> hits{0};
-    std::atomic<std::uint64_t> invalid{0};
-    std::atomic<std::uint64_t> wrong{0};
-};
-
-std::mutex g_print;
-Tally g_tally;
-
-// Calls work(first, end) for parts of [0, count) on all processors.
-void inParallel(std::uint64_t count, const std::function<void(std::uint64_t, std::uint64_t)>& work)
-{
-    std::atomic<std::uint64_t> next{0};
-    const auto run = [&]
-    {
-        for (std::uint64_t first = next.fetch_add(kChunk); first < count; first = next.fetch_add(kChunk))
-        {
-            work(first, std::min(first + kChunk, count));
-        }
-    };
-    std::vector<std::thread> threads;
-    for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
-    {
-        threads.emplace_back(run);
-    }
-    run();
-    for (std::thread& thread : threads)
-    {
-        thread.join();
-    }
-}
-
-void reportWrong(const std::string& where, const StressRay& ray, const std::string& what)
-{
-    if (g_tally.wrong.fetch_add(1) >= kReportedMax)
-    {
-        return;
-    }
-    const gpu::Ray& r = ray.device;
-    const std::lock_guard lock(g_print);
-    fmt::print("WRONG {}: origin {:a} {:a} {:a} inverse {:a} {:a} {:a} t {:a} to {:a}: {}\n", where, r.origin.x,
-               r.origin.y, r.origin.z, r.inverse_direction.x, r.inverse_direction.y, r.inverse_direction.z, r.t_min,
-               r.t_max, what);
-}
-
-// What both references say about one ray; the device's answer is hit.
-class Judge
-{
-public:
-    explicit Judge(const Tree& tree) : m_tree(tree), m_tracer(tree.codes, tree.depth)
-    {
-        if (tree.depth <= oracle::BitPyramid::kDepthMax)
-        {
-            m_pyramid.emplace(tree.codes, tree.depth);
-        }
-    }
-
-    void check(const StressRay& ray, const std::optional<test::DeviceHit>& hit, std::uint32_t levels) const
-    {
-        g_tally.hits += hit ? 1 : 0;
-        if (ray.invalid)
-        {
-            ++g_tally.invalid;
-            objectIf(hit.has_value(), ray, "hit although it is invalid");
-            return;
-        }
-        if (hit && (hit->index >= m_tree.codes.size() || oracle::mortonEncode(hit->cell) != m_tree.codes[hit->index] ||
-                    hit->level != levels))
-        {
-            objectIf(true, ray, "index, cell and level do not name one voxel");
-            return;
-        }
-        if (m_pyramid)
-        {
-            checkBounds(ray, hit);
-        }
-        if (!ray.far || m_tree.codes.size() <= kVoxelsForFarRays)
-        {
-            checkExactly(ray, hit);
-        }
-    }
-
-private:
-    void objectIf(bool wrong, const StressRay& ray, const std::string& what) const
-    {
-        if (wrong)
-        {
-            reportWrong(m_tree.name, ray, what);
-        }
-    }
-
-    void checkBounds(const StressRay& ray, const std::optional<test::DeviceHit>& hit) const
-    {
-        const oracle::RayBounds bounds = m_pyramid->classify(ray.ray, ray.t_max);
-        ++g_tally.kinds[static_cast<std::size_t>(bounds.kind)];
-        if (hit)
-        {
-            objectIf(bounds.kind == oracle::RayClass::MustMiss, ray, "hit, but must miss");
-            const auto objection = m_pyramid->objection(ray.ray, ray.t_max, hit->cell, hit->t);
-            objectIf(objection.has_value(), ray, objection.value_or(""));
-        }
-        if (bounds.kind == oracle::RayClass::MustHit)
-        {
-            objectIf(!hit, ray, "missed, but must hit");
-            objectIf(hit && static_cast<double>(hit->t) > bounds.latest, ray, "passed through a nearer voxel");
-        }
-    }
-
-    void checkExactly(const StressRay& ray, const std::optional<test::DeviceHit>& hit) const
-    {
-        ++g_tally.exact;
-        std::optional<oracle::Hit> expected = m_tracer.trace(ray.ray);
-        if (expected && expected->t > ray.t_max)
-        {
-            expected.reset();
-        }
-        const bool same = expected.has_value() == hit.has_value() &&
-                          (!hit || (m_tree.codes[hit->index] == expected->code && hit->face == expected->face &&
-                                    std::bit_cast<std::uint32_t>(hit->t) == std::bit_cast<std::uint32_t>(expected->t)));
-        objectIf(!same, ray, "differs from the rule");
-    }
-
-    const Tree& m_tree;
-    oracle::VoxelTracer m_tracer;
-    std::optional<oracle::BitPyramid> m_pyramid;
-};
-
-std::vector<Tree> makeTrees()
+std::vector<StressTree> makeTrees()
 {
     std::mt19937 random(11);
     const auto full = [](const glm::uvec3&) { return true; };
     const auto checkered = [](const glm::uvec3& v) { return ((v.x + v.y + v.z) & 1U) == 0; };
     const auto planes = [](const glm::uvec3& v) { return v.x == 21 || v.y == 42 || v.z == 10; };
     const auto rods = [](const glm::uvec3& v) { return v.x % 5 == 0 && v.y % 7 == 0; };
-    std::vector<Tree> trees;
+    std::vector<StressTree> trees;
     trees.push_back({"two voxels of 2", {0, 5}, 1});
     trees.push_back({"random 4", test::randomCodes(2, 20, random), 2});
     trees.push_back({"full 8", test::codesWhere(3, full), 3});
@@ -246,7 +101,7 @@ void traceBatch(vk::HeadlessDevice& device, const Octree& octree, TraceStack sta
     const std::uint32_t capped = device.download(status).at(0).capped_rays;
     if (capped != 0)
     {
-        g_tally.wrong += capped;
+        tally().wrong += capped;
         fmt::print("WRONG: {} rays ran into the cap on iterations\n", capped);
     }
     std::vector<gpu::Hit> hits = device.download(hit_buffer);
@@ -266,15 +121,15 @@ void traceBatch(vk::HeadlessDevice& device, const Octree& octree, TraceStack sta
 }
 
 // The given number of rays in all, spread over trees and stacks.
-void traceTrees(vk::HeadlessDevice& device, const std::vector<Tree>& trees, const Options& options, bool aimed,
+void traceTrees(vk::HeadlessDevice& device, const std::vector<StressTree>& trees, const Options& options, bool aimed,
                 Sha256& sum)
 {
     const std::uint64_t per_tree = (options.rays + trees.size() - 1) / trees.size();
-    for (const Tree& tree : trees)
+    for (const StressTree& tree : trees)
     {
         const Octree octree = test::octreeOf(device, tree.codes, tree.depth);
         const std::uint32_t resolution = octree.grid.rootResolution();
-        const Judge judge(tree);
+        const RayJudge judge(tree);
         const MakeRay make_ray = [&](Random& random)
         { return aimed ? aimedRay(random, resolution, tree.codes) : randomRay(random); };
         const Check check = [&](const StressRay& ray, const std::optional<test::DeviceHit>& hit)
@@ -336,7 +191,7 @@ void traceShells(vk::HeadlessDevice& device, const Options& options, Sha256& sum
         { return rayFromInside(random, grid.rootResolution(), shell.low, shell.high); };
         const Check check = [&](const StressRay& ray, const std::optional<test::DeviceHit>& hit)
         {
-            g_tally.hits += hit ? 1 : 0;
+            tally().hits += hit ? 1 : 0;
             if (!hit)
             {
                 reportWrong(shell.name, ray, "leaks");
@@ -372,7 +227,7 @@ Picture takePicture(vk::HeadlessDevice& device, const Octree& octree, const Trac
             buildBeam(graph, octree, beam);
             tracePrimary(graph, octree, beam, camera, options, buffers);
         });
-    g_tally.wrong += device.download(buffers.status).at(0).capped_rays;
+    tally().wrong += device.download(buffers.status).at(0).capped_rays;
     Picture picture{device.download(buffers.hits), 0};
     for (gpu::Hit& hit : picture.hits)
     {
@@ -396,10 +251,10 @@ bool sameHits(const Picture& a, const Picture& b)
 }
 
 // Pictures with and without the beam, with every stack. Returns how many were taken.
-std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<Tree>& trees, Sha256& sum)
+std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressTree>& trees, Sha256& sum)
 {
     std::uint32_t count = 0;
-    for (const Tree& tree : trees)
+    for (const StressTree& tree : trees)
     {
         const Octree octree = test::octreeOf(device, tree.codes, tree.depth);
         const auto edge = static_cast<double>(octree.grid.resolution());
@@ -426,7 +281,7 @@ std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<Tree>& 
                     const bool wrong = (first && !sameHits(*first, picture)) || picture.iterations_max > bound;
                     if (wrong)
                     {
-                        ++g_tally.wrong;
+                        ++tally().wrong;
                         fmt::print("WRONG: a picture of {} differs, or takes too many steps ({})\n", tree.name,
                                    picture.iterations_max);
                     }
@@ -442,33 +297,19 @@ std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<Tree>& 
     return count;
 }
 
-void printTally(const std::string& what)
-{
-    fmt::print("{:<24} {:>10} must hit {:>10} may hit {:>10} must miss {:>9} invalid; {:>10} hit, {:>10} equal the "
-               "rule bit for bit; {} wrong\n",
-               what, g_tally.kinds[0].load(), g_tally.kinds[1].load(), g_tally.kinds[2].load(), g_tally.invalid.load(),
-               g_tally.hits.load(), g_tally.exact.load(), g_tally.wrong.load());
-    std::fflush(stdout);
-    for (auto& kind : g_tally.kinds)
-    {
-        kind = 0;
-    }
-    g_tally.exact = g_tally.hits = g_tally.invalid = 0;
-}
-
 int run(const Options& options)
 {
     vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
-    const std::vector<Tree> trees = makeTrees();
+    const std::vector<StressTree> trees = makeTrees();
     Sha256 sum;
     traceTrees(device, trees, options, false, sum);
     printTally(fmt::format("{} random rays", options.rays));
     traceTrees(device, trees, options, true, sum);
     printTally(fmt::format("{} aimed rays", options.rays));
     traceShells(device, options, sum);
-    fmt::print("{} rays out of closed shells; {} wrong\n", g_tally.hits.load(), g_tally.wrong.load());
+    fmt::print("{} rays out of closed shells; {} wrong\n", tally().hits.load(), tally().wrong.load());
     const std::uint32_t pictures = takePictures(device, trees, sum);
-    fmt::print("{} pictures; {} wrong\n", pictures, g_tally.wrong.load());
+    fmt::print("{} pictures; {} wrong\n", pictures, tally().wrong.load());
     fmt::print("hits {}\n", sum.hexDigest());
     test::destroySharedDevice();
     if (test::validationMessageCount() != 0)
@@ -476,7 +317,7 @@ int run(const Options& options)
         fmt::print("the Vulkan validation layers reported something\n");
         return EXIT_FAILURE;
     }
-    return g_tally.wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return tally().wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 std::optional<Options> parse(int argc, char** argv)
