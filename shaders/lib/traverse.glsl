@@ -133,7 +133,8 @@ void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout 
     uint node2 = path.x >> kPathLevel2Shift;
     if (TRAVERSE_PATHS_RELATIVE)
     {
-        uint before_children = loadHalf(0u).y - 1u;
+        uint first_child = loadHalf(0u).y;
+        uint before_children = kEntriesPerWord != 0u && int(first_child) < 0 ? 0u : first_child - 1u;
         node1 += node1 != 0u ? before_children : 0u;
         node2 &= (1u << kPathLevel2Bits) - 1u;
         node2 += (path.x >> kPathRelativeShift) != 0u ? before_children : 0u;

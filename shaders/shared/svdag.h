@@ -40,6 +40,15 @@ struct BeforeChild
 };
 GPU_BUFFER(BeforeChild, 8);
 
+/// What the ranks of voxels, and of the octree's nodes depth first, are summed up from.
+struct RankSource
+{
+    GPU_CONST_PTR(Node) pool;
+    GPU_CONST_PTR(BeforeChild) before;      // by places of entries: those of the long ones
+    GPU_CONST_PTR(uint) voxels_before_leaf; // two entries a word
+    uint first_short_place;                 // of the first entry that is not long
+};
+
 GPU_NAMESPACE_END
 
 #endif

@@ -7,7 +7,7 @@
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 
-layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of lists; 0: there are none. With lists, nodes stand by levels
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 
 layout(local_size_x = kBeamGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -46,5 +46,7 @@ void main()
             node = listedChild(params.octree, node, kEntriesPerWord);
         path[level] = present ? node : 0u;
     }
-    params.paths.data[i] = packPath(path, kEntriesPerWord != 0u ? 0u : params.octree.data[0].base_lo - 1u);
+    uint first_child = params.octree.data[0].base_lo;
+    bool listed = kEntriesPerWord != 0u && (first_child & kChildList) != 0u;
+    params.paths.data[i] = packPath(path, listed ? 0u : first_child - 1u);
 }

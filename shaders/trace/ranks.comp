@@ -3,17 +3,23 @@
 // From what a traversal of a DAG knows of a hit, the number of a voxel in its leaf, to the index of its attributes: the
 // rank of the voxel, or of the node where a level of detail stopped. For lists of rays, a thread a hit, and for pictures
 // where trace/primary_ranks does not do it, one workgroup a live tile.
+//
+// Overlays (update/update.h) may stand above the DAG. Their nodes have attributes of their own, and so have the voxels in
+// their leaves, whose numbers the traversal has found already. What hangs below a list begins with the rank of the node
+// that the overlay's is a copy of.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/morton.glsl"
+#include "lib/node.glsl"
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;  // at least 2
 layout(constant_id = 1) const bool kDetail = false;   // hits may be nodes
 layout(constant_id = 2) const bool kTiles = true;     // of a picture
 layout(constant_id = 3) const uint kEntriesPerWord = 2u; // of lists
+layout(constant_id = 4) const bool kOverlays = false; // the upper nodes may be those of an overlay
 
 #include "lib/ranks.glsl"
 
@@ -27,6 +33,19 @@ layout(push_constant, scalar) uniform Push
 uint cellAt(uvec3 cell, uint cell_level, uint level)
 {
     return cellInBlock(cell >> (2u * (cell_level - level)));
+}
+
+// From a node of an overlay to the child in a cell, unless that stands in a list of the DAG below.
+bool descendInOverlay(uint cell, inout RankedNode at)
+{
+    uint place = childIndex(params.source.pool.data[at.node], cell);
+    bool direct = (place & kChildList) == 0u;
+    if (direct)
+    {
+        BeforeChild rank = params.overlay_ranks.data[place];
+        at = RankedNode(place, rank.voxels, rank.nodes);
+    }
+    return direct;
 }
 
 void main()
@@ -51,11 +70,25 @@ void main()
     uvec3 cell = hitCell(hit);
     uint level = kDetail ? hitLevel(hit) : kNodeLevels;
     RankedNode at = RankedNode(0u, 0u, 0u);
+    bool in_overlay = kOverlays;
     for (uint above = 0u; above + 2u < kNodeLevels; ++above)
+    {
         if (above < level)
-            descend(params.source, cellAt(cell, level, above + 1u), at);
+        {
+            uint child = cellAt(cell, level, above + 1u);
+            in_overlay = in_overlay && descendInOverlay(child, at);
+            if (!in_overlay)
+                descend(params.source, child, at);
+        }
+    }
     if (level + 1u >= kNodeLevels)
-        descendToLeaf(params.source, cellAt(cell, level, kNodeLevels - 1u), kDetail, at);
-    bool voxel = level == kNodeLevels;
-    uint_Ptr(uint64_t(params.hits)).data[4u * i + 1u] = voxel ? at.voxels + hit.index : at.rank;
+    {
+        uint leaf = cellAt(cell, level, kNodeLevels - 1u);
+        in_overlay = in_overlay && descendInOverlay(leaf, at);
+        if (!in_overlay)
+            descendToLeaf(params.source, leaf, kDetail, at);
+    }
+    uint voxel = hit.index + (in_overlay ? 0u : at.voxels);
+    uint node = in_overlay ? at.node + params.attribute_offset : at.rank;
+    uint_Ptr(uint64_t(params.hits)).data[4u * i + 1u] = level == kNodeLevels ? voxel : node;
 }

@@ -43,11 +43,11 @@ const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that b
 //
 //     level 1: 8 bits | level 2: 16 | level 2 is relative: 1 | unused 7 | level 3: 32, from the lowest bit on
 //
-// Nodes of level 1, and of level 2 where it says so, are relative: counted from the node before the root's first child.
-// Every octree that zvo makes fits. Where all nodes stand by levels, that node is the root, level 1 is at most 64 and
-// level 2 at most 4160, and is not relative. Where an update has merged a root, level 1 is at most 64 relative to it,
-// level 2 either at most 4160 relative to it or a node of the octree that it changed. A node that does not fit, and
-// those below, are left out: rays begin above it.
+// Nodes of level 1, and of level 2 where it says so, are relative: counted from the node before the root's first child,
+// or from the root if that has a list. Every tree that zvo makes fits. Where all nodes stand by levels, that node is
+// the root, level 1 is at most 64 and level 2 at most 4160, and is not relative. Where an update has merged a root,
+// level 1 is at most 64 relative to it, level 2 either at most 4160 relative to it or a node of the tree that it
+// changed. A node that does not fit, and those below, are left out: rays begin above it.
 const uint kPathLevels = 3u;
 const uint kPathCellBits = 6u;
 const uint kPathCells = 64u;
@@ -133,15 +133,6 @@ struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell
     GPU_PTR(uint64_t) paths; // [kPathCells^3]
 };
 
-/// What ranks in a DAG are summed up from (shared/svdag.h).
-struct RankSource
-{
-    GPU_CONST_PTR(Node) pool;
-    GPU_CONST_PTR(BeforeChild) before;      // by places of entries: those of the long ones
-    GPU_CONST_PTR(uint) voxels_before_leaf; // two entries a word
-    uint first_short_place;                 // of the first entry that is not long
-};
-
 struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
 {
     RankSource source;
@@ -151,10 +142,12 @@ struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
 struct RanksParams // push constants of trace/ranks
 {
     RankSource source;
-    GPU_CONST_PTR(uvec2) live; // kTiles only
+    GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays; kOverlays only, like the last one
+    GPU_CONST_PTR(uvec2) live;                // kTiles only
     GPU_PTR(Hit) hits;
     uint width; // of the picture, or how many hits there are
     uint height;
+    uint attribute_offset; // from an overlay's node to the index of its attributes
 };
 
 struct BeamParams // push constants of trace/beam: one thread a tile

@@ -35,6 +35,9 @@ struct Svdag
     [[nodiscard]] std::uint64_t rankBytes() const { return before.bytes() + voxels_before_leaf.bytes(); }
 };
 
+/// What ranks in dag, which has attributes, are summed up from; pass reads it.
+gpu::RankSource rankSource(vk::Pass& pass, const Svdag& dag);
+
 /// How an octree is compressed.
 struct CompressOptions
 {

@@ -323,7 +323,7 @@ void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
     }
     if (tree.svdag() != nullptr && octree.hasAttributes())
     {
-        buildRankTable(graph, *tree.svdag(), beam);
+        buildRankTable(graph, tree, beam);
     }
 }
 
@@ -334,8 +334,8 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     traceBeam(graph, octree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
     const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !options.hasDetail();
-    const bool wants_ranks = tree.svdag() != nullptr && showsAttributes(options) && usesAttributes(octree, options);
-    const bool has_ranks = wants_ranks && !options.hasDetail() && hasRankTable(*tree.svdag(), beam);
+    const bool wants_ranks = tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options);
+    const bool has_ranks = wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
     const vk::Specialization constants =
         withFlags(traverseConstants(tree, options),
                   {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree)});
@@ -379,7 +379,7 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
                                   declare, dispatchLive(buffers));
     if (wants_ranks)
     {
-        rankTiles(graph, *tree.svdag(), options, buffers);
+        rankTiles(graph, tree, options, buffers);
     }
 }
 
@@ -503,7 +503,7 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
                                { pass.dispatch(rays.count(), params); });
     if (tree.svdag() != nullptr && octree.hasAttributes())
     {
-        rankHits(graph, *tree.svdag(), options, hits, rays.count());
+        rankHits(graph, tree, options, hits, rays.count());
     }
 }
 

@@ -9,54 +9,50 @@ namespace
 
 // Records the pass, unless there is no list: then the number in the leaf is the rank.
 template <typename Dispatch>
-void addRanks(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, bool tiles,
+void addRanks(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, bool tiles,
               const Dispatch& dispatch)
 {
-    const std::uint32_t levels = dag.tree.grid.nodeLevels();
+    const std::uint32_t levels = tree.octree().grid.nodeLevels();
     if (levels < 2)
     {
         return;
     }
-    vk::Pass pass =
-        graph.addPass("trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U, dag.entries_per_word});
+    const OverlaidTree* overlaid = tree.overlaid();
+    vk::Pass pass = graph.addPass(
+        "trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U, tree.entriesPerWord(), overlaid != nullptr ? 1U : 0U});
     gpu::RanksParams params{};
-    params.source = rankSource(pass, dag);
+    params.source = rankSource(pass, *tree.svdag());
+    if (overlaid != nullptr)
+    {
+        params.overlay_ranks = {pass.read(overlaid->ranks).address - overlaid->ranksSkipped()};
+        params.attribute_offset = overlaid->attributeOffset();
+    }
     dispatch(pass, params);
 }
 
 } // namespace
 
-bool hasRankTable(const Svdag& dag, const BeamGrid& beam)
+bool hasRankTable(const TreeView& tree, const BeamGrid& beam)
 {
-    return dag.tree.grid.nodeLevels() > gpu::kPathLevels && beam.paths.count() > gpu::kRankTableFirst;
+    return tree.overlaid() == nullptr && tree.octree().grid.nodeLevels() > gpu::kPathLevels &&
+           beam.paths.count() > gpu::kRankTableFirst;
 }
 
-gpu::RankSource rankSource(vk::Pass& pass, const Svdag& dag)
+void buildRankTable(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
 {
-    const std::uint64_t first_place = dag.packing().firstPlace();
-    gpu::RankSource source{};
-    source.pool = pass.read(dag.tree.nodes);
-    source.before = {pass.read(dag.before).address - first_place * sizeof(gpu::BeforeChild)};
-    source.voxels_before_leaf = pass.read(dag.voxels_before_leaf);
-    source.first_short_place = static_cast<gpu::uint>(first_place + dag.long_entry_count);
-    return source;
-}
-
-void buildRankTable(vk::FrameGraph& graph, const Svdag& dag, BeamGrid& beam)
-{
-    if (!hasRankTable(dag, beam))
+    if (!hasRankTable(tree, beam))
     {
         return;
     }
-    const bool leaves = dag.tree.grid.nodeLevels() == gpu::kPathLevels + 1;
-    vk::Pass pass = graph.addPass("trace/beam_ranks", {leaves ? 1U : 0U, dag.entries_per_word});
-    const gpu::BeamRanksParams params = {rankSource(pass, dag), pass.readWrite(beam.paths)};
+    const bool leaves = tree.octree().grid.nodeLevels() == gpu::kPathLevels + 1;
+    vk::Pass pass = graph.addPass("trace/beam_ranks", {leaves ? 1U : 0U, tree.entriesPerWord()});
+    const gpu::BeamRanksParams params = {rankSource(pass, *tree.svdag()), pass.readWrite(beam.paths)};
     pass.dispatch(gpu::kRankTableFirst, params);
 }
 
-void rankTiles(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, TraceBuffers& buffers)
+void rankTiles(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, TraceBuffers& buffers)
 {
-    addRanks(graph, dag, options, true,
+    addRanks(graph, tree, options, true,
              [&](vk::Pass& pass, gpu::RanksParams& params)
              {
                  params.live = pass.read(buffers.live);
@@ -67,10 +63,10 @@ void rankTiles(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& opti
              });
 }
 
-void rankHits(vk::FrameGraph& graph, const Svdag& dag, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
+void rankHits(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
               std::uint64_t count)
 {
-    addRanks(graph, dag, options, false,
+    addRanks(graph, tree, options, false,
              [&](vk::Pass& pass, gpu::RanksParams& params)
              {
                  params.hits = pass.readWrite(hits);
