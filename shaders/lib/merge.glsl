@@ -4,6 +4,7 @@
 
 layout(constant_id = 0) const uint kMerge = kMergeAverage;
 layout(constant_id = 1) const bool kEmits = false;
+layout(constant_id = 2) const bool kRanks = false; // the base tree is a DAG
 
 layout(push_constant, scalar) uniform Push
 {
@@ -16,11 +17,11 @@ const uint kNoVoxel = ~0u;
 #define mergeItem() (threadIndex() / kMergeThreads)
 #define mergeFirst() (gl_LocalInvocationIndex % kMergeThreads)
 
-// A touched leaf, in the overlay and in the base octree.
+// A touched leaf, in the overlay and in the base tree.
 struct MergedLeaf
 {
     Node node;
-    Node base;
+    Node base; // bases of attributes
     bool has_base;
     uint head;  // record + 1 of the first layer that has the leaf
     uint count; // of its voxels
@@ -38,6 +39,9 @@ MergedLeaf mergedLeaf(uint item)
         leaf.has_base = touched.base != kNoNode;
         if (leaf.has_base)
             leaf.base = params.nodes.data[touched.base];
+        uint first_voxel = kRanks ? params.ranks.data[touched.node].voxels : 0u;
+        leaf.base.base_lo += first_voxel;
+        leaf.base.base_hi += first_voxel;
         leaf.head = params.heads.data[entry];
         leaf.count = bitCount(leaf.node.mask_lo) + bitCount(leaf.node.mask_hi);
     }
@@ -62,7 +66,7 @@ uint setBit(uint mask, uint n)
 struct MergedVoxel
 {
     uint index; // of its attribute
-    uint base;  // likewise in the base octree, or kNoVoxel
+    uint base;  // likewise in the base tree, or kNoVoxel
     uint cell;  // in its leaf
     uint head;  // record + 1 of the first layer that has the leaf
 };

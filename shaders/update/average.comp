@@ -19,5 +19,7 @@ void main()
     if (item >= range.count || params.status.data[0].failed != 0u)
         return;
     uint index = params.touched.data[params.items.data[range.first + item].entry].node;
-    params.averages.data[index] = averageChildren(params.scene, params.nodes.data[index], params.children);
+    Node node = params.nodes.data[index];
+    node.base_lo += params.children_offset;
+    params.averages.data[index + params.attribute_offset] = averageChildren(params.scene, node, params.children);
 }

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes the children of each touched node: merged with the base octree's where a layer touches them, else copies of those.
+// Writes the children of each touched node: merged with the base tree's where a layer touches them, else copies of those.
 // A touched child notes how many children of its own it is to have.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
@@ -10,6 +10,13 @@
 #include "lib/node.glsl"
 
 layout(constant_id = 1) const bool kAttributes = false;
+layout(constant_id = 2) const uint kEntriesPerWord = 0u; // of the lists of a DAG, as base tree; 0: it is an octree
+layout(constant_id = 3) const bool kLeaves = false; // the children are leaves, of a DAG
+
+#include "lib/ranks.glsl"
+
+const bool kLists = kEntriesPerWord != 0u;
+const bool kRanks = kLists && kAttributes;
 
 layout(local_size_x = kUpdateGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -26,6 +33,29 @@ uvec2 childKey(uvec2 key, uint cell)
            kBrickKeyTag;
 }
 
+// The child of a touched node's base node in a cell where it has one. rank: of the base octree's node, where attributes
+// need it; of an octree, the node.
+RankedNode baseChild(TouchedNode parent, Node node, uint cell)
+{
+    uint place = childIndex(node, cell);
+    if (!kLists)
+        return RankedNode(place, 0u, place);
+    Node_ConstPtr pool = Node_ConstPtr(uint64_t(params.nodes));
+    RankedNode at = RankedNode(parent.base, 0u, 0u);
+    if (kRanks)
+    {
+        RankSource source = RankSource(pool, params.before, params.voxels_before_leaf, params.first_short_place);
+        BeforeChild rank = params.ranks.data[parent.node];
+        at = RankedNode(parent.base, rank.voxels, rank.nodes);
+        if (kLeaves)
+            descendToLeaf(source, cell, true, at);
+        else
+            descend(source, cell, at);
+    }
+    at.node = listedChild(pool, place, kEntriesPerWord);
+    return at;
+}
+
 void main()
 {
     LevelRange range = params.ranges.data[params.item_range];
@@ -40,24 +70,26 @@ void main()
     if (!hasChild(node, cell))
         return;
     uint child = childIndex(node, cell);
-    uint base = kNoNode;
+    RankedNode base = RankedNode(kNoNode, 0u, 0u);
     if (touched.base != kNoNode)
     {
         Node base_node = params.nodes.data[touched.base];
         if (hasChild(base_node, cell))
-            base = childIndex(base_node, cell);
+            base = baseChild(touched, base_node, cell);
     }
     uint slot = child - params.first_node;
     Node merged = Node(0u, 0u, 0u, 0u);
-    if (base != kNoNode)
-        merged = params.nodes.data[base];
+    if (base.node != kNoNode)
+        merged = params.nodes.data[base.node];
+    if (kRanks)
+        params.ranks.data[child] = BeforeChild(base.voxels, base.rank);
     if (((cell < 32u ? brick.mask_lo >> cell : brick.mask_hi >> (cell - 32u)) & 1u) != 0u)
     {
         uint child_entry = brickFind(params.bricks, params.brick_mask, childKey(keyOf(brick), cell));
         BrickEntry child_brick = params.bricks.data[child_entry];
         merged.mask_lo |= child_brick.mask_lo;
         merged.mask_hi |= child_brick.mask_hi;
-        params.touched.data[child_entry] = TouchedNode(child, base);
+        params.touched.data[child_entry] = TouchedNode(child, base.node);
         uint count = bitCount(merged.mask_lo) + bitCount(merged.mask_hi);
         params.counts.data[slot] = count;
         uint block = (child - params.levels.data[params.level].first_node) / kScanBlock;
@@ -67,7 +99,12 @@ void main()
     {
         params.counts.data[slot] = 0u;
         if (kAttributes)
-            params.node_attributes.data[child] = params.node_attributes.data[base];
+            params.node_attributes.data[child + params.attribute_offset] = params.node_attributes.data[base.rank];
+        if (kRanks && kLeaves) // as an octree's leaf
+        {
+            merged.base_lo += base.voxels;
+            merged.base_hi += base.voxels;
+        }
     }
     params.nodes.data[child] = merged;
 }

@@ -26,6 +26,6 @@ void main()
     params.roots.data[params.place] = root;
     params.nodes.data[0] = params.nodes.data[root];
     if (kAttributes)
-        params.node_attributes.data[0] = params.node_attributes.data[root];
+        params.node_attributes.data[0] = params.node_attributes.data[root + params.attribute_offset];
     params.results.data[params.place] = status;
 }

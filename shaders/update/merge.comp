@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What the voxels of each touched leaf look like: as in the base octree where no layer has them, else by kMerge.
+// What the voxels of each touched leaf look like: as in the base tree where no layer has them, else by kMerge.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/dispatch.glsl"

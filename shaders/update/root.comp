@@ -1,11 +1,12 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Begins the overlay: merges the roots, and sizes the work on the next level. If no layer has anything, the overlay is a
-// copy of the base octree's root; if the touched nodes found no room, it is nothing.
+// copy of the base tree's root; if the touched nodes found no room, it is nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 
 layout(constant_id = 0) const bool kAttributes = false;
+layout(constant_id = 1) const bool kRanks = false;
 
 layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -45,7 +46,10 @@ void main()
     {
         params.nodes.data[params.first_node] = root;
         if (kAttributes)
-            params.node_attributes.data[params.first_node] = params.node_attributes.data[params.base_root];
+            params.node_attributes.data[params.first_node + params.attribute_offset] =
+                params.node_attributes.data[params.base_root + params.attribute_offset];
+        if (kRanks)
+            params.ranks.data[params.first_node] = BeforeChild(0u, 0u);
     }
     params.levels.data[0] = OverlayLevel(params.first_node, 1u);
     if (!is_leaf)

@@ -19,5 +19,5 @@ void main()
     uint root = params.root != kNoNode ? params.root : params.roots.data[params.place];
     params.nodes.data[0] = params.nodes.data[root];
     if (kAttributes)
-        params.node_attributes.data[0] = params.node_attributes.data[root];
+        params.node_attributes.data[0] = params.node_attributes.data[root + params.attribute_offset];
 }

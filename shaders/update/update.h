@@ -2,14 +2,20 @@
 // What the kernels of dynamic update share with the host.
 //
 // A layer is what voxelization makes of one moving mesh: a brick table with its leaves, and sums over the fragments of
-// each of its voxels. An overlay is a copy of every path of a base octree that leads to a leaf which some layer has,
-// merged with the layers. It stands behind the base octree's nodes and attributes, in the same buffers:
+// each of its voxels. An overlay is a copy of every path of a base tree that leads to a leaf which some layer has,
+// merged with the layers. It stands behind the base tree's nodes and attributes, in the same buffers:
 //
 //   - nodes[0] is the root that is traced: a copy of the root chosen last. Nobody else reads or writes it.
 //   - The overlay's root is the first node of its region; then come its levels, breadth first in Morton order.
-//   - The children of an overlay's node stand together, as everywhere: those that no layer touches are copies of the
-//     base octree's nodes, whose own children stay where they are.
-//   - A leaf of an overlay has attributes of its own for all of its voxels, in the order of the leaves.
+//   - The children of an overlay's node stand together, as in an octree: those that no layer touches are copies of the
+//     base tree's nodes, whose own children stay where they are.
+//   - A touched leaf of an overlay has attributes of its own for all of its voxels, in the order of the leaves.
+//
+// The base tree is an octree or a DAG (shared/svdag.h). A DAG's nodes stand at many places, and so do not tell
+// which attributes are theirs: with attributes, every node of an overlay has, in an array beside it, the rank of the
+// base octree's node in its place. A copy of a leaf has the index of its first voxel's attribute, as an octree's leaf.
+// Attributes of a DAG's nodes stand depth first, as many as the octree had; those of overlays' nodes stand behind them,
+// attribute_offset from the nodes' numbers.
 //
 // A node of the overlay that stands above a leaf of a layer is touched. Touched nodes have entries in a brick table, as
 // nodes under construction do (shared/bricks.h).
@@ -20,19 +26,20 @@
 #include "shared/bricks.h"
 #include "shared/octree.h"
 #include "shared/scene.h"
+#include "shared/svdag.h"
 #include "voxelize/voxelize.h"
 
 GPU_NAMESPACE_BEGIN
 
 const uint kLayersMax = 1024u;  // in one overlay
-const uint kNoNode = ~0u;       // in a base octree
+const uint kNoNode = ~0u;       // in a base tree
 const uint kUpdateGroup = 64u;  // threads of most workgroups: for a node's children, one each
 const uint kMergeThreads = 16u; // of a workgroup that take one leaf: mostly one for each of its voxels
 
 // Specialization constant of update/merge: what a voxel looks like that the base octree and layers have.
 const uint kMergeAverage = 0u; // the mean over the fragments of both
 const uint kMergeDynamic = 1u; // the layers
-const uint kMergeStatic = 2u;  // the base octree
+const uint kMergeStatic = 2u;  // the base tree
 
 // Why an update came to nothing: bits of UpdateStatus::failed.
 const uint kFailedLayer = 1u;      // a layer had not enough room: LayerCounters tell which
@@ -86,7 +93,7 @@ GPU_BUFFER(LayerLink, 4);
 struct TouchedNode
 {
     uint node; // its index
-    uint base; // the node of the base octree in the same place, or kNoNode
+    uint base; // the node of the base tree in the same place, or kNoNode
 };
 GPU_BUFFER(TouchedNode, 4);
 
@@ -171,16 +178,17 @@ struct RootParams // push constants of update/root
     GPU_PTR(TouchedNode) touched; // [brick_capacity]
     GPU_PTR(Node) nodes;
     GPU_PTR(Attribute) node_attributes; // or null
+    GPU_PTR(BeforeChild) ranks;         // by nodes of overlays; kRanks only
     GPU_PTR(OverlayLevel) levels;       // [level_count]
     GPU_PTR(DispatchArgs) args;         // [kArgsCount]
     GPU_PTR(UpdateStatus) status;
     uint level_count;
-    uint base_root;  // node index; the node may be empty
+    uint base_root;  // node index; the node may be empty, and stands like a node of an overlay
     uint first_node; // of the overlay's region
     uint node_capacity;
     uint first_voxel;
     uint voxel_capacity;
-    uint max_groups_x;
+    uint attribute_offset;
 };
 
 struct ExpandParams // push constants of update/expand: a workgroup for each touched node of the level above
@@ -194,11 +202,16 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     GPU_PTR(uint) counts;               // [node_capacity] children that the overlay has to hold for its nodes
     GPU_PTR(uint) partials;             // [levels * ceil(node_capacity / kScanBlock)] cleared: sums of those
     GPU_CONST_PTR(OverlayLevel) levels;
+    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(uint) voxels_before_leaf;
+    GPU_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
     uint brick_mask;
-    uint level;         // of the children
-    uint item_range;    // of the parents, in ranges
-    uint first_node;    // of the overlay
-    uint first_partial; // of the level
+    uint level;            // of the children
+    uint item_range;       // of the parents, in ranges
+    uint first_node;       // of the overlay
+    uint first_partial;    // of the level
+    uint attribute_offset; // 0 for an octree
+    uint first_short_place; // as in RankSource
 };
 
 struct OverlayScanParams // push constants of update/scan: one workgroup
@@ -233,7 +246,7 @@ struct OverlayAssignParams // push constants of update/assign
 struct MergeView
 {
     GPU_CONST_PTR(SceneView) scene;            // for the tables of sRGB codes
-    GPU_CONST_PTR(VoxelSums) sums;             // of the static octree's voxels; kMergeAverage only
+    GPU_CONST_PTR(VoxelSums) sums;             // of the base tree's voxels; kMergeAverage only
     GPU_CONST_PTR(EmissionSums) emission_sums; // of its emissive voxels; likewise
     uint base_shift;                           // bits that these sums have more than those of the layers
 };
@@ -249,6 +262,7 @@ struct MergeParams // push constants of update/merge and update/merge_emission
     GPU_CONST_PTR(LayerLink) links;
     GPU_CONST_PTR(Layer) layers;
     GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
     GPU_PTR(Attribute) attributes;
     GPU_PTR(uvec2) emission_words; // the overlay's bits cleared; or null
     GPU_PTR(uint) emission;        // or null
@@ -267,6 +281,8 @@ struct OverlayAverageParams // push constants of update/average: one thread a to
     GPU_PTR(Attribute) averages;       // of nodes
     GPU_CONST_PTR(UpdateStatus) status;
     uint item_range;
+    uint children_offset;  // from a node's base to children
+    uint attribute_offset; // from a node to averages
 };
 
 struct FinishParams // push constants of update/finish
@@ -282,6 +298,7 @@ struct FinishParams // push constants of update/finish
     uint last_place;
     uint place;     // element of roots and of results for this update
     uint sum_shift; // of the layers
+    uint attribute_offset;
 };
 
 struct ShowParams // push constants of update/show
@@ -291,6 +308,7 @@ struct ShowParams // push constants of update/show
     GPU_CONST_PTR(uint) roots;
     uint root; // or kNoNode: roots[place]
     uint place;
+    uint attribute_offset;
 };
 
 GPU_NAMESPACE_END

@@ -16,35 +16,36 @@ constexpr std::uint64_t kCountMax = UINT32_MAX; // kernels count in 32 bits
 constexpr std::uint32_t kUpdatesPerFrame = 4;
 constexpr std::uint64_t kRoomMin = 1024; // nodes, and voxels, that overlays have at first
 
-// What was built, if it can be merged as options say. Throws Error{Usage} where not.
-BuildResult checked(BuildResult built, const DynamicOptions& options)
+// A static tree, if it can be merged as options say. Throws Error{Usage} where not.
+StaticTree checked(StaticTree fixed, const DynamicOptions& options)
 {
     if (options.frames_in_flight == 0 || options.history.steps_max == 0)
     {
         throw Error(ErrorCode::Usage, "dynamic updates need a frame in flight and a step of history at least");
     }
-    if (isPacked(built.octree.attributeForm()))
+    const Octree& octree = fixed.dag.tree;
+    if (isPacked(octree.attributeForm()))
     {
         throw Error(ErrorCode::Usage,
                     "movers can be merged only with attributes of 8 bytes: build the octree with them");
     }
-    const bool averages = built.octree.hasAttributes() && options.merge == MergeRule::Average;
-    if (averages && built.sums.sums.count() != built.octree.voxel_count)
+    const bool averages = octree.hasAttributes() && options.merge == MergeRule::Average;
+    if (averages && fixed.sums.sums.count() != octree.voxel_count)
     {
         throw Error(ErrorCode::Usage, "movers can be averaged with a static octree only if its sums were kept");
     }
-    if (built.octree.emission.count() != 0 && built.octree.emission_scale != options.emission_scale)
+    if (octree.emission.count() != 0 && octree.emission_scale != options.emission_scale)
     {
         throw Error(ErrorCode::Usage, "movers and the static scene need one emission scale");
     }
-    return built;
+    return fixed;
 }
 
 } // namespace
 
-DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, BuildResult built, const DynamicOptions& options)
+DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, StaticTree fixed, const DynamicOptions& options)
     : m_device(device), m_options(options),
-      m_overlays(device, checked(std::move(built), options), {options.attributes, options.emission_scale},
+      m_overlays(device, checked(std::move(fixed), options), {options.attributes, options.emission_scale},
                  options.minimal_capacities ? 1 : kRoomMin),
       m_movers(device, m_overlays.octree().grid,
                {options.coverage,
@@ -185,7 +186,7 @@ bool DynamicOctree::updateOrWait(vk::FrameGraph& graph, double budget_ms)
 {
     if (m_job == nullptr && m_movers.isEmpty())
     {
-        showRoot(graph, m_overlays.octree(), m_roots, {staticRoot(), 0});
+        showRoot(graph, m_overlays.tree(), m_roots, {staticRoot(), 0});
         m_owes_root = false;
         m_history.push(std::nullopt, {});
     }
@@ -225,7 +226,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
 {
     if (m_owes_root)
     {
-        showRoot(graph, m_overlays.octree(), m_roots, rootOf(m_history.current()));
+        showRoot(graph, m_overlays.tree(), m_roots, rootOf(m_history.current()));
         m_owes_root = false;
     }
     m_movers.makeLayers();
@@ -244,8 +245,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
     graph.update(m_merge_view, 0, std::span(&view, 1));
     const auto result = static_cast<std::uint32_t>(m_result_count++ % m_results.count());
     m_job = std::make_unique<Job>(Job{
-        .merge = {.octree = m_overlays.octree(),
-                  .base_root = staticRoot(),
+        .merge = {.tree = m_overlays.tree(),
                   .layers = m_movers.layers(),
                   .region = *region,
                   .merge = m_options.merge,
@@ -314,7 +314,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
     }
     try
     {
-        showRoot(graph, m_overlays.octree(), m_roots, rootOf(*step));
+        showRoot(graph, m_overlays.tree(), m_roots, rootOf(*step));
     }
     catch (...)
     {

@@ -7,6 +7,7 @@
 #include "core/overlay_octree.h"
 #include "core/pipeline.h"
 #include "core/root_history.h"
+#include "core/tree_view.h"
 #include "core/update.h"
 #include "core/update_sizes.h"
 #include "vk/headless.h"
@@ -27,12 +28,12 @@ namespace zvo
 /// How a DynamicOctree works.
 struct DynamicOptions
 {
-    Coverage coverage = Coverage::Thin; // of the movers; as the static octree's
+    Coverage coverage = Coverage::Thin; // of the movers; as the static tree's
     MergeRule merge = MergeRule::Average;
     std::uint32_t frames_in_flight = 2; // that may be recorded before frameDone() was told of the first
     HistoryBounds history = {1, UINT64_MAX};
     float emission_scale = 0;        // common to the static scene and all movers; 0: nothing emits light
-    bool attributes = true;          // of an empty static octree, which does not say
+    bool attributes = true;          // of an empty static tree, which does not say
     bool minimal_capacities = false; // everything starts with room for one: for tests
 };
 
@@ -48,13 +49,13 @@ struct UpdateReport
     std::map<std::string, std::uint64_t> dropped = {}; // movers' triangles that were left out, by reason
 };
 
-/// A static octree into which moving meshes are merged, frame by frame. The static octree never changes: an update
+/// A static octree or DAG into which moving meshes are merged, frame by frame. The static tree never changes: an update
 /// copies the paths that movers touch behind it, and shows the copy; undo shows an older one.
 ///
-/// Every frame: beginFrame(), then at most four of update(), undo() and redo(), and the tracing of octree() into a
+/// Every frame: beginFrame(), then at most four of update(), undo() and redo(), and the tracing of tree() into a
 /// command buffer, then, once the device is done with it, frameDone(). Frames share buffers: a command buffer is
 /// submitted after those of earlier frames and begins behind a full memory barrier. Nothing waits for the device.
-/// Whatever was made of the octree before (a BeamGrid, addresses of its buffers) is out of date after each of the three
+/// Whatever was made of the tree before (a BeamGrid, addresses of its buffers) is out of date after each of the three
 /// calls. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an update needs
 /// beyond the memory there is, it reports; the frame then shows the last root that is complete, and a later update has
 /// more memory. Where recording a frame or submitting it fails, whatever it was, frameLost() takes the frame back, and
@@ -62,9 +63,10 @@ struct UpdateReport
 class DynamicOctree
 {
 public:
-    /// Takes over a static octree (and, for MergeRule::Average, the sums it was made of: BuildOptions::keep_sums).
-    /// Throws Error{Usage} where those are missing, Error{Memory} when the device's budget does not suffice.
-    DynamicOctree(vk::HeadlessDevice& device, BuildResult built, const DynamicOptions& options);
+    /// Takes over a static tree, a BuildResult or a DAG (and, for MergeRule::Average, the sums it was made of:
+    /// BuildOptions::keep_sums). Throws Error{Usage} where those are missing, Error{Memory} when the device's budget
+    /// does not suffice.
+    DynamicOctree(vk::HeadlessDevice& device, StaticTree fixed, const DynamicOptions& options);
     DynamicOctree(const DynamicOctree&) = delete;
     DynamicOctree& operator=(const DynamicOctree&) = delete;
 
@@ -84,7 +86,7 @@ public:
     /// Numbers the frame that is to be recorded.
     std::uint64_t beginFrame();
 
-    /// Records an update: movers that changed are voxelized, all are merged with the static octree, and the result is
+    /// Records an update: movers that changed are voxelized, all are merged with the static tree, and the result is
     /// shown. It becomes a step of the history. Under a budget of GPU time, as much of it as is thought to fit
     /// (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of movers count
     /// for the update after this one. 0: no bound. Returns whether the update is complete. While memory is short and
@@ -118,14 +120,18 @@ public:
     /// and none was recorded since, nor undo() or redo().
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
 
-    /// What to trace. Its node_count and voxel_count are those of the static octree (1 node for an empty one). It has
-    /// no levels: what goes through those (octreeSha256, voxelCodes) tells nothing of it.
+    /// What to trace.
+    [[nodiscard]] TreeView tree() const { return m_overlays.tree(); }
+
+    /// What of it an octree and a DAG have in common; where the static tree is an octree, what to trace. node_count and
+    /// voxel_count are those of the static tree (1 node for an empty one). It has no levels: what goes through those
+    /// (octreeSha256, voxelCodes) tells nothing of it.
     [[nodiscard]] const Octree& octree() const { return m_overlays.octree(); }
 
     [[nodiscard]] const RootHistory& history() const { return m_history; }
 
-    /// Number of the static octree's nodes, and of the node behind them: its root, untouched by what is shown.
-    [[nodiscard]] std::uint32_t staticRoot() const { return m_overlays.staticRoot(); }
+    /// Number of the node behind the static nodes and lists: the static root, untouched by what is shown.
+    [[nodiscard]] std::uint32_t staticRoot() const { return m_overlays.tree().static_root; }
 
 private:
     struct PendingUpdate

@@ -4,6 +4,8 @@
 #include "core/divide_up.h"
 #include "zvo/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -13,7 +15,8 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kCountMax = UINT32_MAX; // kernels count in 32 bits
+constexpr std::uint64_t kCountMax = UINT32_MAX;            // kernels count in 32 bits
+constexpr std::uint64_t kListedCountMax = gpu::kChildList; // numbers of nodes and voxels have no flag for lists
 
 constexpr std::uint64_t roundUp(std::uint64_t value, std::uint64_t multiple)
 {
@@ -26,13 +29,18 @@ std::uint64_t grownRoom(std::uint64_t room, std::uint64_t asked)
     return room + std::max(room / 2, asked);
 }
 
-// A static octree; an empty one is a root without children.
-Octree adopted(Octree&& from)
+// An empty tree is a root without children.
+OverlaidTree adopted(Svdag&& dag, bool has_lists)
 {
-    Octree octree = std::move(from);
+    OverlaidTree tree;
+    tree.dag = std::move(dag);
+    tree.dag.octree_node_count = std::max(tree.dag.octree_node_count, 1U);
+    Octree& octree = tree.dag.tree;
     octree.node_count = std::max(octree.node_count, 1U);
     octree.levels.clear();
-    return octree;
+    tree.has_lists = has_lists;
+    tree.static_root = std::max(has_lists ? static_cast<std::uint32_t>(octree.nodes.count()) : octree.node_count, 1U);
+    return tree;
 }
 
 template <typename T> void copyAll(vk::FrameGraph& graph, const vk::BufferOf<T>& from, vk::BufferOf<T>& to)
@@ -45,14 +53,26 @@ template <typename T> void copyAll(vk::FrameGraph& graph, const vk::BufferOf<T>&
 
 } // namespace
 
-OverlayOctree::OverlayOctree(vk::HeadlessDevice& device, BuildResult built, const OverlayContents& contents,
-                             std::uint64_t room)
-    : m_device(device), m_is_empty(built.octree.node_count == 0),
-      m_has_attributes(m_is_empty ? contents.attributes : built.octree.hasAttributes()),
-      m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(built.octree.emission.count()),
-      m_sums(std::move(built.sums)), m_octree(adopted(std::move(built.octree))), m_arena(staticSpace())
+StaticTree::StaticTree(BuildResult built) : has_lists(false), sums(std::move(built.sums))
 {
-    m_octree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
+    dag.tree = std::move(built.octree);
+    dag.octree_node_count = dag.tree.node_count;
+}
+
+StaticTree::StaticTree(Svdag static_dag, FragmentSums kept)
+    : dag(std::move(static_dag)), has_lists(true), sums(std::move(kept))
+{
+}
+
+OverlayOctree::OverlayOctree(vk::HeadlessDevice& device, StaticTree fixed, const OverlayContents& contents,
+                             std::uint64_t room)
+    : m_device(device), m_is_empty(fixed.dag.tree.node_count == 0),
+      m_has_attributes(m_is_empty ? contents.attributes : fixed.dag.tree.hasAttributes()),
+      m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(fixed.dag.tree.emission.count()),
+      m_sums(std::move(fixed.sums)), m_tree(adopted(std::move(fixed.dag), fixed.has_lists)), m_arena(staticSpace())
+{
+    Octree& octree = m_tree.dag.tree;
+    octree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
     vk::Retired retired;
     m_device.run(
         [&](vk::FrameGraph& graph)
@@ -60,14 +80,14 @@ OverlayOctree::OverlayOctree(vk::HeadlessDevice& device, BuildResult built, cons
             grow(graph, room, room, retired);
             if (m_is_empty)
             {
-                graph.fill(m_octree.nodes, 0);
-                graph.fill(m_octree.node_attributes, 0);
+                graph.fill(octree.nodes, 0);
+                graph.fill(octree.node_attributes, 0);
             }
-            graph.copy(m_octree.nodes, 0, m_octree.nodes, staticRoot() * sizeof(gpu::Node), sizeof(gpu::Node));
+            graph.copy(octree.nodes, 0, octree.nodes, m_tree.static_root * sizeof(gpu::Node), sizeof(gpu::Node));
             if (m_has_attributes)
             {
-                graph.copy(m_octree.node_attributes, 0, m_octree.node_attributes, staticRoot() * sizeof(gpu::Attribute),
-                           sizeof(gpu::Attribute));
+                graph.copy(octree.node_attributes, 0, octree.node_attributes,
+                           m_tree.dag.octree_node_count * sizeof(gpu::Attribute), sizeof(gpu::Attribute));
             }
         });
     m_before.reset();
@@ -76,13 +96,19 @@ OverlayOctree::OverlayOctree(vk::HeadlessDevice& device, BuildResult built, cons
 OverlaySpace OverlayOctree::staticSpace() const
 {
     return {
-        .static_nodes = staticRoot() + 1,
-        .node_capacity = staticRoot() + 1,
-        .static_voxels = m_octree.voxel_count,
-        .voxel_capacity = m_octree.voxel_count,
-        .node_bytes = static_cast<std::uint32_t>(sizeof(gpu::Node) + (m_has_attributes ? sizeof(gpu::Attribute) : 0)),
+        .static_nodes = m_tree.static_root + 1,
+        .node_capacity = m_tree.static_root + 1,
+        .static_voxels = octree().voxel_count,
+        .voxel_capacity = octree().voxel_count,
+        .node_bytes = nodeBytes(),
         .voxel_block_bytes = voxelBlockBytes(),
     };
+}
+
+std::uint32_t OverlayOctree::nodeBytes() const
+{
+    return static_cast<std::uint32_t>(sizeof(gpu::Node) + (m_has_attributes ? sizeof(gpu::Attribute) : 0) +
+                                      (hasRanks() ? sizeof(gpu::BeforeChild) : 0));
 }
 
 std::uint32_t OverlayOctree::voxelBlockBytes() const
@@ -94,7 +120,7 @@ std::uint32_t OverlayOctree::voxelBlockBytes() const
 
 std::uint32_t OverlayOctree::firstOverlayVoxel() const
 {
-    return static_cast<std::uint32_t>(roundUp(m_octree.voxel_count, kVoxelBlock));
+    return static_cast<std::uint32_t>(roundUp(octree().voxel_count, kVoxelBlock));
 }
 
 std::uint32_t OverlayOctree::emissionOffset() const
@@ -109,10 +135,12 @@ void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64
     const std::uint64_t node_capacity =
         space.static_nodes + grownRoom(std::uint64_t{space.node_capacity} - space.static_nodes, nodes);
     const std::uint64_t voxel_capacity = firstOverlayVoxel() + roundUp(grownRoom(voxel_room, voxels), kVoxelBlock);
-    if (node_capacity > kCountMax || voxel_capacity > kCountMax)
+    const std::uint64_t count_max = m_tree.has_lists ? kListedCountMax : kCountMax;
+    if (node_capacity > count_max || voxel_capacity > count_max)
     {
-        throw Error(ErrorCode::Memory, "overlays need more nodes or voxels than 32-bit numbers count: keep fewer steps "
-                                       "of history, or lower the resolution");
+        throw Error(ErrorCode::Memory, fmt::format("overlays need more nodes or voxels than the {} that can be told "
+                                                   "apart: keep fewer steps of history, or lower the resolution",
+                                                   count_max));
     }
     lengthen(graph, node_capacity, voxel_capacity, retired);
     m_arena.grow(static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity));
@@ -120,29 +148,35 @@ void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64
 
 OverlayOctree::Buffers OverlayOctree::makeBuffers(std::uint64_t node_capacity, std::uint64_t voxel_capacity)
 {
-    const std::uint64_t attribute_nodes = m_has_attributes ? node_capacity : 0;
+    Octree& octree = m_tree.dag.tree;
+    const std::uint64_t overlay_nodes = node_capacity - m_tree.static_root; // with the static root
+    const std::uint64_t attribute_nodes = m_has_attributes ? m_tree.dag.octree_node_count + overlay_nodes : 0;
+    const std::uint64_t rank_count = hasRanks() ? overlay_nodes - 1 : 0;
     const std::uint64_t attribute_voxels = m_has_attributes ? voxel_capacity : 0;
     const std::uint64_t emission_words = m_emits ? voxel_capacity / kVoxelBlock : 0;
     const std::uint64_t emission = m_emits ? m_static_emissive + voxel_capacity - firstOverlayVoxel() : 0;
-    m_device.device().memory().require(node_capacity * sizeof(gpu::Node) +
+    m_device.device().memory().require(node_capacity * sizeof(gpu::Node) + rank_count * sizeof(gpu::BeforeChild) +
                                            (attribute_nodes + attribute_voxels) * sizeof(gpu::Attribute) +
                                            emission_words * sizeof(gpu::uvec2) + emission * sizeof(gpu::uint),
                                        "room for overlays");
     vk::Device& d = m_device.device();
-    return {{d, m_octree.nodes.name(), node_capacity},
-            {d, m_octree.node_attributes.name(), attribute_nodes},
-            {d, m_octree.voxel_attributes.name(), attribute_voxels},
-            {d, m_octree.emission_words.name(), emission_words},
-            {d, m_octree.emission.name(), emission}};
+    return {{d, octree.nodes.name(), node_capacity},
+            {d, "update/ranks", rank_count},
+            {d, octree.node_attributes.name(), attribute_nodes},
+            {d, octree.voxel_attributes.name(), attribute_voxels},
+            {d, octree.emission_words.name(), emission_words},
+            {d, octree.emission.name(), emission}};
 }
 
 void OverlayOctree::swapBuffers(Buffers& buffers)
 {
-    std::swap(m_octree.nodes, buffers.nodes);
-    std::swap(m_octree.node_attributes, buffers.node_attributes);
-    std::swap(m_octree.voxel_attributes, buffers.voxel_attributes);
-    std::swap(m_octree.emission_words, buffers.emission_words);
-    std::swap(m_octree.emission, buffers.emission);
+    Octree& octree = m_tree.dag.tree;
+    std::swap(octree.nodes, buffers.nodes);
+    std::swap(m_tree.ranks, buffers.ranks);
+    std::swap(octree.node_attributes, buffers.node_attributes);
+    std::swap(octree.voxel_attributes, buffers.voxel_attributes);
+    std::swap(octree.emission_words, buffers.emission_words);
+    std::swap(octree.emission, buffers.emission);
 }
 
 void OverlayOctree::lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity, std::uint64_t voxel_capacity,
@@ -150,19 +184,21 @@ void OverlayOctree::lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity,
 {
     Buffers from = makeBuffers(node_capacity, voxel_capacity); // all of them, before anything is recorded
     swapBuffers(from);
-    copyAll(graph, from.nodes, m_octree.nodes);
+    Octree& octree = m_tree.dag.tree;
+    copyAll(graph, from.nodes, octree.nodes);
     if (m_has_attributes)
     {
-        copyAll(graph, from.node_attributes, m_octree.node_attributes);
-        copyAll(graph, from.voxel_attributes, m_octree.voxel_attributes);
+        copyAll(graph, from.ranks, m_tree.ranks);
+        copyAll(graph, from.node_attributes, octree.node_attributes);
+        copyAll(graph, from.voxel_attributes, octree.voxel_attributes);
     }
     if (m_emits)
     {
-        copyAll(graph, from.emission_words, m_octree.emission_words);
-        copyAll(graph, from.emission, m_octree.emission);
-        if (from.emission_words.count() == 0) // nothing of the static octree emits
+        copyAll(graph, from.emission_words, octree.emission_words);
+        copyAll(graph, from.emission, octree.emission);
+        if (from.emission_words.count() == 0) // nothing of the static tree emits
         {
-            graph.fill(m_octree.emission_words, 0);
+            graph.fill(octree.emission_words, 0);
         }
     }
     if (m_before) // made in this frame
@@ -196,7 +232,7 @@ void OverlayOctree::frameLost(vk::Retired& retired)
 void OverlayOctree::catchUp(vk::FrameGraph& graph, vk::Retired& retired)
 {
     const OverlaySpace& space = m_arena.space();
-    if (m_octree.nodes.count() != space.node_capacity)
+    if (octree().nodes.count() != space.node_capacity)
     {
         lengthen(graph, space.node_capacity, space.voxel_capacity, retired);
     }

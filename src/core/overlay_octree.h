@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
+#include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
 #include "core/pipeline.h"
 #include "vk/headless.h"
@@ -13,26 +13,37 @@
 namespace zvo
 {
 
+/// A tree that stands still, and the sums that its voxels' attributes were made of, if they were kept.
+struct StaticTree
+{
+    StaticTree(BuildResult built);                   // implicit
+    StaticTree(Svdag static_dag, FragmentSums kept); // kept: BuildResult::sums of the octree that the DAG was made of
+
+    Svdag dag; // an octree is one without lists
+    bool has_lists;
+    FragmentSums sums;
+};
+
 /// What the overlays of an OverlayOctree have.
 struct OverlayContents
 {
-    bool attributes = true;   // where the static octree is empty and does not say
+    bool attributes = true;   // where the static tree is empty and does not say
     float emission_scale = 0; // 0: nothing emits light
 };
 
-/// A static octree in buffers with room for overlays behind it:
+/// A static octree or DAG in buffers with room for overlays behind it:
 ///
-///     nodes       | slot | static nodes ... | static root | overlays and room
-///     attributes  | static voxels ...       | overlays and room
+///     nodes       | slot | static nodes, lists ... | static root | overlays and room
+///     attributes  | static voxels ...              | overlays and room
 ///
 /// nodes[0] is the root that is traced. Nothing static is ever written again. When the buffers grow their addresses
 /// change, and all contents stay.
 class OverlayOctree
 {
 public:
-    /// Takes over a static octree and the sums that it was made of. Waits. room: nodes, and voxels, that there is room
-    /// for at first. Throws Error{Memory} when the device's budget does not suffice.
-    OverlayOctree(vk::HeadlessDevice& device, BuildResult built, const OverlayContents& contents, std::uint64_t room);
+    /// Takes over a static tree. Waits. room: nodes, and voxels, that there is room for at first. Throws Error{Memory}
+    /// when the device's budget does not suffice.
+    OverlayOctree(vk::HeadlessDevice& device, StaticTree fixed, const OverlayContents& contents, std::uint64_t room);
 
     /// Makes room for one more region of that many nodes and voxels, whatever is held: records the copies to longer
     /// buffers, and leaves the old ones to retired. Throws Error{Memory} when the device's budget does not suffice:
@@ -50,26 +61,26 @@ public:
     /// does. Nothing to do otherwise. Throws as grow().
     void catchUp(vk::FrameGraph& graph, vk::Retired& retired);
 
-    /// Its counts are those of the static octree (1 node for an empty one).
-    [[nodiscard]] const Octree& octree() const { return m_octree; }
-    [[nodiscard]] Octree& octree() { return m_octree; }
+    [[nodiscard]] const OverlaidTree& tree() const { return m_tree; }
+    [[nodiscard]] OverlaidTree& tree() { return m_tree; }
+
+    /// What an octree and a DAG have in common.
+    [[nodiscard]] const Octree& octree() const { return m_tree.dag.tree; }
 
     [[nodiscard]] OverlayArena& arena() { return m_arena; }
     [[nodiscard]] const FragmentSums& sums() const { return m_sums; }
     [[nodiscard]] bool hasAttributes() const { return m_has_attributes; }
     [[nodiscard]] bool emits() const { return m_emits; }
 
-    /// Index of the static root, untouched by what is shown.
-    [[nodiscard]] std::uint32_t staticRoot() const { return m_octree.node_count; }
-
     /// From the index of an overlay's voxel to its place in octree().emission, modulo 2^32.
     [[nodiscard]] std::uint32_t emissionOffset() const;
 
 private:
-    // That grow: empty where the octree has no such thing.
+    // That grow: empty where the tree has no such thing.
     struct Buffers
     {
         vk::BufferOf<gpu::Node> nodes;
+        vk::BufferOf<gpu::BeforeChild> ranks;
         vk::BufferOf<gpu::Attribute> node_attributes;
         vk::BufferOf<gpu::Attribute> voxel_attributes;
         vk::BufferOf<gpu::uvec2> emission_words;
@@ -80,6 +91,8 @@ private:
     void swapBuffers(Buffers& buffers);
     void lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity, std::uint64_t voxel_capacity,
                   vk::Retired& retired);
+    [[nodiscard]] bool hasRanks() const { return m_tree.has_lists && m_has_attributes; }
+    [[nodiscard]] std::uint32_t nodeBytes() const;
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;
     [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
     [[nodiscard]] OverlaySpace staticSpace() const;
@@ -90,9 +103,9 @@ private:
     bool m_emits;
     std::uint64_t m_static_emissive; // voxels
     FragmentSums m_sums;
-    Octree m_octree;
+    OverlaidTree m_tree;
     OverlayArena m_arena;
-    std::optional<Buffers> m_before; // of the octree when the last frame began, if they have been replaced in it
+    std::optional<Buffers> m_before; // of the tree when the last frame began, if they have been replaced in it
 };
 
 } // namespace zvo

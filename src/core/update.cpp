@@ -11,6 +11,12 @@ namespace zvo
 namespace
 {
 
+// Whether nodes of overlays need the ranks of those in their place (update/update.h).
+bool hasRanks(const OverlaidTree& tree)
+{
+    return tree.ranks.count() != 0;
+}
+
 std::uint32_t partialsPerLevel(const UpdateBuffers& buffers)
 {
     return static_cast<std::uint32_t>(divideUp(buffers.counts.count(), gpu::kScanBlock));
@@ -55,7 +61,7 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     graph.fill(buffers.heads, 0);
     graph.fill(buffers.partials, 0);
     graph.update(buffers.layers, 0, layers);
-    vk::Pass pass = graph.addPass("update/insert", {hasWideKeys(job.octree.grid) ? 1U : 0U});
+    vk::Pass pass = graph.addPass("update/insert", {hasWideKeys(job.tree.dag.tree.grid) ? 1U : 0U});
     gpu::InsertParams params{};
     params.layers = readLayers(pass, job, buffers);
     params.bricks = pass.readWrite(buffers.bricks);
@@ -68,44 +74,49 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.record_count = record_count;
     params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
     pass.dispatch(record_count, params);
-    listAncestors(graph, job.octree.grid, buffers.bricks, buffers.counters, buffers.work);
+    listAncestors(graph, job.tree.dag.tree.grid, buffers.bricks, buffers.counters, buffers.work);
 }
 
 void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
-    const bool attributes = job.octree.node_attributes.count() != 0;
-    vk::Pass pass = graph.addPass("update/root", {attributes ? 1U : 0U});
+    Octree& octree = job.tree.dag.tree;
+    const bool attributes = octree.node_attributes.count() != 0;
+    vk::Pass pass = graph.addPass("update/root", {attributes ? 1U : 0U, hasRanks(job.tree) ? 1U : 0U});
     gpu::RootParams params{};
     params.bricks = pass.read(buffers.bricks);
     params.items = pass.read(buffers.work.items);
     params.ranges = pass.read(buffers.work.ranges);
     params.counters = pass.read(buffers.counters);
     params.touched = pass.write(buffers.touched);
-    params.nodes = pass.readWrite(job.octree.nodes);
-    params.node_attributes = pass.readWrite(job.octree.node_attributes);
+    params.nodes = pass.readWrite(octree.nodes);
+    params.node_attributes = pass.readWrite(octree.node_attributes);
+    params.ranks = {pass.readWrite(job.tree.ranks).address - job.tree.ranksSkipped()};
     params.levels = pass.write(buffers.levels);
     params.args = pass.write(buffers.args);
     params.status = pass.readWrite(buffers.status);
-    params.level_count = job.octree.grid.nodeLevels();
-    params.base_root = job.base_root;
+    params.level_count = octree.grid.nodeLevels();
+    params.base_root = job.tree.static_root;
     params.first_node = job.region.first_node;
     params.node_capacity = job.region.node_capacity;
     params.first_voxel = job.region.first_voxel;
     params.voxel_capacity = job.region.voxel_capacity;
-    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+    params.attribute_offset = job.tree.attributeOffset();
     pass.dispatch(1, params);
 }
 
 // Writes the nodes of one level (not the root) and gives the touched ones their child bases.
 void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
 {
-    Octree& octree = job.octree;
+    OverlaidTree& tree = job.tree;
+    Octree& octree = tree.dag.tree;
     const std::uint32_t level_count = octree.grid.nodeLevels();
     const std::uint32_t first_partial = level * partialsPerLevel(buffers);
     const bool attributes = octree.node_attributes.count() != 0;
     const std::uint64_t groups_max = buffers.bricks.count();
     {
-        vk::Pass pass = graph.addPass("update/expand", {hasWideKeys(octree.grid) ? 1U : 0U, attributes ? 1U : 0U});
+        const bool are_leaves = tree.has_lists && level + 1 == level_count;
+        vk::Pass pass = graph.addPass("update/expand", {hasWideKeys(octree.grid) ? 1U : 0U, attributes ? 1U : 0U,
+                                                        tree.has_lists ? tree.dag.entries_per_word : 0U, are_leaves ? 1U : 0U});
         gpu::ExpandParams params{};
         params.bricks = pass.read(buffers.bricks);
         params.items = pass.read(buffers.work.items);
@@ -116,11 +127,20 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         params.counts = pass.write(buffers.counts);
         params.partials = pass.readWrite(buffers.partials);
         params.levels = pass.read(buffers.levels);
+        if (hasRanks(tree))
+        {
+            const gpu::RankSource source = rankSource(pass, tree.dag);
+            params.before = source.before;
+            params.voxels_before_leaf = source.voxels_before_leaf;
+            params.first_short_place = source.first_short_place;
+            params.ranks = {pass.readWrite(tree.ranks).address - tree.ranksSkipped()};
+        }
         params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
         params.level = level;
         params.item_range = level_count - level;
         params.first_node = job.region.first_node;
         params.first_partial = first_partial;
+        params.attribute_offset = tree.attributeOffset();
         pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, groups_max);
     }
     {
@@ -155,9 +175,10 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
 
 void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const char* kernel)
 {
-    Octree& octree = job.octree;
+    Octree& octree = job.tree.dag.tree;
     const bool emits = octree.emission_words.count() != 0;
-    vk::Pass pass = graph.addPass(kernel, {static_cast<std::uint32_t>(job.merge), emits ? 1U : 0U});
+    vk::Pass pass =
+        graph.addPass(kernel, {static_cast<std::uint32_t>(job.merge), emits ? 1U : 0U, hasRanks(job.tree) ? 1U : 0U});
     gpu::MergeParams params{};
     params.view = pass.read(job.view);
     pass.read(job.tables);
@@ -170,6 +191,7 @@ void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& bu
     params.links = pass.read(buffers.links);
     params.layers = readLayers(pass, job, buffers);
     params.nodes = pass.read(octree.nodes);
+    params.ranks = {pass.read(job.tree.ranks).address - job.tree.ranksSkipped()};
     params.attributes = pass.readWrite(octree.voxel_attributes);
     params.emission_words = pass.readWrite(octree.emission_words);
     params.emission = pass.readWrite(octree.emission);
@@ -180,7 +202,7 @@ void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& bu
 
 void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
-    Octree& octree = job.octree;
+    Octree& octree = job.tree.dag.tree;
     const bool emits = octree.emission_words.count() != 0;
     if (emits)
     {
@@ -210,6 +232,8 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
         params.averages = pass.readWrite(octree.node_attributes);
         params.status = pass.read(buffers.status);
         params.item_range = step;
+        params.children_offset = step == 0 ? 0 : job.tree.attributeOffset();
+        params.attribute_offset = job.tree.attributeOffset();
         pass.dispatchIndirect(buffers.work.args, step, params, divideUp(buffers.work.items.count(), gpu::kNodesGroup));
     }
 }
@@ -218,7 +242,7 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
 
 void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last)
 {
-    Octree& octree = job.octree;
+    Octree& octree = job.tree.dag.tree;
     vk::Pass pass = graph.addPass("update/finish", {octree.node_attributes.count() != 0 ? 1U : 0U});
     gpu::FinishParams params{};
     params.nodes = pass.readWrite(octree.nodes);
@@ -232,6 +256,7 @@ void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.last_place = last.place;
     params.place = job.place;
     params.sum_shift = job.sum_shift;
+    params.attribute_offset = job.tree.attributeOffset();
     pass.dispatch(1, params);
 }
 
@@ -266,19 +291,21 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
             listTouched(graph, job, buffers);
             mergeRoots(graph, job, buffers);
         });
-    for (std::uint32_t level = 1; level < job.octree.grid.nodeLevels(); ++level)
+    const Octree& octree = job.tree.dag.tree;
+    for (std::uint32_t level = 1; level < octree.grid.nodeLevels(); ++level)
     {
         add("copy and merge a level",
             [&job, &buffers, level](vk::FrameGraph& graph) { expandLevel(graph, job, buffers, level); });
     }
-    if (job.octree.hasAttributes())
+    if (octree.hasAttributes())
     {
         add("merge attributes", [&job, &buffers](vk::FrameGraph& graph) { mergeAttributes(graph, job, buffers); });
     }
 }
 
-void showRoot(vk::FrameGraph& graph, Octree& octree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)
+void showRoot(vk::FrameGraph& graph, OverlaidTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)
 {
+    Octree& octree = tree.dag.tree;
     vk::Pass pass = graph.addPass("update/show", {octree.node_attributes.count() != 0 ? 1U : 0U});
     gpu::ShowParams params{};
     params.nodes = pass.readWrite(octree.nodes);
@@ -286,6 +313,7 @@ void showRoot(vk::FrameGraph& graph, Octree& octree, const vk::BufferOf<gpu::uin
     params.roots = pass.read(roots);
     params.root = root.root;
     params.place = root.place;
+    params.attribute_offset = tree.attributeOffset();
     pass.dispatch(1, params);
 }
 

@@ -3,8 +3,8 @@
 
 #include "core/layer.h"
 #include "core/merge_rule.h"
-#include "core/octree.h"
 #include "core/octree_build.h"
+#include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"
@@ -54,16 +54,15 @@ struct RootPlace
     std::uint32_t place = 0;
 };
 
-/// One update: which layers are merged with which octree, and where the result goes.
+/// One update: which layers are merged with which static tree, and where the result goes.
 struct UpdateJob
 {
-    Octree& octree;                          // with room for overlays behind the static part
-    std::uint32_t base_root = 0;             // node that is merged with the layers
+    OverlaidTree& tree;
     std::vector<const LayerBuffers*> layers; // at most kLayersMax
     OverlayRegion region;
     MergeRule merge = MergeRule::Average;
     std::uint32_t sum_shift = 0;                // of the layers
-    std::uint32_t emission_offset = 0;          // from a voxel of an overlay to its place in octree.emission
+    std::uint32_t emission_offset = 0;          // from a voxel of an overlay to its place among emission values
     const vk::BufferOf<gpu::MergeView>& view;   // [1]
     const vk::BufferOf<gpu::SceneView>& tables; // [1] of sRGB codes
     const FragmentSums& static_sums;
@@ -72,7 +71,7 @@ struct UpdateJob
     vk::BufferOf<gpu::UpdateStatus>& results; // host-visible
 };
 
-/// Adds the steps that merge layers with the static octree: copies of all paths to leaves that a layer has go to the
+/// Adds the steps that merge layers with the static tree: copies of all paths to leaves that a layer has go to the
 /// region, merged with it. Nothing is shown yet, and nothing is read back. job and what it refers to must outlive the
 /// steps. Cost: touched nodes, and their children.
 void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& steps);
@@ -82,6 +81,6 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
 void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last);
 
 /// Records the pass that shows an earlier root again. Cost: constant.
-void showRoot(vk::FrameGraph& graph, Octree& octree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root);
+void showRoot(vk::FrameGraph& graph, OverlaidTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root);
 
 } // namespace zvo

@@ -104,7 +104,7 @@ rc::Gen<DynamicSetting> anySetting()
         set(&DynamicSetting::merge, rc::gen::element(MergeRule::Average, MergeRule::Average, MergeRule::Average,
                                                      MergeRule::DynamicWins, MergeRule::StaticWins)),
         set(&DynamicSetting::attributes, mostly(true)), set(&DynamicSetting::emits, mostly(true)),
-        set(&DynamicSetting::has_static, mostly(true)),
+        set(&DynamicSetting::has_static, mostly(true)), set(&DynamicSetting::compressed, rc::gen::arbitrary<bool>()),
         set(&DynamicSetting::minimal_capacities, rc::gen::arbitrary<bool>()),
         set(&DynamicSetting::frames_in_flight, anyBetween<std::uint32_t>(1, 4)),
         set(&DynamicSetting::steps_max, rc::gen::element<std::uint32_t>(1, 2, 16)),

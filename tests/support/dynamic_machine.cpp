@@ -79,11 +79,12 @@ DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting&
     {
         m_takers.emplace_back(device.device());
     }
-    BuildResult built = scenery.buildStatic(setting);
-    m_static_emissive = built.octree.emission.count();
-    m_static = staticBytes(built.octree);
+    StaticTree built = scenery.buildStatic(setting);
+    m_static_emissive = built.dag.tree.emission.count();
+    m_static =
+        staticBytes(built.has_lists ? TreeView(built.dag) : TreeView(built.dag.tree), built.dag.tree.nodes.count());
     m_octree = std::make_unique<DynamicOctree>(device, std::move(built), setting.options(scenery.emissionScale()));
-    see(m_line.current(), picturesOf(m_octree->octree()));
+    see(m_line.current(), picturesOf(m_octree->tree()));
 }
 
 void DynamicMachine::run(const Command& command)
@@ -125,7 +126,8 @@ void DynamicMachine::finish()
         wait();
     }
     compare();
-    RC_ASSERT(staticBytes(m_octree->octree()) == m_static);
+    RC_ASSERT(m_octree->tree().hasLists() == m_setting.compressed);
+    RC_ASSERT(staticBytes(m_octree->tree(), m_octree->staticRoot()) == m_static);
 }
 
 void DynamicMachine::add(const Item& item)
@@ -212,7 +214,7 @@ vk::Submission DynamicMachine::submitFrame(std::uint64_t frame, bool loses)
             {
                 record(graph, command);
             }
-            takerOf(frame).record(graph, m_octree->octree(), m_beam, m_camera, m_setting.shot);
+            takerOf(frame).record(graph, m_octree->tree(), m_beam, m_camera, m_setting.shot);
             graph.releaseToHost();
             if (loses)
             {
@@ -348,7 +350,7 @@ void DynamicMachine::compare()
     {
         items.insert(item);
     }
-    std::vector<Cell> actual = cellsOf(m_device, m_octree->octree());
+    std::vector<Cell> actual = cellsOf(m_device, m_octree->tree());
     const std::shared_ptr<const Rebuilt> rebuilt = m_scenery.rebuilt(m_setting, true, items);
     std::vector<Cell> expected = rebuilt->cells;
     if (isRuled())
@@ -386,7 +388,7 @@ void DynamicMachine::see(std::uint64_t step, Pixels pixels)
     }
 }
 
-DynamicMachine::Pixels DynamicMachine::picturesOf(const Octree& octree)
+DynamicMachine::Pixels DynamicMachine::picturesOf(const TreeView& tree)
 {
     ShotTaker& taker = m_takers.front();
     Shot shot = m_setting.shot;
@@ -394,7 +396,7 @@ DynamicMachine::Pixels DynamicMachine::picturesOf(const Octree& octree)
     m_device.run(
         [&](vk::FrameGraph& graph)
         {
-            taker.record(graph, octree, m_beam, m_camera, shot);
+            taker.record(graph, tree, m_beam, m_camera, shot);
             graph.releaseToHost();
         });
     return taker.pictures();
@@ -429,16 +431,24 @@ void DynamicMachine::applyRule(std::vector<Cell>& expected, std::vector<Cell>& a
     }
 }
 
-// What of an octree belongs to the static part, but for the slot of the root that is shown.
-std::vector<gpu::uint> DynamicMachine::staticBytes(const Octree& octree) const
+// What of a tree belongs to the static part, whose nodes and lists end at node_end, but for the slot of the root that
+// is shown.
+std::vector<gpu::uint> DynamicMachine::staticBytes(const TreeView& tree, std::uint64_t node_end) const
 {
     std::vector<gpu::uint> words;
-    const std::uint64_t below_root = std::max(octree.node_count, 1U) - 1;
-    addWords(words, m_device, octree.nodes, 1, below_root);
+    const Octree& octree = tree.octree();
+    const auto below_root = [](std::uint64_t count) { return std::max<std::uint64_t>(count, 1) - 1; };
+    addWords(words, m_device, octree.nodes, 1, below_root(node_end));
     if (octree.hasAttributes())
     {
-        addWords(words, m_device, octree.node_attributes, 1, below_root);
+        const Svdag* dag = tree.svdag();
+        addWords(words, m_device, octree.node_attributes, 1, below_root(dag ? dag->octree_node_count : node_end));
         addWords(words, m_device, octree.voxel_attributes, 0, octree.voxel_count);
+    }
+    if (tree.svdag() != nullptr)
+    {
+        addWords(words, m_device, tree.svdag()->before, 0, tree.svdag()->before.count());
+        addWords(words, m_device, tree.svdag()->voxels_before_leaf, 0, tree.svdag()->voxels_before_leaf.count());
     }
     if (m_static_emissive != 0)
     {

@@ -61,7 +61,7 @@ public:
     /// Frames that were lost, and movers that were added only when nothing failed.
     [[nodiscard]] std::uint64_t failureCount() const { return m_failure_count; }
 
-    /// Settles, goes back to the first step, and compares the static octree with what it was.
+    /// Settles, goes back to the first step, and compares the static tree with what it was.
     void finish();
 
 private:
@@ -88,11 +88,11 @@ private:
     void see(std::uint64_t step, Pixels pixels);
     void compare();
     [[nodiscard]] ShotTaker& takerOf(std::uint64_t frame) { return m_takers[frame % m_takers.size()]; }
-    [[nodiscard]] Pixels picturesOf(const Octree& octree);
+    [[nodiscard]] Pixels picturesOf(const TreeView& tree);
     void applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
                    const std::vector<Cell>& moving) const;
     [[nodiscard]] bool isRuled() const { return m_setting.merge != MergeRule::Average && m_setting.attributes; }
-    [[nodiscard]] std::vector<gpu::uint> staticBytes(const Octree& octree) const;
+    [[nodiscard]] std::vector<gpu::uint> staticBytes(const TreeView& tree, std::uint64_t node_end) const;
 
     vk::HeadlessDevice& m_device;
     DynamicSetting m_setting;

@@ -111,8 +111,8 @@ std::ostream& operator<<(std::ostream& out, const DynamicSetting& s)
 {
     return out << "depth " << s.depth << ", coverage " << static_cast<int>(s.coverage) << ", merge "
                << static_cast<int>(s.merge) << ", attributes " << s.attributes << ", emits " << s.emits << ", static "
-               << s.has_static << ", minimal " << s.minimal_capacities << ", frames " << s.frames_in_flight
-               << ", steps " << s.steps_max << ", " << s.shot;
+               << s.has_static << ", compressed " << s.compressed << ", minimal " << s.minimal_capacities << ", frames "
+               << s.frames_in_flight << ", steps " << s.steps_max << ", " << s.shot;
 }
 
 MoverScenery::MoverScenery(vk::HeadlessDevice& device, bool emits)
@@ -139,14 +139,19 @@ GpuScene MoverScenery::upload(const Scene& scene, bool attributes) const
     return uploadScene(m_device, scene, attributes, m_scale);
 }
 
-BuildResult MoverScenery::buildStatic(const DynamicSetting& setting) const
+StaticTree MoverScenery::buildStatic(const DynamicSetting& setting) const
 {
     BuildOptions build;
     build.coverage = setting.coverage;
     build.attributes = setting.attributes;
     build.keep_sums = setting.attributes && setting.merge == MergeRule::Average;
     const GpuScene uploaded = upload(setting.has_static ? m_static : Scene{}, setting.attributes);
-    return buildOctree(m_device, uploaded, setting.grid(), build);
+    BuildResult built = buildOctree(m_device, uploaded, setting.grid(), build);
+    if (!setting.compressed)
+    {
+        return built;
+    }
+    return {compress(m_device, std::move(built.octree)).dag, std::move(built.sums)};
 }
 
 std::shared_ptr<const MoverMesh> MoverScenery::mover(std::uint32_t mesh, bool attributes)

@@ -66,6 +66,7 @@ struct DynamicSetting
     bool attributes = true;
     bool emits = true;
     bool has_static = true;
+    bool compressed = false; // the static part is a DAG
     bool minimal_capacities = false;
     std::uint32_t frames_in_flight = 2;
     std::uint32_t steps_max = 16;
@@ -101,8 +102,8 @@ public:
 
     [[nodiscard]] float emissionScale() const { return m_scale; }
 
-    /// The static part, or without one the octree of nothing.
-    [[nodiscard]] BuildResult buildStatic(const DynamicSetting& setting) const;
+    /// The static part, or without one the tree of nothing.
+    [[nodiscard]] StaticTree buildStatic(const DynamicSetting& setting) const;
 
     [[nodiscard]] std::shared_ptr<const MoverMesh> mover(std::uint32_t mesh, bool attributes);
     [[nodiscard]] const Scene& mesh(std::uint32_t number) const { return m_meshes.at(number); }

@@ -37,66 +37,173 @@ void addChild(gpu::Node& node, std::uint32_t c, std::uint32_t number)
     }
 }
 
+// A node on the way down.
+struct NodePlace
+{
+    std::uint64_t code = 0;
+    std::uint32_t node = 0;
+    bool listed = false; // stands in a list: what is said of it follows from its rank
+    gpu::BeforeChild rank{0, 0};
+};
+
+/// A tree in the host's memory.
+class TreeReader
+{
+public:
+    TreeReader(vk::HeadlessDevice& device, const TreeView& tree)
+        : m_levels(tree.octree().grid.nodeLevels()), m_nodes(device.download(tree.octree().nodes)),
+          m_attributes(device.download(tree.octree().voxel_attributes)),
+          m_averages(device.download(tree.octree().node_attributes)),
+          m_emission_words(device.download(tree.octree().emission_words)),
+          m_emission(device.download(tree.octree().emission))
+    {
+        if (const Svdag* dag = tree.svdag())
+        {
+            m_before = device.download(dag->before);
+            m_voxels_before_leaf = device.download(dag->voxels_before_leaf);
+            m_first_word = std::uint64_t{dag->tree.node_count} * (sizeof(gpu::Node) / sizeof(gpu::uint));
+            m_long_count = dag->long_entry_count;
+            m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
+        }
+        if (const OverlaidTree* overlaid = tree.overlaid())
+        {
+            m_ranks = device.download(overlaid->ranks);
+            m_first_overlay_node = overlaid->static_root + 1;
+            m_attribute_offset = overlaid->attributeOffset();
+        }
+    }
+
+    [[nodiscard]] const gpu::Node& node(const NodePlace& place) const { return m_nodes.at(place.node); }
+
+    [[nodiscard]] gpu::Attribute average(const NodePlace& place) const
+    {
+        const std::uint32_t own = place.node == 0 ? 0 : place.node + m_attribute_offset;
+        return m_averages.empty() ? gpu::Attribute{} : m_averages.at(place.listed ? place.rank.nodes : own);
+    }
+
+    // The child, at a level, in a cell that is set.
+    [[nodiscard]] NodePlace child(const NodePlace& parent, std::uint32_t c, std::uint32_t level) const
+    {
+        NodePlace child;
+        child.code = parent.code << 6 | c;
+        child.node = named(parent, c);
+        if ((child.node & gpu::kChildList) != 0)
+        {
+            const std::uint64_t word = child.node & ~gpu::kChildList;
+            child.rank = rankAt(parent, word, level);
+            child.node = (&m_nodes.at(word / 4).mask_lo)[word % 4];
+            child.listed = true;
+        }
+        return child;
+    }
+
+    // The voxel in a cell that is set, of a leaf.
+    [[nodiscard]] Cell voxel(const NodePlace& leaf, std::uint32_t c) const
+    {
+        Cell cell = {m_levels, leaf.code << 6 | c, {}, 0};
+        const std::uint32_t voxel = named(leaf, c) + (leaf.listed ? leaf.rank.voxels : 0);
+        if (!m_attributes.empty())
+        {
+            cell.attribute = m_attributes.at(voxel);
+        }
+        if (((cell.attribute.color >> 24) & gpu::kAttributeEmissive) != 0)
+        {
+            const gpu::uvec2 word = m_emission_words.at(voxel / 32);
+            const std::uint32_t below = (1U << (voxel % 32)) - 1;
+            cell.emission = m_emission.at(word.y + static_cast<std::uint32_t>(std::popcount(word.x & below)));
+        }
+        return cell;
+    }
+
+private:
+    // What the node says of a cell.
+    [[nodiscard]] std::uint32_t named(const NodePlace& place, std::uint32_t c) const
+    {
+        const gpu::Node& n = node(place);
+        const std::uint32_t below = (c < 32 ? n.mask_lo : n.mask_hi) & ((1U << (c & 31U)) - 1);
+        return (c < 32 ? n.base_lo : n.base_hi) + static_cast<std::uint32_t>(std::popcount(below));
+    }
+
+    [[nodiscard]] gpu::BeforeChild rankAt(const NodePlace& parent, std::uint64_t word, std::uint32_t level) const
+    {
+        if (m_before.empty() && m_voxels_before_leaf.empty())
+        {
+            return {0, 0};
+        }
+        const bool in_overlay = parent.node >= m_first_overlay_node;
+        gpu::BeforeChild rank = in_overlay ? m_ranks.at(parent.node - m_first_overlay_node) : parent.rank;
+        gpu::BeforeChild before{};
+        if (level + 1 < m_levels)
+        {
+            before = m_before.at(word - m_first_word);
+        }
+        else
+        {
+            const std::uint64_t entry = word - m_first_word - m_long_count;
+            before.voxels = m_voxels_before_leaf.at(entry / 2) >> 16 * (entry % 2) & 65535;
+            before.nodes = static_cast<std::uint32_t>(word) - (node(parent).base_lo & ~gpu::kChildList);
+        }
+        return {rank.voxels + before.voxels, rank.nodes + 1 + before.nodes};
+    }
+
+    std::uint32_t m_levels;
+    std::vector<gpu::Node> m_nodes;
+    std::vector<gpu::Attribute> m_attributes;
+    std::vector<gpu::Attribute> m_averages;
+    std::vector<gpu::uvec2> m_emission_words;
+    std::vector<gpu::uint> m_emission;
+    std::vector<gpu::BeforeChild> m_before;
+    std::vector<gpu::uint> m_voxels_before_leaf;
+    std::vector<gpu::BeforeChild> m_ranks;
+    std::uint64_t m_first_word = 0;
+    std::uint64_t m_long_count = 0;
+    std::uint32_t m_first_overlay_node = 0;
+    std::uint32_t m_attribute_offset = 0;
+};
+
+bool isSet(const gpu::Node& node, std::uint32_t c)
+{
+    return ((c < 32 ? node.mask_lo : node.mask_hi) >> (c & 31U) & 1U) != 0;
+}
+
 } // namespace
 
-std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const Octree& octree)
+std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const TreeView& tree)
 {
     std::vector<Cell> cells;
-    if (octree.node_count == 0)
+    if (tree.octree().node_count == 0)
     {
         return cells;
     }
-    const std::vector<gpu::Node> nodes = device.download(octree.nodes);
-    const std::vector<gpu::Attribute> attributes = device.download(octree.voxel_attributes);
-    const std::vector<gpu::Attribute> averages = device.download(octree.node_attributes);
-    const std::vector<gpu::uvec2> words = device.download(octree.emission_words);
-    const std::vector<gpu::uint> emission = device.download(octree.emission);
-    struct Place
-    {
-        std::uint64_t code;
-        std::uint32_t node;
-    };
-    std::vector<Place> level = {{0, 0}};
-    if ((nodes[0].mask_lo | nodes[0].mask_hi) == 0)
+    const TreeReader reader(device, tree);
+    std::vector<NodePlace> level(1);
+    if ((reader.node(level[0]).mask_lo | reader.node(level[0]).mask_hi) == 0)
     {
         return cells;
     }
-    for (std::uint32_t depth = 0; depth < octree.grid.nodeLevels(); ++depth)
+    const std::uint32_t level_count = tree.octree().grid.nodeLevels();
+    std::vector<Cell> voxels;
+    for (std::uint32_t depth = 0; depth < level_count; ++depth)
     {
-        std::vector<Place> children;
-        for (const auto& [code, number] : level)
+        std::vector<NodePlace> children;
+        for (const NodePlace& place : level)
         {
-            const gpu::Node& node = nodes.at(number);
-            cells.push_back({depth, code, averages.empty() ? gpu::Attribute{} : averages.at(number), 0});
+            cells.push_back({depth, place.code, reader.average(place), 0});
             for (std::uint32_t c = 0; c < 64; ++c)
             {
-                const std::uint32_t mask = c < 32 ? node.mask_lo : node.mask_hi;
-                const std::uint32_t bit = 1U << (c & 31U);
-                if ((mask & bit) != 0)
+                if (isSet(reader.node(place), c) && depth + 1 < level_count)
                 {
-                    const std::uint32_t base = c < 32 ? node.base_lo : node.base_hi;
-                    const auto below = static_cast<std::uint32_t>(std::popcount(mask & (bit - 1)));
-                    children.push_back({code << 6 | c, base + below});
+                    children.push_back(reader.child(place, c, depth + 1));
+                }
+                else if (isSet(reader.node(place), c))
+                {
+                    voxels.push_back(reader.voxel(place, c));
                 }
             }
         }
         level = std::move(children);
     }
-    for (const auto& [code, voxel] : level)
-    {
-        Cell cell = {octree.grid.nodeLevels(), code, {}, 0};
-        if (!attributes.empty())
-        {
-            cell.attribute = attributes.at(voxel);
-        }
-        if (((cell.attribute.color >> 24) & gpu::kAttributeEmissive) != 0)
-        {
-            const gpu::uvec2 word = words.at(voxel / 32);
-            const std::uint32_t below = (1U << (voxel % 32)) - 1;
-            cell.emission = emission.at(word.y + static_cast<std::uint32_t>(std::popcount(word.x & below)));
-        }
-        cells.push_back(cell);
-    }
+    cells.insert(cells.end(), voxels.begin(), voxels.end());
     return cells;
 }
 

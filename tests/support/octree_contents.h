@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
+#include "core/tree_view.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -26,9 +26,10 @@ struct Cell
     }
 };
 
-/// Everything below nodes[0], level by level in Morton order, by following the bases, as the traversal does. Attributes
-/// and emission are 0 where octree has none. Throws std::out_of_range where a base leads out of a buffer.
-std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const Octree& octree);
+/// Everything below nodes[0], level by level in Morton order, by following the bases, and lists, as the traversal does;
+/// below lists, ranks along the path tell which attributes are whose. Attributes and emission are 0 where tree has
+/// none. Throws std::out_of_range where something leads out of a buffer.
+std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const TreeView& tree);
 
 /// The octree of cells as cellsOf() lists them, in device memory, breadth first, with attributes and emission if that
 /// is asked for.

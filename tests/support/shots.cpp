@@ -38,7 +38,7 @@ ShotTaker::ShotTaker(vk::Device& device)
 {
 }
 
-void ShotTaker::record(vk::FrameGraph& graph, const Octree& octree, BeamGrid& beam, const TraceCamera& camera,
+void ShotTaker::record(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam, const TraceCamera& camera,
                        const Shot& shot)
 {
     TraceOptions options;
@@ -48,14 +48,14 @@ void ShotTaker::record(vk::FrameGraph& graph, const Octree& octree, BeamGrid& be
     options.detail_level = shot.coarse ? kCoarseLevel : UINT32_MAX;
     if (shot.beam)
     {
-        buildBeam(graph, octree, beam);
+        buildBeam(graph, tree, beam);
     }
-    tracePrimary(graph, octree, beam, camera, options, m_buffers);
-    traceLight(graph, octree, camera, options, m_buffers);
+    tracePrimary(graph, tree, beam, camera, options, m_buffers);
+    traceLight(graph, tree, camera, options, m_buffers);
     for (std::size_t i = 0; i < kViews.size(); ++i)
     {
         options.view = kViews[i];
-        shade(graph, octree, camera, options, m_buffers);
+        shade(graph, tree, camera, options, m_buffers);
         graph.copy(m_buffers.image, 0, m_pictures, i * m_buffers.image.bytes(), m_buffers.image.bytes());
     }
 }
