@@ -453,8 +453,8 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
     expectError(ErrorCode::Usage, "attributes of 8 bytes",
                 [&]
                 {
-                    BuildResult built = world.scenery().buildStatic(setting);
-                    packTree(device(), AttributeForm::Bytes4, built.octree);
+                    StaticTree built = world.scenery().buildStatic(setting);
+                    packTree(device(), AttributeForm::Bytes4, built.dag.tree);
                     DynamicOctree(device(), std::move(built), setting.options(scale));
                 });
 }

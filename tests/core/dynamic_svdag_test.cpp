@@ -3,6 +3,7 @@
 // were voxelized anew.
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
+#include "oracle/dag.h"
 #include "oracle/morton.h"
 #include "support/device.h"
 #include "support/mover_scenery.h"
@@ -568,7 +569,8 @@ TEST(DynamicSvdag, UndoGivesTheSameBytes)
 }
 
 // The nodes of levels 1 to 3 around each of kPathCells^3 cells, by going down from the root; 0 where there is none.
-std::vector<std::array<std::uint32_t, gpu::kPathLevels>> pathsOf(const std::vector<gpu::Node>& nodes)
+std::vector<std::array<std::uint32_t, gpu::kPathLevels>> pathsOf(const std::vector<gpu::Node>& nodes,
+                                                                 std::uint32_t entries_per_word)
 {
     const auto child = [&](const gpu::Node& node, std::uint32_t c) -> std::uint32_t
     {
@@ -579,8 +581,8 @@ std::vector<std::array<std::uint32_t, gpu::kPathLevels>> pathsOf(const std::vect
         }
         const std::uint32_t place = (c < 32 ? node.base_lo : node.base_hi) +
                                     static_cast<std::uint32_t>(std::popcount(mask & ((1U << c % 32) - 1)));
-        const std::uint32_t word = place & ~gpu::kChildList;
-        return (place & gpu::kChildList) != 0 ? (&nodes.at(word / 4).mask_lo)[word % 4] : place;
+        const bool listed = (place & gpu::kChildList) != 0;
+        return listed ? oracle::entryAt(nodes, place & ~gpu::kChildList, entries_per_word) : place;
     };
     std::vector<std::array<std::uint32_t, gpu::kPathLevels>> paths(gpu::kRankTableFirst);
     for (std::uint32_t i = 0; i < gpu::kRankTableFirst; ++i)
@@ -614,7 +616,7 @@ TEST(DynamicSvdag, RaysBeginAtTheLowestNodesOfOverlaysAndOfTheDagBelow)
                       const std::vector<std::uint64_t> words = device().download(beam.paths);
                       const bool listed = (nodes[0].base_lo & gpu::kChildList) != 0;
                       const std::uint32_t before = listed ? 0 : nodes[0].base_lo - 1;
-                      const auto paths = pathsOf(nodes);
+                      const auto paths = pathsOf(nodes, pair.dag().tree().entriesPerWord());
                       for (std::size_t i = 0; i < paths.size(); ++i)
                       {
                           const std::uint32_t node1 = words[i] & 255;

@@ -80,19 +80,6 @@ void appendEntries(std::vector<gpu::Node>& nodes, const std::vector<std::uint32_
     }
 }
 
-/// The entry at a place, bit by bit.
-std::uint32_t entryAt(std::span<const gpu::Node> nodes, std::uint64_t place, std::uint32_t per_word)
-{
-    const std::uint32_t width = 64 / per_word;
-    std::uint32_t entry = 0;
-    for (std::uint32_t i = 0; i < width; ++i)
-    {
-        const std::uint64_t bit = place / per_word * 64 + place % per_word * width + i;
-        entry |= (wordOf(nodes, bit / 32) >> bit % 32 & 1) << i;
-    }
-    return entry;
-}
-
 /// How much of an octree is below a node.
 struct Below
 {
@@ -180,6 +167,19 @@ std::vector<std::uint32_t> depthFirst(std::span<const gpu::Node> nodes, std::siz
 }
 
 } // namespace
+
+// Bit by bit.
+std::uint32_t entryAt(std::span<const gpu::Node> pool, std::uint64_t place, std::uint32_t entries_per_word)
+{
+    const std::uint32_t width = 64 / entries_per_word;
+    std::uint32_t entry = 0;
+    for (std::uint32_t i = 0; i < width; ++i)
+    {
+        const std::uint64_t bit = place / entries_per_word * 64 + place % entries_per_word * width + i;
+        entry |= (wordOf(pool, bit / 32) >> bit % 32 & 1) << i;
+    }
+    return entry;
+}
 
 ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels,
                           std::uint32_t entries_per_word)

@@ -28,6 +28,9 @@ struct ReferenceDag
     std::vector<std::uint32_t> depth_first;    // [octree_node_count] the octree's nodes in depth-first order
 };
 
+/// The entry of a list at a place in the pool.
+std::uint32_t entryAt(std::span<const gpu::Node> pool, std::uint64_t place, std::uint32_t entries_per_word);
+
 /// Compresses an octree that checkOctree() accepts. entries_per_word: 2 or 3, or 0: as many as node numbers allow.
 ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels,
                           std::uint32_t entries_per_word = 0);

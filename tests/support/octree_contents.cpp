@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/octree_contents.h"
 
+#include "oracle/dag.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +63,8 @@ public:
         {
             m_before = device.download(dag->before);
             m_voxels_before_leaf = device.download(dag->voxels_before_leaf);
-            m_first_word = std::uint64_t{dag->tree.node_count} * (sizeof(gpu::Node) / sizeof(gpu::uint));
+            m_entries_per_word = dag->entries_per_word;
+            m_first_place = std::uint64_t{2} * dag->tree.node_count * m_entries_per_word;
             m_long_count = dag->long_entry_count;
             m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
         }
@@ -89,9 +92,9 @@ public:
         child.node = named(parent, c);
         if ((child.node & gpu::kChildList) != 0)
         {
-            const std::uint64_t word = child.node & ~gpu::kChildList;
-            child.rank = rankAt(parent, word, level);
-            child.node = (&m_nodes.at(word / 4).mask_lo)[word % 4];
+            const std::uint64_t place = child.node & ~gpu::kChildList;
+            child.rank = rankAt(parent, place, level);
+            child.node = oracle::entryAt(m_nodes, place, m_entries_per_word);
             child.listed = true;
         }
         return child;
@@ -124,7 +127,7 @@ private:
         return (c < 32 ? n.base_lo : n.base_hi) + static_cast<std::uint32_t>(std::popcount(below));
     }
 
-    [[nodiscard]] gpu::BeforeChild rankAt(const NodePlace& parent, std::uint64_t word, std::uint32_t level) const
+    [[nodiscard]] gpu::BeforeChild rankAt(const NodePlace& parent, std::uint64_t place, std::uint32_t level) const
     {
         if (m_before.empty() && m_voxels_before_leaf.empty())
         {
@@ -135,13 +138,13 @@ private:
         gpu::BeforeChild before{};
         if (level + 1 < m_levels)
         {
-            before = m_before.at(word - m_first_word);
+            before = m_before.at(place - m_first_place);
         }
         else
         {
-            const std::uint64_t entry = word - m_first_word - m_long_count;
+            const std::uint64_t entry = place - m_first_place - m_long_count;
             before.voxels = m_voxels_before_leaf.at(entry / 2) >> 16 * (entry % 2) & 65535;
-            before.nodes = static_cast<std::uint32_t>(word) - (node(parent).base_lo & ~gpu::kChildList);
+            before.nodes = static_cast<std::uint32_t>(place) - (node(parent).base_lo & ~gpu::kChildList);
         }
         return {rank.voxels + before.voxels, rank.nodes + 1 + before.nodes};
     }
@@ -155,7 +158,8 @@ private:
     std::vector<gpu::BeforeChild> m_before;
     std::vector<gpu::uint> m_voxels_before_leaf;
     std::vector<gpu::BeforeChild> m_ranks;
-    std::uint64_t m_first_word = 0;
+    std::uint32_t m_entries_per_word = 0;
+    std::uint64_t m_first_place = 0;
     std::uint64_t m_long_count = 0;
     std::uint32_t m_first_overlay_node = 0;
     std::uint32_t m_attribute_offset = 0;
