@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// Movers in command buffers, frame after frame: what waits for what, what takes memory, what is refused.
+#include "core/mover.h"
+
+#include "core/animation.h"
+#include "core/kernels.h"
+#include "core/octree_build.h"
+#include "core/pipeline.h"
+#include "support/deforming_scenes.h"
+#include "support/device.h"
+#include "support/moved_scene.h"
+#include "support/scenes.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::expectEqualsPosed;
+using test::kGrid;
+using test::makeAnew;
+using test::makeOctree;
+using test::mixedScene;
+using test::MovedScene;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
+{
+    std::mt19937 random(25);
+    const std::pair<Scene, Pose> made = mixedScene(random);
+    const Scene& scene = made.first;
+    const Pose& pose = made.second;
+    const GpuScene posed = uploadScene(device(), posedScene(scene, pose), true);
+    MovedScene mover(device(), scene);
+    const VoxelizeCapacities capacities{1 << 15, 1 << 12, 1 << 16};
+    const auto cover =
+        [&](vk::FrameGraph& graph, const PlacedScene& placed, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
+    {
+        voxelizeCoverage(graph, placed, kGrid, Coverage::Thin, voxelize);
+        listNodes(graph, kGrid, voxelize, work);
+    };
+    std::vector<gpu::BrickCounters> counters;
+    std::string dump;
+    for (const bool moves : {false, true})
+    {
+        VoxelizeBuffers voxelize(device().device(), capacities, posed);
+        OctreeBuildBuffers work(device().device(), capacities.bricks);
+        device().run(
+            [&](vk::FrameGraph& graph)
+            {
+                if (moves)
+                {
+                    Pose other = pose; // overwritten before anything reads it
+                    test::changePose(random, other);
+                    placeMover(graph, mover.mesh(), other, mover.buffers());
+                    placeMover(graph, mover.mesh(), pose, mover.buffers());
+                    cover(graph, {mover.uploaded(), mover.buffers()}, voxelize, work);
+                    dump = graph.dump();
+                }
+                else
+                {
+                    cover(graph, posed, voxelize, work);
+                }
+            });
+        counters.push_back(device().download(voxelize.counters).front());
+    }
+    EXPECT_GT(counters[0].voxel_count, 5000U);
+    EXPECT_EQ(counters[1].voxel_count, counters[0].voxel_count);
+    EXPECT_EQ(counters[1].node_count, counters[0].node_count);
+    // Between the last deformation and the first triangle stands a barrier from kernels to kernels.
+    const std::size_t deformed = dump.rfind("pass deform/vertices");
+    const std::size_t walked = dump.find("pass voxelize/triangles");
+    ASSERT_LT(deformed, walked);
+    const std::string between = dump.substr(deformed, walked - deformed);
+    EXPECT_TRUE(std::regex_search(between, std::regex("\\nbarrier compute(\\|transfer)? -> compute\\n"))) << dump;
+    EXPECT_NE(dump.find("reads mover/positions"), std::string::npos);
+}
+
+TEST(Mover, PassesThatWalkItWaitForItsDraws)
+{
+    const Scene scene = test::boxScene(glm::vec3(-1.0F), glm::vec3(1.0F));
+    MovedScene mover(device(), scene);
+    std::string dump;
+    VoxelizeBuffers voxelize(device().device(), {1 << 12, 1 << 10, 1 << 12}, mover.uploaded());
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            placeMover(graph, std::vector{glm::mat4(1.0F)}, mover.buffers());
+            voxelizeCoverage(graph, {mover.uploaded(), mover.buffers()}, kGrid, Coverage::Thin, voxelize);
+            dump = graph.dump();
+        });
+    const std::size_t updated = dump.find("pass update mover/draws");
+    const std::size_t barrier = dump.find("barrier transfer -> compute");
+    const std::size_t walked = dump.find("pass voxelize/triangles");
+    EXPECT_LT(updated, barrier);
+    EXPECT_LT(barrier, walked);
+    EXPECT_NE(dump.find("reads mover/draws", walked), std::string::npos) << dump;
+}
+
+TEST(Mover, WhatIsNotFiniteIsCountedAndTheRestIsThere)
+{
+    std::mt19937 random(26);
+    auto [scene, pose] = mixedScene(random);
+    MovedScene mover(device(), scene);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    pose.joint_matrices[1][2][3].x = std::numeric_limits<float>::infinity();
+    pose.transforms[0][1][1] = nan;
+    pose.morph_weights[8][0] = nan;
+    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 3000U);
+    // The instances of numbers 0 and 8 are gone, that of 1 in part.
+    EXPECT_GT(mover.make(kGrid, Coverage::Thin).dropped["nonfinite"], 2U * 58);
+    EXPECT_LT(mover.make(kGrid, Coverage::Thin).dropped["nonfinite"], 3U * 58);
+}
+
+TEST(Mover, ComesBackToTheSameBytesInConstantMemory)
+{
+    std::mt19937 random(27);
+    auto [scene, first] = mixedScene(random);
+    Pose second = first;
+    test::changePose(random, second);
+    MovedScene mover(device(), scene);
+    const std::string shas[2] = {makeAnew(posedScene(scene, first), kGrid, Coverage::Thin).sha,
+                                 makeAnew(posedScene(scene, second), kGrid, Coverage::Thin).sha};
+    mover.place(first);
+    vk::MemoryAllocator& memory = device().device().memory();
+    const std::uint64_t used = memory.usedBytes();
+    memory.resetPeak();
+    const auto* const draws = mover.buffers().host_draws.data();
+    const auto* const joints = mover.buffers().pose.host_joint_matrices.data();
+    const auto* const terms = mover.buffers().pose.host_morph_terms.data();
+    for (int frame = 0; frame < 500; ++frame)
+    {
+        mover.place(frame % 2 == 0 ? second : first);
+    }
+    EXPECT_EQ(memory.usedBytes(), used);
+    EXPECT_EQ(memory.peakBytes(), used) << "a frame allocates nothing on the device";
+    EXPECT_EQ(mover.buffers().host_draws.data(), draws);
+    EXPECT_EQ(mover.buffers().pose.host_joint_matrices.data(), joints);
+    EXPECT_EQ(mover.buffers().pose.host_morph_terms.data(), terms);
+    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, shas[0]);
+    mover.place(second);
+    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, shas[1]);
+}
+
+TEST(Mover, TwoSetsOfBuffersOfOneSceneAreIndependent)
+{
+    std::mt19937 random(28);
+    const std::pair<Scene, Pose> made = mixedScene(random);
+    const Scene& scene = made.first;
+    const Pose& pose = made.second;
+    Pose other = pose;
+    test::changePose(random, other);
+    MovedScene mover(device(), scene);
+    MoverBuffers second = makeMover(device(), scene, mover.uploaded(), mover.mesh());
+    device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            placeMover(graph, mover.mesh(), pose, mover.buffers());
+            placeMover(graph, mover.mesh(), other, second);
+        });
+    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
+    EXPECT_EQ(makeOctree(device(), {mover.uploaded(), second}, kGrid, Coverage::Thin).sha,
+              makeAnew(posedScene(scene, other), kGrid, Coverage::Thin).sha);
+}
+
+TEST(Mover, SplitOverSubmissionsItHasTheSameBytes)
+{
+    std::mt19937 random(29);
+    const auto [scene, pose] = mixedScene(random);
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.slices.most_units = 2;
+    vk::HeadlessDevice sliced(options, zvoKernels());
+    MovedScene mover(sliced, scene);
+    mover.place(pose);
+    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
+}
+
+TEST(Mover, TransformsOfAnotherSceneAreRefused)
+{
+    std::mt19937 random(30);
+    auto [scene, pose] = mixedScene(random);
+    MovedScene mover(device(), scene);
+    Pose other = pose;
+    other.transforms.pop_back();
+    EXPECT_THROW(mover.place(other), Error);
+    EXPECT_THROW(mover.place({}), Error);
+    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 5000U) << "and it goes on";
+}
+
+TEST(Mover, NeedsAreNamedBeforeMemoryIsTaken)
+{
+    std::mt19937 random(31);
+    Scene scene;
+    Pose pose;
+    scene.materials.emplace_back();
+    scene.primitives.push_back(test::deformingPrimitive(random, 1000, {true, 4, 0}));
+    for (int i = 0; i < 400; ++i)
+    {
+        test::addDeforming(random, scene, pose, 0, 4);
+    }
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.memory_budget_bytes = 8 << 20;
+    vk::HeadlessDevice limited(options, zvoKernels());
+    const GpuScene uploaded = uploadScene(limited, scene, true);
+    const DeformMesh mesh = uploadDeformMesh(limited, scene);
+    const std::uint64_t used = limited.device().memory().usedBytes();
+    try
+    {
+        const MoverBuffers mover = makeMover(limited, scene, uploaded, mesh);
+        FAIL() << "400 instances of 1000 vertices, 24 bytes each";
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), ErrorCode::Memory);
+        EXPECT_EQ(std::string(error.what()).rfind("a moving object needs", 0), 0U) << error.what();
+    }
+    EXPECT_EQ(limited.device().memory().usedBytes(), used);
+}
+
+} // namespace
+} // namespace zvo

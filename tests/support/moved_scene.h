@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Scenes on the device that move, and what voxelizing them gives.
+#pragma once
+
+#include "core/animation.h"
+#include "core/coverage.h"
+#include "core/deform_mesh.h"
+#include "core/gpu_scene.h"
+#include "core/grid.h"
+#include "core/mover.h"
+#include "core/scene.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <map>
+#include <random>
+#include <string>
+#include <utility>
+
+namespace zvo::test
+{
+
+/// An octree, as far as it can be compared.
+struct Made
+{
+    std::string sha;
+    std::map<std::string, std::uint64_t> dropped;
+    std::uint32_t voxel_count = 0;
+};
+
+Made makeOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, Coverage coverage);
+
+/// A scene on the device with the buffers that move it.
+class MovedScene
+{
+public:
+    MovedScene(vk::HeadlessDevice& device, const Scene& scene)
+        : m_device(device), m_uploaded(uploadScene(device, scene, true)), m_mesh(uploadDeformMesh(device, scene)),
+          m_buffers(makeMover(device, scene, m_uploaded, m_mesh))
+    {
+    }
+
+    void place(const Pose& pose)
+    {
+        m_device.run([&](vk::FrameGraph& graph) { placeMover(graph, m_mesh, pose, m_buffers); });
+    }
+
+    Made make(const Grid& grid, Coverage coverage)
+    {
+        return test::makeOctree(m_device, {m_uploaded, m_buffers}, grid, coverage);
+    }
+
+    [[nodiscard]] const GpuScene& uploaded() const { return m_uploaded; }
+    [[nodiscard]] const DeformMesh& mesh() const { return m_mesh; }
+    [[nodiscard]] MoverBuffers& buffers() { return m_buffers; }
+
+private:
+    vk::HeadlessDevice& m_device;
+    GpuScene m_uploaded;
+    DeformMesh m_mesh;
+    MoverBuffers m_buffers;
+};
+
+/// What scene gives on the device that tests share, uploaded anew.
+Made makeAnew(const Scene& scene, const Grid& grid, Coverage coverage);
+
+/// Around mixedScene().
+constexpr Grid kGrid{.origin = glm::vec3(-4.0F), .voxel_size = 0.125F, .depth = 6};
+
+/// Expects that mover in pose has the bytes of the posed scene uploaded anew, with both coverages; returns the number
+/// of voxels.
+std::uint32_t expectEqualsPosed(MovedScene& mover, const Scene& scene, const Pose& pose);
+
+/// A scene of instances of all sorts, rigid ones among them, and its pose.
+std::pair<Scene, Pose> mixedScene(std::mt19937& random);
+
+} // namespace zvo::test
