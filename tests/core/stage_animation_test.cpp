@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Stages of files with animations: which of them play, and what of a file is a mover.
+#include "core/stage.h"
+
+#include "gltf_builder.h"
+#include "stage_fixture.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+/// Two triangles and a camera: the first node goes from x = 0 to x = 4 within two seconds, the second one, at z = 5,
+/// and the third, at z = 9, stand still. All but the third show the same mesh; the third has a textured one.
+GltfBuilder animatedDocument()
+{
+    GltfBuilder builder = triangleDocument();
+    builder.add("nodes", {{"mesh", 0}, {"translation", {0, 0, 5}}});
+    json textured = trianglePrimitive(builder);
+    textured["material"] = 1;
+    builder.document["materials"] = {
+        json::object(), {{"name", "still"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}}}}};
+    builder.document["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.addMeshNode(textured);
+    builder.document["nodes"][2]["translation"] = {0, 0, 9};
+    builder.add("cameras",
+                {{"type", "perspective"}, {"name", "still"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+    builder.add("nodes", {{"camera", 0}, {"translation", {1, 2, 3}}});
+    const std::size_t times = builder.addAccessor("SCALAR", kF32, 2, std::vector<float>{0.0F, 2.0F});
+    const std::size_t values = builder.addAccessor("VEC3", kF32, 2, std::vector<float>{0, 0, 0, 4, 0, 0});
+    const json sampler = {{"input", times}, {"output", values}};
+    const json channel = {{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}};
+    builder.add("animations", {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}});
+    return builder;
+}
+
+TEST_F(StageTest, AnimatedInstancesOfAFileAreAMover)
+{
+    const Stage stage = loadStage(m_dir.write("scenes/animated.glb", animatedDocument().glb()));
+    EXPECT_EQ(stage.seconds, 2.0) << "as long as the animation";
+    ASSERT_EQ(stage.movers.size(), 1U);
+    EXPECT_EQ(stage.movers[0].name, "animated");
+    EXPECT_TRUE(stage.movers[0].deforms);
+    EXPECT_EQ(stage.movers[0].scene.triangleCount(), 1U);
+    EXPECT_EQ(stage.movers[0].scene.materials.size(), 1U) << "only what it needs";
+    EXPECT_EQ(stage.fixed.materials.size(), 2U);
+    EXPECT_EQ(stage.fixed.materials.at(stage.fixed.primitives.at(stage.fixed.instances.at(1).primitive).material).name,
+              "still");
+    ASSERT_EQ(stage.fixed.cameras.size(), 1U);
+    EXPECT_TRUE(stage.fixed.nodes.empty() && stage.fixed.animations.empty());
+    const std::vector<glm::vec3> expected = {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {0, 0, 9}, {1, 0, 9},
+                                             {0, 1, 9}, {3, 0, 0}, {4, 0, 0}, {3, 1, 0}};
+    EXPECT_EQ(corners(stageAt(stage, 1.5)), expected);
+    EXPECT_EQ(stageAt(stage, 1.5).cameras.size(), 1U);
+    const Bounds bounds = stageBounds(stage);
+    EXPECT_EQ(bounds.min, glm::vec3(0, 0, 0));
+    EXPECT_NEAR(bounds.max.x, 5.0F, 4.0F / 60.0F) << "at the last frame";
+    EXPECT_EQ(bounds.max.z, 9.0F);
+}
+
+TEST_F(StageTest, AnimationsOfObjectsRunUnlessTheyAreStatic)
+{
+    m_dir.write("scenes/animated.glb", animatedDocument().glb());
+    const Stage split = load(R"({"objects": [{"file": "animated.glb", "place": {"translation": [0, 10, 0]}}]})");
+    ASSERT_EQ(split.movers.size(), 1U);
+    EXPECT_EQ(split.fixed.triangleCount(), 2U);
+    EXPECT_EQ(split.fixed.cameras.at(0).transform[3], glm::vec4(1, 12, 3, 1));
+    EXPECT_EQ(corners(stageAt(split, 1.0)).at(6), glm::vec3(2, 10, 0));
+    EXPECT_EQ(corners(stageAt(split, 3.0)).at(6), glm::vec3(2, 10, 0)) << "the animation lasts two seconds";
+
+    const Stage still = load(R"({"objects": [{"file": "animated.glb", "static": true}]})");
+    EXPECT_TRUE(still.movers.empty());
+    EXPECT_EQ(corners(stageAt(still, 1.0)).at(0), glm::vec3(0, 0, 0));
+
+    const Stage whole = load(R"({"objects": [{"file": "animated.glb", "dynamic": true}]})");
+    ASSERT_EQ(whole.movers.size(), 1U);
+    EXPECT_EQ(whole.fixed.triangleCount(), 0U);
+    EXPECT_EQ(whole.movers[0].scene.triangleCount(), 3U);
+    EXPECT_EQ(whole.fixed.cameras.size(), 1U) << "its place does not move";
+
+    // The motion comes after the animation.
+    const Stage both = load(R"({"objects": [{"file": "animated.glb", "place": {"scale": 2}, "motion": {"orbit":
+        {"axis": [0, 0, 1], "turns": 1}}}]})");
+    EXPECT_EQ(corners(stageAt(both, 1.0)).at(0), glm::vec3(0, 4, 0)) << "2 to the right, scaled, a quarter turn";
+    EXPECT_EQ(moverPose(both.movers.at(0), 1.0).transforms.at(0), stageAt(both, 1.0).instances.at(0).transform);
+    EXPECT_TRUE(both.fixed.cameras.empty());
+}
+
+/// animatedDocument with more animations: 0 "go" is the one it has, 1 moves nothing, 2 "rise" takes the first node up
+/// to y = 6 within three seconds and 3, without a name, the second one to x = 1.
+GltfBuilder manyAnimationsDocument()
+{
+    GltfBuilder builder = animatedDocument();
+    const auto add = [&builder](std::size_t node, float seconds, const std::vector<float>& end)
+    {
+        std::vector<float> places = {0, 0, 0};
+        places.insert(places.end(), end.begin(), end.end());
+        const json sampler = {{"input", builder.addAccessor("SCALAR", kF32, 2, std::vector<float>{0, seconds})},
+                              {"output", builder.addAccessor("VEC3", kF32, 2, places)}};
+        const json channel = {{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}};
+        return builder.add("animations", {{"samplers", json::array({sampler})}, {"channels", json::array({channel})}});
+    };
+    builder.document["animations"][0]["name"] = "go";
+    builder.add("animations", {{"samplers", json::array()}, {"channels", json::array()}, {"name", "nothing"}});
+    builder.document["animations"][add(0, 3.0F, {0, 6, 0})]["name"] = "rise";
+    add(1, 1.0F, {1, 0, 0});
+    return builder;
+}
+
+TEST_F(StageTest, TheFirstAnimationOfAFilePlays)
+{
+    const Stage stage = loadStage(m_dir.write("scenes/many.glb", manyAnimationsDocument().glb()));
+    EXPECT_EQ(stage.seconds, 2.0) << "as long as the one that plays";
+    EXPECT_EQ(stage.fixed.triangleCount(), 2U) << "what other animations move stands still";
+    EXPECT_EQ(corners(stageAt(stage, 1.5)).at(6), glm::vec3(3, 0, 0));
+    const Stage object = load(R"({"objects": [{"file": "many.glb"}]})");
+    EXPECT_EQ(object.fixed.triangleCount(), 2U);
+    EXPECT_EQ(corners(stageAt(object, 1.5)).at(6), glm::vec3(3, 0, 0));
+}
+
+TEST_F(StageTest, ObjectsChooseTheAnimationThatPlays)
+{
+    m_dir.write("scenes/many.glb", manyAnimationsDocument().glb());
+    const auto play = [this](const std::string& choice)
+    { return load(R"({"objects": [{"file": "many.glb", "animation": )" + choice + "}]}"); };
+    for (const char* choice : {"\"rise\"", "2"})
+    {
+        const Stage stage = play(choice);
+        EXPECT_EQ(stage.movers.at(0).scene.triangleCount(), 1U);
+        EXPECT_EQ(corners(stageAt(stage, 1.0)).at(6), glm::vec3(0, 2, 0)) << choice;
+    }
+    EXPECT_EQ(corners(stageAt(play("3"), 0.5)).at(6), glm::vec3(0.5F, 0, 0)) << "the second node";
+    // One file, two objects.
+    const Stage both =
+        load(R"({"objects": [{"file": "many.glb", "animation": 0}, {"file": "many.glb", "animation": 2}]})");
+    ASSERT_EQ(both.movers.size(), 2U);
+    EXPECT_EQ(corners(posedScene(both.movers[0].scene, moverPose(both.movers[0], 1.0))).at(0), glm::vec3(2, 0, 0));
+    EXPECT_EQ(corners(posedScene(both.movers[1].scene, moverPose(both.movers[1], 1.0))).at(0), glm::vec3(0, 2, 0));
+}
+
+TEST_F(StageTest, AnimationsThatAreNotThereAreToldWithThoseThatAre)
+{
+    GltfBuilder many = manyAnimationsDocument();
+    m_dir.write("scenes/many.glb", many.glb());
+    const auto expectMissing = [this](const std::string& file, const std::string& choice, const std::string& rest)
+    {
+        expectInputError(
+            [&] { load(R"({"objects": [{"file": ")" + file + R"(", "animation": )" + choice + "}]}"); },
+            {"test.scene.json: objects[0].animation is " + choice + ", which " + file + " does not have; it " + rest});
+    };
+    const std::string all = R"(has 0 ("go"), 2 ("rise"), 3)";
+    expectMissing("many.glb", "\"walk\"", all);
+    expectMissing("many.glb", "\"Rise\"", all);
+    expectMissing("many.glb", "\"\"", all);
+    expectMissing("many.glb", "\"nothing\"", all);
+    expectMissing("many.glb", "1", all);
+    expectMissing("many.glb", "4", all);
+    expectMissing("triangle.glb", "0", "has no animations that move anything");
+    for (int i = 0; i < 9; ++i)
+    {
+        json copy = many.document["animations"][0];
+        many.document["animations"].push_back(copy);
+    }
+    m_dir.write("scenes/many.glb", many.glb());
+    expectMissing("many.glb", "99",
+                  R"(has 0 ("go"), 2 ("rise"), 3, 4 ("go"), 5 ("go"), 6 ("go"), 7 ("go"), 8 ("go"), 4 more)");
+}
+
+TEST_F(StageTest, WhatStandsAtRestIsToldOf)
+{
+    GltfBuilder builder = animatedDocument();
+    const std::size_t deltas = builder.addPositions({0, 0, 1, 0, 0, 1, 0, 0, 1});
+    json& mesh = builder.document["meshes"][1]; // of the node that nothing moves
+    mesh["primitives"][0]["targets"] = json::array({{{"POSITION", deltas}}});
+    mesh["weights"] = {1.0};
+    m_dir.write("scenes/morphed.glb", builder.glb());
+    const Stage split = load(R"({"objects": [{"file": "morphed.glb"}]})");
+    ASSERT_EQ(split.warnings.size(), 1U);
+    EXPECT_TRUE(contains(split.warnings[0], "morph targets are not applied")) << split.warnings[0];
+    EXPECT_EQ(corners(stageAt(split, 0.0)).at(3), glm::vec3(0, 0, 9));
+    const Stage whole = load(R"({"objects": [{"file": "morphed.glb", "dynamic": true}]})");
+    EXPECT_TRUE(whole.warnings.empty());
+    EXPECT_EQ(corners(stageAt(whole, 0.0)).at(6), glm::vec3(0, 0, 10));
+    EXPECT_EQ(stageBounds(whole).max.z, 10.0F);
+}
+
+} // namespace
+
+} // namespace zvo::test
