@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// The history of roots while frames are in flight.
+#include "core/root_history.h"
+
+#include "root_history_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+TEST_F(RootHistoryTest, RegionsWaitForTheFramesThatMayUseThem)
+{
+    RootHistory history(m_arena, kUnbounded);
+    const std::uint64_t first = history.beginFrame();
+    push(history);
+    const std::uint64_t second = history.beginFrame();
+    history.undo();
+    history.push(std::nullopt, {});
+    EXPECT_EQ(history.waitingBytes(), 10u);
+    const std::uint64_t third = history.beginFrame();
+    history.frameDone(first);
+    EXPECT_EQ(m_arena.heldBytes(), 10u) << "the second frame began before the region was dropped";
+    history.frameDone(second);
+    EXPECT_EQ(m_arena.heldBytes(), 0u);
+    history.frameDone(third);
+    EXPECT_EQ(history.waitingBytes(), 0u);
+}
+
+TEST_F(RootHistoryTest, RegionsOfUpdatesThatAreGivenUpWaitToo)
+{
+    RootHistory history(m_arena, kUnbounded);
+    const std::uint64_t frame = history.beginFrame();
+    const auto region = history.allocate(10, 0);
+    ASSERT_TRUE(region);
+    history.giveBack(*region);
+    EXPECT_EQ(history.waitingBytes(), 10u);
+    history.frameDone(frame);
+    EXPECT_EQ(m_arena.heldBytes(), 0u);
+}
+
+TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
+{
+    RootHistory history(m_arena, {.steps_max = 3});
+    push(history);
+    push(history);
+    push(history);
+    const std::uint64_t before = history.beginFrame();
+    history.undo();
+    const std::uint64_t pending = pushPending(history); // instead of 3
+    const std::uint64_t lost = history.beginFrame();
+    pushPending(history); // 1 falls off, ...
+    pushPending(history); // ... and 2
+    history.undo();
+    EXPECT_EQ(history.undoCount(), 2u);
+    history.frameLost();
+    EXPECT_EQ(history.current().id, pending);
+    EXPECT_EQ(history.redoCount(), 0u);
+    EXPECT_EQ(history.stepBytes(), 30u);
+    EXPECT_EQ(history.waitingBytes(), 30u) << "of step 3, and of those that were lost";
+    history.frameDone(before);
+    history.complete(pending, 10, 0);
+    EXPECT_EQ(history.waitingBytes(), 20u) << "the device may have begun with the lost frame";
+    history.frameDone(lost);
+    EXPECT_EQ(m_arena.heldBytes(), 30u);
+    EXPECT_TRUE(shows(*history.undo(), 2));
+    EXPECT_TRUE(shows(*history.undo(), 1));
+    EXPECT_EQ(push(history), 7u) << "numbers are not used again";
+}
+
+TEST_F(RootHistoryTest, UpdatesOfEarlierFramesMayFailBeforeAFrameIsLost)
+{
+    RootHistory history(m_arena, kUnbounded);
+    push(history);
+    const std::uint64_t before = history.beginFrame();
+    const std::uint64_t failed = pushPending(history);
+    const std::uint64_t next = pushPending(history);
+    history.beginFrame();
+    history.undo();
+    pushPending(history);
+    history.frameDone(before);
+    history.fail(failed);
+    history.complete(next, 10, 0);
+    history.frameLost();
+    EXPECT_EQ(history.current().id, next);
+    EXPECT_EQ(history.undo()->id, 1u);
+    EXPECT_EQ(history.undoCount(), 1u);
+}
+
+TEST_F(RootHistoryTest, AHundredThousandFramesDoNotTakeMoreMemoryThanTheFirstOnes)
+{
+    // Three frames in flight; a mover whose overlay changes its size; the guess of a size is that of the frame before
+    // and half as much again.
+    constexpr std::uint32_t kMost = 1000;
+    constexpr std::uint32_t kSteps = 16;
+    OverlayArena arena({.static_nodes = 1,
+                        .node_capacity = 1 + 40 * kMost,
+                        .voxel_capacity = 40 * 32 * kMost,
+                        .node_bytes = 24,
+                        .voxel_block_bytes = 264});
+    RootHistory history(arena, {.steps_max = kSteps});
+    std::deque<std::pair<std::uint64_t, std::uint64_t>> in_flight; // frame, step
+    const auto need = [](std::uint64_t frame)
+    { return static_cast<std::uint32_t>(kMost / 2 + frame * 7919 % 97 * (kMost / 2) / 96); };
+    std::uint32_t end_of_memory = 0;
+    std::uint64_t most_held = 0;
+    for (std::uint64_t i = 0; i < 100'000; ++i)
+    {
+        if (in_flight.size() == 3)
+        {
+            const auto [frame, id] = in_flight.front();
+            in_flight.pop_front();
+            history.frameDone(frame);
+            history.complete(id, need(frame), need(frame) * 20);
+        }
+        const std::uint64_t frame = history.beginFrame();
+        const std::uint32_t guess = need(frame - 1) / 2 * 3;
+        const auto region = history.allocate(std::max(guess, need(frame)), std::max(guess, need(frame)) * 20);
+        ASSERT_TRUE(region) << "frame " << frame;
+        in_flight.emplace_back(frame, history.push(region, version(frame)));
+        if (i < 1000)
+        {
+            end_of_memory = std::max(end_of_memory, region->first_node + region->node_capacity);
+            most_held = std::max(most_held, arena.heldBytes());
+        }
+        ASSERT_LE(region->first_node + region->node_capacity, end_of_memory) << "frame " << frame;
+        ASSERT_LE(arena.heldBytes(), most_held) << "frame " << frame;
+    }
+    EXPECT_EQ(history.undoCount(), kSteps);
+}
+
+} // namespace
+
+} // namespace zvo::test

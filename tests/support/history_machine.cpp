@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+#include "support/history_machine.h"
+
+#include <rapidcheck.h>
+
+#include <algorithm>
+
+namespace zvo::test
+{
+
+HistoryMachine::HistoryMachine(const Setup& setup)
+    : m_bounds(setup.bounds), m_arena({.static_nodes = kStatic,
+                                       .node_capacity = kStatic + setup.nodes,
+                                       .voxel_capacity = setup.blocks * kVoxelBlock,
+                                       .node_bytes = 3,
+                                       .voxel_block_bytes = 5}),
+      m_history(m_arena, setup.bounds), m_node_writers(kStatic + setup.nodes), m_block_writers(setup.blocks),
+      m_root_slots(kStatic + setup.nodes)
+{
+    beginFrame();
+}
+
+void HistoryMachine::update(std::uint32_t nodes, std::uint32_t voxels, std::uint32_t used, bool succeeds)
+{
+    const std::optional<OverlayRegion> region = allocate(nodes, voxels);
+    if (!region)
+    {
+        return;
+    }
+    const int writer = ++m_writer_count;
+    mark(*region, writer);
+    m_owned[writer] = *region;
+    m_frames.back().regions.emplace(writer, *region);
+
+    const std::vector<LayerState> layers = {{static_cast<std::uint32_t>(writer), used}};
+    Root root{writer, *region, layers};
+    root.region.node_capacity = 1 + used % nodes;
+    root.region.voxel_capacity = (used % (voxels / kVoxelBlock + 1)) * kVoxelBlock;
+    if (!succeeds)
+    {
+        root = m_shown;
+    }
+    m_root_slots[region->first_node] = root;
+    m_shown = root;
+    const std::uint64_t id = m_history.push(region, layers);
+    m_updates.push_back({id, m_frames.back().number, writer, m_steps[m_current], succeeds, root.region});
+    m_truth[id] = root;
+    m_told[id] = {writer, layers};
+    pushed(id);
+}
+
+void HistoryMachine::showStatic()
+{
+    const std::uint64_t id = m_history.push(std::nullopt, {});
+    m_shown = {};
+    m_truth[id] = {};
+    m_told[id] = {};
+    pushed(id);
+}
+
+void HistoryMachine::move(bool back)
+{
+    const std::optional<RootStep> step = back ? m_history.undo() : m_history.redo();
+    RC_ASSERT(step.has_value() == (back ? m_current > 0 : m_current + 1 < m_steps.size()));
+    if (step)
+    {
+        m_current += back ? std::size_t(-1) : 1;
+        m_shown = step->region ? m_root_slots[step->region->first_node] : Root{};
+        RC_ASSERT(m_shown == m_truth[m_steps[m_current]]);
+        checkCurrent();
+    }
+}
+
+void HistoryMachine::giveUp(std::uint32_t nodes, std::uint32_t voxels)
+{
+    if (const std::optional<OverlayRegion> region = allocate(nodes, voxels))
+    {
+        mark(*region, ++m_writer_count);
+        m_frames.back().regions.emplace(m_writer_count, *region);
+        m_history.giveBack(*region);
+    }
+}
+
+void HistoryMachine::nextFrame()
+{
+    beginFrame();
+    check();
+}
+
+void HistoryMachine::loseFrame()
+{
+    const std::uint64_t frame = m_frames.back().number;
+    while (!m_updates.empty() && m_updates.back().frame == frame)
+    {
+        m_updates.pop_back();
+    }
+    m_history.frameLost();
+    m_steps = m_before.steps;
+    m_current = m_before.current;
+    m_shown = m_truth[m_steps[m_current]];
+    nextFrame();
+}
+
+void HistoryMachine::finishFrame()
+{
+    if (m_frames.size() > 1)
+    {
+        m_frame_done = m_frames.front().number;
+        m_history.frameDone(m_frame_done);
+        m_frames.pop_front();
+    }
+}
+
+void HistoryMachine::endUpdate()
+{
+    if (m_updates.empty() || m_updates.front().frame > m_frame_done)
+    {
+        return;
+    }
+    const Update update = m_updates.front();
+    m_updates.pop_front();
+    if (update.succeeds)
+    {
+        m_owned[update.writer].node_capacity = update.used.node_capacity;
+        m_owned[update.writer].voxel_capacity = update.used.voxel_capacity;
+        m_history.complete(update.id, update.used.node_capacity, update.used.voxel_capacity);
+    }
+    else
+    {
+        m_history.fail(update.id);
+        for (Update& later : m_updates)
+        {
+            later.before = later.before == update.id ? update.before : later.before;
+        }
+        removeFailed(m_steps, m_current, update);
+        removeFailed(m_before.steps, m_before.current, update);
+    }
+    RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
+}
+
+void HistoryMachine::checkEnd()
+{
+    while (m_current > 0)
+    {
+        move(true);
+    }
+    while (m_current + 1 < m_steps.size())
+    {
+        move(false);
+    }
+    while (!m_updates.empty())
+    {
+        nextFrame();
+        finishFrame();
+        endUpdate();
+        check();
+    }
+    while (m_frames.size() > 1)
+    {
+        finishFrame();
+    }
+    m_history.frameDone(m_frames.back().number);
+    RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
+    RC_ASSERT(m_history.waitingBytes() == 0u);
+    RC_ASSERT(m_arena.heldBytes() == bytesOfSteps());
+}
+
+void HistoryMachine::check()
+{
+    RC_ASSERT(m_history.undoCount() == m_current);
+    RC_ASSERT(m_history.redoCount() == m_steps.size() - 1 - m_current);
+    checkCurrent();
+    RC_ASSERT(isIntact(m_shown.writer, m_shown.region));
+    for (const Frame& frame : m_frames)
+    {
+        for (const auto& [writer, region] : frame.regions)
+        {
+            RC_ASSERT(isIntact(writer, region));
+        }
+    }
+    for (const std::uint64_t id : m_steps)
+    {
+        RC_ASSERT(isIntact(m_truth[id].writer, m_truth[id].region));
+    }
+    m_frames.back().regions.emplace(m_shown.writer, m_shown.region); // traced
+    checkLayers();
+}
+
+void HistoryMachine::beginFrame()
+{
+    m_frames.push_back({m_history.beginFrame(), {}});
+    m_before = {m_steps, m_current};
+    m_line_changed = false;
+}
+
+void HistoryMachine::mark(const OverlayRegion& region, int writer)
+{
+    std::fill_n(m_node_writers.begin() + region.first_node, region.node_capacity, writer);
+    std::fill_n(m_block_writers.begin() + region.first_voxel / kVoxelBlock, region.voxel_capacity / kVoxelBlock,
+                writer);
+}
+
+// Nobody else has got any of it since.
+bool HistoryMachine::isIntact(int writer, const OverlayRegion& region) const
+{
+    const auto is_writers = [&](int w) { return w == writer; };
+    const auto node = m_node_writers.begin() + region.first_node;
+    const auto block = m_block_writers.begin() + region.first_voxel / kVoxelBlock;
+    return std::all_of(node, node + region.node_capacity, is_writers) &&
+           std::all_of(block, block + region.voxel_capacity / kVoxelBlock, is_writers);
+}
+
+std::set<int> HistoryMachine::writersOfSteps()
+{
+    std::set<int> writers;
+    for (const std::uint64_t id : m_steps)
+    {
+        if (const int writer = m_told[id].writer; writer != 0)
+        {
+            writers.insert(writer);
+        }
+    }
+    return writers;
+}
+
+// As if it had never been pushed, but for what fell off when it was.
+void HistoryMachine::removeFailed(std::vector<std::uint64_t>& steps, std::size_t& current, const Update& update)
+{
+    for (std::size_t i = 0; i < steps.size(); ++i)
+    {
+        if (steps[i] == update.id && steps[i - 1] == update.before)
+        {
+            steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
+            current -= current >= i ? 1 : 0;
+        }
+        else if (steps[i] == update.id)
+        {
+            steps[i] = update.before;
+        }
+    }
+}
+
+std::uint64_t HistoryMachine::bytesOfSteps()
+{
+    std::uint64_t bytes = 0;
+    for (const int writer : writersOfSteps())
+    {
+        bytes += m_arena.bytes(m_owned[writer]);
+    }
+    return bytes;
+}
+
+// Whether there would be room beside the regions of the steps alone.
+bool HistoryMachine::fitsBesideSteps(std::uint32_t nodes, std::uint32_t voxels)
+{
+    std::vector<bool> free_nodes(m_node_writers.size(), true);
+    std::vector<bool> free_blocks(m_block_writers.size(), true);
+    std::fill_n(free_nodes.begin(), kStatic, false);
+    for (const int writer : writersOfSteps())
+    {
+        const OverlayRegion& region = m_owned[writer];
+        std::fill_n(free_nodes.begin() + region.first_node, region.node_capacity, false);
+        std::fill_n(free_blocks.begin() + region.first_voxel / kVoxelBlock, region.voxel_capacity / kVoxelBlock, false);
+    }
+    const auto has_run = [](const std::vector<bool>& line, std::size_t length)
+    { return length == 0 || std::search_n(line.begin(), line.end(), length, true) != line.end(); };
+    return has_run(free_nodes, nodes) && has_run(free_blocks, (voxels + 31) / 32);
+}
+
+bool HistoryMachine::dropStep()
+{
+    if (m_current + 1 < m_steps.size())
+    {
+        m_steps.pop_back();
+        return true;
+    }
+    if (m_current > 1)
+    {
+        m_steps.erase(m_steps.begin() + 1);
+        --m_current;
+        return true;
+    }
+    return false;
+}
+
+std::optional<OverlayRegion> HistoryMachine::allocate(std::uint32_t nodes, std::uint32_t voxels)
+{
+    RC_ASSERT(m_history.fitsLater(nodes, voxels) == fitsBesideSteps(nodes, voxels));
+    const bool nothing_waits = m_history.waitingBytes() == 0;
+    const std::size_t count = m_steps.size();
+    const std::optional<OverlayRegion> region = m_history.allocate(nodes, voxels);
+    const std::size_t dropped = count - (m_history.undoCount() + m_history.redoCount() + 1);
+    for (std::size_t i = 0; i < dropped; ++i)
+    {
+        RC_ASSERT(!fitsBesideSteps(nodes, voxels)); // this drop was needed
+        RC_ASSERT(dropStep());
+        m_line_changed = true;
+    }
+    if (region)
+    {
+        return region;
+    }
+    if (fitsBesideSteps(nodes, voxels))
+    {
+        RC_ASSERT(dropped != 0u || !nothing_waits);
+        return region;
+    }
+    RC_ASSERT(dropped == 0u); // as dropping all would have been in vain:
+    const std::vector<std::uint64_t> steps = m_steps;
+    const std::size_t current = m_current;
+    while (dropStep())
+    {
+        RC_ASSERT(!fitsBesideSteps(nodes, voxels));
+    }
+    m_steps = steps;
+    m_current = current;
+    return region;
+}
+
+void HistoryMachine::pushed(std::uint64_t id)
+{
+    m_line_changed = true;
+    m_steps.resize(m_current + 1);
+    m_steps.push_back(id);
+    ++m_current;
+    while ((m_steps.size() - 1 > m_bounds.steps_max || bytesOfSteps() > m_bounds.bytes_max) && dropStep())
+    {
+    }
+    RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
+}
+
+void HistoryMachine::checkCurrent()
+{
+    const RootStep step = m_history.current();
+    const Told& told = m_told[m_steps[m_current]];
+    RC_ASSERT(step.id == m_steps[m_current]);
+    RC_ASSERT(std::equal(step.layers.begin(), step.layers.end(), told.layers.begin(), told.layers.end()));
+    RC_ASSERT(step.region == (told.writer != 0 ? std::optional(m_owned[told.writer]) : std::nullopt));
+    RC_ASSERT(m_shown == m_truth[step.id]);
+    RC_ASSERT(step.pending == std::any_of(m_updates.begin(), m_updates.end(),
+                                          [&](const Update& update) { return update.id == step.id; }));
+    if (!step.pending)
+    {
+        RC_ASSERT(m_shown.layers == told.layers); // what the device shows is what the host believes
+    }
+}
+
+// None is forgotten that may be shown again, and none is kept for longer.
+void HistoryMachine::checkLayers()
+{
+    std::set<std::uint32_t> expected; // layers here have the numbers of their writers
+    for (const std::uint64_t id : m_steps)
+    {
+        expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
+    }
+    for (const Update& update : m_updates)
+    {
+        expected.insert(static_cast<std::uint32_t>(m_told[update.before].writer));
+    }
+    for (const std::uint64_t id : m_line_changed ? m_before.steps : std::vector<std::uint64_t>{})
+    {
+        expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
+    }
+    expected.erase(0);
+    std::set<std::uint32_t> seen;
+    m_history.forEachLayer([&](const LayerState& state) { seen.insert(state.layer); });
+    RC_ASSERT(seen == expected);
+}
+
+} // namespace zvo::test
