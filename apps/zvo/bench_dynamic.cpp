@@ -67,6 +67,7 @@ struct DynamicRow
     std::uint64_t triangles_dynamic = 0;
     std::uint64_t voxels_static = 0;
     std::uint64_t nodes_static = 0;
+    std::uint64_t geometry_bytes_static = 0;
     Range voxels_dynamic; // covered by what moves
     Range nodes_dynamic;  // of the overlays
     double voxelize_ms = 0;
@@ -119,6 +120,7 @@ Json rowJson(const DynamicRow& row)
     json["voxels_static"] = row.voxels_static;
     json["voxels_dynamic"] = rangeJson(row.voxels_dynamic);
     json["nodes_static"] = row.nodes_static;
+    json["geometry_bytes_static"] = row.geometry_bytes_static;
     json["nodes_dynamic"] = rangeJson(row.nodes_dynamic);
     json["voxelize_ms"] = row.voxelize_ms;
     json["build_ms"] = row.build_ms;
@@ -160,11 +162,12 @@ public:
         DynamicRow row;
         row.scene = name;
         row.resolution = grid.resolution();
-        StageOctree octree(m_device, stage, grid, {m_options.coverage, m_options.attributes});
+        StageOctree octree(m_device, stage, grid, stageOptions());
         row.triangles_static = octree.staticPart().triangle_count;
         row.triangles_dynamic = octree.moverTriangleCount();
         row.voxels_static = octree.staticPart().voxel_count;
         row.nodes_static = octree.staticPart().node_count;
+        row.geometry_bytes_static = octree.staticPart().geometry_bytes;
         row.voxelize_ms = operationMs(octree.staticPart().passes, "voxelize");
         row.build_ms = operationMs(octree.staticPart().passes, "octree");
         row.frame_count =
@@ -176,6 +179,11 @@ public:
     }
 
 private:
+    [[nodiscard]] StageOctreeOptions stageOptions() const
+    {
+        return {m_options.coverage, m_options.attributes, m_options.structure};
+    }
+
     // Every frame once, after one that finds out how much room it takes.
     void measureFrames(const Stage& stage, StageOctree& octree, DynamicRow& row, Progress& progress)
     {
@@ -213,7 +221,7 @@ private:
         std::vector<double> moving_ms;
         std::vector<double> rebuilt_trace_ms;
         std::vector<double> merged_trace_ms;
-        const Grid grid = octree.octree().grid;
+        const Grid grid = octree.tree().octree().grid;
         Stage moving;
         moving.movers = stage.movers;
         BuildOptions build;
@@ -239,7 +247,7 @@ private:
             octree.update(frameTime(stage, frame));
             for (std::uint32_t turn = 0; turn < kTraceTurns; ++turn)
             {
-                merged_trace_ms.push_back(traceMs(octree.octree(), camera));
+                merged_trace_ms.push_back(traceMs(octree.tree(), camera));
                 rebuilt_trace_ms.push_back(traceMs(built.octree, camera));
             }
             moving_ms.push_back(sumMs(rebuild(moving, frame, moving_build).passes));
@@ -258,7 +266,7 @@ private:
         {
             return;
         }
-        StageOctree octree(m_device, stage, grid, {m_options.coverage, m_options.attributes});
+        StageOctree octree(m_device, stage, grid, stageOptions());
         std::vector<double> enlarged_ms;
         octree.update(frameTime(stage, row.frame_count - 1));
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
@@ -271,13 +279,13 @@ private:
     }
 
     // The beam grid and primary rays.
-    double traceMs(const Octree& octree, const TraceCamera& camera)
+    double traceMs(const TreeView& tree, const TraceCamera& camera)
     {
         return sumMs(m_device.run(
             [&](vk::FrameGraph& graph)
             {
-                buildBeam(graph, octree, m_beam);
-                tracePrimary(graph, octree, m_beam, camera, TraceOptions{}, m_buffers);
+                buildBeam(graph, tree, m_beam);
+                tracePrimary(graph, tree, m_beam, camera, TraceOptions{}, m_buffers);
             }));
     }
 
@@ -306,6 +314,7 @@ Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, con
     json["height"] = kHeight;
     json["coverage"] = coverageName(options.coverage);
     json["attributes"] = options.attributes ? "full" : "none";
+    json["structure"] = structureName(options.structure);
     json["rebuilds"] = options.run_count;
     json["rows"] = Json::array();
     for (const DynamicRow& row : rows)

@@ -38,7 +38,7 @@ Examples:
   zvo render bunny.glb -o bunny.png --resolution 1024 --view normal
   zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60 --occlusion 16
   zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f
-  zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119
+  zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119 --structure svdag
   zvo render bunny.zvo -o bunny.png
   zvo render scenes/sponza_bunny.scene.json -o later.png --scenes ../models --time 1.5)";
 
@@ -127,6 +127,9 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
              "pictures of a scene in which something moves, frame N at N / frames_per_second seconds; of any other "
              "scene, a camera that turns once around it; #### in the output's name becomes the frame's number")
         ->excludes("--time");
+    addValue(
+        *render, "--structure", options.structure, parseStructure, "svo|svdag",
+        "trace an octree, or a DAG, which has equal subtrees once; what moves is merged with either (default svo)");
     render->add_flag("--rebuild", options.rebuild,
                      "voxelize everything anew for each picture of a scene in which something moves, instead of "
                      "merging what moves with what stands still");
@@ -255,6 +258,9 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--balance")
         ->excludes("--up")
         ->excludes("--scale");
+    addValue(*bench, "--structure", options.structure, parseStructure, "svo|svdag",
+             "with --dynamic, what stands still is an octree or a DAG (default svo)")
+        ->needs("--dynamic");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");

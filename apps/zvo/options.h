@@ -71,6 +71,7 @@ struct RenderOptions
     float exposure = 1.0F;
     float detail_pixels = 0.0F;                                    // rays stop at octree nodes up to this wide
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
+    std::optional<TreeStructure> structure; // of what stands still; not given: an octree, or the file's
     bool rebuild = false; // what moves is not merged with what stands still: everything is voxelized for each picture
 };
 
@@ -130,6 +131,7 @@ struct BenchOptions
     bool passes = false;
     bool balance = false; // balance of load on generated scenes, and on scenes if any were named
     bool dynamic = false; // scenes in which something moves: update against rebuild
+    TreeStructure structure = TreeStructure::Svo; // of what stands still; with dynamic
     DeviceOptions device;
     OutputOptions output; // path: unused
 };

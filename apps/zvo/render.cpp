@@ -44,9 +44,10 @@ public:
     // A camera that turns around what stands still.
     void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& centre)
     {
-        const BuildResult result = voxelize(std::move(scene), grid);
+        BuildResult result = voxelize(std::move(scene), grid);
         report(result);
-        turn(TreeView(result.octree), camera, centre);
+        const DeviceTree tree = structured(std::move(result.octree));
+        std::visit([&](const auto& made) { turn(TreeView(made), camera, centre); }, tree);
     }
 
     // The same around what a file holds.
@@ -63,13 +64,14 @@ public:
     void play(const Stage& stage, const Grid& grid, const ViewCamera& camera)
     {
         m_progress.step("voxelizing what stands still");
-        StageOctree octree(m_device, stage, grid, {m_options.voxels.coverage, m_options.voxels.attributes});
+        StageOctree octree(m_device, stage, grid,
+                           {m_options.voxels.coverage, m_options.voxels.attributes, structure()});
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             m_progress.step("updating");
             const double seconds = timeOf(stage, i);
             const StageUpdate update = octree.update(seconds);
-            const std::vector<vk::PassTime> beam_passes = m_renderer.show(octree.octree());
+            const std::vector<vk::PassTime> beam_passes = m_renderer.show(octree.tree());
             if (i == 0)
             {
                 report(stage, octree, update);
@@ -95,15 +97,20 @@ public:
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             const double seconds = timeOf(stage, i);
-            const BuildResult result = voxelize(stageAt(stage, seconds), grid);
-            const std::vector<vk::PassTime> beam_passes = m_renderer.show(result.octree);
+            BuildResult result = voxelize(stageAt(stage, seconds), grid);
             if (i == 0)
             {
                 report(result);
-                m_beam_passes = beam_passes;
             }
+            Json frame = frameJson(m_pictures.number(i), seconds, result);
+            const DeviceTree tree = structured(std::move(result.octree));
+            const std::vector<vk::PassTime> beam_passes =
+                std::visit([&](const auto& made) { return m_renderer.show(made); }, tree);
+            m_beam_passes = i == 0 ? beam_passes : m_beam_passes;
             draw(i, camera);
-            reportFrame(m_pictures.number(i), seconds, result);
+            frame["trace_ms"] = m_times.back().trace_ms;
+            frame["shade_ms"] = m_times.back().shade_ms;
+            m_frames.push_back(std::move(frame));
         }
     }
 
@@ -155,6 +162,26 @@ private:
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
             draw(i, camera.turnedAround(centre, turn));
         }
+    }
+
+    [[nodiscard]] TreeStructure structure() const { return m_options.structure.value_or(TreeStructure::Svo); }
+
+    // What was voxelized, as it is to be traced. Tells of the first.
+    DeviceTree structured(Octree&& octree)
+    {
+        if (structure() == TreeStructure::Svo)
+        {
+            return std::move(octree);
+        }
+        m_progress.step("compressing");
+        CompressResult result = compress(m_device, std::move(octree));
+        if (!m_json.empty() && !m_json.contains("dag"))
+        {
+            m_json["dag"] = {{"nodes", result.dag.tree.node_count},
+                             {"geometry_bytes", result.dag.geometryBytes()},
+                             {"compress_ms", result.ms()}};
+        }
+        return std::move(result.dag);
     }
 
     [[nodiscard]] double timeOf(const Stage& stage, std::uint32_t index) const
@@ -210,7 +237,7 @@ private:
     void report(const Stage& stage, StageOctree& octree, const StageUpdate& update)
     {
         const StaticPart& part = octree.staticPart();
-        const Grid& grid = octree.octree().grid;
+        const Grid& grid = octree.tree().octree().grid;
         const std::uint64_t triangle_count = part.triangle_count + octree.moverTriangleCount();
         warnOfDropped(std::uint64_t{part.voxel_count} + update.report.dynamic_count, part.dropped);
         const double voxelize_ms = operationMs(part.passes, "voxelize");
@@ -227,29 +254,30 @@ private:
                            {"dropped", part.dropped}};
         m_json["voxels_static"] = part.voxel_count;
         m_json["nodes_static"] = part.node_count;
-        m_json["passes"] = passesJson(part.passes);
-        const Json more = passesJson(update.passes);
-        m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
+        m_json["structure"] = structureName(structure());
+        m_json["bytes"]["geometry_static"] = part.geometry_bytes;
+        m_json["passes"] = Json::array();
+        for (const std::vector<vk::PassTime>* passes : {&part.passes, &part.compress_passes, &update.passes})
+        {
+            const Json more = passesJson(*passes);
+            m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
+        }
         m_json["voxelize_ms"] = voxelize_ms;
         m_json["build_ms"] = build_ms;
+        m_json["compress_ms"] = structure() == TreeStructure::Svdag ? Json(sumMs(part.compress_passes)) : Json(nullptr);
     }
 
-    void reportFrame(std::uint32_t number, double seconds, const BuildResult& result)
+    Json frameJson(std::uint32_t number, double seconds, const BuildResult& result)
     {
-        if (m_options.output.json.empty())
-        {
-            return;
-        }
-        m_frames.push_back({{"frame", number},
-                            {"seconds", seconds},
-                            {"triangles", m_triangle_count},
-                            {"voxels", result.octree.voxel_count},
-                            {"nodes", result.octree.node_count},
-                            {"octree_sha256", octreeSha256(m_device, result.octree)},
-                            {"voxelize_ms", result.stageMs("voxelize")},
-                            {"build_ms", result.stageMs("octree")},
-                            {"trace_ms", m_times.back().trace_ms},
-                            {"shade_ms", m_times.back().shade_ms}});
+        const bool is_wanted = !m_options.output.json.empty();
+        return {{"frame", number},
+                {"seconds", seconds},
+                {"triangles", m_triangle_count},
+                {"voxels", result.octree.voxel_count},
+                {"nodes", result.octree.node_count},
+                {"octree_sha256", is_wanted ? octreeSha256(m_device, result.octree) : ""},
+                {"voxelize_ms", result.stageMs("voxelize")},
+                {"build_ms", result.stageMs("octree")}};
     }
 
     void draw(std::uint32_t index, const ViewCamera& camera)
@@ -299,6 +327,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--attributes", voxels.attributes != plain.attributes},
         {"--bounds", voxels.bounds.has_value()},
         {"--grid", voxels.grid_place.has_value()},
+        {"--structure", options.structure.has_value()},
         {"--rebuild", options.rebuild},
     };
     for (const auto& [name, is_given] : given)
@@ -365,8 +394,9 @@ void render(const RenderOptions& options)
     progress.step("loading");
     Stage stage = loadStageWithWarnings(options.voxels, options.frames || options.voxels.time);
     const bool moves = !stage.movers.empty();
-    progress.expect(!moves            ? 3 + pictures.count()
-                    : options.rebuild ? 1 + 3 * pictures.count()
+    const std::uint32_t compressions = options.structure == TreeStructure::Svdag ? 1 : 0;
+    progress.expect(!moves            ? 3 + compressions + pictures.count()
+                    : options.rebuild ? 1 + (3 + compressions) * pictures.count()
                                       : 2 + 2 * pictures.count());
     checkPlaces(options.output, stage.files);
     const Bounds bounds = stageBounds(stage);

@@ -34,27 +34,45 @@ StageOctree::StageOctree(vk::HeadlessDevice& device, const Stage& stage, const G
     : m_device(device), m_stage(stage)
 {
     const float emission_scale = brightestEmission(stage);
-    BuildOptions build;
-    build.coverage = options.coverage;
-    build.attributes = options.attributes;
-    build.keep_sums = options.attributes && stage.merge == MergeRule::Average;
-    BuildResult built =
-        buildOctree(device, uploadScene(device, stage.fixed, options.attributes, emission_scale), grid, build);
-    m_static_part = {stage.fixed.triangleCount(), built.octree.voxel_count, built.octree.node_count, built.dropped,
-                     built.passes};
     DynamicOptions dynamic;
     dynamic.coverage = options.coverage;
     dynamic.merge = stage.merge;
     dynamic.attributes = options.attributes;
     dynamic.history = options.history;
     dynamic.emission_scale = emission_scale;
-    m_dynamic = std::make_unique<DynamicOctree>(device, std::move(built), dynamic);
+    m_dynamic = std::make_unique<DynamicOctree>(device, makeStaticPart(grid, options, emission_scale), dynamic);
     for (const Mover& mover : stage.movers)
     {
         m_mover_triangle_count += mover.scene.triangleCount();
         m_movers.push_back(m_dynamic->add(uploadMover(device, mover.scene, options.attributes, emission_scale),
                                           moverPose(mover, 0.0)));
     }
+}
+
+StaticTree StageOctree::makeStaticPart(const Grid& grid, const StageOctreeOptions& options, float emission_scale)
+{
+    BuildOptions build;
+    build.coverage = options.coverage;
+    build.attributes = options.attributes;
+    build.keep_sums = options.attributes && m_stage.merge == MergeRule::Average;
+    BuildResult built =
+        buildOctree(m_device, uploadScene(m_device, m_stage.fixed, options.attributes, emission_scale), grid, build);
+    StaticPart& part = m_static_part;
+    part.triangle_count = m_stage.fixed.triangleCount();
+    part.voxel_count = built.octree.voxel_count;
+    part.node_count = built.octree.node_count;
+    part.geometry_bytes = built.octree.geometryBytes();
+    part.dropped = built.dropped;
+    part.passes = built.passes;
+    if (options.structure == TreeStructure::Svo)
+    {
+        return built;
+    }
+    CompressResult compressed = compress(m_device, std::move(built.octree));
+    part.node_count = compressed.dag.tree.node_count;
+    part.geometry_bytes = compressed.dag.geometryBytes();
+    part.compress_passes = std::move(compressed.passes);
+    return {std::move(compressed.dag), std::move(built.sums)};
 }
 
 StageUpdate StageOctree::update(double seconds)

@@ -6,6 +6,7 @@
 #include "core/grid.h"
 #include "core/pipeline.h"
 #include "core/stage.h"
+#include "core/tree_data.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -22,6 +23,7 @@ struct StageOctreeOptions
 {
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
+    TreeStructure structure = TreeStructure::Svo; // of what is fixed
     HistoryBounds history = {1, UINT64_MAX};
 };
 
@@ -31,8 +33,10 @@ struct StaticPart
     std::uint64_t triangle_count = 0;
     std::uint32_t voxel_count = 0;
     std::uint32_t node_count = 0;
+    std::uint64_t geometry_bytes = 0;             // nodes; of a DAG lists, too, and what stands beside them
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason
     std::vector<vk::PassTime> passes;             // of voxelization and construction
+    std::vector<vk::PassTime> compress_passes;    // of a DAG
 };
 
 /// One update, with the attempts that had too little memory.
@@ -57,12 +61,16 @@ public:
     /// Merges the movers as they are at a time of the stage. Throws Error{Memory} as above.
     StageUpdate update(double seconds);
 
-    [[nodiscard]] const Octree& octree() const { return m_dynamic->octree(); }
+    /// What to trace: DynamicOctree::tree().
+    [[nodiscard]] TreeView tree() const { return m_dynamic->tree(); }
+
     [[nodiscard]] DynamicOctree& dynamic() { return *m_dynamic; }
     [[nodiscard]] const StaticPart& staticPart() const { return m_static_part; }
     [[nodiscard]] std::uint64_t moverTriangleCount() const { return m_mover_triangle_count; }
 
 private:
+    StaticTree makeStaticPart(const Grid& grid, const StageOctreeOptions& options, float emission_scale);
+
     vk::HeadlessDevice& m_device;
     const Stage& m_stage;
     StaticPart m_static_part;

@@ -167,6 +167,44 @@ TEST_F(CliStage, FramesAreTimesAndBeginAnew)
     }
 }
 
+TEST_F(CliStage, WhatIsCompressedLooksTheSame)
+{
+    for (const std::vector<std::string>& how :
+         {std::vector<std::string>{"test.scene.json", "--scenes", "models", "--frames", "3..4"},
+          {"test.scene.json", "--scenes", "models", "--frames", "3..4", "--rebuild"},
+          {"cube.glb", "--frames", "3..4"}})
+    {
+        for (const std::string structure : {"svo", "svdag"})
+        {
+            std::vector<std::string> arguments = {
+                "render", "-o",    structure + "_#.png", "-f", "--json",      structure + ".json",
+                "--size", "64x48", "--resolution",       "64", "--structure", structure};
+            arguments.insert(arguments.end(), how.begin(), how.end());
+            run(arguments);
+        }
+        for (const char* frame : {"_3.png", "_4.png"})
+        {
+            EXPECT_EQ(file(std::string("svo") + frame), file(std::string("svdag") + frame)) << how.size();
+        }
+        const json octree = json::parse(file("svo.json"));
+        const json dag = json::parse(file("svdag.json"));
+        if (dag["schema"] == "zvo.render_dynamic/1")
+        {
+            EXPECT_EQ(dag["structure"], "svdag");
+            EXPECT_LT(dag["nodes_static"], octree["nodes_static"]);
+            EXPECT_LT(dag["bytes"]["geometry_static"], octree["bytes"]["geometry_static"]);
+            EXPECT_GT(dag["compress_ms"], 0);
+            EXPECT_EQ(octree["compress_ms"], nullptr);
+        }
+        else
+        {
+            EXPECT_EQ(dag["octree_sha256"], octree["octree_sha256"]);
+            EXPECT_LT(dag["dag"]["nodes"], octree["nodes"]);
+            EXPECT_FALSE(octree.contains("dag"));
+        }
+    }
+}
+
 TEST_F(CliStage, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
 {
     // The slab, turned so that a green side is in front, shares voxels of the cube's blue front.

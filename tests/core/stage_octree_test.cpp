@@ -8,7 +8,6 @@
 #include "core/trace.h"
 #include "support/device.h"
 #include "support/octree_contents.h"
-#include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +16,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace zvo
@@ -35,17 +35,17 @@ std::uint32_t numberFrom(const char* variable, std::uint32_t otherwise)
     return text != nullptr ? static_cast<std::uint32_t>(std::stoul(text)) : otherwise;
 }
 
-std::vector<gpu::uint> pictureOf(const Octree& octree, const ViewCamera& view, TraceBuffers& buffers)
+std::vector<gpu::uint> pictureOf(const TreeView& tree, const ViewCamera& view, TraceBuffers& buffers)
 {
     BeamGrid beam(device().device());
     TraceOptions options;
     options.occlusion_rays = 2;
-    const TraceCamera camera = traceCamera(view, octree.grid, buffers.height);
+    const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            buildBeam(graph, octree, beam);
-            trace(graph, octree, beam, camera, options, buffers);
+            buildBeam(graph, tree, beam);
+            trace(graph, tree, beam, camera, options, buffers);
         });
     return device().download(buffers.image);
 }
@@ -56,26 +56,31 @@ template <typename T> void append(std::vector<std::byte>& bytes, const std::vect
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-// Everything static: nodes with the copy of the root behind them, their averages, and the voxels' attributes.
+// Everything static: nodes and lists with the copy of the root behind them, the nodes' averages, and the voxels'
+// attributes.
 std::vector<std::byte> staticBytes(StageOctree& stage)
 {
-    const Octree& octree = stage.octree();
+    const TreeView tree = stage.tree();
+    const Octree& octree = tree.octree();
     const std::uint32_t root = stage.dynamic().staticRoot();
     std::vector<std::byte> bytes;
     append(bytes, device().download(octree.nodes, 1, root));
-    append(bytes, device().download(octree.node_attributes, 1, root));
+    append(bytes, device().download(octree.node_attributes, 1,
+                                    tree.svdag() != nullptr ? tree.svdag()->octree_node_count : root));
     append(bytes, device().download(octree.voxel_attributes, 0, octree.voxel_count));
     return bytes;
 }
 
-class Stages : public testing::TestWithParam<std::string>
+// By name, and what is fixed as an octree or a DAG.
+class Stages : public testing::TestWithParam<std::tuple<std::string, TreeStructure>>
 {
 };
 
 TEST_P(Stages, UpdatedIsRebuilt)
 {
-    const std::filesystem::path path = test::ownScene(GetParam() + ".scene.json");
-    if (const std::string model = test::missingModelOf(GetParam()); !model.empty())
+    const auto& [name, structure] = GetParam();
+    const std::filesystem::path path = test::ownScene(name + ".scene.json");
+    if (const std::string model = test::missingModelOf(name); !model.empty())
     {
         GTEST_SKIP() << model << " is not there";
     }
@@ -95,7 +100,10 @@ TEST_P(Stages, UpdatedIsRebuilt)
     const ViewCamera view = ViewCamera::lookAt(high + 0.7 * (high - low), 0.5 * (low + high), 0.8);
     TraceBuffers buffers(device().device(), 160, 90);
 
-    StageOctree octree(device(), stage, grid, {});
+    StageOctreeOptions options;
+    options.structure = structure;
+    StageOctree octree(device(), stage, grid, options);
+    EXPECT_EQ(octree.tree().hasLists(), structure == TreeStructure::Svdag);
     const std::vector<std::byte> static_before = staticBytes(octree);
     for (std::uint32_t i = 0; i < shown; ++i)
     {
@@ -106,15 +114,22 @@ TEST_P(Stages, UpdatedIsRebuilt)
         EXPECT_GT(update.report.dynamic_count, 0U);
         const GpuScene scene = uploadScene(device(), stageAt(stage, seconds), true, emission_scale);
         const BuildResult rebuilt = buildOctree(device(), scene, grid, {});
-        ASSERT_EQ(test::difference(test::cellsOf(device(), octree.octree()), test::cellsOf(device(), rebuilt.octree)),
+        ASSERT_EQ(test::difference(test::cellsOf(device(), octree.tree()), test::cellsOf(device(), rebuilt.octree)),
                   "");
-        EXPECT_EQ(pictureOf(octree.octree(), view, buffers), pictureOf(rebuilt.octree, view, buffers));
+        EXPECT_EQ(pictureOf(octree.tree(), view, buffers), pictureOf(rebuilt.octree, view, buffers));
     }
     EXPECT_TRUE(staticBytes(octree) == static_before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Stages, testing::Values("atrium_knot", "buddha_dragon", "sponza_bunny"),
-                         test::paramName<std::string>);
+std::string nameOfCase(const testing::TestParamInfo<Stages::ParamType>& info)
+{
+    return std::get<0>(info.param) + "_" + structureName(std::get<1>(info.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Stages,
+                         testing::Combine(testing::Values("atrium_knot", "buddha_dragon", "sponza_bunny"),
+                                          testing::Values(TreeStructure::Svo, TreeStructure::Svdag)),
+                         nameOfCase);
 
 } // namespace
 } // namespace zvo
