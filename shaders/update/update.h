@@ -206,11 +206,11 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
     uint brick_mask;
-    uint level;            // of the children
-    uint item_range;       // of the parents, in ranges
-    uint first_node;       // of the overlay
-    uint first_partial;    // of the level
-    uint attribute_offset; // 0 for an octree
+    uint level;             // of the children
+    uint item_range;        // of the parents, in ranges
+    uint first_node;        // of the overlay
+    uint first_partial;     // of the level
+    uint attribute_offset;  // 0 for an octree
     uint first_short_place; // as in RankSource
 };
 

@@ -18,8 +18,8 @@ void addRanks(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& o
         return;
     }
     const OverlaidTree* overlaid = tree.overlaid();
-    vk::Pass pass = graph.addPass(
-        "trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U, tree.entriesPerWord(), overlaid != nullptr ? 1U : 0U});
+    vk::Pass pass = graph.addPass("trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U,
+                                                  tree.entriesPerWord(), overlaid != nullptr ? 1U : 0U});
     gpu::RanksParams params{};
     params.source = rankSource(pass, *tree.svdag());
     if (overlaid != nullptr)

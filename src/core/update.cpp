@@ -115,8 +115,9 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     const std::uint64_t groups_max = buffers.bricks.count();
     {
         const bool are_leaves = tree.has_lists && level + 1 == level_count;
-        vk::Pass pass = graph.addPass("update/expand", {hasWideKeys(octree.grid) ? 1U : 0U, attributes ? 1U : 0U,
-                                                        tree.has_lists ? tree.dag.entries_per_word : 0U, are_leaves ? 1U : 0U});
+        vk::Pass pass =
+            graph.addPass("update/expand", {hasWideKeys(octree.grid) ? 1U : 0U, attributes ? 1U : 0U,
+                                            tree.has_lists ? tree.dag.entries_per_word : 0U, are_leaves ? 1U : 0U});
         gpu::ExpandParams params{};
         params.bricks = pass.read(buffers.bricks);
         params.items = pass.read(buffers.work.items);
