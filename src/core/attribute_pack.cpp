@@ -39,15 +39,16 @@ std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm for
     const std::uint64_t voxel_words = packedWords(form, tree.voxel_attributes.count());
     const std::uint64_t node_words = packedWords(form, tree.node_attributes.count());
     device.device().memory().require((voxel_words + node_words) * sizeof(gpu::uint), "packing the attributes");
-    tree.packed = {form,
-                   {device.device(), "packed voxel attributes", voxel_words},
-                   {device.device(), "packed node attributes", node_words}};
+    PackedAttributes packed = {form,
+                               {device.device(), "packed voxel attributes", voxel_words},
+                               {device.device(), "packed node attributes", node_words}};
     std::vector<vk::PassTime> passes = device.run(
         [&](vk::FrameGraph& graph)
         {
-            packAttributes(graph, tree.voxel_attributes, form, tree.packed.voxels);
-            packAttributes(graph, tree.node_attributes, form, tree.packed.nodes);
+            packAttributes(graph, tree.voxel_attributes, form, packed.voxels);
+            packAttributes(graph, tree.node_attributes, form, packed.nodes);
         });
+    tree.packed = std::move(packed);
     tree.voxel_attributes = {};
     tree.node_attributes = {};
     return passes;

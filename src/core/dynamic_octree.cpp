@@ -221,7 +221,8 @@ void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
     graph.releaseToHost(); // what frameDone() reads
 }
 
-// What can fail for want of memory comes first, and changes nothing. False if the update has to wait for frames.
+// What can fail comes before the region is taken, which nobody else would give back. False if the update has to wait
+// for frames.
 bool DynamicOctree::beginJob(vk::FrameGraph& graph)
 {
     if (m_owes_root)
@@ -232,6 +233,10 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
     m_movers.makeLayers();
     m_sizes.begin(m_movers.leafCapacity());
     prepareBuffers();
+    const FragmentSums& sums = m_overlays.sums();
+    const gpu::MergeView view = {
+        {m_tables.view.address()}, {sums.sums.address()}, {sums.emission_sums.address()}, m_sum_shift - sums.sum_shift};
+    graph.update(m_merge_view, 0, std::span(&view, 1));
     const std::optional<OverlayRegion> region = allocateRegion(graph);
     if (!region)
     {
@@ -239,10 +244,6 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
     }
     RecordedSteps steps;
     std::vector<MoverId> voxelized = m_movers.addSteps(m_sum_shift, steps);
-    const FragmentSums& sums = m_overlays.sums();
-    const gpu::MergeView view = {
-        {m_tables.view.address()}, {sums.sums.address()}, {sums.emission_sums.address()}, m_sum_shift - sums.sum_shift};
-    graph.update(m_merge_view, 0, std::span(&view, 1));
     const auto result = static_cast<std::uint32_t>(m_result_count++ % m_results.count());
     m_job = std::make_unique<Job>(Job{
         .merge = {.tree = m_overlays.tree(),

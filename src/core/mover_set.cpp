@@ -363,6 +363,10 @@ void MoverSet::frameLost(std::uint64_t frame)
     {
         m_pending.pop_back();
     }
+    if (!m_pending.empty())
+    {
+        m_report_count = m_pending.back().report + 1; // the lost ones are not awaited
+    }
     forgetLayers();
 }
 

@@ -136,7 +136,8 @@ void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64
         space.static_nodes + grownRoom(std::uint64_t{space.node_capacity} - space.static_nodes, nodes);
     const std::uint64_t voxel_capacity = firstOverlayVoxel() + roundUp(grownRoom(voxel_room, voxels), kVoxelBlock);
     const std::uint64_t count_max = m_tree.has_lists ? kListedCountMax : kCountMax;
-    if (node_capacity > count_max || voxel_capacity > count_max)
+    const std::uint64_t attribute_nodes = m_tree.dag.octree_node_count + node_capacity - m_tree.static_root;
+    if (node_capacity > count_max || voxel_capacity > count_max || attribute_nodes > kCountMax)
     {
         throw Error(ErrorCode::Memory, fmt::format("overlays need more nodes or voxels than the {} that can be told "
                                                    "apart: keep fewer steps of history, or lower the resolution",
@@ -182,7 +183,9 @@ void OverlayOctree::swapBuffers(Buffers& buffers)
 void OverlayOctree::lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity, std::uint64_t voxel_capacity,
                              vk::Retired& retired)
 {
-    Buffers from = makeBuffers(node_capacity, voxel_capacity); // all of them, before anything is recorded
+    Buffers longer = makeBuffers(node_capacity, voxel_capacity); // all of them, before anything is recorded
+    // In safety before that, too: it may fail half way, with the device at work on what went before.
+    Buffers& from = m_before ? retired.keep(std::move(longer)) : m_before.emplace(std::move(longer));
     swapBuffers(from);
     Octree& octree = m_tree.dag.tree;
     copyAll(graph, from.nodes, octree.nodes);
@@ -200,14 +203,6 @@ void OverlayOctree::lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity,
         {
             graph.fill(octree.emission_words, 0);
         }
-    }
-    if (m_before) // made in this frame
-    {
-        retired.keep(std::move(from));
-    }
-    else
-    {
-        m_before = std::move(from);
     }
 }
 

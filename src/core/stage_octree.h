@@ -33,7 +33,7 @@ struct StaticPart
     std::uint64_t triangle_count = 0;
     std::uint32_t voxel_count = 0;
     std::uint32_t node_count = 0;
-    std::uint64_t geometry_bytes = 0;             // nodes; of a DAG lists, too, and what stands beside them
+    std::uint64_t geometry_bytes = 0;             // nodes; of a DAG lists, too
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason
     std::vector<vk::PassTime> passes;             // of voxelization and construction
     std::vector<vk::PassTime> compress_passes;    // of a DAG

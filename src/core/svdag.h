@@ -23,7 +23,7 @@ struct Svdag
 
     std::uint32_t octree_node_count = 0;
     std::uint64_t entry_count = 0;              // of lists
-    std::uint32_t entries_per_word = 2;         // of 64 bits; as few as ListPacking::tightest for what compress makes
+    std::uint32_t entries_per_word = 2;         // of 64 bits; as many as ListPacking::tightest for what compress makes
     std::uint64_t long_entry_count = 0;         // of nodes above the parents of leaves
     vk::BufferOf<gpu::BeforeChild> before;      // [long_entry_count], or empty without attributes
     vk::BufferOf<gpu::uint> voxels_before_leaf; // [ceil((entry_count - long_entry_count) / 2)], likewise
@@ -43,9 +43,10 @@ struct CompressOptions
 {
     std::uint64_t table_slots = 0; // of each level's table of classes at first; 0: as many as are likely to suffice
     bool ranks = false;            // before and voxels_before_leaf even without attributes
-    std::uint32_t entries_per_word =
-        0; // of lists, at most: 2 or 3, or 0 for as many as fit. For tests, as the next one
-    std::uint32_t hash_mask = UINT32_MAX; // of inner nodes' hashes: with fewer bits, different nodes collide
+    // For tests: entries of a word of lists, at most (0: as many as fit), and bits of inner nodes' hashes: with fewer,
+    // different nodes collide.
+    std::uint32_t entries_per_word = 0;
+    std::uint32_t hash_mask = UINT32_MAX;
 };
 
 /// A DAG and how it came about.

@@ -20,9 +20,12 @@ public:
 
     [[nodiscard]] std::uint64_t frame() const { return m_frame; }
 
-    template <typename T> void keep(T&& thing)
+    /// Where thing stands from now on, until the device is done with the frame.
+    template <typename T> std::decay_t<T>& keep(T&& thing)
     {
-        m_things.push_back({m_frame, std::make_shared<std::decay_t<T>>(std::forward<T>(thing))});
+        auto kept = std::make_shared<std::decay_t<T>>(std::forward<T>(thing));
+        m_things.push_back({m_frame, kept});
+        return *kept;
     }
 
     /// The device is done with that frame and all before it.

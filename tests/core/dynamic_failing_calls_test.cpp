@@ -105,7 +105,6 @@ public:
         {
             m_steps.erase(m_steps.begin() + 1);
             --m_current;
-            ++m_dropped_count;
         }
         EXPECT_EQ(m_octree->history().undoCount(), m_current);
     }
@@ -244,7 +243,6 @@ private:
     std::string m_failed;
     std::set<std::string> m_failed_functions;
     std::uint64_t m_error_count = 0;
-    std::uint32_t m_dropped_count = 0;
     std::uint32_t m_frame_count = 0;
 };
 

@@ -410,6 +410,7 @@ TEST(DynamicSvdag, WithoutAttributesItLooksLikeTheOctree)
     for (const auto& [depth, codes] : codeSets())
     {
         SCOPED_TRACE("depth " + std::to_string(depth));
+        const test::Codes targets = codes.empty() ? test::Codes{0, 7, 100} : codes;
         Pair pair(codes, depth, MergeRule::Average, false);
         EXPECT_EQ(pair.dag().tree().overlaid()->ranks.count(), 0U);
         std::uint32_t step = 0;
@@ -420,7 +421,7 @@ TEST(DynamicSvdag, WithoutAttributesItLooksLikeTheOctree)
                       if (++step == 4)
                       {
                           pair.comparison().pictures();
-                          pair.comparison().rays(codes.empty() ? test::Codes{0, 7, 100} : codes);
+                          pair.comparison().rays(targets);
                       }
                   });
     }
