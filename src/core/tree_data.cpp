@@ -113,7 +113,8 @@ TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree)
 TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag)
 {
     requireAsBuilt(dag.tree, dag.packing().poolNodes());
-    if (dag.entries_per_word != ListPacking::tightest(dag.tree.node_count, dag.entry_count).per_word)
+    const ListPacking tightest = ListPacking::tightest(dag.tree.node_count, dag.entry_count);
+    if (dag.entry_count != 0 && dag.entries_per_word != tightest.per_word)
     {
         throw Error(ErrorCode::Usage, "a DAG whose words have fewer entries than they could cannot be copied to the "
                                       "host; compress it without that option");
