@@ -91,23 +91,6 @@ std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, co
     return codes;
 }
 
-Names traceList(const TreeView& tree)
-{
-    const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
-    const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
-    vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
-    vk::BufferOf<gpu::DispatchArgs> rounds(device().device(), "rounds", gpu::kTraceRoundsMax);
-    vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
-    Names names;
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            graph.fill(status, 0);
-                            traceRays(graph, tree, rays, hits, rounds, status, {});
-                        }));
-    return names;
-}
-
 // Pictures by every path of the tracer.
 Names tracePictures(const TreeView& tree)
 {
@@ -138,7 +121,17 @@ Names tracePictures(const TreeView& tree)
     coarse.detail_level = 2;
     const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
     addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, coarse, buffers); }));
-    names.merge(traceList(tree));
+    const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
+    const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
+    vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());
+    vk::BufferOf<gpu::DispatchArgs> rounds(device().device(), "rounds", gpu::kTraceRoundsMax);
+    vk::BufferOf<gpu::TraceStatus> status(device().device(), "status", 1);
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph)
+                        {
+                            graph.fill(status, 0);
+                            traceRays(graph, tree, rays, hits, rounds, status, {});
+                        }));
     return names;
 }
 
@@ -180,19 +173,17 @@ Names deformVertices()
     return names;
 }
 
-// The scene, as an octree or a DAG, merged with itself, moved by two voxels, and that undone.
-Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
+// The scene merged with itself, moved by two voxels, and that undone.
+Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage)
 {
     Names names;
     const float emission_scale = brightestEmission(scene);
     const GpuScene gpu_scene = uploadScene(device(), scene, true, emission_scale);
     BuildOptions build{coverage};
     build.keep_sums = true;
-    BuildResult built = buildOctree(device(), gpu_scene, grid, build);
-    StaticTree fixed = compressed ? StaticTree(compress(device(), std::move(built.octree)).dag, std::move(built.sums))
-                                  : StaticTree(std::move(built));
-    DynamicOctree octree(device(), std::move(fixed), {.coverage = coverage, .emission_scale = emission_scale});
-    const std::vector<test::Cell> before = test::cellsOf(device(), octree.tree());
+    DynamicOctree octree(device(), buildOctree(device(), gpu_scene, grid, build),
+                         {.coverage = coverage, .emission_scale = emission_scale});
+    const std::vector<test::Cell> before = test::cellsOf(device(), octree.octree());
 
     Scene moved = scene;
     Pose pose;
@@ -210,11 +201,11 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool 
     } while (octree.needsUpdate());
     Scene both = scene;
     both.append(std::move(moved));
-    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid), oracle::voxelize(both, grid, coverage).codes);
-    names.merge(traceList(octree.tree()));
+    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.octree()), grid),
+              oracle::voxelize(both, grid, coverage).codes);
 
     addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undo(graph); }));
-    EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), before), "");
+    EXPECT_EQ(test::difference(test::cellsOf(device(), octree.octree()), before), "");
     return names;
 }
 
@@ -291,8 +282,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         addNames(names, built.passes);
         if (c.pictures)
         {
-            names.merge(mergeMovers(scene, grid, c.coverage, false));
-            names.merge(mergeMovers(scene, grid, c.coverage, true));
+            names.merge(mergeMovers(scene, grid, c.coverage));
             names.merge(tracePictures(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
             names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), AttributeForm::Bytes4));
