@@ -188,11 +188,12 @@ void DynamicMachine::submit(bool loses)
     }
     const std::uint64_t frame = m_octree->beginFrame();
     const StepLine<Shown> before = m_line;
+    ShotTaker& taker = freeTaker();
     vk::Submission submission;
     m_has_recorded = false;
-    if (mayFail([&] { submission = submitFrame(frame, loses); }, loses))
+    if (mayFail([&] { submission = submitFrame(taker, loses); }, loses))
     {
-        m_flights.push_back({frame, m_line.current(), std::move(submission)});
+        m_flights.push_back({frame, m_line.current(), &taker, std::move(submission)});
     }
     else
     {
@@ -205,7 +206,15 @@ void DynamicMachine::submit(bool loses)
     m_update_count = 0;
 }
 
-vk::Submission DynamicMachine::submitFrame(std::uint64_t frame, bool loses)
+// One whose pictures no frame in flight takes: numbers of frames do not tell, because some are lost.
+ShotTaker& DynamicMachine::freeTaker()
+{
+    const auto is_free = [&](const ShotTaker& taker)
+    { return std::ranges::none_of(m_flights, [&](const Flight& flight) { return flight.taker == &taker; }); };
+    return *std::ranges::find_if(m_takers, is_free);
+}
+
+vk::Submission DynamicMachine::submitFrame(ShotTaker& taker, bool loses)
 {
     return m_device.submit(
         [&](vk::FrameGraph& graph)
@@ -214,7 +223,7 @@ vk::Submission DynamicMachine::submitFrame(std::uint64_t frame, bool loses)
             {
                 record(graph, command);
             }
-            takerOf(frame).record(graph, m_octree->tree(), m_beam, m_camera, m_setting.shot);
+            taker.record(graph, m_octree->tree(), m_beam, m_camera, m_setting.shot);
             graph.releaseToHost();
             if (loses)
             {
@@ -300,7 +309,9 @@ void DynamicMachine::show(vk::FrameGraph& graph, bool undo)
 
 void DynamicMachine::waitForOldest()
 {
-    const auto [frame, step] = std::pair(m_flights.front().frame, m_flights.front().step);
+    const std::uint64_t frame = m_flights.front().frame;
+    const std::uint64_t step = m_flights.front().step;
+    const ShotTaker* taker = m_flights.front().taker;
     std::vector<vk::PassTime> passes;
     mayFail([&] { passes = m_flights.front().submission.wait(); }); // then it is done, too
     for (const UpdateReport& report : m_octree->frameDone(frame, passes))
@@ -309,7 +320,7 @@ void DynamicMachine::waitForOldest()
         m_line.end(report.step, report.failed != 0);
     }
     m_flights.pop_front();
-    see(m_line.endedAs(step), takerOf(frame).pictures());
+    see(m_line.endedAs(step), taker->pictures());
     RC_ASSERT(!m_is_owed || m_octree->isUpdating() || m_octree->needsUpdate());
 }
 

@@ -72,13 +72,14 @@ private:
     {
         std::uint64_t frame;
         std::uint64_t step; // that is shown in the end
+        ShotTaker* taker;
         vk::Submission submission;
     };
 
     void add(const Item& item);
     bool mayFail(const std::function<void()>& call, bool fails = false);
     void submit(bool loses = false);
-    [[nodiscard]] vk::Submission submitFrame(std::uint64_t frame, bool loses);
+    [[nodiscard]] vk::Submission submitFrame(ShotTaker& taker, bool loses);
     void record(vk::FrameGraph& graph, const Command& command);
     void update(vk::FrameGraph& graph, double budget_ms);
     void show(vk::FrameGraph& graph, bool undo);
@@ -87,7 +88,7 @@ private:
     void settle();
     void see(std::uint64_t step, Pixels pixels);
     void compare();
-    [[nodiscard]] ShotTaker& takerOf(std::uint64_t frame) { return m_takers[frame % m_takers.size()]; }
+    [[nodiscard]] ShotTaker& freeTaker();
     [[nodiscard]] Pixels picturesOf(const TreeView& tree);
     void applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
                    const std::vector<Cell>& moving) const;
