@@ -7,12 +7,19 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kPackGroup = 64u; // threads of a workgroup, one an attribute
+const uint kPackGroup = 64u; // threads of a workgroup, one an attribute or a block
 
 struct PackWordsParams // push constants of attributes/pack4
 {
     GPU_CONST_PTR(Attribute) attributes; // [count]
     GPU_PTR(uint) words;                 // [count]
+    uint count;
+};
+
+struct PackBlocksParams // push constants of attributes/block_colors and block_normals: one thread a block
+{
+    GPU_CONST_PTR(Attribute) attributes; // [count]
+    GPU_PTR(uint) words;                 // [kBlockWords * ceil(count / kBlockVoxels)]
     uint count;
 };
 

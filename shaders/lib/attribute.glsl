@@ -7,13 +7,19 @@
 const int kNormalOne = 32767;      // 1 as a snorm16
 const uint kNormalSumBits = 15u;   // components are shortened to this many bits before they are divided
 
-// Octahedral code of a vector from its signs and the absolute values of x and y, where those of all three add up to
-// kNormalOne.
-uint foldNormal(ivec2 size, ivec3 v)
+// Octahedral coordinates of a vector from its signs and the absolute values of x and y, where those of all three add up
+// to `one`.
+ivec2 foldNormal(ivec2 size, ivec3 v, int one)
 {
-    ivec2 p = v.z < 0 ? kNormalOne - size.yx : size;
+    ivec2 p = v.z < 0 ? one - size.yx : size;
     p.x = v.x < 0 ? -p.x : p.x;
     p.y = v.y < 0 ? -p.y : p.y;
+    return p;
+}
+
+// The octahedral code of two snorm16.
+uint normalCode(ivec2 p)
+{
     return (uint(p.x) & kFractionOne) | (uint(p.y) << 16);
 }
 
@@ -25,10 +31,10 @@ uint encodeNormal(ivec3 v)
     int shift = max(findMSB(size.x | size.y | size.z) + 1 - int(kNormalSumBits), 0);
     size >>= shift;
     uint sum = max(size.x + size.y + size.z, 1u);
-    return foldNormal(ivec2(divideSmall(size.xy * uint(kNormalOne) + sum / 2u, sum)), v);
+    return normalCode(foldNormal(ivec2(divideSmall(size.xy * uint(kNormalOne) + sum / 2u, sum)), v, kNormalOne));
 }
 
-// Vector of an octahedral code in which 1 is `one`; the components' absolute values add up to that.
+// Vector of octahedral coordinates in which 1 is `one`; the components' absolute values add up to that.
 ivec3 unfoldNormal(ivec2 p, int one)
 {
     int z = one - abs(p.x) - abs(p.y);

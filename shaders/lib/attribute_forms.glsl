@@ -22,15 +22,70 @@ Attribute unpackAttribute4(uint word)
 {
     uvec3 color = unpackColor565(word);
     ivec2 normal = widenNormal4(ivec2(int(word << 8) >> 24, int(word) >> 24));
-    return Attribute(color.r | (color.g << 8) | (color.b << 16),
-                     (uint(normal.x) & kFractionOne) | (uint(normal.y) << 16));
+    return Attribute(color.r | (color.g << 8) | (color.b << 16), normalCode(normal));
+}
+
+// From a block's coordinates, in which 1 is `one`, to its pole as z.
+ivec3 blockVector(ivec2 p, uint frame, int one)
+{
+    ivec2 turned = clamp(ivec2(p.x + p.y, p.x - p.y), ivec2(-one), ivec2(one));
+    return unfoldNormal((frame & kFrameDiagonal) != 0u ? turned : p, one);
+}
+
+// From a block's pole as z to the axes of the grid.
+ivec3 unturned(ivec3 v, uint frame)
+{
+    v.z = (frame & kFrameNegative) != 0u ? -v.z : v.z;
+    uint axis = frame & kFrameAxis;
+    return axis == 0u ? v.zxy : (axis == 1u ? v.yzx : v);
+}
+
+// The index that 16 voxels have in three words, a bit in each: of x, and 16 bits above, of y.
+uvec2 blockIndices(uvec3 planes, uint voxel)
+{
+    uvec3 x = (planes >> voxel) & 1u;
+    uvec3 y = (planes >> (voxel + kBlockVoxels)) & 1u;
+    return uvec2(x.x | (x.y << 1) | (x.z << 2), y.x | (y.y << 1) | (y.z << 2));
+}
+
+uint unpackBlockColor(uint ends, uint indices, uint voxel)
+{
+    uint index = (indices >> (2u * voxel)) & kColorSteps;
+    uvec3 sum = unpackColor565(ends) * (kColorSteps - index) + unpackColor565(ends >> 16) * index;
+    uvec3 color = (sum + kColorSteps / 2u) / kColorSteps;
+    return color.r | (color.g << 8) | (color.b << 16);
+}
+
+uint unpackBlockNormal(uint ends, uvec3 planes, uint voxel)
+{
+    uvec2 index = blockIndices(planes, voxel);
+    ivec2 first = ivec2(uvec2(ends, ends >> (2u * kEndBits)) & ((1u << kEndBits) - 1u)) - kNormalEnd;
+    ivec2 second = ivec2(uvec2(ends >> kEndBits, ends >> (3u * kEndBits)) & ((1u << kEndBits) - 1u)) - kNormalEnd;
+    ivec2 sum = first * ivec2(kNormalSteps - index) + second * ivec2(index);
+    const int sum_one = kNormalEnd * int(kNormalSteps);
+    ivec2 p = sign(sum) * ((abs(sum) * kNormalOne + sum_one / 2) / sum_one);
+    uint frame = ends >> kFrameShift;
+    ivec3 v = unturned(blockVector(p, frame, kNormalOne), frame);
+    return normalCode(foldNormal(abs(v.xy), v, kNormalOne));
+}
+
+Attribute unpackBlock(uint_ConstPtr words, uint index)
+{
+    uint first = index / kBlockVoxels * kBlockWords;
+    uint voxel = index % kBlockVoxels;
+    uvec3 planes = uvec3(words.data[first + kBlockNormalIndices], words.data[first + kBlockNormalIndices + 1u],
+                         words.data[first + kBlockNormalIndices + 2u]);
+    return Attribute(unpackBlockColor(words.data[first], words.data[first + kBlockColorIndices], voxel),
+                     unpackBlockNormal(words.data[first + kBlockNormals], planes, voxel));
 }
 
 // The attribute of a voxel or, where voxel is not set, of a node.
 Attribute readAttribute(uint form, bool voxel, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes, uint index)
 {
+    if (form == kFormBlocks && voxel)
+        return unpackBlock(uint_ConstPtr(uint64_t(voxels)), index);
     uint64_t address = voxel ? uint64_t(voxels) : uint64_t(nodes);
-    if (form == kForm4)
+    if (form != kForm8)
         return unpackAttribute4(uint_ConstPtr(address).data[index]);
     uvec2 stored = unpackUint2x32(uint64_t_ConstPtr(address).data[index]);
     return Attribute(stored.x, stored.y);

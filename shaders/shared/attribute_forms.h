@@ -5,6 +5,19 @@
 //
 //     | red 5 | green 6 | blue 5 | x 8 | y 8 |       colour as fractions of 31 and 63, octahedral normal as two snorm8
 //
+//   form of blocks: 6 words for 16 voxels that follow each other in Morton order; the last block is filled up with
+//   copies of the last voxel. Nodes have form 4.
+//
+//     word 0   | first colour 16 | second colour 16 |                   as in form 4
+//     word 1   | 16 indices of 2 bits |                                 0: first, 3: second, 1 and 2: between them
+//     word 2   | x first 7 | x second 7 | y first 7 | y second 7 | axis 2 | negative 1 | diagonal 1 |
+//     word 3   | bit 0 of 16 indices of x | bit 0 of 16 indices of y |  0: first, 7: second, 1 to 6: between them
+//     words 4, 5: bits 1 and 2
+//
+//   A block has octahedral coordinates of its own. Their pole is the axis 0 (x), 1 (y) or 2 (z), or its negative end; x
+//   and y of the coordinates are the two axes that follow, cyclically. The ends of a scale are 0 to 126 for -63 to 63,
+//   which are -1 to 1. Diagonal: what is stored are (x + y) / 2 and (x - y) / 2.
+//
 // Flags are in the form of 8 bytes alone: a voxel emits if its bit in the emission table is set.
 #ifndef ZVO_SHADERS_SHARED_ATTRIBUTE_FORMS_H
 #define ZVO_SHADERS_SHARED_ATTRIBUTE_FORMS_H
@@ -17,12 +30,29 @@ GPU_NAMESPACE_BEGIN
 const uint kFormNone = 0u;
 const uint kForm4 = 1u;
 const uint kForm8 = 2u; // Attribute
+const uint kFormBlocks = 3u;
 
 const uint kRedBits = 5u; // of a packed colour, red in the lowest
 const uint kGreenBits = 6u;
 const uint kBlueBits = 5u;
 const uint kNormalShift4 = 16u; // of x in form 4
 const int kNormalOne4 = 127;    // 1 as a snorm8
+
+const uint kBlockVoxels = 16u;
+const uint kBlockWords = 6u;
+const uint kBlockColorIndices = 1u; // word of a block
+const uint kBlockNormals = 2u;      // word of a block: ends and frame
+const uint kBlockNormalIndices = 3u;
+const uint kColorSteps = 3u;  // from the first colour to the second
+const uint kNormalSteps = 7u; // from the first end of a scale of coordinates to the second
+const int kNormalEnd = 63;    // 1 as an end of such a scale
+const uint kEndBits = 7u;
+const uint kEndMax = 126u;
+const uint kFrameShift = 28u; // of a frame in its word
+const uint kFrameAxis = 3u;   // mask
+const uint kFrameAxes = 3u;
+const uint kFrameNegative = 4u;
+const uint kFrameDiagonal = 8u;
 
 GPU_NAMESPACE_END
 

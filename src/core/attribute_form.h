@@ -15,18 +15,26 @@ namespace zvo
 /// How attributes are stored.
 enum class AttributeForm : std::uint32_t
 {
-    None = gpu::kFormNone, ///< voxels look all alike
-    Bytes4 = gpu::kForm4,  ///< colours of 16 bits, normals of 16
-    Bytes8 = gpu::kForm8,  ///< gpu::Attribute, as they are made
+    None = gpu::kFormNone,     ///< voxels look all alike
+    Bytes4 = gpu::kForm4,      ///< colours of 16 bits, normals of 16
+    Bytes8 = gpu::kForm8,      ///< gpu::Attribute, as they are made
+    Blocks = gpu::kFormBlocks, ///< of voxels: 16 in 24 bytes; of nodes: Bytes4
 };
 
-/// As options and messages call it: "none", "4", "8".
+/// As options and messages call it: "none", "4", "8", "block".
 const char* formName(AttributeForm form);
 
 /// Whether attributes in that form are words that a kernel packed: of fewer bytes than gpu::Attribute.
 constexpr bool isPacked(AttributeForm form)
 {
     return form != AttributeForm::None && form != AttributeForm::Bytes8;
+}
+
+/// The form of nodes beside that of voxels. Blocks are for neighbours; nodes stand in another order in an octree than
+/// in a DAG, and both must show the same.
+constexpr AttributeForm nodeForm(AttributeForm form)
+{
+    return form == AttributeForm::Blocks ? AttributeForm::Bytes4 : form;
 }
 
 /// 32-bit words of count attributes in a packed form.
@@ -40,7 +48,7 @@ struct PackedAttributes
 {
     AttributeForm form = AttributeForm::None; // of voxels; None: there are none
     vk::BufferOf<gpu::uint> voxels;           // [packedWords(form, voxels)]
-    vk::BufferOf<gpu::uint> nodes;            // [packedWords(form, nodes)]
+    vk::BufferOf<gpu::uint> nodes;            // [packedWords(nodeForm(form), nodes)]
 
     [[nodiscard]] std::uint64_t bytes() const { return voxels.bytes() + nodes.bytes(); }
 };

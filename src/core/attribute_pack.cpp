@@ -2,6 +2,7 @@
 #include "core/attribute_pack.h"
 
 #include "attributes/attributes.h"
+#include "core/divide_up.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -23,8 +24,18 @@ constexpr std::uint64_t kRoomPerAttribute = 32; // bytes: itself, its words, and
 void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeForm form,
                     vk::BufferOf<gpu::uint>& words)
 {
-    static_cast<void>(form);
     const std::uint64_t count = attributes.count();
+    if (form == AttributeForm::Blocks)
+    {
+        for (const char* const kernel : {"attributes/block_colors", "attributes/block_normals"})
+        {
+            vk::Pass pass = graph.addPass(kernel);
+            const gpu::PackBlocksParams params = {pass.read(attributes), pass.write(words),
+                                                  static_cast<std::uint32_t>(count)};
+            pass.dispatch(divideUp(count, gpu::kBlockVoxels), params);
+        }
+        return;
+    }
     vk::Pass pass = graph.addPass("attributes/pack4");
     const gpu::PackWordsParams params = {pass.read(attributes), pass.write(words), static_cast<std::uint32_t>(count)};
     pass.dispatch(count, params);
@@ -37,7 +48,7 @@ std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm for
         return {};
     }
     const std::uint64_t voxel_words = packedWords(form, tree.voxel_attributes.count());
-    const std::uint64_t node_words = packedWords(form, tree.node_attributes.count());
+    const std::uint64_t node_words = packedWords(nodeForm(form), tree.node_attributes.count());
     device.device().memory().require((voxel_words + node_words) * sizeof(gpu::uint), "packing the attributes");
     PackedAttributes packed = {form,
                                {device.device(), "packed voxel attributes", voxel_words},
@@ -46,7 +57,7 @@ std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm for
         [&](vk::FrameGraph& graph)
         {
             packAttributes(graph, tree.voxel_attributes, form, packed.voxels);
-            packAttributes(graph, tree.node_attributes, form, packed.nodes);
+            packAttributes(graph, tree.node_attributes, nodeForm(form), packed.nodes);
         });
     tree.packed = std::move(packed);
     tree.voxel_attributes = {};
@@ -66,7 +77,7 @@ void AttributePacker::append(std::vector<gpu::Attribute>&& more)
     }
     if (isPacked(m_form) && attributes.size() >= kEnough)
     {
-        pack(attributes.size());
+        pack(attributes.size() / gpu::kBlockVoxels * gpu::kBlockVoxels); // blocks begin where they do in the whole
     }
 }
 
@@ -82,7 +93,7 @@ void AttributePacker::finish()
 void AttributePacker::pack(std::uint64_t count)
 {
     const std::uint64_t room = m_device.device().memory().roomBytes() / kRoomPerAttribute;
-    const std::uint64_t piece_max = std::clamp(room, kPieceMin, kPieceMax);
+    const std::uint64_t piece_max = std::clamp(room, kPieceMin, kPieceMax) / gpu::kBlockVoxels * gpu::kBlockVoxels;
     for (std::uint64_t first = 0; first < count; first += piece_max)
     {
         const auto piece = std::span(attributes).subspan(first, std::min(count - first, piece_max));

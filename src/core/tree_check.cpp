@@ -291,10 +291,31 @@ Fault checkWords4(std::span<const gpu::uint> words, const char* whose)
     return std::nullopt;
 }
 
+// Scales end within the unit square, and frames have one of three axes.
+Fault checkBlocks(std::span<const gpu::uint> words)
+{
+    for (std::size_t block = 0; block < words.size() / gpu::kBlockWords; ++block)
+    {
+        const std::uint32_t ends = words[block * gpu::kBlockWords + gpu::kBlockNormals];
+        for (std::uint32_t i = 0; i < 4; ++i)
+        {
+            if ((ends >> (gpu::kEndBits * i) & ((1U << gpu::kEndBits) - 1)) > gpu::kEndMax)
+            {
+                return fmt::format("block {} of the voxels has a scale outside of the unit square", block);
+            }
+        }
+        if ((ends >> gpu::kFrameShift & gpu::kFrameAxis) >= gpu::kFrameAxes)
+        {
+            return fmt::format("block {} of the voxels has an axis that there is not", block);
+        }
+    }
+    return std::nullopt;
+}
+
 Fault checkPacked(const TreeData& tree)
 {
     const PackedWords& packed = tree.packed;
-    const bool is_packed = packed.form == AttributeForm::Bytes4;
+    const bool is_packed = packed.form == AttributeForm::Bytes4 || packed.form == AttributeForm::Blocks;
     if (!is_packed && packed.form != AttributeForm::None)
     {
         return "the attributes have an unknown form";
@@ -304,13 +325,14 @@ Fault checkPacked(const TreeData& tree)
         return "there are attributes in two forms";
     }
     const std::uint64_t voxel_words = is_packed ? packedWords(packed.form, tree.voxel_count) : 0;
-    const std::uint64_t node_words = is_packed ? packedWords(packed.form, tree.octree_node_count) : 0;
+    const std::uint64_t node_words = is_packed ? packedWords(nodeForm(packed.form), tree.octree_node_count) : 0;
     if (packed.voxels.size() != voxel_words || packed.nodes.size() != node_words)
     {
         return fmt::format("packed attributes of voxels and nodes take {} and {} words, where they must take {} and {}",
                            packed.voxels.size(), packed.nodes.size(), voxel_words, node_words);
     }
-    if (Fault fault = checkWords4(packed.voxels, "voxels"))
+    const bool are_blocks = packed.form == AttributeForm::Blocks;
+    if (Fault fault = are_blocks ? checkBlocks(packed.voxels) : checkWords4(packed.voxels, "voxels"))
     {
         return fault;
     }

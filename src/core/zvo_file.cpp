@@ -47,7 +47,7 @@ void addContent(std::vector<Content>& contents, ZvoSectionId id, const std::vect
     content.section.format = static_cast<std::uint32_t>(format);
     content.section.flags = kZvoMustUnderstand;
     content.section.bytes = content.bytes.size();
-    content.section.count = values.size();
+    content.section.count = values.size() / valuesPerElement(format);
     content.section.checksum = crc64(content.bytes);
 }
 
@@ -139,9 +139,9 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     addContent(contents, ZvoSectionId::Before, tree.before);
     addContent(contents, ZvoSectionId::VoxelsBeforeLeaf, tree.voxels_before_leaf);
     addContent(contents, ZvoSectionId::VoxelAttributes, tree.voxel_attributes);
-    addContent(contents, ZvoSectionId::VoxelAttributes, tree.packed.voxels, ZvoFormat::Attributes4);
+    addContent(contents, ZvoSectionId::VoxelAttributes, tree.packed.voxels, zvoFormat(tree.packed.form));
     addContent(contents, ZvoSectionId::NodeAttributes, tree.node_attributes);
-    addContent(contents, ZvoSectionId::NodeAttributes, tree.packed.nodes, ZvoFormat::Attributes4);
+    addContent(contents, ZvoSectionId::NodeAttributes, tree.packed.nodes, zvoFormat(nodeForm(tree.packed.form)));
     addContent(contents, ZvoSectionId::EmissionWords, tree.emission_words);
     addContent(contents, ZvoSectionId::Emission, tree.emission);
 

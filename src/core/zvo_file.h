@@ -43,12 +43,26 @@ enum class ZvoSectionId : std::uint32_t
     Emission = 9,         ///< RGB9E5
 };
 
-/// The form of a section's elements. Others than Plain are for attributes alone; 3 (blocks) is taken.
+/// The form of a section's elements. Others than Plain are for attributes alone.
 enum class ZvoFormat : std::uint32_t
 {
     Plain = 1,       ///< as in device memory; attributes: gpu::Attribute, 8 bytes
     Attributes4 = 2, ///< a word each (shared/attribute_forms.h)
+    Blocks = 3,      ///< of voxels: 6 words for 16 of them (likewise)
 };
+
+/// The format of attributes in that form.
+constexpr ZvoFormat zvoFormat(AttributeForm form)
+{
+    return form == AttributeForm::Bytes4 ? ZvoFormat::Attributes4
+                                         : (form == AttributeForm::Blocks ? ZvoFormat::Blocks : ZvoFormat::Plain);
+}
+
+/// Values of the array in memory that are one element of a section.
+constexpr std::uint64_t valuesPerElement(ZvoFormat format)
+{
+    return format == ZvoFormat::Blocks ? gpu::kBlockWords : 1;
+}
 
 /// Flag of a section: who does not know its id or format must refuse the file.
 inline constexpr std::uint32_t kZvoMustUnderstand = 1;

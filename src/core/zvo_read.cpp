@@ -329,29 +329,35 @@ private:
     void readVoxelAttributes(const ZvoSection& section)
     {
         TreeData& tree = m_file.tree;
-        if (section.format != static_cast<std::uint32_t>(ZvoFormat::Attributes4))
+        const std::uint64_t count = m_file.header.voxel_count;
+        switch (static_cast<ZvoFormat>(section.format))
         {
-            return readArray(section, tree.voxel_attributes, m_file.header.voxel_count);
+        case ZvoFormat::Attributes4:
+            tree.packed.form = AttributeForm::Bytes4;
+            return readArray(section, tree.packed.voxels, count, ZvoFormat::Attributes4);
+        case ZvoFormat::Blocks:
+            tree.packed.form = AttributeForm::Blocks;
+            return readArray(section, tree.packed.voxels, divideUp(count, gpu::kBlockVoxels), ZvoFormat::Blocks);
+        default:
+            return readArray(section, tree.voxel_attributes, count);
         }
-        tree.packed.form = AttributeForm::Bytes4;
-        readArray(section, tree.packed.voxels, m_file.header.voxel_count, ZvoFormat::Attributes4);
     }
 
     // Voxels, whose section comes first, say in which form nodes are.
     void readNodeAttributes(const ZvoSection& section)
     {
         TreeData& tree = m_file.tree;
-        const bool packed = isPacked(tree.packed.form);
-        const ZvoFormat format = packed ? ZvoFormat::Attributes4 : ZvoFormat::Plain;
-        const bool is_known = section.format == static_cast<std::uint32_t>(ZvoFormat::Plain) ||
-                              section.format == static_cast<std::uint32_t>(ZvoFormat::Attributes4);
+        const ZvoFormat format = zvoFormat(nodeForm(tree.packed.form));
+        const bool is_known = section.format >= static_cast<std::uint32_t>(ZvoFormat::Plain) &&
+                              section.format <= static_cast<std::uint32_t>(ZvoFormat::Blocks);
         if (is_known && section.format != static_cast<std::uint32_t>(format))
         {
             fail(fmt::format("attributes of nodes have format {}, which does not go with that of voxels; {}",
                              section.format, kExportAgain));
         }
         const std::uint64_t count = m_file.header.octree_node_count;
-        packed ? readArray(section, tree.packed.nodes, count, format) : readArray(section, tree.node_attributes, count);
+        format == ZvoFormat::Plain ? readArray(section, tree.node_attributes, count)
+                                   : readArray(section, tree.packed.nodes, count, format);
     }
 
     template <typename T>
@@ -373,11 +379,13 @@ private:
             fail(fmt::format("there are {} {} where the header asks for {}; {}", section.count, name, count,
                              kExportAgain));
         }
-        if (section.bytes / sizeof(T) != count || section.bytes % sizeof(T) != 0)
+        const std::uint64_t element_bytes = valuesPerElement(format) * sizeof(T);
+        if (section.bytes / element_bytes != count || section.bytes % element_bytes != 0)
         {
-            fail(fmt::format("{} {} take {} bytes, not {}; {}", count, name, section.bytes, sizeof(T), kExportAgain));
+            fail(fmt::format("{} {} take {} bytes, not {}; {}", count, name, section.bytes, element_bytes,
+                             kExportAgain));
         }
-        target.resize(count); // no more than the file has
+        target.resize(count * valuesPerElement(format)); // no more than the file has
         m_source.read(section.offset, std::as_writable_bytes(std::span(target)));
         checkSum(section, crc64(std::as_bytes(std::span(target))));
     }

@@ -27,7 +27,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::array kForms = {AttributeForm::Bytes4};
+constexpr std::array kForms = {AttributeForm::Bytes4, AttributeForm::Blocks};
 
 using Attributes = std::vector<gpu::Attribute>;
 using Words = std::vector<gpu::uint>;
@@ -49,6 +49,29 @@ Attributes randomAttributes(std::size_t count, std::uint32_t seed)
     return attributes;
 }
 
+// What is near in space is alike: runs of equal attributes, of one that changes by little, and of two that alternate.
+Attributes coherentAttributes(std::size_t count, std::uint32_t seed)
+{
+    std::mt19937 random(seed);
+    Attributes attributes;
+    while (attributes.size() < count)
+    {
+        const gpu::Attribute first = randomAttributes(1, static_cast<std::uint32_t>(random()))[0];
+        const gpu::Attribute second = randomAttributes(1, static_cast<std::uint32_t>(random()))[0];
+        const std::uint32_t kind = random() % 4;
+        const std::uint32_t color_mask = 0x010101U * (random() % 16);
+        const std::uint32_t normal_mask = 0x10001U * (random() % 2048);
+        for (std::size_t i = random() % 50; i != 0 && attributes.size() < count; --i)
+        {
+            gpu::Attribute next = kind == 0 && random() % 2 == 0 ? second : first;
+            next.color ^= kind == 2 ? static_cast<gpu::uint>(random()) & color_mask : 0;
+            next.normal ^= kind >= 2 ? static_cast<gpu::uint>(random()) & normal_mask : 0;
+            attributes.push_back(next);
+        }
+    }
+    return attributes;
+}
+
 Words packOnDevice(const Attributes& attributes, AttributeForm form)
 {
     const auto from = device().makeBuffer<gpu::Attribute>("attributes", attributes);
@@ -59,8 +82,17 @@ Words packOnDevice(const Attributes& attributes, AttributeForm form)
 
 Words packByOracle(const Attributes& attributes, AttributeForm form)
 {
-    EXPECT_EQ(form, AttributeForm::Bytes4);
     Words words;
+    for (std::size_t first = 0; first < attributes.size() && form == AttributeForm::Blocks; first += 16)
+    {
+        const std::size_t count = std::min<std::size_t>(attributes.size() - first, 16);
+        const oracle::Block block = oracle::packBlock(std::span(attributes).subspan(first, count));
+        words.insert(words.end(), block.begin(), block.end());
+    }
+    if (form == AttributeForm::Blocks)
+    {
+        return words;
+    }
     for (const gpu::Attribute& attribute : attributes)
     {
         words.push_back(oracle::packAttribute4(attribute));
@@ -79,10 +111,12 @@ TEST_P(PackAttributes, GivesTheOraclesWords)
 {
     for (const std::size_t count : {0U, 1U, 27U, 64U, 2049U, 231917U})
     {
-        const Attributes attributes = randomAttributes(count, 3);
-        const Words words = packOnDevice(attributes, GetParam());
-        ASSERT_EQ(words.size(), packedWords(GetParam(), count));
-        EXPECT_EQ(words, packByOracle(attributes, GetParam())) << count;
+        for (const Attributes& attributes : {randomAttributes(count, 3), coherentAttributes(count, 9)})
+        {
+            const Words words = packOnDevice(attributes, GetParam());
+            ASSERT_EQ(words.size(), packedWords(GetParam(), count));
+            EXPECT_EQ(words, packByOracle(attributes, GetParam())) << count;
+        }
     }
 }
 
@@ -135,6 +169,30 @@ TEST(UnpackAttribute, OfFourBytesIsTheOracles)
             const gpu::Attribute actual = unpackAttribute(AttributeForm::Bytes4, std::span(&word, 1), 0);
             ASSERT_EQ(actual.color, expected.color) << word;
             ASSERT_EQ(actual.normal, expected.normal) << word;
+        }
+    }
+}
+
+TEST(UnpackAttribute, OfABlockIsTheOracles)
+{
+    std::mt19937 random(7);
+    for (int i = 0; i < 20000; ++i)
+    {
+        oracle::Block block{};
+        std::generate(block.begin(), block.end(), [&] { return static_cast<std::uint32_t>(random()); });
+        for (std::uint32_t end = 0; end < 28; end += 7) // 0 to 126
+        {
+            block[2] &= (block[2] >> end & 127) == 127 ? ~(1U << end) : UINT32_MAX;
+        }
+        block[2] &= (block[2] >> 28 & 3) == 3 ? ~(1U << 28) : UINT32_MAX;
+        Words words(6 * 3);
+        std::copy(block.begin(), block.end(), words.begin() + 6);
+        for (std::uint32_t voxel = 0; voxel < 16; ++voxel)
+        {
+            const gpu::Attribute expected = oracle::unpackBlock(block, voxel);
+            const gpu::Attribute actual = unpackAttribute(AttributeForm::Blocks, words, 16 + voxel);
+            ASSERT_EQ(actual.color, expected.color);
+            ASSERT_EQ(actual.normal, expected.normal) << block[2];
         }
     }
 }
@@ -229,7 +287,7 @@ TEST_P(PackAttributes, ReplacesThoseOfATree)
     EXPECT_EQ(octree.voxel_attributes.count() + octree.node_attributes.count(), 0U);
     EXPECT_LT(octree.attributeBytes(), plain_bytes);
     EXPECT_EQ(device().download(octree.packed.voxels), packByOracle(voxels, form));
-    EXPECT_EQ(device().download(octree.packed.nodes), packByOracle(nodes, form));
+    EXPECT_EQ(device().download(octree.packed.nodes), packByOracle(nodes, nodeForm(form)));
     EXPECT_TRUE(packTree(device(), form, octree).empty()); // once is enough
     Octree bare = test::octreeOf(device(), test::randomCodes(6, 30, random), 6);
     EXPECT_TRUE(packTree(device(), form, bare).empty());
@@ -253,7 +311,7 @@ void unpackTree(Octree& octree)
     }
     for (std::uint32_t i = 0; i < node_count; ++i)
     {
-        of_nodes.push_back(unpackAttribute(packed.form, nodes, i));
+        of_nodes.push_back(unpackAttribute(nodeForm(packed.form), nodes, i));
     }
     octree.voxel_attributes = device().makeBuffer<gpu::Attribute>("unpacked", of_voxels);
     octree.node_attributes = device().makeBuffer<gpu::Attribute>("unpacked", of_nodes);

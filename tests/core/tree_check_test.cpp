@@ -147,6 +147,41 @@ const std::vector<TreeFault>& treeFaults()
              t.packed.nodes[2] = 0x80000000U;
          },
          "attribute 2 of the nodes has a normal outside"},
+        {"BlockMissing", kDag,
+         [](auto& t)
+         {
+             t = packedTree(t, AttributeForm::Blocks);
+             t.packed.voxels.resize(t.packed.voxels.size() - 6);
+         },
+         "packed attributes of voxels and nodes take"},
+        {"BlockCut", kOctree,
+         [](auto& t)
+         {
+             t = packedTree(t, AttributeForm::Blocks);
+             t.packed.voxels.pop_back();
+         },
+         "packed attributes of voxels and nodes take"},
+        {"BlockScale", kDag,
+         [](auto& t)
+         {
+             t = packedTree(t, AttributeForm::Blocks);
+             t.packed.voxels[6 * 3 + 2] |= 127U << 21;
+         },
+         "block 3 of the voxels has a scale outside"},
+        {"BlockAxis", kOctree,
+         [](auto& t)
+         {
+             t = packedTree(t, AttributeForm::Blocks);
+             t.packed.voxels[6 * 2 + 2] |= 3U << 28;
+         },
+         "block 2 of the voxels has an axis"},
+        {"BlockNodes", kOctree,
+         [](auto& t)
+         {
+             t = packedTree(t, AttributeForm::Blocks);
+             t.packed.nodes[4] = 0x80000000U;
+         },
+         "attribute 4 of the nodes has a normal outside"},
         {"EmissionScaleZero", kOctree, [](auto& t) { t.emission_scale = 0; }, "scale of emission"},
         {"EmissionScaleInfinite", kOctree, [](auto& t) { t.emission_scale = std::numeric_limits<float>::infinity(); },
          "scale of emission"},

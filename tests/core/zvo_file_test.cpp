@@ -121,8 +121,9 @@ TEST(ZvoFile, BytesStandWhereTheDocumentSays)
 
 TEST(ZvoFile, EveryChangeOfAByteIsRefused)
 {
-    for (const char* const name : {"random_3_with_attributes", "random_3_with_attributes_dag",
-                                   "random_3_with_attributes_4", "one_voxel", "nothing"})
+    for (const char* const name :
+         {"random_3_with_attributes", "random_3_with_attributes_dag", "random_3_with_attributes_4",
+          "random_3_with_attributes_block", "one_voxel", "nothing"})
     {
         const Bytes file = zvoBytes(sampleNamed(name));
         for (std::size_t i = 0; i < file.size(); ++i)
@@ -292,6 +293,11 @@ const std::vector<FileFault>& fileFaults()
         {"SectionIdZero", set(entryAt(0, 0), 0U), "stands behind"},
         {"SectionsOutOfOrder", set(entryAt(2, 0), 2U), "nodes stands behind nodes"},
         {"SectionFormat", set(entryAt(5, 4), 4U), "attributes of voxels have format 4, unknown"},
+        {"SectionFormatOfBlocks", set(entryAt(5, 4), 3U), "attributes of voxels where the header asks for 19"},
+        {"SectionBlocksOfNodes", set(entryAt(6, 4), 3U), "format 3, which does not go with that of voxels",
+         "random_5_with_attributes_block_dag"},
+        {"SectionBlockCount", set<std::uint64_t>(entryAt(5, 32), 20), "20 attributes of voxels where the header asks",
+         "random_5_with_attributes_block_dag"},
         {"SectionFormatOfNodes", set(entryAt(1, 4), 2U), "nodes have format 2, unknown"},
         {"SectionFormatOfOtherAttributes", set(entryAt(5, 4), 2U), "attributes of voxels take"},
         {"SectionFormatsDiffer", set(entryAt(6, 4), 2U), "format 2, which does not go with that of voxels"},

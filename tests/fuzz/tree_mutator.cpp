@@ -79,7 +79,11 @@ TreeData soundTree(std::mt19937& random)
         addAttributes(tree);
     }
     tree = random() % 2 == 0 ? tree : dagOf(tree);
-    return tree.hasAttributes() && random() % 2 == 0 ? packedTree(tree, AttributeForm::Bytes4) : tree;
+    if (!tree.hasAttributes() || random() % 2 == 0)
+    {
+        return tree;
+    }
+    return packedTree(tree, random() % 2 == 0 ? AttributeForm::Bytes4 : AttributeForm::Blocks);
 }
 
 void changeSections(ZvoParts& parts, std::mt19937& random)

@@ -285,7 +285,10 @@ TEST(EveryKernel, RunsOnASmallScene)
             names.merge(mergeMovers(scene, grid, c.coverage));
             names.merge(tracePictures(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
-            names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), AttributeForm::Bytes4));
+            for (const AttributeForm form : {AttributeForm::Bytes4, AttributeForm::Blocks})
+            {
+                names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), form));
+            }
         }
         if (c.depth == 7)
         {

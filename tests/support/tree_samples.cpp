@@ -134,9 +134,20 @@ TreeData packedTree(const TreeData& tree, AttributeForm form)
 {
     TreeData packed = tree;
     packed.packed.form = form;
-    for (const gpu::Attribute& attribute : tree.voxel_attributes)
+    constexpr std::size_t kBlock = 16;
+    for (std::span<const gpu::Attribute> rest = tree.voxel_attributes; !rest.empty();)
     {
-        packed.packed.voxels.push_back(oracle::packAttribute4(attribute));
+        const std::size_t count = form == AttributeForm::Blocks ? std::min(rest.size(), kBlock) : 1;
+        if (form == AttributeForm::Blocks)
+        {
+            const oracle::Block block = oracle::packBlock(rest.first(count));
+            packed.packed.voxels.insert(packed.packed.voxels.end(), block.begin(), block.end());
+        }
+        else
+        {
+            packed.packed.voxels.push_back(oracle::packAttribute4(rest.front()));
+        }
+        rest = rest.subspan(count);
     }
     for (const gpu::Attribute& attribute : tree.node_attributes)
     {
@@ -229,7 +240,7 @@ std::vector<TreeSample> treeSamples()
         }
         if (name == "one_voxel" || name == "random_3" || name == "random_5")
         {
-            for (const AttributeForm form : {AttributeForm::Bytes4})
+            for (const AttributeForm form : {AttributeForm::Bytes4, AttributeForm::Blocks})
             {
                 const std::string packed_name = name + "_with_attributes_" + formName(form);
                 samples.push_back({packed_name, packedTree(octree, form)});

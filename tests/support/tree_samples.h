@@ -31,7 +31,7 @@ struct TreeSample
 };
 
 /// Octrees and DAGs, with attributes and without: of no voxel, of one, full ones, regular and random ones; depths 1
-/// to 6. Some also with packed attributes, named "..._with_attributes_4" and so on.
+/// to 6. Some also with packed attributes, named "..._with_attributes_4" or "_block".
 std::vector<TreeSample> treeSamples();
 
 /// What tells two trees apart, or "" for none.

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Two scales of coordinates for the 16 points of a block: x and y at once, each on its own. In integers, with 1 as 4095.
+#include "lib/attribute_forms.glsl"
+
+const uint kStep = 65u;                      // from one end to the next
+const int kOne = kNormalEnd * int(kStep);    // 1 in coordinates and vectors
+const uint kInverseBits = 18u;               // of kNormalSteps / length of a scale
+const uint kCoordinateMax = kEndMax * kStep; // coordinates are counted from -1
+
+uvec2 points[kBlockVoxels]; // what the scales are for
+
+/// The scales of x and y, and what comes of them.
+struct Scales
+{
+    uvec2 first; // ends
+    uvec2 second;
+    uvec3 planes; // bits of the voxels' steps, as they are stored
+    uvec2 error;  // sums of squares: 16 * 8190^2 at most
+};
+
+// The coordinates at a step of both scales, rounded.
+uvec2 pointAt(Scales scales, uvec2 steps)
+{
+    uvec2 sum = scales.first * (kNormalSteps - steps) + scales.second * steps;
+    return (sum * kStep + kNormalSteps / 2u) / kNormalSteps;
+}
+
+// What blockIndices finds for that voxel.
+uvec3 planesOf(uvec2 steps, uint voxel)
+{
+    const uvec3 bits = uvec3(0u, 1u, 2u);
+    return (((uvec3(steps.x) >> bits) & 1u) << voxel) | (((uvec3(steps.y) >> bits) & 1u) << (voxel + kBlockVoxels));
+}
+
+// Chooses the nearest step for each voxel.
+void choose(inout Scales scales)
+{
+    uvec2 reach = (scales.second - scales.first) * kStep;
+    uvec2 inverse = mix((kNormalSteps << kInverseBits) / max(reach, uvec2(1u)), uvec2(0u), equal(reach, uvec2(0u)));
+    scales.planes = uvec3(0u);
+    scales.error = uvec2(0u);
+    for (uint i = 0u; i < kBlockVoxels; ++i)
+    {
+        ivec2 along = (ivec2(points[i]) - ivec2(scales.first * kStep)) * ivec2(inverse);
+        uvec2 steps = uvec2(clamp((along + (1 << (kInverseBits - 1u))) >> int(kInverseBits), 0, int(kNormalSteps)));
+        scales.planes |= planesOf(steps, i);
+        ivec2 d = ivec2(pointAt(scales, steps)) - ivec2(points[i]);
+        scales.error += uvec2(d * d);
+    }
+}
+
+// From the least coordinates to the greatest.
+Scales fullScales()
+{
+    uvec2 least = points[0];
+    uvec2 greatest = points[0];
+    for (uint i = 1u; i < kBlockVoxels; ++i)
+    {
+        least = min(least, points[i]);
+        greatest = max(greatest, points[i]);
+    }
+    Scales scales;
+    scales.first = min((least + kStep / 2u) / kStep, uvec2(kEndMax));
+    scales.second = min((greatest + kStep / 2u) / kStep, uvec2(kEndMax));
+    choose(scales);
+    return scales;
+}
+
+// An end by least squares: kNormalSteps * numerator / denominator in steps of ends.
+uvec2 endOf(ivec2 numerator, uvec2 denominator)
+{
+    uvec2 n = min(uvec2(max(numerator, ivec2(0))), denominator * (kCoordinateMax / kNormalSteps + 1u));
+    uvec2 quotient = n / denominator;
+    uvec2 coordinate = kNormalSteps * quotient + kNormalSteps * (n - quotient * denominator) / denominator;
+    return min((coordinate + kStep / 2u) / kStep, uvec2(kEndMax));
+}
+
+// The scales with the smallest error if voxels keep their steps; the same where all have one.
+Scales leastSquares(Scales scales)
+{
+    uvec2 aa = uvec2(0u); // of weights a of the first and b of the second end
+    uvec2 ab = uvec2(0u);
+    uvec2 bb = uvec2(0u);
+    ivec2 ac = ivec2(0);
+    ivec2 bc = ivec2(0);
+    for (uint i = 0u; i < kBlockVoxels; ++i)
+    {
+        uvec2 b = blockIndices(scales.planes, i);
+        uvec2 a = kNormalSteps - b;
+        aa += a * a;
+        ab += a * b;
+        bb += b * b;
+        ac += ivec2(a * points[i]);
+        bc += ivec2(b * points[i]);
+    }
+    uvec2 determinant = aa * bb - ab * ab;
+    bvec2 none = equal(determinant, uvec2(0u));
+    determinant = max(determinant, uvec2(1u));
+    uvec2 first = endOf(ac * ivec2(bb) - bc * ivec2(ab), determinant);
+    uvec2 second = endOf(bc * ivec2(aa) - ac * ivec2(ab), determinant);
+    scales.first = mix(first, scales.first, none);
+    scales.second = max(mix(second, scales.second, none), scales.first);
+    choose(scales);
+    return scales;
+}
+
+// Of each coordinate the better scale; the first of two that are as good.
+Scales better(Scales a, Scales b)
+{
+    bvec2 is_b = lessThan(b.error, a.error);
+    uint of_b = (is_b.x ? kFractionOne : 0u) | (is_b.y ? ~kFractionOne : 0u);
+    return Scales(mix(a.first, b.first, is_b), mix(a.second, b.second, is_b), (a.planes & ~of_b) | (b.planes & of_b),
+                  min(a.error, b.error));
+}
