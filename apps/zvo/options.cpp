@@ -170,9 +170,9 @@ CLI::App* addBuild(CLI::App& app, BuildFileOptions& options)
             options.voxels.attributes = form != AttributeForm::None;
             return form;
         },
-        "none|4|8",
-        "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes, or only their places "
-        "(default 8)");
+        "none|4|8|block",
+        "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
+        "which take 24; or only their places (default 8)");
     addOutputOptions(*build, options.output, "the tree, a .zvo file; - is standard output");
     addDeviceOptions(*build, options.device);
     build->footer(kBuildFooter);

@@ -243,14 +243,15 @@ bool parseAttributes(std::string_view option, std::string_view text)
 
 AttributeForm parseAttributeForm(std::string_view option, std::string_view text)
 {
-    for (const AttributeForm form : {AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8})
+    for (const AttributeForm form :
+         {AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8, AttributeForm::Blocks})
     {
         if (text == formName(form))
         {
             return form;
         }
     }
-    throw valueError(option, text, "none, 4 or 8");
+    throw valueError(option, text, "none, 4, 8 or block");
 }
 
 TreeStructure parseStructure(std::string_view option, std::string_view text)

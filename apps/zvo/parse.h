@@ -62,7 +62,7 @@ UpAxis parseUpAxis(std::string_view option, std::string_view text);
 /// "full": true, "none": false.
 bool parseAttributes(std::string_view option, std::string_view text);
 
-/// "none", "4" or "8".
+/// "none", "4", "8" or "block".
 AttributeForm parseAttributeForm(std::string_view option, std::string_view text);
 
 /// "svo" or "svdag".

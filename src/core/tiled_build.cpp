@@ -349,7 +349,7 @@ void TiledBuilder::orderNodes(const Tiles& tiles, std::size_t top_levels, Looks&
 // Attributes and emission of the whole. What has room on the device is packed there, whichever parts it came in.
 void TiledBuilder::finishAttributes(Looks& looks, TreeData& tree)
 {
-    AttributePacker nodes(m_device, m_options.attributes);
+    AttributePacker nodes(m_device, nodeForm(m_options.attributes));
     nodes.append(std::move(looks.node_attributes));
     for (AttributePacker* const packer : {&m_voxels, &nodes})
     {

@@ -139,7 +139,7 @@ TEST(CliTree, PackedAttributesGoWhereOthersGo)
     const TempDir dir;
     buildBoth(dir);
     const std::uint64_t plain_bytes = json::parse(succeed(dir, {"inspect", "svdag.zvo", "--json"}))["attribute_bytes"];
-    for (const std::string form : {"4"})
+    for (const std::string form : {"4", "block"})
     {
         for (const std::string structure : {"svo", "svdag"})
         {
@@ -355,7 +355,7 @@ TEST(CliTree, FilesAreTheSameBytesOnEveryRun)
 {
     const TempDir dir;
     writeCube(dir);
-    for (const auto& [structure, form] : {std::pair{"svo", "8"}, {"svdag", "8"}, {"svdag", "4"}})
+    for (const auto& [structure, form] : {std::pair{"svo", "8"}, {"svdag", "8"}, {"svdag", "4"}, {"svdag", "block"}})
     {
         const std::vector<std::string> arguments = {"build",   "cube.glb",     "-o", "again.zvo",
                                                     "-f",      "--resolution", "32", "--structure",

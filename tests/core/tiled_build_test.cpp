@@ -68,14 +68,14 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
     for (const std::uint32_t depth : {6U, 7U})
     {
         const Grid grid = Grid::around(scene.bounds(), depth);
-        for (const AttributeForm attributes : {AttributeForm::Bytes8, AttributeForm::Bytes4, AttributeForm::None})
+        for (const AttributeForm attributes : {AttributeForm::Bytes8, AttributeForm::Blocks, AttributeForm::None})
         {
             const TreeData expected = wholeDag(device(), uploaded, grid, attributes);
             ASSERT_GT(expected.voxel_count, 1000U);
             EXPECT_EQ(expected.emission.empty(), attributes == AttributeForm::None);
             for (const std::uint32_t tile_depth : {4U, 6U, 12U})
             {
-                if (attributes != AttributeForm::Bytes8 && tile_depth == 4)
+                if (attributes == AttributeForm::None && tile_depth == 4)
                 {
                     continue; // many tiles: once is enough
                 }
@@ -101,7 +101,7 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
 {
     const Scene scene = test::sphereScene({0, 0, 0}, 1.0F, 48);
     const Grid grid = Grid::around(scene.bounds(), 9);
-    const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, AttributeForm::Bytes4);
+    const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, AttributeForm::Blocks);
     std::uint32_t tile_count = 1;
     for (const std::uint64_t budget : {18ULL << 20, 8ULL << 20})
     {
@@ -109,8 +109,8 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
         options.memory_budget_bytes = budget;
         vk::HeadlessDevice small(options, zvoKernels());
         const GpuScene uploaded = uploadScene(small, scene, true);
-        EXPECT_THROW(wholeDag(small, uploaded, grid, AttributeForm::Bytes4), Error);
-        const TiledResult tiled = buildByTiles(small, uploaded, grid, {.attributes = AttributeForm::Bytes4});
+        EXPECT_THROW(wholeDag(small, uploaded, grid, AttributeForm::Blocks), Error);
+        const TiledResult tiled = buildByTiles(small, uploaded, grid, {.attributes = AttributeForm::Blocks});
         expectSame(tiled.tree, expected);
         EXPECT_GT(tiled.tile_count, tile_count);
         EXPECT_LE(small.device().memory().peakBytes(), budget);
