@@ -161,18 +161,19 @@ std::uint64_t parseBytes(std::string_view option, std::string_view text)
 {
     constexpr std::string_view kUnits = "KMGT";
     constexpr double kMax = 0x1p63;
-    std::string_view digits = text;
+    const bool is_spelt_out = text.ends_with("iB"); // GiB is G
+    std::string_view digits = text.substr(0, text.size() - (is_spelt_out ? 2 : 0));
     double scale = 1;
-    const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+    const std::size_t unit = digits.empty() ? std::string_view::npos : kUnits.find(digits.back());
     if (unit != std::string_view::npos)
     {
         digits.remove_suffix(1);
         scale = std::exp2(10.0 * static_cast<double>(unit + 1));
     }
     const auto value = number<double>(digits);
-    if (!value || !(*value > 0) || *value * scale >= kMax)
+    if (!value || (is_spelt_out && unit == std::string_view::npos) || !(*value > 0) || *value * scale >= kMax)
     {
-        throw valueError(option, text, "a number of bytes above 0, such as 2G or 512M (K, M, G, T: powers of 1024)");
+        throw valueError(option, text, "a number of bytes above 0, such as 2G or 512MiB (K, M, G, T: powers of 1024)");
     }
     return static_cast<std::uint64_t>(*value * scale);
 }

@@ -48,7 +48,7 @@ std::pair<std::uint32_t, std::uint32_t> parseSize(std::string_view option, std::
 /// First and last frame: "0..35".
 std::pair<std::uint32_t, std::uint32_t> parseFrames(std::string_view option, std::string_view text);
 
-/// A number of bytes with an optional K, M, G or T (powers of 1024): "512M", "1.5G".
+/// A number of bytes with an optional K, M, G or T, or KiB and so on (powers of 1024): "512M", "1.5GiB".
 std::uint64_t parseBytes(std::string_view option, std::string_view text);
 
 /// Six numbers, minimum corner then maximum corner; some extent on at least one axis.

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+// Nothing: the headers of all tests are precompiled with it.
