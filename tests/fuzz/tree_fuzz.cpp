@@ -2,18 +2,14 @@
 // A libFuzzer target: the bytes of a .zvo file. What the reader refuses must give an Error{Input} of one line; what it
 // accepts must be written as it was read, and is traced: each hit must have a number that the tree's attributes have.
 // ZVO_FUZZ_SEEDS names a folder that gets the trees of the tests as seeds.
-#include "core/camera.h"
 #include "core/kernels.h"
-#include "core/trace.h"
-#include "core/tree_stats.h"
-#include "core/tree_view.h"
 #include "core/zvo_file.h"
 #include "fuzz/tree_mutator.h"
+#include "support/tree_probe.h"
 #include "support/tree_samples.h"
 #include "zvo/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -31,8 +27,6 @@ namespace
 {
 
 constexpr std::uint64_t kVoxelsMax = 1U << 16U; // what has more only takes time on the host
-constexpr std::uint32_t kPictureEdge = 16;      // pixels
-constexpr std::uint32_t kRayCount = 64;
 
 void require(bool condition, const char* what)
 {
@@ -44,9 +38,11 @@ void require(bool condition, const char* what)
 }
 
 std::unique_ptr<vk::HeadlessDevice> g_device; // none: nothing is traced
+std::unique_ptr<TreeProbe> g_probe;           // on it
 
 void closeDevice()
 {
+    g_probe.reset();
     g_device.reset();
 }
 
@@ -75,67 +71,9 @@ std::optional<ZvoFile> readInput(std::span<const std::byte> input)
     }
 }
 
-void checkVoxels(const TreeData& tree)
+void requireNoFault(const std::string& fault)
 {
-    std::uint64_t count = 0;
-    std::uint64_t next = 0;
-    forEachVoxel(tree,
-                 [&](std::uint64_t code)
-                 {
-                     require(code >= next && code >> (3 * tree.grid.depth) == 0, "voxels out of order or outside");
-                     next = code + 1;
-                     ++count;
-                 });
-    require(count == tree.voxel_count, "other voxels than are counted");
-    const TreeStats stats = treeStats(tree);
-    require(stats.binary_unique_count <= stats.binary_node_count, "more different nodes than nodes");
-}
-
-std::vector<gpu::Ray> someRays(std::mt19937& random)
-{
-    std::uniform_real_distribution<float> position(0.5F, 2.5F);
-    std::uniform_real_distribution<float> direction(-1.0F, 1.0F);
-    std::vector<gpu::Ray> rays(kRayCount);
-    for (gpu::Ray& ray : rays)
-    {
-        ray.origin = {position(random), position(random), position(random)};
-        ray.t_min = 0.0F;
-        ray.inverse_direction = 1.0F / glm::vec3(direction(random), direction(random), direction(random));
-        ray.t_max = INFINITY;
-    }
-    return rays;
-}
-
-void trace(vk::HeadlessDevice& device, const TreeView& view, const TreeData& tree, std::mt19937& random)
-{
-    TraceOptions options;
-    options.occlusion_rays = random() % 2;
-    options.detail_pixels = random() % 3 == 0 ? 4.0F : 0.0F;
-    const Bounds all = {tree.grid.origin,
-                        tree.grid.origin + tree.grid.voxel_size * static_cast<float>(tree.grid.resolution())};
-    const TraceCamera camera = traceCamera(ViewCamera::framing(all, 1.0), tree.grid, kPictureEdge);
-    BeamGrid beam(device.device());
-    TraceBuffers buffers(device.device(), kPictureEdge, kPictureEdge);
-    const std::vector<gpu::Ray> rays = someRays(random);
-    const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span(rays));
-    vk::BufferOf<gpu::Hit> hits(device.device(), "hits", rays.size());
-    vk::BufferOf<gpu::DispatchArgs> rounds(device.device(), "rounds", gpu::kTraceRoundsMax);
-    vk::BufferOf<gpu::TraceStatus> status(device.device(), "status", 1);
-    device.run(
-        [&](vk::FrameGraph& graph)
-        {
-            buildBeam(graph, view, beam);
-            zvo::trace(graph, view, beam, camera, options, buffers);
-            graph.fill(status, 0);
-            traceRays(graph, view, ray_buffer, hits, rounds, status, TraceOptions());
-        });
-    require(device.download(status).front().capped_rays == 0, "a ray that does not end");
-    for (const gpu::Hit& hit : device.download(hits))
-    {
-        require(hit.index == gpu::kHitMiss || hit.index < tree.voxel_count || !tree.hasAttributes(),
-                "a hit on a voxel that is not there");
-    }
-    static_cast<void>(device.download(buffers.image));
+    require(fault.empty(), fault.c_str());
 }
 
 } // namespace
@@ -156,6 +94,7 @@ extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/)
         zvo::vk::HeadlessOptions options;
         options.device = "cpu";
         g_device = std::make_unique<zvo::vk::HeadlessDevice>(options, zvo::zvoKernels());
+        g_probe = std::make_unique<TreeProbe>(*g_device);
     }
     return 0;
 }
@@ -180,13 +119,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             "a file that would be written with other bytes");
     if (file->tree.voxel_count <= kVoxelsMax)
     {
-        checkVoxels(file->tree);
+        requireNoFault(walkFault(file->tree));
     }
-    if (g_device)
+    if (g_probe)
     {
         std::mt19937 random(static_cast<std::uint32_t>(file->header.header_checksum));
-        const zvo::DeviceTree tree = uploadTree(*g_device, file->tree);
-        std::visit([&](const auto& on_device) { trace(*g_device, on_device, file->tree, random); }, tree);
+        requireNoFault(g_probe->traceFault(file->tree, random));
     }
     return 0;
 }
