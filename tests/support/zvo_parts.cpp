@@ -23,6 +23,14 @@ void pad(Bytes& bytes)
     bytes.resize((bytes.size() + kZvoAlignment - 1) / kZvoAlignment * kZvoAlignment);
 }
 
+// As much of the section table as there is.
+std::span<std::byte> tableBytes(Bytes& file, const ZvoHeader& header)
+{
+    const std::uint64_t room = (file.size() - sizeof(header)) / sizeof(ZvoSection);
+    const std::uint64_t count = std::min<std::uint64_t>(header.section_count, room);
+    return std::span(file).subspan(sizeof(header), count * sizeof(ZvoSection));
+}
+
 } // namespace
 
 std::optional<ZvoParts> ZvoParts::split(std::span<const std::byte> file)
@@ -88,6 +96,19 @@ ZvoParts::Section* ZvoParts::find(ZvoSectionId id)
     return found == sections.end() ? nullptr : &*found;
 }
 
+void fixHeadChecksums(Bytes& file)
+{
+    if (file.size() < sizeof(ZvoHeader))
+    {
+        return;
+    }
+    ZvoHeader header;
+    std::memcpy(&header, file.data(), sizeof(header));
+    header.table_checksum = crc64(tableBytes(file, header));
+    header.header_checksum = headerChecksum(header);
+    std::memcpy(file.data(), &header, sizeof(header));
+}
+
 void fixChecksums(Bytes& file)
 {
     if (file.size() < sizeof(ZvoHeader))
@@ -96,22 +117,18 @@ void fixChecksums(Bytes& file)
     }
     ZvoHeader header;
     std::memcpy(&header, file.data(), sizeof(header));
-    const std::uint64_t room = (file.size() - sizeof(header)) / sizeof(ZvoSection);
-    std::vector<ZvoSection> table(std::min<std::uint64_t>(header.section_count, room));
-    const std::span<std::byte> table_bytes = std::span(file).subspan(sizeof(header), table.size() * sizeof(ZvoSection));
-    std::copy(table_bytes.begin(), table_bytes.end(), std::as_writable_bytes(std::span(table)).begin());
-    for (ZvoSection& entry : table)
+    const std::span<std::byte> table = tableBytes(file, header);
+    for (std::size_t at = 0; at < table.size(); at += sizeof(ZvoSection))
     {
+        ZvoSection entry;
+        std::memcpy(&entry, table.data() + at, sizeof(entry));
         if (entry.offset <= file.size() && entry.bytes <= file.size() - entry.offset)
         {
             entry.checksum = crc64(std::span(file).subspan(entry.offset, entry.bytes));
         }
+        std::memcpy(table.data() + at, &entry, sizeof(entry));
     }
-    const auto fixed = std::as_bytes(std::span(table));
-    std::copy(fixed.begin(), fixed.end(), table_bytes.begin());
-    header.table_checksum = crc64(fixed);
-    header.header_checksum = headerChecksum(header);
-    std::memcpy(file.data(), &header, sizeof(header));
+    fixHeadChecksums(file);
 }
 
 Bytes zvoBytes(const TreeData& tree)

@@ -36,6 +36,10 @@ struct ZvoParts
     Section* find(ZvoSectionId id);
 };
 
+/// Puts right the checksums of a file's table and header, whatever its sections are; the table is as long as the header
+/// says and the file has room for.
+void fixHeadChecksums(Bytes& file);
+
 /// Puts right the checksums of a file whose table and sections lie where the header says; what lies outside of the file
 /// is left out.
 void fixChecksums(Bytes& file);

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Single bytes of a file that change: noticed by a checksum; where that was made to fit, refused or a sound tree.
+#include "core/attribute_pack.h"
+#include "core/gltf_loader.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/svdag.h"
+#include "core/zvo_file.h"
+#include "support/dags.h"
+#include "support/device.h"
+#include "support/scenes.h"
+#include "support/tree_probe.h"
+#include "support/tree_samples.h"
+#include "support/zvo_parts.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+
+namespace zvo::test
+{
+namespace
+{
+
+constexpr std::size_t kChangeCount = 10000; // of the body
+
+vk::HeadlessDevice& device()
+{
+    return sharedDevice(zvoKernels());
+}
+
+// The project's own atrium as a DAG of 128^3, its attributes in blocks: all kinds of sections.
+const TreeData& atrium()
+{
+    static const TreeData tree = []
+    {
+        const Scene scene = loadGltf(ownScene("atrium.glb"));
+        const GpuScene gpu_scene = uploadScene(device(), scene, true);
+        Octree octree = buildOctree(device(), gpu_scene, Grid::around(scene.bounds(), 7), {}).octree;
+        Svdag dag = compress(device(), std::move(octree)).dag;
+        packTree(device(), AttributeForm::Blocks, dag.tree);
+        return downloadTree(device(), dag);
+    }();
+    return tree;
+}
+
+// The tree, or nothing where the file was refused with a reason.
+std::optional<TreeData> readOrRefused(std::span<const std::byte> file)
+{
+    try
+    {
+        return readZvo(file, "a.zvo").tree;
+    }
+    catch (const Error& error)
+    {
+        const std::string message = error.what();
+        EXPECT_EQ(error.code(), ErrorCode::Input) << message;
+        EXPECT_TRUE(message.starts_with("a.zvo: ") && message.size() > 20) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        return std::nullopt;
+    }
+}
+
+// A byte of a file is another one for as long as this lives.
+class ByteChange
+{
+public:
+    ByteChange(Bytes& file, std::size_t at, unsigned change) : m_byte(file[at]), m_before(file[at])
+    {
+        m_byte ^= static_cast<std::byte>(change);
+    }
+    ~ByteChange() { m_byte = m_before; }
+    ByteChange(const ByteChange&) = delete;
+    ByteChange& operator=(const ByteChange&) = delete;
+
+private:
+    std::byte& m_byte;
+    std::byte m_before;
+};
+
+// Where the body begins: behind the table.
+std::size_t headBytes(const ZvoFile& file)
+{
+    return sizeof(ZvoHeader) + file.sections.size() * sizeof(ZvoSection);
+}
+
+struct BodyChange
+{
+    std::size_t at;
+    unsigned change;
+};
+
+// Half of them anywhere, and half in any of the sections, of which some are small.
+std::vector<BodyChange> bodyChanges(const ZvoFile& file)
+{
+    std::mt19937_64 random(20);
+    std::vector<BodyChange> changes;
+    for (std::size_t i = 0; i < kChangeCount; ++i)
+    {
+        const ZvoSection& section = file.sections[random() % file.sections.size()];
+        const std::size_t head = headBytes(file);
+        const std::size_t at =
+            i % 2 == 0 ? head + random() % (file.header.file_bytes - head) : section.offset + random() % section.bytes;
+        changes.push_back({at, static_cast<unsigned>(1 + random() % 255)});
+    }
+    return changes;
+}
+
+// The id of the section that has the byte; 0 between sections.
+std::uint32_t sectionAt(const ZvoFile& file, std::size_t at)
+{
+    for (const ZvoSection& section : file.sections)
+    {
+        if (at >= section.offset && at - section.offset < section.bytes)
+        {
+            return section.id;
+        }
+    }
+    return 0;
+}
+
+TEST(ZvoChanges, AnyByteIsNoticedByAChecksum)
+{
+    Bytes file = zvoBytes(atrium());
+    const ZvoFile sound = readZvo(file, "a.zvo");
+    ASSERT_EQ(sound.sections.size(), 9U);
+    ASSERT_GT(file.size(), 200000U);
+    for (std::size_t at = 0; at < headBytes(sound); ++at)
+    {
+        for (unsigned change = 1; change < 256; ++change)
+        {
+            const ByteChange changed(file, at, change);
+            ASSERT_FALSE(readOrRefused(file)) << "byte " << at << " ^ " << change;
+        }
+    }
+    for (const BodyChange& body : bodyChanges(sound))
+    {
+        const ByteChange changed(file, body.at, body.change);
+        ASSERT_FALSE(readOrRefused(file)) << "byte " << body.at << " ^ " << body.change;
+    }
+    EXPECT_EQ(treeDifference(readZvo(file, "a.zvo").tree, atrium()), "");
+}
+
+// What a change of a byte of the header may do, by its place (docs/file-format.md), when the checksums fit: nothing,
+// for the number of the minor version and checksums; or what is listed here.
+std::string headerPartAt(std::size_t at)
+{
+    const bool is_ignored = (at >= 14 && at < 16) || (at >= 112 && at < 128);
+    return is_ignored            ? ""
+           : at >= 40 && at < 52 ? "origin"
+           : at >= 52 && at < 56 ? "voxel size"
+           : at == 56            ? "depth"
+           : at >= 60 && at < 64 ? "emission scale"
+                                 : "never";
+}
+
+TEST(ZvoChanges, OfTheHeaderWithItsChecksumsAreRefusedOrMeanWhatTheySay)
+{
+    for (const TreeSample& sample : treeSamples())
+    {
+        if (sample.name != "random_3_with_attributes" && sample.name != "random_3_with_attributes_block_dag")
+        {
+            continue;
+        }
+        Bytes file = zvoBytes(sample.tree);
+        const Bytes before = file;
+        const std::size_t head = headBytes(readZvo(file, "a.zvo"));
+        std::map<std::string, int> accepted_counts;
+        for (std::size_t at = 0; at < head; ++at)
+        {
+            for (unsigned change = 1; change < 256; ++change)
+            {
+                const ByteChange changed(file, at, change);
+                fixHeadChecksums(file);
+                const std::optional<TreeData> tree = readOrRefused(file);
+                if (tree)
+                {
+                    const std::string part = headerPartAt(at);
+                    ASSERT_EQ(treeDifference(*tree, sample.tree), part) << "byte " << at << " ^ " << change;
+                    ASSERT_EQ(part == "depth" ? walkFault(*tree) : "", "");
+                    ++accepted_counts[part];
+                }
+                std::copy_n(before.begin(), sizeof(ZvoHeader), file.begin());
+            }
+        }
+        EXPECT_EQ(accepted_counts[""], 255 * 18); // all of them
+        EXPECT_GT(accepted_counts["origin"], 255 * 11);
+        EXPECT_EQ(accepted_counts["depth"], 1);
+        EXPECT_GT(accepted_counts["voxel size"], 255);
+        EXPECT_GT(accepted_counts["emission scale"], 255);
+    }
+}
+
+// What tree says of its voxels and their numbers is, after the oracle, a DAG.
+void expectSoundDag(const TreeData& tree)
+{
+    const DeviceTree uploaded = uploadTree(device(), tree);
+    const oracle::DagContents contents = contentsOf(device(), std::get<Svdag>(uploaded));
+    EXPECT_EQ(contents.violations, std::vector<std::string>{});
+    ASSERT_EQ(contents.voxels.size(), tree.voxel_count);
+    for (std::size_t i = 0; i < contents.voxels.size(); ++i)
+    {
+        ASSERT_EQ(contents.voxels[i].rank, i);
+    }
+}
+
+TEST(ZvoChanges, OfTheBodyWithItsChecksumsAreRefusedOrSoundTrees)
+{
+    constexpr std::size_t kTraceEach = 32; // of the changes that leave nodes as they are
+    constexpr std::size_t kExpandEach = 8;
+    // What another byte may change, by section: other nodes and entries may be as many and as large.
+    const std::map<std::uint32_t, std::string> parts = {
+        {2, "nodes"}, {3, "lists"}, {6, "packed voxel attributes"}, {7, "packed node attributes"}, {9, "emission"}};
+    Bytes file = zvoBytes(atrium());
+    const Bytes before = file;
+    const ZvoFile sound = readZvo(file, "a.zvo");
+    TreeProbe probe(device());
+    std::mt19937 random(21);
+    std::map<std::uint32_t, std::size_t> accepted_counts;
+    for (const BodyChange& body : bodyChanges(sound))
+    {
+        const std::uint32_t section = sectionAt(sound, body.at);
+        const ByteChange changed(file, body.at, body.change);
+        fixChecksums(file);
+        const std::optional<TreeData> tree = readOrRefused(file);
+        std::copy_n(before.begin(), headBytes(sound), file.begin());
+        if (!tree)
+        {
+            continue;
+        }
+        ASSERT_TRUE(parts.contains(section)) << "byte " << body.at << " ^ " << body.change;
+        ASSERT_EQ(treeDifference(*tree, atrium()), parts.at(section));
+        const std::size_t number = accepted_counts[section]++;
+        const bool is_other_shape = section < 6;
+        if (is_other_shape || number % kTraceEach == 0)
+        {
+            ASSERT_EQ(walkFault(*tree), "");
+            ASSERT_EQ(probe.traceFault(*tree, random), "");
+        }
+        if (is_other_shape && number % kExpandEach == 0)
+        {
+            expectSoundDag(*tree);
+        }
+    }
+    for (const auto& [section, part] : parts)
+    {
+        EXPECT_GT(accepted_counts[section], 0U) << part;
+    }
+}
+
+} // namespace
+} // namespace zvo::test
