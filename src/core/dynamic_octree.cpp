@@ -32,7 +32,7 @@ StaticTree checked(StaticTree fixed, const DynamicOptions& options)
     const bool averages = octree.hasAttributes() && options.merge == MergeRule::Average;
     if (averages && fixed.sums.sums.count() != octree.voxel_count)
     {
-        throw Error(ErrorCode::Usage, "movers can be averaged with a static octree only if its sums were kept");
+        throw Error(ErrorCode::Usage, "movers can be averaged with a static octree or DAG only if its sums were kept");
     }
     if (octree.emission.count() != 0 && octree.emission_scale != options.emission_scale)
     {

@@ -95,7 +95,7 @@ MoverId MoverSet::add(std::shared_ptr<const MoverMesh> mesh, Pose pose)
     }
     if (m_options.contents.attributes && !mesh->uploaded.has_attributes)
     {
-        throw Error(ErrorCode::Usage, "the mover was uploaded without attributes, the static octree has them");
+        throw Error(ErrorCode::Usage, "the mover was uploaded without attributes, the static octree or DAG has them");
     }
     checkPose(*mesh, pose);
     Mover mover;

@@ -24,7 +24,7 @@ struct OverlayRegion
     bool operator==(const OverlayRegion&) const = default;
 };
 
-/// What an OverlayArena divides: buffers that begin with the static octree and end with room for overlays.
+/// What an OverlayArena divides: buffers that begin with the static octree or DAG and end with room for overlays.
 struct OverlaySpace
 {
     std::uint32_t static_nodes = 0;      // never handed out
@@ -35,9 +35,9 @@ struct OverlaySpace
     std::uint32_t voxel_block_bytes = 0; // of all buffers together, for each block of kVoxelBlock voxels
 };
 
-/// Hands out the room for overlays in buffers whose lower part is a static octree. Knows only numbers: it neither
-/// allocates nor frees device memory, and it does not know who is still using a region (RootHistory does). A copy of an
-/// arena is independent of it.
+/// Hands out the room for overlays in buffers whose lower part is a static octree or DAG. Knows only numbers: it
+/// neither allocates nor frees device memory, and it does not know who is still using a region (RootHistory does). A
+/// copy of an arena is independent of it.
 ///
 /// Nodes and voxels are found independently of each other, the lowest that fit. What allocate() gives never overlaps
 /// the static part nor another region that is held. heldBytes() is the sum over the regions held, and after the last

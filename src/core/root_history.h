@@ -31,18 +31,18 @@ struct HistoryBounds
     std::uint64_t bytes_max = 256 << 20; // of the steps' regions
 };
 
-/// One entry of a RootHistory: an octree that can be traced.
+/// One entry of a RootHistory: an octree or a DAG that can be traced.
 struct RootStep
 {
     std::uint64_t id = 0;                // grows from push to push; 0: the first one
-    std::optional<OverlayRegion> region; // of its overlay; nothing: the static octree
+    std::optional<OverlayRegion> region; // of its overlay; nothing: the static tree
     std::span<const LayerState> layers;  // as pushed; valid until the history changes
     bool pending = false;                // nobody has said yet whether its update succeeded
 };
 
-/// The octrees that were shown and can be shown again: a line of steps with a cursor, the current step. The first step
-/// is the static octree; it is always there. Steps own their overlays' regions. Host logic only: showing a step is the
-/// caller's copy of the step's root into the octree's root slot.
+/// The trees that were shown and can be shown again: a line of steps with a cursor, the current step. The first step
+/// is the static octree or DAG; it is always there. Steps own their overlays' regions. Host logic only: showing a step
+/// is the caller's copy of the step's root into the tree's root slot.
 ///
 ///     static ── step ── step ── step ── step
 ///                         ▲       └───────┴─ redo, dropped by the next push()
@@ -89,7 +89,7 @@ public:
     void giveBack(const OverlayRegion& region);
 
     /// Puts a step in the place of those of redo and makes it the current one. Call it in the frame that
-    /// changes the root slot. Without a region the step shows the static octree, and is complete. Returns its id.
+    /// changes the root slot. Without a region the step shows the static tree, and is complete. Returns its id.
     std::uint64_t push(const std::optional<OverlayRegion>& region, std::vector<LayerState> layers);
 
     /// The update of a step succeeded and needed this many nodes and voxels, at most what its region has: the rest of
@@ -156,7 +156,7 @@ private:
     struct Step
     {
         std::uint64_t id = 0;
-        std::optional<Lease> lease; // nothing: the static octree
+        std::optional<Lease> lease; // nothing: the static tree
         std::vector<LayerState> layers;
         bool pending = false;
     };
@@ -187,7 +187,7 @@ private:
     std::uint64_t m_frame_done = 0;
     std::uint64_t m_last_id = 0;
     std::deque<Waiting> m_waiting; // in order of frames
-    Steps m_steps;                 // the line; [0]: the static octree
+    Steps m_steps;                 // the line; [0]: the static tree
     std::size_t m_current = 0;     // index in m_steps
     std::deque<Update> m_updates;  // of pending steps, in order of pushes
     // When the last frame began: the line, if it has changed since, or nothing, and the index of what was current in
