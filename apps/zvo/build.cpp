@@ -48,8 +48,9 @@ struct Built
 
 Built buildSvo(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const BuildFileOptions& options)
 {
-    BuildResult result = buildOctree(device, scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
-    const std::vector<vk::PassTime> packing = packTree(device, options.attributes, result.octree);
+    BuildResult result =
+        buildOctree(device, scene, grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
+    const std::vector<vk::PassTime> packing = packTree(device, options.voxels.attributes, result.octree);
     result.passes.insert(result.passes.end(), packing.begin(), packing.end());
     return {downloadTree(device, result.octree), std::move(result.dropped), std::move(result.passes),
             result.retry_count};
@@ -58,7 +59,7 @@ Built buildSvo(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& gr
 Built buildSvdag(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, const BuildFileOptions& options,
                  Progress& progress)
 {
-    TiledOptions tiled{.coverage = options.voxels.coverage, .attributes = options.attributes};
+    TiledOptions tiled{.coverage = options.voxels.coverage, .attributes = options.voxels.attributes};
     tiled.progress = [&](double done) { progress.within(done); };
     TiledResult result = buildByTiles(device, scene, grid, tiled);
     return {std::move(result.tree), std::move(result.dropped), std::move(result.passes), result.retry_count,
@@ -92,7 +93,8 @@ Json builtJson(vk::HeadlessDevice& device, const BuildFileOptions& options, std:
     json["build_ms"] = operationMs(built.passes, "octree");
     json["compress_ms"] =
         tree.structure == TreeStructure::Svdag ? Json(operationMs(built.passes, "svdag")) : Json(nullptr);
-    json["pack_ms"] = isPacked(options.attributes) ? Json(operationMs(built.passes, "attributes")) : Json(nullptr);
+    json["pack_ms"] =
+        isPacked(options.voxels.attributes) ? Json(operationMs(built.passes, "attributes")) : Json(nullptr);
     json["trace_ms"] = nullptr;
     return json;
 }
@@ -117,7 +119,7 @@ void buildFile(const BuildFileOptions& options)
 
     progress.step("copying to the device");
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
-    std::optional<GpuScene> gpu_scene = uploadScene(device, scene, options.voxels.attributes);
+    std::optional<GpuScene> gpu_scene = uploadScene(device, scene, options.voxels.hasAttributes());
     scene = {};
 
     progress.step("building");
@@ -146,7 +148,8 @@ void buildFile(const BuildFileOptions& options)
         built.tree.voxel_count, grid.resolution(), triangle_count, built.tree.geometryBytes(),
         built.tree.attributeBytes(), operationMs(built.passes, "voxelize"), operationMs(built.passes, "octree"),
         is_dag ? fmt::format(", compress {:.1f} ms", operationMs(built.passes, "svdag")) : "",
-        isPacked(options.attributes) ? fmt::format(", pack {:.1f} ms", operationMs(built.passes, "attributes")) : "",
+        isPacked(options.voxels.attributes) ? fmt::format(", pack {:.1f} ms", operationMs(built.passes, "attributes"))
+                                            : "",
         device.device().report().name));
 }
 

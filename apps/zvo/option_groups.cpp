@@ -16,6 +16,8 @@ namespace
 {
 
 constexpr float kVoxelSizeMin = 1e-35F; // 256 / voxel_size must be a finite number
+constexpr const char* kAttributesHelp =
+    "colour, normal and emission of the voxels, or only their places (default full)";
 
 GridPlace parseGridPlace(std::string_view option, std::string_view text)
 {
@@ -79,8 +81,14 @@ void addCoverageOption(CLI::App& app, Coverage& coverage)
 
 void addAttributesOption(CLI::App& app, bool& attributes)
 {
-    addValue(app, "--attributes", attributes, parseAttributes, "full|none",
-             "colour, normal and emission of the voxels, or only their places (default full)");
+    addValue(app, "--attributes", attributes, parseAttributes, "full|none", kAttributesHelp);
+}
+
+void addAttributesOption(CLI::App& app, AttributeForm& attributes)
+{
+    const auto parse = [](std::string_view option, std::string_view text)
+    { return parseAttributes(option, text) ? AttributeForm::Bytes8 : AttributeForm::None; };
+    addValue(app, "--attributes", attributes, parse, "full|none", kAttributesHelp);
 }
 
 void addStructureOption(CLI::App& app, TreeStructure& structure)

@@ -162,17 +162,9 @@ CLI::App* addBuild(CLI::App& app, BuildFileOptions& options)
     CLI::App* build = app.add_subcommand("build", "voxelize scenes and write the tree to a .zvo file");
     addVoxelOptions(*build, options.voxels);
     addStructureOption(*build, options.structure);
-    addValue(
-        *build, "--attributes", options.attributes,
-        [&options](std::string_view option, std::string_view text)
-        {
-            const AttributeForm form = parseAttributeForm(option, text);
-            options.voxels.attributes = form != AttributeForm::None;
-            return form;
-        },
-        "none|4|8|block",
-        "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
-        "which take 24; or only their places (default 8)");
+    addValue(*build, "--attributes", options.voxels.attributes, parseAttributeForm, "none|4|8|block",
+             "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
+             "which take 24; or only their places (default 8)");
     addOutputOptions(*build, options.output, "the tree, a .zvo file; - is standard output");
     addDeviceOptions(*build, options.device);
     build->footer(kBuildFooter);

@@ -44,9 +44,11 @@ struct VoxelOptions
     std::optional<double> time;                         // seconds, from 0 on
     std::optional<std::uint32_t> depth;                 // not given: the scene file's, or 9
     Coverage coverage = Coverage::Thin;
-    bool attributes = true;
-    std::optional<Bounds> bounds;        // the cube from this box's minimum corner on
-    std::optional<GridPlace> grid_place; // exactly this grid; neither: the cube around the scene
+    AttributeForm attributes = AttributeForm::Bytes8; // of the voxels; packed ones are of build alone
+    std::optional<Bounds> bounds;                     // the cube from this box's minimum corner on
+    std::optional<GridPlace> grid_place;              // exactly this grid; neither: the cube around the scene
+
+    [[nodiscard]] bool hasAttributes() const { return attributes != AttributeForm::None; }
 };
 
 /// Where results go. "-" is standard output.
@@ -87,7 +89,6 @@ struct BuildFileOptions
 {
     VoxelOptions voxels;
     TreeStructure structure = TreeStructure::Svdag;
-    AttributeForm attributes = AttributeForm::Bytes8; // form of those of voxels
     DeviceOptions device;
     OutputOptions output;
 };

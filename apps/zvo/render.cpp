@@ -65,7 +65,7 @@ public:
     {
         m_progress.step("voxelizing what stands still");
         StageOctree octree(m_device, stage, grid,
-                           {m_options.voxels.coverage, m_options.voxels.attributes, structure()});
+                           {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             m_progress.step("updating");
@@ -194,11 +194,11 @@ private:
     {
         m_progress.step("copying to the device");
         m_triangle_count = scene.triangleCount();
-        const GpuScene gpu_scene = uploadScene(m_device, scene, m_options.voxels.attributes);
+        const GpuScene gpu_scene = uploadScene(m_device, scene, m_options.voxels.hasAttributes());
         scene = {};
         m_progress.step("voxelizing");
         BuildResult result =
-            buildOctree(m_device, gpu_scene, grid, {m_options.voxels.coverage, m_options.voxels.attributes, {}});
+            buildOctree(m_device, gpu_scene, grid, {m_options.voxels.coverage, m_options.voxels.hasAttributes(), {}});
         m_has_warned = m_has_warned || warnOfDropped(result.octree.voxel_count, result.dropped); // not for each frame
         return result;
     }

@@ -31,7 +31,7 @@ Json headJson(const std::string& schema, const vk::DeviceReport& device, const V
     json["grid"] = gridJson(grid);
     json["resolution"] = grid.resolution();
     json["coverage"] = coverageName(options.coverage);
-    json["attributes"] = options.attributes ? "full" : "none";
+    json["attributes"] = options.hasAttributes() ? "full" : "none";
     json["snapping"] = "lattice256";
     return json;
 }

@@ -58,12 +58,12 @@ void voxelize(const VoxelizeOptions& options)
 
     progress.step("copying to the device");
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
-    const GpuScene gpu_scene = uploadScene(device, scene, options.voxels.attributes);
+    const GpuScene gpu_scene = uploadScene(device, scene, options.voxels.hasAttributes());
     scene = {};
 
     progress.step("voxelizing");
     const BuildResult result =
-        buildOctree(device, gpu_scene, grid, {options.voxels.coverage, options.voxels.attributes, {}});
+        buildOctree(device, gpu_scene, grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
     warnOfDropped(result.octree.voxel_count, result.dropped);
 
     progress.step("writing");
