@@ -148,7 +148,8 @@ class DynamicBench
 {
 public:
     DynamicBench(const BenchOptions& options, vk::HeadlessDevice& device)
-        : m_options(options), m_device(device), m_beam(device.device()), m_buffers(device.device(), kWidth, kHeight)
+        : m_options(options), m_device(device), m_beam(device.device(), options.structure == TreeStructure::Svdag),
+          m_buffers(device.device(), kWidth, kHeight)
     {
     }
 

@@ -21,7 +21,7 @@ double primaryMs(const std::vector<vk::PassTime>& passes)
     for (const vk::PassTime& pass : passes)
     {
         ms += pass.ms;
-        if (pass.name == "trace/primary" || pass.name == "trace/ranks")
+        if (pass.name == "trace/primary" || pass.name == "trace/primary_ranks" || pass.name == "trace/ranks")
         {
             ms_until_primary = ms;
         }
@@ -62,7 +62,7 @@ std::vector<vk::PassTime> Renderer::show(const TreeView& tree)
 {
     if (!m_buffers)
     {
-        m_buffers.emplace(Buffers{BeamGrid(m_device.device()), makeBuffers(m_device, m_options)});
+        m_buffers.emplace(Buffers{BeamGrid(m_device.device(), tree.hasLists()), makeBuffers(m_device, m_options)});
     }
     m_tree = tree;
     return m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, m_buffers->beam); });
