@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ranks in a DAG (shared/svdag.h): of voxels in Morton order, of the octree's nodes depth first. Both are sums along the
-// path from the root. The includer includes trace/trace.h before
-// and defines
+// path from the root. Overlays (update/update.h) may stand above a DAG: their nodes have ranks of their own. The includer
+// includes trace/trace.h and lib/node.glsl before and defines
 //   kEntriesPerWord    of lists
 #include "lib/lists.glsl"
 
@@ -28,6 +28,19 @@ void descend(RankSource source, uint cell, inout RankedNode at)
     at.node = listEntry(uint64_t_ConstPtr(uint64_t(source.pool)), place, kEntriesPerWord);
     at.voxels += before.x;
     at.rank += 1u + before.y;
+}
+
+// From a node of an overlay to the child in a cell, unless that stands in a list of the DAG below.
+bool descendInOverlay(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, inout RankedNode at)
+{
+    uint place = childIndex(source.pool.data[at.node], cell);
+    bool direct = (place & kChildList) == 0u;
+    if (direct)
+    {
+        BeforeChild rank = overlay_ranks.data[place];
+        at = RankedNode(place, rank.voxels, rank.nodes);
+    }
+    return direct;
 }
 
 // Voxels before a leaf in its parent; the entry at this place names the leaf.

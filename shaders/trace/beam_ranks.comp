@@ -7,8 +7,9 @@
 #include "lib/morton.glsl"
 #include "lib/node.glsl"
 
-layout(constant_id = 0) const bool kLeaves = false; // the nodes of level kPathLevels are leaves
+layout(constant_id = 0) const bool kLeaves = false;      // the nodes of level kPathLevels are leaves
 layout(constant_id = 1) const uint kEntriesPerWord = 2u; // of lists
+layout(constant_id = 2) const bool kOverlays = false;    // the upper nodes may be those of an overlay
 
 #include "lib/ranks.glsl"
 
@@ -26,14 +27,20 @@ void main()
     uvec3 cell = uvec3(i, i >> kPathCellBits, i >> (2u * kPathCellBits)) & (kPathCells - 1u);
     RankedNode at = RankedNode(0u, 0u, 0u);
     bool present = true;
+    bool in_overlay = kOverlays;
     for (uint level = 0u; level < kPathLevels; ++level)
     {
         uint c = cellInBlock(cell >> (2u * (kPathLevels - 1u - level)));
         present = present && hasChild(params.source.pool.data[at.node], c);
-        if (present && kLeaves && level + 1u == kPathLevels)
+        if (present)
+            in_overlay = in_overlay && descendInOverlay(params.source, params.overlay_ranks, c, at);
+        if (present && !in_overlay && kLeaves && level + 1u == kPathLevels)
             descendToLeaf(params.source, c, false, at);
-        else if (present)
+        else if (present && !in_overlay)
             descend(params.source, c, at);
     }
-    params.paths.data[kRankTableFirst + i] = present ? packUint2x32(uvec2(at.node, at.voxels)) : 0ul;
+    uint node = at.node | (in_overlay ? kChildList : 0u);
+    params.paths.data[kRankTableFirst + i] = present ? packUint2x32(uvec2(node, at.voxels)) : 0ul;
+    if (kOverlays && i == 0u)
+        params.paths.data[kRankTableOverlays] = uint64_t(params.overlay_ranks);
 }

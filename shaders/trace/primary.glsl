@@ -13,8 +13,9 @@ layout(constant_id = 5) const bool kOrthographic = false;
 layout(constant_id = 6) const bool kCountIterations = false;
 layout(constant_id = 7) const bool kPaths = false; // begin below the root
 layout(constant_id = 8) const bool kPathsRelative = false; // the octree does not stand by levels
-layout(constant_id = 9) const bool kContinue = false; // only rays that the round before left unfinished
-layout(constant_id = 10) const bool kMore = false;     // another round follows
+layout(constant_id = 9) const bool kOverlays = false;  // the upper nodes of a DAG may be those of an overlay
+layout(constant_id = 10) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 11) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -45,23 +46,40 @@ uvec2 loadPath(uint cell)
 
 #ifdef PRIMARY_RANKS
 #include "lib/morton.glsl"
+#include "lib/node.glsl"
 #include "lib/ranks.glsl"
 
-// Of what was hit; of a miss, any number. All loads but those of descend() are made for misses, too (lib/traverse.glsl).
+// Of what was hit; of a miss, any number. All loads but those on the way down are made for misses, too
+// (lib/traverse.glsl).
 uint rankOf(Traversal hit)
 {
     RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_place);
+    BeforeChild_ConstPtr overlay_ranks = BeforeChild_ConstPtr(kOverlays ? g_paths.data[kRankTableOverlays] : 0ul);
     uvec3 cell = (hit.cell >> (2u * (kNodeLevels - kPathLevels))) & (kPathCells - 1u);
     uint place = kRankTableFirst + (cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
     RankedNode at = RankedNode(0u, uint_ConstPtr(uint64_t(g_paths)).data[2u * place + 1u], 0u);
-    if (kNodeLevels > kPathLevels + 2u)
+    if (kNodeLevels > kPathLevels + 2u || kOverlays)
         at.node = uint_ConstPtr(uint64_t(g_paths)).data[2u * place];
+    bool in_overlay = kOverlays && (at.node & kChildList) != 0u;
+    at.node &= kOverlays ? ~kChildList : ~0u;
     for (uint level = kPathLevels + 1u; level + 1u < kNodeLevels; ++level)
+    {
+        uint child = cellInBlock(hit.cell >> (2u * (kNodeLevels - level)));
         if (hit.hit)
-            descend(source, cellInBlock(hit.cell >> (2u * (kNodeLevels - level))), at);
+            in_overlay = in_overlay && descendInOverlay(source, overlay_ranks, child, at);
+        if (hit.hit && !in_overlay)
+            descend(source, child, at);
+    }
     if (kNodeLevels > kPathLevels + 1u)
+    {
+        if (kOverlays)
+        {
+            uint base = loadHalf(2u * (in_overlay ? at.node : 0u) + (cellInBlock(hit.cell >> 2u) >> 5u)).y;
+            in_overlay = in_overlay && (base & kChildList) == 0u;
+        }
         at.voxels += voxelsBeforeLeaf(source, max(hit.leaf_place, params.first_short_place));
-    return at.voxels + hit.index;
+    }
+    return hit.index + (in_overlay ? 0u : at.voxels); // in leaves of overlays, voxels have numbers of their own
 }
 #endif
 

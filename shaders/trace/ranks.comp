@@ -35,19 +35,6 @@ uint cellAt(uvec3 cell, uint cell_level, uint level)
     return cellInBlock(cell >> (2u * (cell_level - level)));
 }
 
-// From a node of an overlay to the child in a cell, unless that stands in a list of the DAG below.
-bool descendInOverlay(uint cell, inout RankedNode at)
-{
-    uint place = childIndex(params.source.pool.data[at.node], cell);
-    bool direct = (place & kChildList) == 0u;
-    if (direct)
-    {
-        BeforeChild rank = params.overlay_ranks.data[place];
-        at = RankedNode(place, rank.voxels, rank.nodes);
-    }
-    return direct;
-}
-
 void main()
 {
     uint i = threadIndex();
@@ -76,7 +63,7 @@ void main()
         if (above < level)
         {
             uint child = cellAt(cell, level, above + 1u);
-            in_overlay = in_overlay && descendInOverlay(child, at);
+            in_overlay = in_overlay && descendInOverlay(params.source, params.overlay_ranks, child, at);
             if (!in_overlay)
                 descend(params.source, child, at);
         }
@@ -84,7 +71,7 @@ void main()
     if (level + 1u >= kNodeLevels)
     {
         uint leaf = cellAt(cell, level, kNodeLevels - 1u);
-        in_overlay = in_overlay && descendInOverlay(leaf, at);
+        in_overlay = in_overlay && descendInOverlay(params.source, params.overlay_ranks, leaf, at);
         if (!in_overlay)
             descendToLeaf(params.source, leaf, kDetail, at);
     }

@@ -59,8 +59,11 @@ const uint kPathRelativeShift = 24u;
 // Where the ranks of hits in a DAG begin, behind the nodes of all cells: for each cell, the node of level kPathLevels
 // that contains it, and the number of voxels before those below it:
 //
-//     node: 32 bits | voxels: 32, from the lowest bit on; 0 where there is no such node
+//     node: 31 bits | it is an overlay's: 1 | voxels: 32, from the lowest bit on; 0 where there is no such node
+//
+// Of an overlay's node, voxels is its rank. Behind all that stands the address of those ranks, by nodes.
 const uint kRankTableFirst = kPathCells * kPathCells * kPathCells;
+const uint kRankTableOverlays = 2u * kRankTableFirst;
 
 // Light that arrives at a hit, for the parts of it: 0 none, 255 all.
 const uint kLightSun = 255u; // mask
@@ -136,7 +139,8 @@ struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell
 struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
 {
     RankSource source;
-    GPU_PTR(uint64_t) paths; // [kRankTableFirst + kPathCells^3]
+    GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays; kOverlays only
+    GPU_PTR(uint64_t) paths;                  // [kRankTableOverlays + 1]
 };
 
 struct RanksParams // push constants of trace/ranks

@@ -257,7 +257,7 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
 BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
     : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
       masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes),
-      paths(device, "paths", for_dag ? 2 * kPathCellCount : kPathCellCount)
+      paths(device, "paths", for_dag ? std::uint64_t{gpu::kRankTableOverlays} + 1 : kPathCellCount)
 {
 }
 
@@ -338,7 +338,8 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     const bool has_ranks = wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
     const vk::Specialization constants =
         withFlags(traverseConstants(tree, options),
-                  {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree)});
+                  {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree),
+                   has_ranks && tree.overlaid() != nullptr});
     const std::uint32_t rounds = roundsFor(octree, options);
     // What both kernels take.
     const auto common = [&]<typename Params>(vk::Pass& pass, Params params)
@@ -360,6 +361,10 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
             auto params = common(pass, gpu::PrimaryRanksParams{});
             const gpu::RankSource source = rankSource(pass, *tree.svdag());
             params.before = source.before;
+            if (tree.overlaid() != nullptr)
+            {
+                pass.read(tree.overlaid()->ranks); // the table has their address
+            }
             params.voxels_before_leaf = source.voxels_before_leaf;
             params.first_short_place = source.first_short_place;
             return params;

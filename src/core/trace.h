@@ -61,7 +61,7 @@ struct BeamGrid
     vk::BufferOf<uint64_t> rows;     // [kBeamRows]
     vk::BufferOf<uint64_t> masks;    // [kBeamMasks]
     vk::BufferOf<gpu::Node> nodes;   // [kBeamNodes]
-    vk::BufferOf<uint64_t> paths;    // [kPathCells^3], or twice as many
+    vk::BufferOf<uint64_t> paths;    // [kPathCells^3], or [kRankTableOverlays + 1]
 };
 
 /// What the passes for a picture of width x height pixels write. Pixels are stored row by row from the top left.

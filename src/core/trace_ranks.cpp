@@ -7,6 +7,15 @@ namespace zvo
 namespace
 {
 
+// Declares that pass reads the ranks of overlays' nodes; null without overlays.
+gpu::ConstPtr<gpu::BeforeChild> overlayRanks(vk::Pass& pass, const TreeView& tree)
+{
+    const OverlaidTree* overlaid = tree.overlaid();
+    return overlaid == nullptr
+               ? gpu::ConstPtr<gpu::BeforeChild>{}
+               : gpu::ConstPtr<gpu::BeforeChild>{pass.read(overlaid->ranks).address - overlaid->ranksSkipped()};
+}
+
 // Records the pass, unless there is no list: then the number in the leaf is the rank.
 template <typename Dispatch>
 void addRanks(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, bool tiles,
@@ -22,11 +31,8 @@ void addRanks(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& o
                                                   tree.entriesPerWord(), overlaid != nullptr ? 1U : 0U});
     gpu::RanksParams params{};
     params.source = rankSource(pass, *tree.svdag());
-    if (overlaid != nullptr)
-    {
-        params.overlay_ranks = {pass.read(overlaid->ranks).address - overlaid->ranksSkipped()};
-        params.attribute_offset = overlaid->attributeOffset();
-    }
+    params.overlay_ranks = overlayRanks(pass, tree);
+    params.attribute_offset = overlaid != nullptr ? overlaid->attributeOffset() : 0;
     dispatch(pass, params);
 }
 
@@ -34,7 +40,7 @@ void addRanks(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& o
 
 bool hasRankTable(const TreeView& tree, const BeamGrid& beam)
 {
-    return tree.overlaid() == nullptr && tree.octree().grid.nodeLevels() > gpu::kPathLevels &&
+    return tree.octree().grid.nodeLevels() > gpu::kPathLevels && tree.svdag()->voxels_before_leaf.count() != 0 &&
            beam.paths.count() > gpu::kRankTableFirst;
 }
 
@@ -45,8 +51,10 @@ void buildRankTable(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
         return;
     }
     const bool leaves = tree.octree().grid.nodeLevels() == gpu::kPathLevels + 1;
-    vk::Pass pass = graph.addPass("trace/beam_ranks", {leaves ? 1U : 0U, tree.entriesPerWord()});
-    const gpu::BeamRanksParams params = {rankSource(pass, *tree.svdag()), pass.readWrite(beam.paths)};
+    vk::Pass pass = graph.addPass("trace/beam_ranks",
+                                  {leaves ? 1U : 0U, tree.entriesPerWord(), tree.overlaid() != nullptr ? 1U : 0U});
+    const gpu::BeamRanksParams params = {rankSource(pass, *tree.svdag()), overlayRanks(pass, tree),
+                                         pass.readWrite(beam.paths)};
     pass.dispatch(gpu::kRankTableFirst, params);
 }
 

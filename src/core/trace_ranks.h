@@ -8,11 +8,11 @@
 namespace zvo
 {
 
-/// Whether beam has a table (shaders/trace/trace.h) from which trace/primary_ranks can sum up ranks in tree, a DAG.
-/// There is none for a DAG with overlays.
+/// Whether beam has a table (shaders/trace/trace.h) from which trace/primary_ranks can sum up ranks in tree, a DAG with
+/// attributes, maybe with overlays.
 bool hasRankTable(const TreeView& tree, const BeamGrid& beam);
 
-/// Records the pass that fills this table. The DAG has attributes. Cost: constant.
+/// Records the pass that fills this table, where there is one. Cost: constant.
 void buildRankTable(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam);
 
 /// Records the pass that turns Hit::index, as a traversal of tree leaves it, into the attribute index of the voxel or

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <memory>
 #include <random>
 #include <string>
@@ -36,6 +37,10 @@ using test::Item;
 using test::MoverScenery;
 using test::Picture;
 using Kind = test::Place::Kind;
+
+constexpr float kBoxPart = 0.6F;                        // of the grid's edge, of the first box
+constexpr float kBoxMax = 40.0F;                        // voxels, of a box
+constexpr glm::vec3 kBoxCorner = {0.13F, 0.21F, 0.09F}; // in parts of the grid's edge, of the first box
 
 constexpr std::array kViews = {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations};
 
@@ -138,16 +143,23 @@ public:
     {
     }
 
-    // By every view and many levels of detail, and from everywhere.
+    // By every view and many levels of detail, from everywhere and from where the first box is near.
     void pictures()
     {
-        const std::vector<ViewCamera> views = test::manyCameras(m_subject.tree.octree().grid);
+        const Grid& grid = m_subject.tree.octree().grid;
+        const std::vector<ViewCamera> views = test::manyCameras(grid);
+        const double edge = grid.resolution();
+        const double size = std::min(kBoxPart * edge, double{kBoxMax});
+        const glm::dvec3 corner = edge * glm::dvec3(kBoxCorner);
+        const ViewCamera close =
+            ViewCamera::lookAt(corner + size * glm::dvec3(1.9, 1.5, 2.3), corner + 0.5 * size, 0.9);
         TraceOptions options;
         options.occlusion_rays = 2;
         for (const View shown : kViews)
         {
             options.view = shown;
             picture(views.front(), options);
+            picture(close, options);
         }
         options = {};
         for (std::size_t i = 1; i < views.size(); i += 3)
@@ -162,8 +174,7 @@ public:
             coarse.detail_level = level;
             coarse.detail_pixels = level == UINT32_MAX ? 6.0F : 0.0F;
             picture(views.front(), coarse);
-            coarse.view = View::Level;
-            picture(views[4], coarse);
+            picture(close, coarse);
         }
     }
 
@@ -245,10 +256,10 @@ public:
     [[nodiscard]] const DynamicOctree& octree() const { return *m_octree; }
     [[nodiscard]] const DynamicOctree& dag() const { return *m_dag; }
 
-    // A box of this part of the grid, but not of more than 40 voxels.
+    // A box of this part of the grid, but not of more than kBoxMax voxels.
     void add(float part, const glm::vec3& color)
     {
-        Scene box = test::boxScene(glm::vec3(0.0F), glm::vec3(std::min(part * m_edge, 40.0F)));
+        Scene box = test::boxScene(glm::vec3(0.0F), glm::vec3(std::min(part * m_edge, kBoxMax)));
         box.materials[0].base_color = {color, 1.0F};
         const std::shared_ptr<const MoverMesh> mesh = uploadMover(device(), box, m_attributes, 1.0F);
         m_movers.emplace_back(m_octree->add(mesh, poseAt({})), m_dag->add(mesh, poseAt({})));
@@ -314,6 +325,22 @@ private:
     std::vector<std::pair<MoverId, MoverId>> m_movers; // in octree and DAG
 };
 
+// Waves through the first box and around it.
+test::Codes waves(std::uint32_t depth)
+{
+    const auto edge = static_cast<float>(1U << depth);
+    test::Codes codes;
+    for (std::uint32_t i = 0; i < 64 * 64; ++i)
+    {
+        const glm::vec3 place(static_cast<float>(i % 64), static_cast<float>(i / 64), 0.0F);
+        const float height = 0.4F * kBoxMax + 6.0F * std::sin(0.2F * place.x) + 5.0F * std::cos(0.17F * place.y);
+        codes.push_back(
+            oracle::mortonEncode(glm::uvec3(edge * kBoxCorner + place + glm::vec3(-12.0F, -12.0F, height))));
+    }
+    std::ranges::sort(codes);
+    return codes;
+}
+
 // Much and little to share, from one level of nodes to seven.
 std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
 {
@@ -329,7 +356,8 @@ std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
         {6, test::codesWhere(6, checkered)},
         {7, test::sphereShell(7, 50.0)},
         {8, test::spongeCodes(8)},
-        {9, test::randomCodes(9, 20000, random)},
+        {9, waves(9)},
+        {11, waves(11)},
         {13, test::randomCodes(13, 3000, random)},
     };
 }
@@ -340,8 +368,8 @@ template <typename See> void moveBoxes(Pair& pair, const See& see)
     see(); // as it was made
     pair.update();
     see(); // without movers
-    pair.add(0.6F, {0.9F, 0.2F, 0.1F});
-    pair.place(0, {0.13F, 0.21F, 0.09F}); // over subtrees that stand at many places
+    pair.add(kBoxPart, {0.9F, 0.2F, 0.1F});
+    pair.place(0, kBoxCorner); // over subtrees that stand at many places
     pair.update();
     see();
     pair.add(0.3F, {0.1F, 0.8F, 0.3F});
@@ -523,7 +551,7 @@ TEST(DynamicSvdag, NothingOfTheDagIsEverWritten)
     const auto expectUnchanged = [&]
     {
         EXPECT_TRUE(bytes(*octree.tree().svdag()) == before);
-        const gpu::Node shown = device().download(octree.octree().nodes, octree.staticRoot(), 1).front();
+        const gpu::Node shown = device().download(octree.tree().octree().nodes, octree.staticRoot(), 1).front();
         EXPECT_EQ(shown.mask_lo, root.mask_lo);
         EXPECT_EQ(shown.base_lo, root.base_lo);
         EXPECT_EQ(shown.mask_hi, root.mask_hi);
@@ -547,7 +575,7 @@ TEST(DynamicSvdag, UndoGivesTheSameBytes)
     update(world.octree());
     const auto bytes = [&]
     {
-        const Octree& octree = world.octree().octree();
+        const Octree& octree = world.octree().tree().octree();
         std::vector<gpu::uint> words;
         addWords(words, octree.nodes, 0, octree.nodes.count());
         addWords(words, octree.node_attributes, 0, octree.node_attributes.count());
@@ -562,7 +590,7 @@ TEST(DynamicSvdag, UndoGivesTheSameBytes)
     const std::vector<gpu::uint> after = bytes();
     // The overlay that was undone is left behind it, where there was nothing.
     const RootStep step = world.octree().history().current();
-    const Octree& octree = world.octree().octree();
+    const Octree& octree = world.octree().tree().octree();
     const std::uint64_t words_per_node = sizeof(gpu::Node) / sizeof(gpu::uint);
     const std::uint64_t end = words_per_node * (step.region->first_node + step.region->node_capacity);
     ASSERT_LT(end, octree.nodes.count() * words_per_node);
@@ -611,7 +639,7 @@ TEST(DynamicSvdag, RaysBeginAtTheLowestNodesOfOverlaysAndOfTheDagBelow)
         moveBoxes(pair,
                   [&]
                   {
-                      const std::vector<gpu::Node> nodes = device().download(pair.dag().octree().nodes);
+                      const std::vector<gpu::Node> nodes = device().download(pair.dag().tree().octree().nodes);
                       BeamGrid beam(device().device());
                       device().run([&](vk::FrameGraph& graph) { buildBeam(graph, pair.dag().tree(), beam); });
                       const std::vector<std::uint64_t> words = device().download(beam.paths);

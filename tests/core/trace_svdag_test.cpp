@@ -336,7 +336,7 @@ TEST(TraceSvdag, TablesNameTheNodesAndTheVoxelsBeforeThem)
         BeamGrid beam(device().device(), true);
         device().run([&](vk::FrameGraph& graph) { buildBeam(graph, pair.dag, beam); });
         const std::vector<uint64_t> paths = device().download(beam.paths);
-        const std::vector<uint64_t> ranks = device().download(beam.paths, gpu::kRankTableFirst);
+        const std::vector<uint64_t> ranks = device().download(beam.paths, gpu::kRankTableFirst, gpu::kRankTableFirst);
         ASSERT_EQ(ranks.size(), gpu::kRankTableFirst);
         const std::uint32_t shift = 6 * (levels - gpu::kPathLevels);
         std::uint32_t present_count = 0;
