@@ -126,7 +126,7 @@ void DynamicOctree::prepareBuffers()
     {
         m_retired.keep(std::move(m_update));
     }
-    m_update = std::make_unique<UpdateBuffers>(m_device.device(), needed, octree().grid);
+    m_update = std::make_unique<UpdateBuffers>(m_device.device(), needed, m_overlays.octree().grid);
     m_capacities = needed;
 }
 

@@ -110,9 +110,9 @@ public:
     std::vector<UpdateReport> frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes = {});
 
     /// The frame that began last does not reach the device, or not all of it: something threw between beginFrame() and
-    /// the end of its submission. What it has recorded was not: the history and octree() are those from before it,
+    /// the end of its submission. What it has recorded was not: the history and tree() are those from before it,
     /// which can be traced and updated. Movers stay where they were put, by undo() and redo() as well: needsUpdate().
-    /// Frames before it count as ever. Where the device came as far as that, octree() shows what the frame was to show,
+    /// Frames before it count as ever. Where the device came as far as that, tree() shows what the frame was to show,
     /// until the next update(), undo() or redo(). Not for frames that were submitted: frameDone(), however they ended.
     void frameLost();
 
@@ -120,13 +120,10 @@ public:
     /// and none was recorded since, nor undo() or redo().
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
 
-    /// What to trace.
+    /// What to trace. Its octree() is what an octree and a DAG have in common: node_count and voxel_count are those of
+    /// the static tree (1 node for an empty one). It has no levels: what goes through those (octreeSha256, voxelCodes)
+    /// tells nothing of it.
     [[nodiscard]] TreeView tree() const { return m_overlays.tree(); }
-
-    /// What of it an octree and a DAG have in common; where the static tree is an octree, what to trace. node_count and
-    /// voxel_count are those of the static tree (1 node for an empty one). It has no levels: what goes through those
-    /// (octreeSha256, voxelCodes) tells nothing of it.
-    [[nodiscard]] const Octree& octree() const { return m_overlays.octree(); }
 
     [[nodiscard]] const RootHistory& history() const { return m_history; }
 

@@ -106,7 +106,7 @@ public:
         return shown;
     }
 
-    std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->octree()); }
+    std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->tree().octree()); }
     std::vector<Cell> rebuilt(const std::multiset<Item>& items)
     {
         return m_scenery.rebuilt(m_setting, true, items)->cells;
@@ -284,7 +284,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         build.keep_sums = true;
         DynamicOctree octree(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build),
                              {.coverage = Coverage::Conservative});
-        const std::vector<Cell> before = test::cellsOf(device(), octree.octree());
+        const std::vector<Cell> before = test::cellsOf(device(), octree.tree().octree());
         const MoverId mover = octree.add(uploadMover(device(), dot, true, 0), {{place}, {}, {}});
         std::uint32_t failed = 0;
         const auto update = [&]
@@ -307,7 +307,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         all.append(std::move(dot));
         const std::vector<Cell> expected =
             test::cellsOf(device(), buildOctree(device(), uploadScene(device(), all, true), grid, build).octree);
-        const std::vector<Cell> shown = test::cellsOf(device(), octree.octree());
+        const std::vector<Cell> shown = test::cellsOf(device(), octree.tree().octree());
         ASSERT_EQ(shown.size(), expected.size());
         for (std::size_t i = 0; i < shown.size(); ++i)
         {
@@ -321,7 +321,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         }
         octree.remove(mover);
         update();
-        EXPECT_EQ(test::difference(test::cellsOf(device(), octree.octree()), before), "");
+        EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree().octree()), before), "");
 
         // Fewer fragments: from the second update on, bit for bit again.
         const Scene box = test::boxScene(glm::vec3(2.2F), glm::vec3(4.4F));
@@ -331,7 +331,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         fixed.append(Scene(box));
         EXPECT_EQ(
             test::difference(
-                test::cellsOf(device(), octree.octree()),
+                test::cellsOf(device(), octree.tree().octree()),
                 test::cellsOf(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build).octree)),
             "");
     }

@@ -152,7 +152,7 @@ private:
         return pieces;
     }
 
-    std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->octree()); }
+    std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->tree().octree()); }
 
     void expectCells(const std::vector<Cell>& expected)
     {

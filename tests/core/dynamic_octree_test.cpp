@@ -96,7 +96,7 @@ public:
         return shown;
     }
 
-    std::vector<Cell> shown() const { return test::cellsOf(device(), m_octree->octree()); }
+    std::vector<Cell> shown() const { return test::cellsOf(device(), m_octree->tree().octree()); }
 
     // Everything voxelized at once.
     std::vector<Cell> rebuilt(const std::vector<glm::mat4>& places) const

@@ -183,7 +183,7 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage)
     build.keep_sums = true;
     DynamicOctree octree(device(), buildOctree(device(), gpu_scene, grid, build),
                          {.coverage = coverage, .emission_scale = emission_scale});
-    const std::vector<test::Cell> before = test::cellsOf(device(), octree.octree());
+    const std::vector<test::Cell> before = test::cellsOf(device(), octree.tree().octree());
 
     Scene moved = scene;
     Pose pose;
@@ -201,11 +201,11 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage)
     } while (octree.needsUpdate());
     Scene both = scene;
     both.append(std::move(moved));
-    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.octree()), grid),
+    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree().octree()), grid),
               oracle::voxelize(both, grid, coverage).codes);
 
     addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undo(graph); }));
-    EXPECT_EQ(test::difference(test::cellsOf(device(), octree.octree()), before), "");
+    EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree().octree()), before), "");
     return names;
 }
 

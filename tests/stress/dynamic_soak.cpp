@@ -162,7 +162,7 @@ private:
 
     void compare(std::uint64_t frame)
     {
-        Cells cells = test::cellsOf(m_device, m_octree->octree());
+        Cells cells = test::cellsOf(m_device, m_octree->tree().octree());
         if (frame < kPeriod)
         {
             Scene all = m_fixed;
