@@ -6,10 +6,13 @@
 #include "bench_runs.h"
 #include "bench_scenes.h"
 #include "bench_table.h"
+#include "bench_trace.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "core/svdag.h"
 #include "core/trace.h"
+#include "core/tree_data.h"
 #include "output.h"
 #include "progress.h"
 #include "session.h"
@@ -24,6 +27,7 @@
 
 #include <optional>
 #include <utility>
+#include <variant>
 
 namespace zvo::cli
 {
@@ -35,6 +39,17 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kWidth = 1920;
 constexpr std::uint32_t kHeight = 1080;
+
+// Passes of compression and of the DAG's pictures, told from those of the octree.
+std::vector<vk::PassTime> ofDag(std::vector<vk::PassTime> passes)
+{
+    for (vk::PassTime& pass : passes)
+    {
+        pass.name += " (DAG)";
+    }
+    return passes;
+}
+
 class Bench
 {
 public:
@@ -59,12 +74,11 @@ public:
         const Bounds subject = subjectOf(scene.bounds(), grid);
         const ViewCamera view = chooseCamera(m_options.camera, scene, subject, double{kWidth} / kHeight);
         const TraceCamera camera = traceCamera(view, grid, kHeight);
-        measureTrace(octree, camera, row);
         row.voxels = octree.voxel_count;
         row.nodes = octree.node_count;
         row.geometry_bytes = octree.geometryBytes();
         row.attribute_bytes = octree.attributeBytes();
-        row.peak_device_bytes = m_device.device().memory().peakBytes();
+        measureTrees(octree, camera, row);
 #ifdef ZVO_EMBREE
         measureEmbree(scene, octree, camera, row);
 #endif
@@ -72,45 +86,44 @@ public:
     }
 
 private:
-    // Primary rays, after a warm-up.
-    void measureTrace(const Octree& octree, const TraceCamera& camera, BenchRow& row)
+    // Primary rays through the octree, compression, and rays through both.
+    void measureTrees(const Octree& octree, const TraceCamera& camera, BenchRow& row)
     {
-        BeamGrid beam(m_device.device());
         TraceBuffers buffers(m_device.device(), kWidth, kHeight);
-        const std::vector<vk::PassTime> beam_passes =
-            m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, beam); });
-        const auto tracePicture = [&]
-        {
-            return m_device.run([&](vk::FrameGraph& graph)
-                                { tracePrimary(graph, octree, beam, camera, TraceOptions{}, buffers); });
-        };
-        tracePicture();
-        std::vector<double> trace_ms;
-        for (std::uint32_t run = 0; run < m_options.run_count; ++run)
-        {
-            const std::vector<vk::PassTime> passes = tracePicture();
-            trace_ms.push_back(sumMs(passes));
-            addPasses(row.passes, passes, m_options.run_count);
-        }
-        row.beam_grid_ms = sumMs(beam_passes);
-        row.trace_ms = Spread::of(trace_ms);
+        PrimaryRays octree_rays(m_device, octree, camera, buffers);
+        row.beam_grid_ms = octree_rays.beamGridMs();
         row.rays = primaryRayCount(buffers);
-        row.hits = countHits(buffers);
+        row.hits = countHits(m_device, buffers);
+        row.peak_device_bytes = m_device.device().memory().peakBytes();
+        const Svdag dag = measureCompress(octree, row);
+        PrimaryRays dag_rays(m_device, dag, camera, buffers);
+        const TraceRuns runs = traceInTurns(octree_rays, dag_rays, kTraceTurns * m_options.run_count);
+        row.trace_ms = runs.octree_ms;
+        row.trace_dag_ms = runs.dag_ms;
+        row.trace_dag_ratio = runs.ratio;
+        addPasses(row.passes, runs.octree_passes, 1);
+        addPasses(row.passes, ofDag(runs.dag_passes), 1);
     }
 
-    // Pixels whose ray hit something.
-    std::uint64_t countHits(const TraceBuffers& buffers)
+    // After a warm-up. Each run takes a copy of the octree, which it uses up.
+    Svdag measureCompress(const Octree& octree, BenchRow& row)
     {
-        const std::vector<gpu::Hit> hits = m_device.download(buffers.hits);
-        const std::vector<float> starts = m_device.download(buffers.starts);
-        const std::uint32_t tiles_x = (kWidth + gpu::kTileEdge - 1) / gpu::kTileEdge;
-        std::uint64_t count = 0;
-        for (std::size_t pixel = 0; pixel < hits.size(); ++pixel)
+        const TreeData copy = downloadTree(m_device, octree);
+        const auto run = [&] { return compress(m_device, std::get<Octree>(uploadTree(m_device, copy))); };
+        CompressResult compressed = run();
+        std::vector<double> compress_ms;
+        for (std::uint32_t i = 0; i < m_options.run_count; ++i)
         {
-            const std::size_t tile = pixel / kWidth / gpu::kTileEdge * tiles_x + pixel % kWidth / gpu::kTileEdge;
-            count += starts[tile] != gpu::kTileDead && hits[pixel].index != gpu::kHitMiss ? 1 : 0;
+            compressed = {}; // its memory goes before the next one's comes
+            compressed = run();
+            compress_ms.push_back(compressed.ms());
+            addPasses(row.passes, ofDag(compressed.passes), m_options.run_count);
         }
-        return count;
+        row.compress_ms = Spread::of(compress_ms);
+        row.dag_nodes = compressed.dag.tree.node_count;
+        row.dag_geometry_bytes = compressed.dag.geometryBytes();
+        row.dag_rank_bytes = compressed.dag.rankBytes();
+        return std::move(compressed.dag);
     }
 
 #ifdef ZVO_EMBREE

@@ -25,6 +25,11 @@ std::string ratio(double ours, const std::optional<double>& theirs)
     return theirs && *theirs > 0 ? fmt::format("{:.2f}", ours / *theirs) : "-";
 }
 
+std::string percent(double part)
+{
+    return fmt::format("{:.1f} %", 100 * part);
+}
+
 const Columns<BenchRow>& columns()
 {
     static const Columns<BenchRow> all = {
@@ -40,7 +45,15 @@ const Columns<BenchRow>& columns()
          [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.attribute_bytes)); }},
         {"voxelize ms", 23, [](const BenchRow& row) { return spreadText(row.voxelize_ms); }},
         {"build ms", 23, [](const BenchRow& row) { return spreadText(row.build_ms); }},
+        {"compress ms", 23, [](const BenchRow& row) { return spreadText(row.compress_ms); }},
+        {"of both", 7, [](const BenchRow& row) { return percent(row.compressRatio()); }},
+        {"DAG nodes", 9, [](const BenchRow& row) { return fmt::format("{}", row.dag_nodes); }},
+        {"DAG B/voxel", 11,
+         [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.dag_geometry_bytes)); }},
+        {"of octree", 9, [](const BenchRow& row) { return percent(row.dagGeometryRatio()); }},
         {"trace ms", 23, [](const BenchRow& row) { return spreadText(row.trace_ms); }},
+        {"trace DAG ms", 23, [](const BenchRow& row) { return spreadText(row.trace_dag_ms); }},
+        {"ratio", 16, [](const BenchRow& row) { return spreadText(row.trace_dag_ratio); }},
         {"Mvoxels/s", 9, [](const BenchRow& row) { return rate(row.mvoxelsPerSecond()); }},
         {"Mrays/s", 7, [](const BenchRow& row) { return rate(row.mraysPerSecond()); }},
         {"hits %", 6,
@@ -78,11 +91,21 @@ Json rowJson(const BenchRow& row)
     json["triangles"] = row.triangles;
     json["voxels"] = row.voxels;
     json["nodes"] = row.nodes;
+    json["geometry_bytes"] = row.geometry_bytes;
     json["geometry_bytes_per_voxel"] = row.perVoxel(row.geometry_bytes);
     json["attribute_bytes_per_voxel"] = row.perVoxel(row.attribute_bytes);
     json["voxelize_ms"] = spreadJson(row.voxelize_ms);
     json["build_ms"] = spreadJson(row.build_ms);
+    json["compress_ms"] = spreadJson(row.compress_ms);
+    json["compress_ratio"] = row.compressRatio();
+    json["dag_nodes"] = row.dag_nodes;
+    json["dag_geometry_bytes"] = row.dag_geometry_bytes;
+    json["dag_geometry_bytes_per_voxel"] = row.perVoxel(row.dag_geometry_bytes);
+    json["dag_geometry_ratio"] = row.dagGeometryRatio();
+    json["dag_rank_bytes"] = row.dag_rank_bytes;
     json["trace_ms"] = spreadJson(row.trace_ms);
+    json["trace_dag_ms"] = spreadJson(row.trace_dag_ms);
+    json["trace_dag_ratio"] = spreadJson(row.trace_dag_ratio);
     json["mvoxels_per_s"] = row.mvoxelsPerSecond();
     json["mrays_per_s"] = row.mraysPerSecond();
     json["embree_user_mrays_per_s"] = orNull(row.embree_user_mrays_per_s);
@@ -133,13 +156,25 @@ double BenchRow::mraysPerSecond() const
     return trace_ms.median > 0 ? static_cast<double>(rays) / trace_ms.median / 1e3 : 0.0;
 }
 
+double BenchRow::dagGeometryRatio() const
+{
+    return geometry_bytes == 0 ? 0.0 : static_cast<double>(dag_geometry_bytes) / static_cast<double>(geometry_bytes);
+}
+
+double BenchRow::compressRatio() const
+{
+    const double ms = voxelize_ms.median + build_ms.median;
+    return ms > 0 ? compress_ms.median / ms : 0.0;
+}
+
 std::string tableHead(const BenchHeader& header)
 {
-    return fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max) of {} warm {}. "
-                       "Rays: primary, {}x{}, million a second; ratio: zvo / Embree "
+    return fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max) of {} warm {}, {} times as "
+                       "many pictures. Compress: of voxelize and build. Trace: octree and DAG in turns, ratio of "
+                       "neighbours. Rays: primary, {}x{}, million a second; ratio: zvo / Embree "
                        "(packets of 8 or 16 rays, whichever is faster, and single rays; on all processors).\n\n",
                        ZVO_VERSION, header.device.name, header.device.type, header.device.driver, header.run_count,
-                       header.run_count == 1 ? "run" : "runs", header.width, header.height) +
+                       header.run_count == 1 ? "run" : "runs", kTraceTurns, header.width, header.height) +
            columnNames(columns());
 }
 

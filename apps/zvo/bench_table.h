@@ -29,6 +29,8 @@ std::string spreadText(const Spread& spread);
 
 Json spreadJson(const Spread& spread);
 
+constexpr std::uint32_t kTraceTurns = 3; // pictures for each run: they take less time than the rest
+
 /// One scene at one resolution.
 struct BenchRow
 {
@@ -41,10 +43,16 @@ struct BenchRow
     std::uint64_t nodes = 0;
     std::uint64_t geometry_bytes = 0;
     std::uint64_t attribute_bytes = 0;
-    std::uint64_t peak_device_bytes = 0;
+    std::uint64_t peak_device_bytes = 0; // until the octree was traced
+    std::uint64_t dag_nodes = 0;
+    std::uint64_t dag_geometry_bytes = 0; // of nodes and lists
+    std::uint64_t dag_rank_bytes = 0;     // what attributes need beside them
     Spread voxelize_ms;
     Spread build_ms;
-    Spread trace_ms;
+    Spread compress_ms;
+    Spread trace_ms; // of the octree
+    Spread trace_dag_ms;
+    Spread trace_dag_ratio;  // DAG / octree, of pictures that were traced one after the other
     double beam_grid_ms = 0; // once for an octree; in no other time
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;                               // rays that hit a voxel
@@ -58,6 +66,11 @@ struct BenchRow
     [[nodiscard]] double perVoxel(std::uint64_t bytes) const;
     [[nodiscard]] double mvoxelsPerSecond() const;
     [[nodiscard]] double mraysPerSecond() const;
+
+    /// Of the DAG and the octree: bytes of geometry.
+    [[nodiscard]] double dagGeometryRatio() const;
+    /// Compression over voxelization and octree construction: times.
+    [[nodiscard]] double compressRatio() const;
 };
 
 /// What all rows share.

@@ -85,7 +85,8 @@ Examples:
   zvo info --json | jq '.devices[].missing')";
 
 constexpr const char* kBenchFooter = R"(
-Each row is one scene at one resolution: a warm-up, then N runs on the device's timers. Where zvo was built with
+Each row is one scene at one resolution: a warm-up, then N runs on the device's timers. Its octree is compressed to a
+DAG; 3 N pictures of either are traced in turns, and "ratio" is the DAG's time over the octree's. Where zvo was built with
 Embree, the same rays are also traced by Embree on all processors, through the same voxels and through the triangles.
 Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
 --balance: each row is voxelization and octree construction alone; ratios of them follow the table.
@@ -221,7 +222,8 @@ CLI::App* addInfo(CLI::App& app, InfoOptions& options)
 
 CLI::App* addBench(CLI::App& app, BenchOptions& options)
 {
-    CLI::App* bench = app.add_subcommand("bench", "measure voxelization, octree construction and ray tracing");
+    CLI::App* bench =
+        app.add_subcommand("bench", "measure voxelization, octree construction, compression and ray tracing");
     bench->add_option("SCENE", options.scenes, "glTF 2.0, OBJ, PLY and STL files, each measured on its own")
         ->type_name("FILE");
     addFolder(*bench, "--scenes", options.scene_folder,

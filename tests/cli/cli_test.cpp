@@ -6,6 +6,7 @@
 #include "core/image_io.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "core/svdag.h"
 #include "support/device.h"
 #include "support/temp_dir.h"
 
@@ -312,6 +313,7 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
         run({"bench", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "bench.json", "--passes"});
     EXPECT_TRUE(contains(outcome.out, "\n| cube "));
     EXPECT_TRUE(contains(outcome.out, "| voxelize/triangles "));
+    EXPECT_TRUE(contains(outcome.out, " trace DAG ms |"));
     const json report = json::parse(file("bench.json"));
     expectFields(report, {"schema string", "device.name string"});
     ASSERT_EQ(report["rows"].size(), 2U);
@@ -321,8 +323,15 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
                            "nodes number", "geometry_bytes_per_voxel number", "attribute_bytes_per_voxel number",
                            "voxelize_ms.median number", "voxelize_ms.min number", "voxelize_ms.max number",
                            "build_ms.median number", "trace_ms.median number", "mvoxels_per_s number",
-                           "mrays_per_s number", "peak_device_bytes number"});
+                           "mrays_per_s number", "peak_device_bytes number", "compress_ms.median number",
+                           "trace_dag_ms.median number", "trace_dag_ratio.min number"});
         EXPECT_GT(row["hits"], 0);
+        EXPECT_GT(row["compress_ratio"], 0);
+        EXPECT_GT(row["trace_dag_ms"]["median"], 0);
+        EXPECT_GE(row["trace_dag_ratio"]["min"],
+                  row["trace_dag_ms"]["min"].get<double>() / row["trace_ms"]["max"].get<double>());
+        EXPECT_LE(row["trace_dag_ratio"]["max"],
+                  row["trace_dag_ms"]["max"].get<double>() / row["trace_ms"]["min"].get<double>());
         if (!row["embree_user_mrays_per_s"].is_null())
         {
             expectFields(row, {"embree_user_mrays_per_s number", "embree_triangle_mrays_per_s number"});
@@ -331,7 +340,18 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
         }
     }
     EXPECT_EQ(report["rows"][1]["resolution"], 32);
-    EXPECT_EQ(report["rows"][1]["voxels"], build(m_grid).octree.voxel_count);
+    BuildResult built = build(m_grid);
+    const json& row = report["rows"][1];
+    EXPECT_EQ(row["voxels"], built.octree.voxel_count);
+    EXPECT_EQ(row["geometry_bytes"], built.octree.geometryBytes());
+    const Svdag dag = compress(device(), std::move(built.octree)).dag;
+    EXPECT_EQ(row["dag_nodes"], dag.tree.node_count);
+    EXPECT_EQ(row["dag_geometry_bytes"], dag.geometryBytes());
+    EXPECT_EQ(row["dag_rank_bytes"], dag.rankBytes());
+    EXPECT_DOUBLE_EQ(row["dag_geometry_ratio"].get<double>() * row["geometry_bytes"].get<double>(),
+                     static_cast<double>(dag.geometryBytes()));
+    EXPECT_TRUE(contains(outcome.out, "| svdag/insert (DAG) "));
+    EXPECT_TRUE(contains(outcome.out, "| trace/ranks (DAG) "));
 }
 
 TEST_F(CliRun, BenchOfBalanceTellsEverySceneAndItsRatios)

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "bench_trace.h"
+
+#include "bench_runs.h"
+
+#include <utility>
+
+namespace zvo::cli
+{
+
+PrimaryRays::PrimaryRays(vk::HeadlessDevice& device, const TreeView& tree, const TraceCamera& camera,
+                         TraceBuffers& buffers)
+    : m_device(device), m_tree(tree), m_camera(camera), m_buffers(buffers), m_beam(device.device(), tree.hasLists())
+{
+    m_beam_grid_ms = sumMs(m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, m_tree, m_beam); }));
+    trace();
+}
+
+std::vector<vk::PassTime> PrimaryRays::trace()
+{
+    return m_device.run([&](vk::FrameGraph& graph)
+                        { tracePrimary(graph, m_tree, m_beam, m_camera, TraceOptions{}, m_buffers); });
+}
+
+TraceRuns traceInTurns(PrimaryRays& octree, PrimaryRays& dag, std::uint32_t turn_count)
+{
+    TraceRuns runs;
+    std::vector<double> octree_ms;
+    std::vector<double> dag_ms;
+    std::vector<double> ratios;
+    const auto add = [&](PrimaryRays& rays, std::vector<double>& ms, std::vector<vk::PassTime>& sums)
+    {
+        std::vector<vk::PassTime> passes = rays.trace();
+        ms.push_back(sumMs(passes));
+        addPasses(sums, std::move(passes), turn_count);
+    };
+    for (std::uint32_t turn = 0; turn < turn_count; ++turn)
+    {
+        const bool dag_first = turn % 2 != 0;
+        if (dag_first)
+        {
+            add(dag, dag_ms, runs.dag_passes);
+        }
+        add(octree, octree_ms, runs.octree_passes);
+        if (!dag_first)
+        {
+            add(dag, dag_ms, runs.dag_passes);
+        }
+        ratios.push_back(octree_ms.back() > 0 ? dag_ms.back() / octree_ms.back() : 0.0);
+    }
+    runs.octree_ms = Spread::of(octree_ms);
+    runs.dag_ms = Spread::of(dag_ms);
+    runs.ratio = Spread::of(ratios);
+    return runs;
+}
+
+std::uint64_t countHits(vk::HeadlessDevice& device, const TraceBuffers& buffers)
+{
+    const std::vector<gpu::Hit> hits = device.download(buffers.hits);
+    const std::vector<float> starts = device.download(buffers.starts);
+    const std::uint32_t tiles_x = (buffers.width + gpu::kTileEdge - 1) / gpu::kTileEdge;
+    std::uint64_t count = 0;
+    for (std::size_t pixel = 0; pixel < hits.size(); ++pixel)
+    {
+        const std::size_t tile =
+            pixel / buffers.width / gpu::kTileEdge * tiles_x + pixel % buffers.width / gpu::kTileEdge;
+        count += starts[tile] != gpu::kTileDead && hits[pixel].index != gpu::kHitMiss ? 1 : 0;
+    }
+    return count;
+}
+
+} // namespace zvo::cli
