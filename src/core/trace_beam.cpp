@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace_beam.h"
+
+#include "core/trace_passes.h"
+#include "core/trace_ranks.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint64_t kPathCellCount = std::uint64_t{gpu::kPathCells} * gpu::kPathCells * gpu::kPathCells;
+
+// Whether the octree has cells as small as the beam grid's finer ones.
+bool hasFineBeam(const Octree& octree)
+{
+    return octree.grid.nodeLevels() > gpu::kBeamLevels;
+}
+
+// A number near the golden section of count that shares no factor with it.
+std::uint32_t coprimeStride(std::uint32_t count)
+{
+    auto stride = static_cast<std::uint32_t>(0.618 * count) | 1U;
+    while (std::gcd(stride, count) != 1)
+    {
+        ++stride;
+    }
+    return stride;
+}
+
+} // namespace
+
+BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
+    : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
+      masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes),
+      paths(device, "paths", for_dag ? std::uint64_t{gpu::kRankTableOverlays} + 1 : kPathCellCount)
+{
+}
+
+bool hasPaths(const Octree& octree)
+{
+    return octree.grid.nodeLevels() > gpu::kPathLevels;
+}
+
+void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
+{
+    const Octree& octree = tree.octree();
+    if (isEmpty(octree))
+    {
+        return;
+    }
+    const std::uint32_t levels = std::min(octree.grid.nodeLevels(), gpu::kBeamLevels);
+    const std::uint32_t cells = 1U << (2 * levels);
+    const vk::Specialization lists = {tree.entriesPerWord()};
+    {
+        vk::Pass pass = graph.addPass("trace/beam_mark", lists);
+        const gpu::BeamMarkParams params = {pass.read(octree.nodes), pass.write(beam.occupied), levels, cells};
+        pass.dispatch(cells * cells, params);
+    }
+    {
+        vk::Pass pass = graph.addPass("trace/beam_dilate");
+        const gpu::BeamDilateParams params = {pass.read(beam.occupied), pass.write(beam.rows), cells};
+        pass.dispatch(gpu::kBeamRows, params);
+    }
+    for (const bool level2 : {true, false})
+    {
+        vk::Pass pass = graph.addPass("trace/beam_nodes", {level2 ? 1U : 0U});
+        const gpu::BeamNodesParams params = {pass.read(beam.rows), pass.readWrite(beam.masks),
+                                             pass.readWrite(beam.nodes)};
+        pass.dispatch(gpu::kBeamGroup * (level2 ? gpu::kBeamGroup : 1), params);
+    }
+    if (hasFineBeam(octree))
+    {
+        vk::Pass pass = graph.addPass("trace/beam_refine", lists);
+        const gpu::BeamRefineParams params = {pass.read(octree.nodes), pass.read(beam.masks),
+                                              pass.readWrite(beam.nodes)};
+        pass.dispatch(gpu::kBeamRows * gpu::kBeamGroup, params);
+    }
+    if (hasPaths(octree))
+    {
+        vk::Pass pass = graph.addPass("trace/beam_paths", lists);
+        const gpu::BeamPathsParams params = {pass.read(octree.nodes), pass.write(beam.paths)};
+        pass.dispatch(kPathCellCount, params);
+    }
+    if (tree.svdag() != nullptr && octree.hasAttributes())
+    {
+        buildRankTable(graph, tree, beam);
+    }
+}
+
+void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+               const TraceOptions& options, TraceBuffers& buffers)
+{
+    graph.fill(buffers.live, gpu::kNoTile);
+    graph.fill(buffers.args, 0);
+    graph.fill(buffers.status, 0);
+    const PictureTiles tiles(buffers);
+    const bool fine = hasFineBeam(octree);
+    const vk::Specialization constants =
+        withFlags({gpu::kBeamLevels + (fine ? 1 : 0), static_cast<std::uint32_t>(options.stack), fine ? 1U : 0U,
+                   gpu::kTraceStepsMax},
+                  {false, camera.orthographic, options.beam, isEmpty(octree)});
+    vk::Pass pass = graph.addPass("trace/beam", constants);
+    gpu::BeamParams params{};
+    params.nodes = pass.read(beam.nodes);
+    params.starts = pass.write(buffers.starts);
+    params.live = pass.write(buffers.live);
+    params.args = pass.readWrite(buffers.args);
+    params.status = pass.readWrite(buffers.status);
+    params.camera = camera.rays;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    params.block_stride = coprimeStride(tiles.blocks);
+    params.detail = detailOf(options, &camera);
+    pass.dispatch(std::uint64_t{tiles.blocks} * gpu::kBlockTiles, params);
+}
+
+} // namespace zvo

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// From hits to colours.
+#include "core/trace_passes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kBlack = 255U << 24;
+
+gpu::vec3 sunDirection(const TraceOptions& options)
+{
+    const double length = glm::length(options.to_sun);
+    return length > 0.0 ? gpu::vec3(options.to_sun / length) : gpu::vec3(0.0F, 1.0F, 0.0F);
+}
+
+// Least and greatest depth of the grid in front of the camera, in unit space.
+gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
+{
+    const float edge = static_cast<float>(grid.resolution()) / static_cast<float>(grid.rootResolution());
+    const gpu::vec3& forward = camera.rays.forward;
+    const float middle = glm::dot(gpu::vec3(1.0F + 0.5F * edge) - camera.rays.origin, forward);
+    const float reach = 0.5F * edge * (std::fabs(forward.x) + std::fabs(forward.y) + std::fabs(forward.z));
+    return {std::max(middle - reach, 0.0F), std::max(middle + reach, 1e-6F)};
+}
+
+// What the passes have in common that trace rays from hits.
+template <typename Params>
+Params lightParams(vk::Pass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+{
+    Params params{};
+    params.nodes = pass.read(octree.nodes);
+    params.live = pass.read(buffers.live);
+    params.hits = pass.read(buffers.hits);
+    readAttributes(pass, octree, params);
+    params.status = pass.readWrite(buffers.status);
+    params.forward = camera.rays.forward;
+    params.step_x = camera.rays.step_x;
+    params.step_y = camera.rays.step_y;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    return params;
+}
+
+} // namespace
+
+void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+                TraceBuffers& buffers)
+{
+    const Octree& octree = tree.octree();
+    const vk::Specialization constants =
+        withConstants(traverseConstants(tree, options), {camera.orthographic ? 1U : 0U, formToRead(octree, options)});
+    if (options.shadows)
+    {
+        const gpu::vec3 to_sun = sunDirection(options);
+        const auto declare = [&](vk::Pass& pass)
+        {
+            auto params = lightParams<gpu::ShadowParams>(pass, octree, camera, buffers);
+            params.light = pass.readWrite(buffers.light);
+            params.to_sun = to_sun;
+            return params;
+        };
+        addRounds<gpu::ShadowParams>(graph, "trace/shadow", constants, roundsFor(octree, options), buffers.rounds,
+                                     buffers.live.count(), declare, dispatchLive(buffers));
+    }
+    if (options.occlusion_rays != 0)
+    {
+        const Grid& grid = octree.grid;
+        vk::Pass pass = graph.addPass("trace/occlusion", withFlags(constants, {options.shadows}));
+        auto params = lightParams<gpu::OcclusionParams>(pass, octree, camera, buffers);
+        params.light = pass.readWrite(buffers.light);
+        params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
+        params.radius =
+            options.occlusion_reach * static_cast<float>(grid.resolution()) / static_cast<float>(grid.rootResolution());
+        pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
+    }
+}
+
+void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+           TraceBuffers& buffers)
+{
+    const Octree& octree = tree.octree();
+    const gpu::vec3 to_sun = sunDirection(options);
+    if (options.view == View::Color)
+    {
+        vk::Pass pass = graph.addPass("trace/sky", withFlags({}, {camera.orthographic}));
+        gpu::SkyParams params{};
+        params.image = pass.write(buffers.image);
+        params.forward = camera.rays.forward;
+        params.step_x = camera.rays.step_x;
+        params.step_y = camera.rays.step_y;
+        params.to_sun = to_sun;
+        params.width = buffers.width;
+        params.height = buffers.height;
+        params.sun = options.sun;
+        params.exposure = options.exposure;
+        const std::uint64_t rows = (buffers.height + gpu::kSkyRows - 1) / gpu::kSkyRows;
+        pass.dispatch(rows * buffers.width, params);
+    }
+    else
+    {
+        graph.fill(buffers.image, kBlack);
+    }
+    const vk::Specialization constants = withFlags({static_cast<std::uint32_t>(options.view), octree.grid.nodeLevels(),
+                                                    camera.orthographic ? 1U : 0U, formToRead(octree, options)},
+                                                   {usesAttributes(octree, options) && octree.emission.count() != 0,
+                                                    needsLight(options) || options.view == View::Iterations});
+    vk::Pass pass = graph.addPass("trace/shade", constants);
+    gpu::ShadeParams params{};
+    params.live = pass.read(buffers.live);
+    params.hits = pass.read(buffers.hits);
+    params.light = pass.read(buffers.light);
+    readAttributes(pass, octree, params);
+    params.emission_words = pass.read(octree.emission_words);
+    params.emission = pass.read(octree.emission);
+    params.image = pass.readWrite(buffers.image);
+    params.forward = camera.rays.forward;
+    params.step_x = camera.rays.step_x;
+    params.step_y = camera.rays.step_y;
+    params.sun = options.view == View::Depth ? gpu::vec3(depthRange(octree.grid, camera), 0.0F) : options.sun * to_sun;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    params.emission_scale = octree.emission_scale;
+    params.exposure = options.exposure;
+    pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
+}
+
+} // namespace zvo

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace_passes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zvo
+{
+
+bool isEmpty(const Octree& octree)
+{
+    return octree.node_count == 0;
+}
+
+bool usesAttributes(const Octree& octree, const TraceOptions& options)
+{
+    return octree.hasAttributes() && (!options.hasDetail() || octree.hasNodeAttributes());
+}
+
+std::uint32_t formToRead(const Octree& octree, const TraceOptions& options)
+{
+    return static_cast<std::uint32_t>(usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None);
+}
+
+vk::Specialization traverseConstants(const TreeView& tree, const TraceOptions& options)
+{
+    return {tree.octree().grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), options.hasDetail() ? 1U : 0U,
+            options.steps_max, tree.entriesPerWord()};
+}
+
+vk::Specialization withConstants(vk::Specialization constants, std::initializer_list<std::uint32_t> more)
+{
+    constants.insert(constants.end(), more.begin(), more.end());
+    return constants;
+}
+
+vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more)
+{
+    constants.insert(constants.end(), more.begin(), more.end());
+    return constants;
+}
+
+std::uint32_t roundsFor(const Octree& octree, const TraceOptions& options)
+{
+    const std::uint64_t steps = std::uint64_t{4} * octree.grid.resolution() + gpu::kTraceRoundsMax * 16;
+    return static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(divideUp(steps, options.steps_max), gpu::kTraceRoundsMax));
+}
+
+gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera)
+{
+    gpu::vec2 detail(0.0F);
+    if (options.detail_level != UINT32_MAX)
+    {
+        detail.y = std::ldexp(1.0F, -2 * static_cast<int>(std::min(options.detail_level, gpu::kNodeLevelsMax)));
+    }
+    if (camera != nullptr)
+    {
+        const float width = 2.0F * glm::length(camera->rays.step_x) * options.detail_pixels;
+        float& part = camera->orthographic ? detail.y : detail.x;
+        part = std::max(part, width);
+    }
+    return detail;
+}
+
+bool needsLight(const TraceOptions& options)
+{
+    return options.view == View::Color && (options.shadows || options.occlusion_rays != 0);
+}
+
+} // namespace zvo

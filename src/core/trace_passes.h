@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// What the files that record the tracer's passes share.
+#pragma once
+
+#include "core/divide_up.h"
+#include "core/trace.h"
+#include "core/tree_view.h"
+
+#include <cstdint>
+#include <initializer_list>
+
+namespace zvo
+{
+
+/// The tiles of a picture, and the blocks of tiles that workgroups of trace/beam take.
+struct PictureTiles
+{
+    std::uint32_t x;
+    std::uint32_t y;
+    std::uint32_t blocks;
+
+    explicit PictureTiles(const TraceBuffers& buffers)
+        : x((buffers.width + gpu::kTileEdge - 1) / gpu::kTileEdge),
+          y((buffers.height + gpu::kTileEdge - 1) / gpu::kTileEdge),
+          blocks(((x + gpu::kBlockEdge - 1) / gpu::kBlockEdge) * ((y + gpu::kBlockEdge - 1) / gpu::kBlockEdge))
+    {
+    }
+};
+
+bool isEmpty(const Octree& octree);
+
+/// Whether there are attributes for every hit that can occur.
+bool usesAttributes(const Octree& octree, const TraceOptions& options);
+
+/// The form in which kernels read attributes; None: they need not.
+std::uint32_t formToRead(const Octree& octree, const TraceOptions& options);
+
+/// Declares that pass reads attributes, whatever their form.
+template <typename Params> void readAttributes(vk::Pass& pass, const Octree& octree, Params& params)
+{
+    if (isPacked(octree.attributeForm()))
+    {
+        params.attributes = {pass.read(octree.packed.voxels).address};
+        params.node_attributes = {pass.read(octree.packed.nodes).address};
+        return;
+    }
+    params.attributes = pass.read(octree.voxel_attributes);
+    params.node_attributes = pass.read(octree.node_attributes);
+}
+
+/// The constants that every kernel with lib/traverse.glsl begins with.
+vk::Specialization traverseConstants(const TreeView& tree, const TraceOptions& options);
+
+vk::Specialization withConstants(vk::Specialization constants, std::initializer_list<std::uint32_t> more);
+vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more);
+
+/// How many rounds answer every ray: for a grid of n voxels per edge it crosses at most 3 n planes and goes down into
+/// at most n nodes, and once from the root in each round.
+std::uint32_t roundsFor(const Octree& octree, const TraceOptions& options);
+
+/// Whether traceLight has something to do.
+bool needsLight(const TraceOptions& options);
+
+/// Records a pass for each round that rays may need: declare() returns what its kernel takes. The first goes as
+/// dispatch_first says, the others over as many workgroups as the round before asks for (max_groups at most): none,
+/// once all rays are answered.
+template <typename Params, typename Declare, typename Dispatch>
+void addRounds(vk::FrameGraph& graph, const char* kernel, const vk::Specialization& constants,
+               std::uint32_t round_count, vk::BufferOf<gpu::DispatchArgs>& rounds, std::uint64_t max_groups,
+               const Declare& declare, const Dispatch& dispatch_first)
+{
+    if (round_count > 1)
+    {
+        graph.fill(rounds, 0);
+    }
+    for (std::uint32_t round = 0; round < round_count; ++round)
+    {
+        const bool more = round + 1 < round_count;
+        vk::Pass pass = graph.addPass(kernel, withFlags(constants, {round != 0, more}));
+        Params params = declare(pass);
+        params.rounds = more ? pass.readWrite(rounds) : gpu::Ptr<gpu::DispatchArgs>{};
+        params.round = round + 1;
+        if (round == 0)
+        {
+            dispatch_first(pass, params);
+        }
+        else
+        {
+            pass.dispatchIndirect(rounds, round, params, max_groups);
+        }
+    }
+}
+
+/// Nodes whose edge is at most max(x * t, y) stop a ray.
+gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera);
+
+/// Dispatches the first round of the rays of live tiles.
+inline auto dispatchLive(const TraceBuffers& buffers)
+{
+    return [&](vk::Pass& pass, const auto& params)
+    { pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count()); };
+}
+
+} // namespace zvo
