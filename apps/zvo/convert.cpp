@@ -5,6 +5,7 @@
 #include "core/gpu_scene.h"
 #include "core/input_error.h"
 #include "core/kernels.h"
+#include "core/nvdb_write.h"
 #include "core/octree_build.h"
 #include "core/read_file.h"
 #include "core/svdag.h"
@@ -30,7 +31,7 @@ namespace zvo::cli
 namespace
 {
 
-constexpr std::array<std::string_view, 5> kFormats = {"ply", "vox", "morton", "glb", "zvo"};
+constexpr std::array<std::string_view, 6> kFormats = {"ply", "vox", "morton", "glb", "nvdb", "zvo"};
 
 std::string formatOf(const ConvertOptions& options)
 {
@@ -39,11 +40,6 @@ std::string formatOf(const ConvertOptions& options)
         return options.format;
     }
     const std::string extension = extensionOf(options.output.path);
-    if (extension == ".nvdb")
-    {
-        throw Error(ErrorCode::Usage,
-                    fmt::format("-o {}: NanoVDB files cannot be written; take .ply or .vox", options.output.path));
-    }
     const std::string format = extension.empty() ? extension : extension.substr(1);
     if (std::find(kFormats.begin(), kFormats.end(), format) == kFormats.end())
     {
@@ -111,6 +107,10 @@ void writeTree(const TreeData& tree, const std::string& format, Output& output)
     else if (format == "glb")
     {
         writeGlb(tree, write);
+    }
+    else if (format == "nvdb")
+    {
+        writeNvdb(tree, write);
     }
     else
     {

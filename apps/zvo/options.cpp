@@ -195,16 +195,16 @@ CLI::App* addConvert(CLI::App& app, ConvertOptions& options)
     convert->add_option("FILE", options.file, "a .zvo or .vox file")->required()->type_name("FILE");
     addStructureOption(*convert, options.structure);
     addText(*convert, "-o,--output", options.output.path, "FILE",
-            "a .ply, .vox, .morton, .glb or .zvo file; - is standard output")
+            "a .ply, .vox, .morton, .glb, .nvdb or .zvo file; - is standard output")
         ->required()
         ->group("Output");
     convert->add_flag("-f,--force", options.output.overwrite, "overwrite a file that exists")->group("Output");
     addValue(
         *convert, "--format", options.format,
         [](std::string_view option, std::string_view text) {
-            return oneOf(option, text, {"ply", "vox", "morton", "glb", "zvo"});
+            return oneOf(option, text, {"ply", "vox", "morton", "glb", "nvdb", "zvo"});
         },
-        "FORMAT", "what to write: ply, vox, morton, glb or zvo (default: as the output's extension says)")
+        "FORMAT", "what to write: ply, vox, morton, glb, nvdb or zvo (default: as the output's extension says)")
         ->group("Output");
     addDeviceOptions(*convert, options.device);
     convert->footer(kConvertFooter);

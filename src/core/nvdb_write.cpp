@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "core/nvdb_write.h"
+
+#include "core/tree_build.h"
+
+#include <nanovdb/util/GridBuilder.h>
+#include <nanovdb/util/IO.h>
+
+#include <cstdint>
+#include <sstream>
+#include <string>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without attributes
+
+nanovdb::Rgba8 rgbaOf(std::uint32_t color)
+{
+    return {static_cast<std::uint8_t>(color), static_cast<std::uint8_t>(color >> 8),
+            static_cast<std::uint8_t>(color >> 16)};
+}
+
+nanovdb::GridHandle<> gridOf(const TreeData& tree)
+{
+    using Builder = nanovdb::GridBuilder<nanovdb::Rgba8>;
+    Builder builder(nanovdb::Rgba8(std::uint8_t{0}), nanovdb::GridClass::VoxelVolume);
+    auto values = builder.getAccessor();
+    std::uint64_t voxel = 0;
+    forEachVoxel(tree,
+                 [&](std::uint64_t code)
+                 {
+                     const glm::ivec3 cell(cellOfCode(code));
+                     const std::uint32_t color = tree.hasAttributes() ? tree.voxelAttribute(voxel).color : kPlainColor;
+                     values.setValue({cell.x, cell.y, cell.z}, rgbaOf(color));
+                     ++voxel;
+                 });
+    const glm::dvec3 centre = glm::dvec3(tree.grid.origin) + 0.5 * double{tree.grid.voxel_size};
+    return builder.getHandle(double{tree.grid.voxel_size}, {centre.x, centre.y, centre.z}, "zvo");
+}
+
+// What stands before the grid. The library's own way of writing files needs one that it can go back in.
+std::string headOf(const nanovdb::GridHandle<>& grid)
+{
+    nanovdb::io::Segment segment;
+    segment.add(grid);
+    segment.meta.front().fileSize = grid.size();
+    std::ostringstream head;
+    segment.write(head);
+    return head.str();
+}
+
+} // namespace
+
+void writeNvdb(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+{
+    const nanovdb::GridHandle<> grid = gridOf(tree);
+    const std::string head = headOf(grid);
+    write(std::as_bytes(std::span(head)));
+    write({reinterpret_cast<const std::byte*>(grid.data()), grid.size()});
+}
+
+} // namespace zvo
