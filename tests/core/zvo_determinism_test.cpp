@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// One file, byte for byte, for a scene whose triangles and instances come in any order, in each form of attributes.
+#include "core/attribute_pack.h"
+#include "core/kernels.h"
+#include "core/pipeline.h"
+#include "core/sha256.h"
+#include "core/tiled_build.h"
+#include "core/zvo_file.h"
+#include "support/device.h"
+#include "support/materials_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+std::string sha256Of(const TreeData& tree)
+{
+    std::vector<std::byte> file;
+    writeZvo(tree, [&file](std::span<const std::byte> more) { file.insert(file.end(), more.begin(), more.end()); });
+    return sha256Hex(file);
+}
+
+Scene shuffled(const Scene& scene, std::uint32_t seed)
+{
+    std::mt19937 random(seed);
+    Scene result = scene;
+    for (Primitive& primitive : result.primitives)
+    {
+        std::shuffle(primitive.triangles.begin(), primitive.triangles.end(), random);
+    }
+    std::shuffle(result.instances.begin(), result.instances.end(), random);
+    return result;
+}
+
+struct Sums
+{
+    std::string svo;
+    std::string svdag;
+    std::string svdag_of_tiles;
+};
+
+Sums sumsOf(const Scene& scene, const Grid& grid, AttributeForm form)
+{
+    const bool attributes = form != AttributeForm::None;
+    const GpuScene gpu_scene = uploadScene(device(), scene, attributes);
+    Octree octree = buildOctree(device(), gpu_scene, grid, {Coverage::Thin, attributes, {}}).octree;
+    packTree(device(), form, octree);
+    Sums sums;
+    sums.svo = sha256Of(downloadTree(device(), octree));
+    sums.svdag = sha256Of(downloadTree(device(), compress(device(), std::move(octree)).dag));
+    const TiledOptions tiled{.attributes = form, .tile_depth = 4};
+    sums.svdag_of_tiles = sha256Of(buildByTiles(device(), gpu_scene, grid, tiled).tree);
+    return sums;
+}
+
+class ZvoBytes : public testing::TestWithParam<AttributeForm>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(Forms, ZvoBytes,
+                         testing::Values(AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8,
+                                         AttributeForm::Blocks),
+                         [](const auto& form) { return std::string("Form_") + formName(form.param); });
+
+TEST_P(ZvoBytes, DoNotDependOnTheOrderOfTrianglesAndInstances)
+{
+    const Scene scene = test::materialsScene(10.0F);
+    const Grid grid = Grid::around(scene.bounds(), 6);
+    const Sums expected = sumsOf(scene, grid, GetParam());
+    EXPECT_NE(expected.svo, expected.svdag);
+    EXPECT_EQ(expected.svdag_of_tiles, expected.svdag);
+    for (std::uint32_t seed = 1; seed <= 3; ++seed)
+    {
+        const Sums sums = sumsOf(shuffled(scene, seed), grid, GetParam());
+        EXPECT_EQ(sums.svo, expected.svo) << seed;
+        EXPECT_EQ(sums.svdag, expected.svdag) << seed;
+        EXPECT_EQ(sums.svdag_of_tiles, expected.svdag) << seed;
+    }
+}
+
+} // namespace
+} // namespace zvo
