@@ -61,7 +61,7 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     const bool count_iterations = options.view == View::Iterations;
     const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !options.hasDetail();
     const bool wants_ranks = tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options);
-    const bool has_ranks = wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
+    const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
     const vk::Specialization constants =
         withFlags(traverseConstants(tree, options),
                   {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree),

@@ -81,13 +81,14 @@ struct TraceBuffers
     vk::BufferOf<gpu::uint> image;          // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
 };
 
-/// Records the passes that make the beam grid of tree: once for each tree. Cost: constant, and the cells
-/// that the tree touches in the beam grid.
+/// Records the passes that make the beam grid of tree: once for each tree, and again whenever a DynamicOctree shows
+/// another one. Cost: constant, and the cells that the tree touches in the beam grid.
 void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam);
 
 /// Records the passes that find what each pixel's ray hits first: fills buffers.starts, live, args, status, hits (and
 /// light with iteration counts for View::Iterations). Of a DAG, Hit::index is undefined where options show no
-/// attributes or there are none. Cost: pixels of tiles that are near something.
+/// attributes or there are none. beam: buildBeam()'s of this tree, or anything without TraceOptions::beam. Cost: pixels
+/// of tiles that are near something.
 void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers);
 
