@@ -71,8 +71,8 @@ std::ostream& operator<<(std::ostream& out, const Command& command)
 }
 
 DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, MoverScenery& scenery)
-    : m_device(device), m_setting(setting), m_scenery(scenery), m_beam(device.device()), m_camera(setting.camera()),
-      m_line(setting.steps_max)
+    : m_device(device), m_setting(setting), m_scenery(scenery), m_beam(device.device(), setting.compressed),
+      m_camera(setting.camera()), m_line(setting.steps_max)
 {
     m_setting.shot.coarse = setting.shot.coarse && !isRuled(); // averages of such nodes are not known
     for (std::uint32_t i = 0; i < setting.frames_in_flight; ++i)
