@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The voxels of touched leaves, and the layers' voxels in the same places. The includer includes update/update.h.
+#include "lib/emission.glsl"
 #include "lib/node.glsl"
 
 layout(constant_id = 0) const uint kMerge = kMergeAverage;
@@ -83,6 +84,12 @@ MergedVoxel mergedVoxel(MergedLeaf leaf, uint n)
     return voxel;
 }
 
+// Whether the fragments that a voxel of the base tree was made of are known.
+bool hasBaseSums(MergedVoxel voxel)
+{
+    return voxel.base != kNoVoxel && voxel.base < params.view.data[0].base_voxel_count;
+}
+
 // What a layer has in the place of a voxel.
 struct LayerVoxel
 {
@@ -130,6 +137,5 @@ bool emitsIn(LayerVoxel place)
 
 uint emissionPlaceIn(LayerVoxel place)
 {
-    uvec2 word = place.layer.emission_words.data[place.voxel >> 5];
-    return word.y + bitCount(word.x & ((1u << (place.voxel & 31u)) - 1u));
+    return emissionPlace(place.layer.emission_words, place.voxel);
 }

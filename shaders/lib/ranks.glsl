@@ -58,3 +58,26 @@ void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNod
     if (with_rank)
         at.rank += 1u + place - entryPlace(source, at.node, 0u);
 }
+
+// From a node of a base tree, which may have been edited (edit/edit.h), to the child in a cell, which exists. ranked:
+// whether ranks are kept, as for a DAG with attributes. Otherwise, of an octree, a node's rank is its number, and voxels
+// stay 0.
+void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, bool to_leaf, bool ranked,
+                 inout RankedNode at)
+{
+    uint place = childIndex(source.pool.data[at.node], cell);
+    if (!ranked)
+    {
+        uint child = kEntriesPerWord != 0u ? listedChild(source.pool, place, kEntriesPerWord) : place;
+        at = RankedNode(child, 0u, child);
+        return;
+    }
+    if (descendInOverlay(source, overlay_ranks, cell, at))
+        return;
+    uint child = listedChild(source.pool, place, kEntriesPerWord);
+    if (to_leaf)
+        descendToLeaf(source, cell, true, at);
+    else
+        descend(source, cell, at);
+    at.node = child;
+}

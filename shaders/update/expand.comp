@@ -35,24 +35,17 @@ uvec2 childKey(uvec2 key, uint cell)
 
 // The child of a touched node's base node in a cell where it has one. rank: of the base octree's node, where attributes
 // need it; of an octree, the node.
-RankedNode baseChild(TouchedNode parent, Node node, uint cell)
+RankedNode baseChild(TouchedNode parent, uint cell)
 {
-    uint place = childIndex(node, cell);
-    if (!kLists)
-        return RankedNode(place, 0u, place);
-    Node_ConstPtr pool = Node_ConstPtr(uint64_t(params.nodes));
+    RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,
+                                   params.first_short_place);
     RankedNode at = RankedNode(parent.base, 0u, 0u);
     if (kRanks)
     {
-        RankSource source = RankSource(pool, params.before, params.voxels_before_leaf, params.first_short_place);
         BeforeChild rank = params.ranks.data[parent.node];
         at = RankedNode(parent.base, rank.voxels, rank.nodes);
-        if (kLeaves)
-            descendToLeaf(source, cell, true, at);
-        else
-            descend(source, cell, at);
     }
-    at.node = listedChild(pool, place, kEntriesPerWord);
+    descendBase(source, BeforeChild_ConstPtr(uint64_t(params.ranks)), cell, kLeaves, kRanks, at);
     return at;
 }
 
@@ -75,7 +68,7 @@ void main()
     {
         Node base_node = params.nodes.data[touched.base];
         if (hasChild(base_node, cell))
-            base = baseChild(touched, base_node, cell);
+            base = baseChild(touched, cell);
     }
     uint slot = child - params.first_node;
     Node merged = Node(0u, 0u, 0u, 0u);
@@ -99,7 +92,9 @@ void main()
     {
         params.counts.data[slot] = 0u;
         if (kAttributes)
-            params.node_attributes.data[child + params.attribute_offset] = params.node_attributes.data[base.rank];
+            params.node_attributes.data[child + params.attribute_offset] =
+                params.node_attributes.data[base.node >= params.static_root ? base.node + params.attribute_offset
+                                                                            : base.rank];
         if (kRanks && kLeaves) // as an octree's leaf
         {
             merged.base_lo += base.voxels;

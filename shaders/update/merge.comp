@@ -31,7 +31,7 @@ void mergeVoxel(MergedVoxel voxel)
     if (dynamic)
     {
         uint flags = emits ? kAttributeEmissive : 0u;
-        if (kMerge == kMergeAverage && voxel.base != kNoVoxel)
+        if (kMerge == kMergeAverage && hasBaseSums(voxel))
         {
             addSums(sums, params.view.data[0].sums.data[voxel.base], params.view.data[0].base_shift);
             flags |= look.color >> 24;

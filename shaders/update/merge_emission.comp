@@ -9,14 +9,9 @@
 
 layout(local_size_x = kUpdateGroup) in;
 
-uint emissionPlace(uint voxel)
-{
-    uvec2 word = params.emission_words.data[voxel >> 5];
-    return word.y + bitCount(word.x & ((1u << (voxel & 31u)) - 1u));
-}
-
 void mergeEmission(MergedVoxel voxel)
 {
+    uvec2_ConstPtr words = uvec2_ConstPtr(uint64_t(params.emission_words));
     if (((params.attributes.data[voxel.index].color >> 24) & kAttributeEmissive) == 0u)
         return;
     bool base_emits = false;
@@ -38,20 +33,20 @@ void mergeEmission(MergedVoxel voxel)
     uint result = 0u;
     if (fragments != 0u && !(kMerge == kMergeStatic && voxel.base != kNoVoxel))
     {
-        if (kMerge == kMergeAverage && voxel.base != kNoVoxel)
+        if (kMerge == kMergeAverage && hasBaseSums(voxel))
         {
             fragments += params.view.data[0].sums.data[voxel.base].fragments;
             if (base_emits)
-                addEmission(sums, params.view.data[0].emission_sums.data[emissionPlace(voxel.base)],
+                addEmission(sums, params.view.data[0].emission_sums.data[emissionPlace(words, voxel.base)],
                             params.view.data[0].base_shift);
         }
         result = resolveEmission(sums, fragments, params.sum_shift);
     }
     else
     {
-        result = params.emission.data[emissionPlace(voxel.base)];
+        result = params.emission.data[emissionPlace(words, voxel.base)];
     }
-    params.emission.data[emissionPlace(voxel.index)] = result;
+    params.emission.data[emissionPlace(words, voxel.index)] = result;
 }
 
 void main()

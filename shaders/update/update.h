@@ -212,6 +212,7 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     uint first_partial;     // of the level
     uint attribute_offset;  // 0 for an octree
     uint first_short_place; // as in RankSource
+    uint static_root;
 };
 
 struct OverlayScanParams // push constants of update/scan: one workgroup
@@ -249,6 +250,7 @@ struct MergeView
     GPU_CONST_PTR(VoxelSums) sums;             // of the base tree's voxels; kMergeAverage only
     GPU_CONST_PTR(EmissionSums) emission_sums; // of its emissive voxels; likewise
     uint base_shift;                           // bits that these sums have more than those of the layers
+    uint base_voxel_count; // voxels that have sums: others, which a brush has changed, count as nothing
 };
 GPU_BUFFER(MergeView, 8);
 

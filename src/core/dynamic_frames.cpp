@@ -10,8 +10,10 @@ namespace zvo
 
 std::uint64_t DynamicOctree::beginFrame()
 {
-    m_overlays.frameSubmitted(m_retired); // before its number changes
+    m_overlays.frameSubmitted(m_retired); // before its number changes, as the next
+    m_edits.frameSubmitted();
     const std::uint64_t frame = m_history.beginFrame();
+    m_edits.beginFrame(frame);
     m_retired.beginFrame(frame);
     m_has_recorded = false;
     return frame;
@@ -19,6 +21,7 @@ std::uint64_t DynamicOctree::beginFrame()
 
 void DynamicOctree::frameLost()
 {
+    m_edits.endStroke();
     if (!m_has_recorded)
     {
         return;
@@ -36,6 +39,7 @@ void DynamicOctree::frameLost()
     m_overlays.frameLost(m_retired);
     m_movers.frameLost(frame);
     m_history.frameLost();
+    m_edits.frameLost();
     m_needs_update = true;
     m_owes_root = true;
     m_has_recorded = false;
@@ -98,10 +102,12 @@ std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::spa
         m_pending_updates.pop_front();
         reports.push_back(learnUpdate(pending));
     }
+    m_edits.frameDone(frame);
     m_history.frameDone(frame);
     if (frame == m_retired.frame())
     {
         m_overlays.frameSubmitted(m_retired);
+        m_edits.frameSubmitted();
         m_has_recorded = false;
     }
     m_retired.frameDone(frame);

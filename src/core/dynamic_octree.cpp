@@ -54,8 +54,10 @@ DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, StaticTree fixed, const
                 options.frames_in_flight * kUpdatesPerFrame,
                 options.minimal_capacities},
                m_retired),
-      m_history(m_overlays.arena(), options.history), m_tables(uploadScene(device, Scene{}, true)),
-      m_sum_shift(m_overlays.sums().sum_shift), m_sizes(options.minimal_capacities)
+      m_history(m_overlays.arena(), options.history),
+      m_edits(device, m_overlays, m_history, options.edits, options.frames_in_flight),
+      m_tables(uploadScene(device, Scene{}, true)), m_sum_shift(m_overlays.sums().sum_shift),
+      m_sizes(options.minimal_capacities)
 {
     vk::Device& d = device.device();
     m_merge_view = {d, "update/merge_view", 1};
@@ -106,7 +108,7 @@ RootPlace DynamicOctree::rootOf(const RootStep& step) const
             std::ranges::find(m_pending_updates, step.id, [](const PendingUpdate& update) { return update.step; });
         return {gpu::kNoNode, pending->result};
     }
-    return {step.region ? step.region->first_node : staticRoot(), 0};
+    return {step.region ? step.region->first_node : editedRoot(), 0};
 }
 
 // Makes the buffers of the update as large as its layers and its overlay ask for.
@@ -186,7 +188,7 @@ bool DynamicOctree::updateOrWait(vk::FrameGraph& graph, double budget_ms)
 {
     if (m_job == nullptr && m_movers.isEmpty())
     {
-        showRoot(graph, m_overlays.tree(), m_roots, {staticRoot(), 0});
+        showRoot(graph, m_overlays.tree(), m_roots, {editedRoot(), 0});
         m_owes_root = false;
         m_history.push(std::nullopt, {});
     }
@@ -234,8 +236,11 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
     m_sizes.begin(m_movers.leafCapacity());
     prepareBuffers();
     const FragmentSums& sums = m_overlays.sums();
-    const gpu::MergeView view = {
-        {m_tables.view.address()}, {sums.sums.address()}, {sums.emission_sums.address()}, m_sum_shift - sums.sum_shift};
+    const gpu::MergeView view = {{m_tables.view.address()},
+                                 {sums.sums.address()},
+                                 {sums.emission_sums.address()},
+                                 m_sum_shift - sums.sum_shift,
+                                 static_cast<gpu::uint>(sums.sums.count())};
     graph.update(m_merge_view, 0, std::span(&view, 1));
     const std::optional<OverlayRegion> region = allocateRegion(graph);
     if (!region)
@@ -249,6 +254,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
         .merge = {.tree = m_overlays.tree(),
                   .layers = m_movers.layers(),
                   .region = *region,
+                  .base_root = editedRoot(),
                   .merge = m_options.merge,
                   .sum_shift = m_sum_shift,
                   .emission_offset = m_overlays.emissionOffset(),
@@ -328,6 +334,51 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
     m_needs_update = false;
     m_movers.bringBack(step->layers);
     return true;
+}
+
+bool DynamicOctree::edit(vk::FrameGraph& graph, const Brush& brush)
+{
+    m_has_recorded = true;
+    const std::uint64_t before = m_edits.changeCount();
+    const bool is_done = m_edits.dab(graph, brush, m_tables.view, m_retired);
+    if (m_edits.changeCount() != before)
+    {
+        showEdited(graph);
+    }
+    return is_done;
+}
+
+bool DynamicOctree::undoEdit(vk::FrameGraph& graph)
+{
+    if (!m_edits.undo())
+    {
+        return false;
+    }
+    showEdited(graph);
+    return true;
+}
+
+bool DynamicOctree::redoEdit(vk::FrameGraph& graph)
+{
+    if (!m_edits.redo())
+    {
+        return false;
+    }
+    showEdited(graph);
+    return true;
+}
+
+// Shows what strokes have left. What movers were merged with is another tree now, or stands elsewhere.
+void DynamicOctree::showEdited(vk::FrameGraph& graph)
+{
+    m_has_recorded = true;
+    dropJob();
+    m_history.forget();
+    m_needs_update = true; // even without movers, should this fail
+    m_owes_root = true;
+    showRoot(graph, m_overlays.tree(), m_roots, {editedRoot(), 0});
+    m_owes_root = false;
+    m_needs_update = !m_movers.isEmpty();
 }
 
 // Drops the job for reasons of its own: another update has to begin.

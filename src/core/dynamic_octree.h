@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/coverage.h"
+#include "core/edits.h"
 #include "core/mover_set.h"
 #include "core/octree.h"
 #include "core/overlay_octree.h"
@@ -32,6 +33,7 @@ struct DynamicOptions
     MergeRule merge = MergeRule::Average;
     std::uint32_t frames_in_flight = 2; // that may be recorded before frameDone() was told of the first
     HistoryBounds history = {1, UINT64_MAX};
+    EditBounds edits = {};
     float emission_scale = 0;        // common to the static scene and all movers; 0: nothing emits light
     bool attributes = true;          // of an empty static tree, which does not say
     bool minimal_capacities = false; // everything starts with room for one: for tests
@@ -49,14 +51,15 @@ struct UpdateReport
     std::map<std::string, std::uint64_t> dropped = {}; // movers' triangles that were left out, by reason
 };
 
-/// A static octree or DAG into which moving meshes are merged, frame by frame. The static tree never changes: an update
-/// copies the paths that movers touch behind it, and shows the copy; undo shows an older one.
+/// A static octree or DAG that a brush edits and into which moving meshes are merged, frame by frame. The static tree
+/// never changes: an update copies the paths that movers touch behind it, and shows the copy; undo shows an older one.
+/// A brush does the same, and movers are merged with what it leaves. What it does has a history of its own.
 ///
-/// Every frame: beginFrame(), then at most four of update(), undo() and redo(), and the tracing of tree() into a
-/// command buffer, then, once the device is done with it, frameDone(). Frames share buffers: a command buffer is
-/// submitted after those of earlier frames and begins behind a full memory barrier. Nothing waits for the device.
-/// Whatever was made of the tree before (a BeamGrid, addresses of its buffers) is out of date after each of the three
-/// calls. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an update needs
+/// Every frame: beginFrame(), then the brush's calls, then at most four of update(), undo() and redo(), and the tracing
+/// of tree() into a command buffer, then, once the device is done with it, frameDone(). Frames share buffers: a command
+/// buffer is submitted after those of earlier frames and begins behind a full memory barrier. Nothing waits for the
+/// device. Whatever was made of the tree before (a BeamGrid, addresses of its buffers) is out of date after each of the
+/// three calls. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an update needs
 /// beyond the memory there is, it reports; the frame then shows the last root that is complete, and a later update has
 /// more memory. Where recording a frame or submitting it fails, whatever it was, frameLost() takes the frame back, and
 /// the octree goes on.
@@ -105,6 +108,26 @@ public:
     bool undo(vk::FrameGraph& graph);
     bool redo(vk::FrameGraph& graph);
 
+    /// Records a dab of a brush on what does not move. Dabs up to endStroke() are one stroke, a step to be undone. Of
+    /// movers the frame shows nothing until update(), which needsUpdate() asks for where there are any; their history
+    /// ends here. A voxel that lies in a leaf which a brush has changed no longer counts in a mean with movers: these
+    /// win. False, and no dab, while the device has to tell first how much room there is: to be tried again in a later
+    /// frame. Throws Error{Usage} for a radius above kBrushRadiusMax or more than kDabsPerFrameMax dabs in a frame,
+    /// Error{Memory}, and what making a kernel throws: then there is no dab, or needsUpdate() asks for showing it.
+    /// Cost: the brush's volume; where edits need more room, now and then, what they hold.
+    bool edit(vk::FrameGraph& graph, const Brush& brush);
+
+    /// The next dab begins a stroke.
+    void endStroke() { m_edits.endStroke(); }
+
+    /// Records that the strokes before, or behind, are shown again; movers as after edit(). Constant time. False if
+    /// there is none. Throws what making a kernel throws: then needsUpdate() asks for showing them.
+    bool undoEdit(vk::FrameGraph& graph);
+    bool redoEdit(vk::FrameGraph& graph);
+
+    /// What can be undone, and what it holds.
+    [[nodiscard]] const Edits& edits() const { return m_edits; }
+
     /// The device is done with a frame and all before it: learns what its updates came to and, from the times of all
     /// its passes, how much goes into a budget.
     std::vector<UpdateReport> frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes = {});
@@ -112,8 +135,9 @@ public:
     /// The frame that began last does not reach the device, or not all of it: something threw between beginFrame() and
     /// the end of its submission. What it has recorded was not: the history and tree() are those from before it,
     /// which can be traced and updated. Movers stay where they were put, by undo() and redo() as well: needsUpdate().
-    /// Frames before it count as ever. Where the device came as far as that, tree() shows what the frame was to show,
-    /// until the next update(), undo() or redo(). Not for frames that were submitted: frameDone(), however they ended.
+    /// A stroke under way ends, and strokes that could be redone may be gone. Frames before it count as ever. Where the
+    /// device came as far as that, tree() shows what the frame was to show, until the next update(), undo() or redo().
+    /// Not for frames that were submitted: frameDone(), however they ended.
     void frameLost();
 
     /// Whether what is missing has to be shown by another update(): one failed, was given up, was lost or had to wait,
@@ -129,6 +153,9 @@ public:
 
     /// Number of the node behind the static nodes and lists: the static root, untouched by what is shown.
     [[nodiscard]] std::uint32_t staticRoot() const { return m_overlays.tree().static_root; }
+
+    /// Number of the node that movers are merged with: the root of what strokes have left.
+    [[nodiscard]] std::uint32_t editedRoot() const { return m_edits.root(); }
 
 private:
     struct PendingUpdate
@@ -167,6 +194,7 @@ private:
     void dropJob();
     void giveUpJob();
     bool show(vk::FrameGraph& graph, HistoryMove move, HistoryMove back);
+    void showEdited(vk::FrameGraph& graph);
     UpdateReport learnUpdate(const PendingUpdate& pending);
     void setShift(std::uint32_t fragments);
     [[nodiscard]] RootPlace rootOf(const RootStep& step) const;
@@ -177,6 +205,7 @@ private:
     OverlayOctree m_overlays;
     MoverSet m_movers;
     RootHistory m_history;
+    Edits m_edits;
     GpuScene m_tables; // a scene of nothing: the tables of sRGB codes
     vk::BufferOf<gpu::MergeView> m_merge_view;
     std::uint32_t m_sum_shift; // of the layers

@@ -25,6 +25,9 @@ struct OverlaidTree
     /// Only of a DAG with attributes.
     vk::BufferOf<gpu::BeforeChild> ranks;
 
+    [[nodiscard]] bool hasRanks() const { return ranks.count() != 0; }
+    [[nodiscard]] bool hasAttributes() const { return dag.tree.node_attributes.count() != 0; }
+
     /// From the number of static_root, or of a node behind it, to the index of its attributes, modulo 2^32.
     [[nodiscard]] std::uint32_t attributeOffset() const { return dag.octree_node_count - static_root; }
 

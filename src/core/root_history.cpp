@@ -223,6 +223,13 @@ std::optional<RootStep> RootHistory::redo()
     return redoCount() == 0 ? std::nullopt : std::optional(describe(++m_current));
 }
 
+void RootHistory::forget()
+{
+    keepSteps();
+    m_steps.resize(1);
+    m_current = 0;
+}
+
 void RootHistory::frameDone(std::uint64_t frame)
 {
     assert(frame <= m_frame);

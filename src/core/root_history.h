@@ -108,6 +108,9 @@ public:
     [[nodiscard]] std::size_t undoCount() const { return m_current; }
     [[nodiscard]] std::size_t redoCount() const { return m_steps.size() - 1 - m_current; }
 
+    /// The first step becomes the current one and the only one: what others show has become something else.
+    void forget();
+
     /// A frame begins to be recorded; returns its number: 1, 2, 3...
     std::uint64_t beginFrame();
 

@@ -11,12 +11,6 @@ namespace zvo
 namespace
 {
 
-// Whether nodes of overlays need the ranks of those in their place (update/update.h).
-bool hasRanks(const OverlaidTree& tree)
-{
-    return tree.ranks.count() != 0;
-}
-
 std::uint32_t partialsPerLevel(const UpdateBuffers& buffers)
 {
     return static_cast<std::uint32_t>(divideUp(buffers.counts.count(), gpu::kScanBlock));
@@ -81,7 +75,7 @@ void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buff
 {
     Octree& octree = job.tree.dag.tree;
     const bool attributes = octree.node_attributes.count() != 0;
-    vk::Pass pass = graph.addPass("update/root", {attributes ? 1U : 0U, hasRanks(job.tree) ? 1U : 0U});
+    vk::Pass pass = graph.addPass("update/root", {attributes ? 1U : 0U, job.tree.hasRanks() ? 1U : 0U});
     gpu::RootParams params{};
     params.bricks = pass.read(buffers.bricks);
     params.items = pass.read(buffers.work.items);
@@ -95,7 +89,7 @@ void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buff
     params.args = pass.write(buffers.args);
     params.status = pass.readWrite(buffers.status);
     params.level_count = octree.grid.nodeLevels();
-    params.base_root = job.tree.static_root;
+    params.base_root = job.base_root;
     params.first_node = job.region.first_node;
     params.node_capacity = job.region.node_capacity;
     params.first_voxel = job.region.first_voxel;
@@ -128,7 +122,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         params.counts = pass.write(buffers.counts);
         params.partials = pass.readWrite(buffers.partials);
         params.levels = pass.read(buffers.levels);
-        if (hasRanks(tree))
+        if (tree.hasRanks())
         {
             const gpu::RankSource source = rankSource(pass, tree.dag);
             params.before = source.before;
@@ -142,6 +136,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         params.first_node = job.region.first_node;
         params.first_partial = first_partial;
         params.attribute_offset = tree.attributeOffset();
+        params.static_root = tree.static_root;
         pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, groups_max);
     }
     {
@@ -179,7 +174,7 @@ void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& bu
     Octree& octree = job.tree.dag.tree;
     const bool emits = octree.emission_words.count() != 0;
     vk::Pass pass =
-        graph.addPass(kernel, {static_cast<std::uint32_t>(job.merge), emits ? 1U : 0U, hasRanks(job.tree) ? 1U : 0U});
+        graph.addPass(kernel, {static_cast<std::uint32_t>(job.merge), emits ? 1U : 0U, job.tree.hasRanks() ? 1U : 0U});
     gpu::MergeParams params{};
     params.view = pass.read(job.view);
     pass.read(job.tables);

@@ -54,12 +54,13 @@ struct RootPlace
     std::uint32_t place = 0;
 };
 
-/// One update: which layers are merged with which static tree, and where the result goes.
+/// One update: which layers are merged with which base tree, and where the result goes.
 struct UpdateJob
 {
     OverlaidTree& tree;
     std::vector<const LayerBuffers*> layers; // at most kLayersMax
     OverlayRegion region;
+    std::uint32_t base_root = 0; // node of what is merged with: the static root, or that of an edited tree
     MergeRule merge = MergeRule::Average;
     std::uint32_t sum_shift = 0;                // of the layers
     std::uint32_t emission_offset = 0;          // from a voxel of an overlay to its place among emission values

@@ -3,6 +3,7 @@
 #include "attributes/attributes.h"
 #include "core/kernels.h"
 #include "deform/deform.h"
+#include "edit/edit.h"
 #include "octree/octree.h"
 #include "support/spirv_structs.h"
 #include "svdag/svdag.h"

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+// What the kernels of brush editing share with the host.
+//
+// A dab of a brush copies every path of a base tree that leads to a leaf which it changes, and changes the copy: the
+// tree before it stays as it is, and older ones are shown again in constant time (persistent trees: J. Driscoll et al.,
+// Making Data Structures Persistent, 1989; on voxel DAGs: V. Careil, M. Billeter, E. Eisemann, Interactively Modifying
+// Compressed Sparse Voxel Representations, 2020). Copies stand in one region behind the static tree's nodes and
+// attributes, and look like an overlay's nodes (update/update.h): children stand together, leaves have voxels' indices
+// as bases, and above a DAG each has the rank of the static octree's node in its place; of leaves, only that of the
+// node, as their bases are voxel numbers already.
+//
+//     nodes       | ... | roots, one a place | copies of dab 1 | dab 2 | ...                  room |
+//     attributes  | ... | voxels of changed leaves: dab 1 | dab 2 | ...                       room |
+//                                                             ▲ tops of the place that is shown
+//
+// A *place* has a root and an EditState, which says how far up the copies reach that it is made of. A dab begins at the
+// state of the place that it changes, so what stood above that is forgotten: undo is another place, and a dab after it
+// takes the room of those that it undoes.
+//
+// The cells of a dab are the nodes, of all levels, that its box touches: the root first, each level x first. Their
+// number depends on the brush alone, not on the tree.
+#ifndef ZVO_SHADERS_EDIT_EDIT_H
+#define ZVO_SHADERS_EDIT_EDIT_H
+
+#include "octree/octree.h"
+#include "shared/octree.h"
+#include "shared/scene.h"
+#include "shared/svdag.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kEditGroup = 64u; // threads of most workgroups: for a node's children, or a leaf's voxels, one each
+
+// Brush::shape
+const uint kBrushSphere = 0u; // voxels whose centres are less than radius + 1/2 voxels away
+const uint kBrushBox = 1u;    // voxels at most radius away along each axis
+
+// Brush::action
+const uint kBrushCarve = 0u; // takes voxels away
+const uint kBrushFill = 1u;  // makes voxels where there are none
+const uint kBrushPaint = 2u; // gives voxels another colour, and takes their emission away
+
+const uint kBrushRadiusMax = 64u; // voxels
+
+/// What a dab does, and where.
+struct Brush
+{
+    ivec3 center; // voxel; may lie outside of the grid
+    uint radius;  // voxels beside it along each axis, at most kBrushRadiusMax
+    uint shape;
+    uint action;
+    uint color; // of voxels that are made or painted: sRGB red | green << 8 | blue << 16
+};
+
+/// The voxels of the grid that a brush can reach, not empty, and the cells there.
+struct EditBox
+{
+    uvec3 lo;
+    uvec3 hi; // the last one
+    uint level_count;
+};
+
+/// A node, or a place where there is none, under the brush.
+struct EditCell
+{
+    uint base;    // node of the base tree, or kNoEditNode
+    uint voxels;  // rank of the static octree's node in the same place; of a leaf, what its bases lack
+    uint rank;    // likewise, of nodes; of an octree, base
+    uint mask_lo; // after the dab
+    uint mask_hi;
+    uint changed; // 0 or 1
+    uint first;   // of changed ones: the first child node, or the first voxel of a leaf
+    uint node;    // of changed ones: the copy
+};
+GPU_BUFFER(EditCell, 4);
+
+const uint kNoEditNode = ~0u;
+
+/// How far up the copies of a place reach.
+struct EditState
+{
+    uint node_top;    // the first free node
+    uint voxel_top;   // the first free voxel attribute
+    uint voxel_count; // of the whole tree, modulo 2^32
+    uint failed;      // 1: a dab had no room and was left out
+};
+GPU_BUFFER(EditState, 4);
+
+/// Where a dab comes from and goes to.
+struct EditPlaces
+{
+    uint region_node; // the root of place 0
+    uint from;
+    uint to;
+};
+
+struct EditBeginParams // push constants of edit/begin: makes place 0 the static tree
+{
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_PTR(BeforeChild) ranks;         // by nodes of overlays; kRanks only
+    GPU_PTR(EditState) states;
+    uint static_root;
+    uint region_node;
+    uint attribute_offset;
+    uint node_top;
+    uint voxel_top;
+    uint voxel_count;
+};
+
+struct EditFindParams // push constants of edit/find: one thread a cell
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(uint) voxels_before_leaf;
+    GPU_CONST_PTR(BeforeChild) ranks;
+    GPU_PTR(EditCell) cells;
+    GPU_PTR(EditState) states;
+    EditPlaces places;
+    uint first_short_place;
+    Brush brush;
+    EditBox box;
+};
+
+struct EditParentsParams // push constants of edit/parents: one thread a cell of the level
+{
+    GPU_PTR(EditCell) cells;
+    EditBox box;
+    uint level;
+};
+
+struct EditAllocateParams // push constants of edit/allocate: one workgroup
+{
+    GPU_PTR(EditCell) cells;
+    GPU_PTR(EditState) states;
+    uint cell_count;
+    uint inner_count; // cells that are no leaves
+    uint from;
+    uint to;
+    uint node_end; // of the region
+    uint voxel_end;
+};
+
+struct EditNodesParams // push constants of edit/nodes: a workgroup for each cell that is no leaf, one at least
+{
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_CONST_PTR(BeforeChild) before;  // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(uint) voxels_before_leaf;
+    GPU_PTR(BeforeChild) ranks;
+    GPU_PTR(EditCell) cells;
+    GPU_CONST_PTR(EditState) states;
+    EditPlaces places;
+    uint first_short_place;
+    uint static_root;
+    uint attribute_offset;
+    EditBox box;
+};
+
+struct EditEmissionWordsParams // push constants of edit/emission_words: one thread a word
+{
+    GPU_PTR(uvec2) words;
+    GPU_CONST_PTR(EditState) states;
+    uint from;
+    uint to;
+    uint emission_offset; // from a voxel to the first place of its word, modulo 2^32
+};
+
+struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a workgroup for each cell that is a leaf
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(EditCell) cells;
+    GPU_CONST_PTR(EditState) states;
+    GPU_PTR(Attribute) attributes;
+    GPU_PTR(uvec2) emission_words; // or null
+    GPU_PTR(uint) emission;        // or null
+    uint to;
+    uint inner_count;
+    Brush brush;
+    EditBox box;
+};
+
+struct EditAverageParams // push constants of edit/average: one thread a cell of the level
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(EditCell) cells;
+    GPU_CONST_PTR(EditState) states;
+    GPU_CONST_PTR(Attribute) children; // of voxels for leaves, else of nodes
+    GPU_PTR(Attribute) averages;       // of nodes
+    uint first_cell;                   // of the level
+    uint cell_count;                   // likewise
+    uint to;
+    uint children_offset;  // from a cell's first child to children
+    uint attribute_offset; // from a node to averages
+};
+
+// Compaction: what places that are kept are made of moves to another region, the rest is forgotten. Nodes and voxels
+// keep their order, so that children stay together and states stay in the order of dabs.
+
+const uint kMarkPlace = ~0u; // root of a place that is not used: kept where it is, whatever it is
+
+struct EditMarkParams // push constants of edit/mark: one thread a node of the region
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_PTR(uint) marks;      // [node_count] of the region: 1 + the node's level, kMarkPlace, or 0
+    GPU_PTR(uint) voxel_bits; // [ceil(voxel_count / 32)] of the region: kept
+    uint first_node;          // of the region
+    uint node_count;
+    uint first_voxel;
+    uint voxel_count;
+    uint level; // the nodes that mark their children, or voxels
+};
+
+struct EditSumParams // push constants of edit/live_sums and edit/renumber: a workgroup for each kScanBlock elements
+{
+    GPU_CONST_PTR(uint) marks; // or words of voxel_bits: kVoxels
+    GPU_PTR(uint) partials;    // of each workgroup; for edit/renumber, those before it
+    GPU_PTR(uint) numbers;     // [element_count] what is kept before an element
+    uint element_count;
+};
+
+struct EditMoveParams // push constants of edit/move_nodes and edit/move_voxels: one thread a node, or voxel, of the
+                      // region
+{
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_PTR(BeforeChild) ranks;         // kRanks only
+    GPU_PTR(Attribute) attributes;      // or null
+    GPU_PTR(uvec2) emission_words;      // of the new region cleared; or null
+    GPU_CONST_PTR(uint) marks;
+    GPU_CONST_PTR(uint) numbers; // of nodes
+    GPU_CONST_PTR(uint) voxel_bits;
+    GPU_CONST_PTR(uint) voxel_numbers; // of words of voxel_bits
+    uint first_node;                   // of the old region
+    uint node_count;
+    uint first_voxel;
+    uint voxel_count;
+    uint new_first_node;
+    uint new_first_voxel;
+    uint level_count;
+    uint attribute_offset;
+};
+
+struct EditMoveEmissionParams // push constants of edit/move_emission: one thread a voxel of the old region
+{
+    GPU_CONST_PTR(uint) voxel_bits;
+    GPU_CONST_PTR(uint) voxel_numbers;
+    GPU_CONST_PTR(uvec2) emission_words;
+    GPU_PTR(uint) emission;
+    uint first_voxel; // of the old region
+    uint voxel_count;
+    uint new_first_voxel;
+};
+
+struct EditMoveStatesParams // push constants of edit/move_states: one thread a place
+{
+    GPU_PTR(EditState) states;
+    GPU_CONST_PTR(uint) marks;
+    GPU_CONST_PTR(uint) numbers;
+    GPU_CONST_PTR(uint) voxel_bits; // or null
+    GPU_CONST_PTR(uint) voxel_numbers;
+    uint place_count;
+    uint first_node; // of the old region
+    uint node_count;
+    uint first_voxel;
+    uint voxel_count;
+    uint new_first_node;
+    uint new_first_voxel;
+};
+
+GPU_NAMESPACE_END
+
+#endif

@@ -1,0 +1,15 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// What the emissive voxels of changed leaves emit: as before.
+#extension GL_GOOGLE_include_directive : require
+#include "edit/voxels.glsl"
+#include "lib/emission.glsl"
+
+void main()
+{
+    EditVoxel voxel = editVoxel();
+    if (!voxel.exists || ((params.attributes.data[voxel.index].color >> 24) & kAttributeEmissive) == 0u)
+        return;
+    uvec2_ConstPtr words = uvec2_ConstPtr(uint64_t(params.emission_words));
+    params.emission.data[emissionPlace(words, voxel.index)] = params.emission.data[emissionPlace(words, voxel.base)];
+}

@@ -1,0 +1,27 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Copies what the kept voxels emit to the new region.
+#extension GL_GOOGLE_include_directive : require
+#include "edit/edit.h"
+#include "lib/dispatch.glsl"
+#include "lib/emission.glsl"
+
+layout(local_size_x = kNodesGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    EditMoveEmissionParams params;
+};
+
+void main()
+{
+    uint i = threadIndex();
+    uint bit = 1u << (i & 31u);
+    uint from = params.first_voxel + i;
+    if (i >= params.voxel_count || (params.voxel_bits.data[i >> 5] & bit) == 0u ||
+        (params.emission_words.data[from >> 5].x & (1u << (from & 31u))) == 0u)
+        return;
+    uint below = params.voxel_bits.data[i >> 5] & (bit - 1u);
+    uint to = params.new_first_voxel + params.voxel_numbers.data[i >> 5] + bitCount(below);
+    params.emission.data[emissionPlace(params.emission_words, to)] =
+        params.emission.data[emissionPlace(params.emission_words, from)];
+}

@@ -1,0 +1,39 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// How far up the copies of places reach in the new region.
+#extension GL_GOOGLE_include_directive : require
+#include "edit/edit.h"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = kNodesGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    EditMoveStatesParams params;
+};
+
+// Nodes kept before the i-th of the old region, which may be the one behind its last.
+uint nodesBefore(uint i)
+{
+    uint last = min(i, params.node_count) - 1u; // at least the root of place 0 stands before
+    return params.numbers.data[last] + (i > last && params.marks.data[last] != 0u ? 1u : 0u);
+}
+
+uint voxelsBefore(uint i)
+{
+    if (i == 0u || params.voxel_count == 0u)
+        return 0u;
+    uint last = min(i, params.voxel_count) - 1u;
+    uint up_to_last = params.voxel_bits.data[last >> 5] & (~0u >> (31u - (last & 31u)));
+    return params.voxel_numbers.data[last >> 5] + bitCount(up_to_last);
+}
+
+void main()
+{
+    uint place = threadIndex();
+    if (place >= params.place_count)
+        return;
+    EditState state = params.states.data[place];
+    state.node_top = params.new_first_node + nodesBefore(state.node_top - params.first_node);
+    state.voxel_top = params.new_first_voxel + voxelsBefore(state.voxel_top - params.first_voxel);
+    params.states.data[place] = state;
+}

@@ -1,0 +1,103 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Writes the root of the place, and the children of changed cells: changed ones, and copies of the others.
+#extension GL_GOOGLE_include_directive : require
+#include "edit/edit.h"
+#include "edit/cells.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/node.glsl"
+
+layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the static tree is an octree
+layout(constant_id = 1) const bool kAttributes = false;
+
+#include "lib/ranks.glsl"
+
+layout(local_size_x = kEditGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    EditNodesParams params;
+};
+
+const bool kRanks = kEntriesPerWord != 0u && kAttributes;
+
+Node copyOf(EditCell cell)
+{
+    return Node(cell.mask_lo, cell.first, cell.mask_hi, cell.first + bitCount(cell.mask_lo));
+}
+
+// A child that the dab does not change, with its look.
+Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
+{
+    RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,
+                                   params.first_short_place);
+    RankedNode at = RankedNode(parent.base, parent.voxels, parent.rank);
+    descendBase(source, BeforeChild_ConstPtr(uint64_t(params.ranks)), bit, is_leaf, kRanks, at);
+    Node child = params.nodes.data[at.node];
+    if (is_leaf)
+    {
+        child.base_lo += at.voxels;
+        child.base_hi += at.voxels;
+    }
+    if (kRanks)
+        params.ranks.data[index] = BeforeChild(is_leaf ? 0u : at.voxels, at.rank);
+    if (kAttributes)
+        params.node_attributes.data[index + params.attribute_offset] =
+            params.node_attributes.data[at.node >= params.static_root ? at.node + params.attribute_offset : at.rank];
+    return child;
+}
+
+void writeRoot(bool failed)
+{
+    uint index = params.places.region_node + params.places.to;
+    uint from = params.places.region_node + params.places.from;
+    EditCell cell = params.cells.data[0];
+    bool changed = !failed && cell.changed != 0u;
+    Node root = params.nodes.data[from];
+    if (changed)
+        root = copyOf(cell);
+    params.nodes.data[index] = root;
+    params.cells.data[0].node = index;
+    if (kRanks)
+        params.ranks.data[index] = BeforeChild(0u, 0u);
+    if (kAttributes)
+        params.node_attributes.data[index + params.attribute_offset] =
+            params.node_attributes.data[from + params.attribute_offset];
+}
+
+void main()
+{
+    bool failed = params.states.data[params.places.to].failed != 0u;
+    if (workgroupIndex() == 0u && gl_LocalInvocationIndex == 0u)
+        writeRoot(failed);
+    uint number = workgroupIndex();
+    uint level = levelOf(params.box, number);
+    if (failed || level + 1u >= params.box.level_count)
+        return;
+    EditCell cell = params.cells.data[workgroupIndex()];
+    uint bit = gl_LocalInvocationIndex;
+    Node copied = copyOf(cell);
+    if (cell.changed == 0u || !hasChild(copied, bit))
+        return;
+    uint index = childIndex(copied, bit);
+    bool is_leaf = level + 2u == params.box.level_count;
+    uvec3 place = 4u * cellOf(params.box, level, number) + cellAt(bit);
+    uint child_index = 0u;
+    bool changed = false;
+    if (isInBox(params.box, level + 1u, place))
+    {
+        child_index = firstCell(params.box, level + 1u) + cellNumber(params.box, level + 1u, place);
+        changed = params.cells.data[child_index].changed != 0u;
+    }
+    if (changed)
+    {
+        EditCell child = params.cells.data[child_index];
+        params.nodes.data[index] = copyOf(child);
+        params.cells.data[child_index].node = index;
+        if (kRanks)
+            params.ranks.data[index] = BeforeChild(is_leaf ? 0u : child.voxels, child.rank);
+    }
+    else
+    {
+        params.nodes.data[index] = unchangedChild(cell, bit, is_leaf, index);
+    }
+}

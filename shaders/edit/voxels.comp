@@ -1,0 +1,28 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// What the voxels of changed leaves look like: as before, or as the brush says.
+#extension GL_GOOGLE_include_directive : require
+#include "edit/voxels.glsl"
+#include "lib/attribute.glsl"
+
+layout(constant_id = 0) const bool kEmits = false;
+
+void main()
+{
+    EditVoxel voxel = editVoxel();
+    if (!voxel.exists)
+        return;
+    bool is_new = voxel.base == kNoEditNode;
+    Attribute look = Attribute(params.brush.color, 0u);
+    if (is_new)
+        look.normal = encodeNormal(brushNormal(params.brush, voxel.cell));
+    else
+    {
+        Attribute before = params.attributes.data[voxel.base];
+        bool painted = params.brush.action == kBrushPaint && isUnderBrush(params.brush, voxel.cell);
+        look = Attribute(painted ? params.brush.color : before.color, before.normal);
+    }
+    params.attributes.data[voxel.index] = look;
+    if (kEmits && ((look.color >> 24) & kAttributeEmissive) != 0u)
+        atomicOr(params.emission_words.data[voxel.index >> 5].x, 1u << (voxel.index & 31u));
+}

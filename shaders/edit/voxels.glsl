@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The voxels of changed leaves, one a thread.
+#include "edit/cells.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/node.glsl"
+
+layout(local_size_x = kEditGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    EditVoxelsParams params;
+};
+
+// A voxel of a changed leaf.
+struct EditVoxel
+{
+    bool exists;
+    uint index; // of its attribute
+    uint base;  // likewise in the base tree, or kNoEditNode
+    uvec3 cell; // in the grid
+};
+
+EditVoxel editVoxel()
+{
+    uint number = workgroupIndex();
+    uint bit = gl_LocalInvocationIndex;
+    EditVoxel voxel = EditVoxel(false, 0u, kNoEditNode, uvec3(0u));
+    if (number < levelCellCount(params.box, params.box.level_count - 1u) &&
+        params.states.data[params.to].failed == 0u)
+    {
+        EditCell cell = params.cells.data[params.inner_count + number];
+        Node leaf = Node(cell.mask_lo, cell.first, cell.mask_hi, cell.first + bitCount(cell.mask_lo));
+        voxel.exists = cell.changed != 0u && hasChild(leaf, bit);
+        voxel.index = childIndex(leaf, bit);
+        voxel.cell = 4u * cellOf(params.box, params.box.level_count - 1u, number) + cellAt(bit);
+        if (cell.base != kNoEditNode)
+        {
+            Node base = params.nodes.data[cell.base];
+            voxel.base = hasChild(base, bit) ? childIndex(base, bit) + cell.voxels : kNoEditNode;
+        }
+    }
+    return voxel;
+}

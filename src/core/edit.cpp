@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: MIT
+#include "core/edit.h"
+
+#include "core/divide_up.h"
+#include "core/svdag.h"
+#include "octree/octree.h"
+#include "update/update.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+std::uint32_t entriesPerWord(const OverlaidTree& tree)
+{
+    return tree.has_lists ? tree.dag.entries_per_word : 0;
+}
+
+gpu::Brush gpuBrush(const Brush& brush)
+{
+    return {brush.center, brush.radius, static_cast<gpu::uint>(brush.shape), static_cast<gpu::uint>(brush.action),
+            brush.color & 0xFFFFFFU};
+}
+
+gpu::Ptr<gpu::BeforeChild> ranksOf(vk::Pass& pass, OverlaidTree& tree)
+{
+    return {pass.readWrite(tree.ranks).address - tree.ranksSkipped()};
+}
+
+// Where ranks in a DAG come from; nothing for an octree.
+template <typename Params> void readRankSource(vk::Pass& pass, const OverlaidTree& tree, Params& params)
+{
+    if (tree.hasRanks())
+    {
+        const gpu::RankSource source = rankSource(pass, tree.dag);
+        params.before = source.before;
+        params.voxels_before_leaf = source.voxels_before_leaf;
+        params.first_short_place = source.first_short_place;
+    }
+}
+
+std::uint32_t levelCells(const gpu::EditBox& box, std::uint32_t level)
+{
+    const std::uint32_t shift = 2 * (box.level_count - level);
+    const gpu::uvec3 size = (box.hi >> shift) - (box.lo >> shift) + 1U;
+    return size.x * size.y * size.z;
+}
+
+// Everything but attributes.
+void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
+                 const gpu::EditPlaces& places, DabBuffers& buffers)
+{
+    OverlaidTree& tree = site.tree;
+    const std::uint32_t attributes = tree.hasAttributes() ? 1 : 0;
+    graph.fill(site.states, 0, std::uint64_t{places.to} * (sizeof(gpu::EditState) / 4), sizeof(gpu::EditState) / 4);
+    {
+        vk::Pass pass = graph.addPass("edit/find", {entriesPerWord(tree), attributes});
+        gpu::EditFindParams params{};
+        params.nodes = pass.read(tree.dag.tree.nodes);
+        readRankSource(pass, tree, params);
+        params.ranks = {pass.read(tree.ranks).address - tree.ranksSkipped()};
+        params.cells = pass.write(buffers.cells);
+        params.states = pass.readWrite(site.states);
+        params.places = places;
+        params.brush = brush;
+        params.box = extent.box;
+        pass.dispatch(extent.cell_count, params);
+    }
+    for (std::uint32_t level = extent.box.level_count - 1; level-- > 0;)
+    {
+        vk::Pass pass = graph.addPass("edit/parents");
+        gpu::EditParentsParams params{};
+        params.cells = pass.readWrite(buffers.cells);
+        params.box = extent.box;
+        params.level = level;
+        pass.dispatch(levelCells(extent.box, level), params);
+    }
+    {
+        vk::Pass pass = graph.addPass("edit/allocate", {attributes});
+        gpu::EditAllocateParams params{};
+        params.cells = pass.readWrite(buffers.cells);
+        params.states = pass.readWrite(site.states);
+        params.cell_count = extent.cell_count;
+        params.inner_count = extent.inner_count;
+        params.from = places.from;
+        params.to = places.to;
+        params.node_end = site.region.first_node + site.region.node_capacity;
+        params.voxel_end = site.region.first_voxel + site.region.voxel_capacity;
+        pass.dispatch(gpu::kScanGroup, params);
+    }
+    vk::Pass pass = graph.addPass("edit/nodes", {entriesPerWord(tree), attributes});
+    gpu::EditNodesParams params{};
+    params.nodes = pass.readWrite(tree.dag.tree.nodes);
+    params.node_attributes = pass.readWrite(tree.dag.tree.node_attributes);
+    readRankSource(pass, tree, params);
+    params.ranks = ranksOf(pass, tree);
+    params.cells = pass.readWrite(buffers.cells);
+    params.states = pass.read(site.states);
+    params.places = places;
+    params.static_root = tree.static_root;
+    params.attribute_offset = tree.attributeOffset();
+    params.box = extent.box;
+    pass.dispatch(std::uint64_t{std::max(extent.inner_count, 1U)} * gpu::kEditGroup, params);
+}
+
+void recordVoxelPass(vk::FrameGraph& graph, const char* kernel, EditSite& site, const gpu::Brush& brush,
+                     const DabExtent& extent, std::uint32_t to, const vk::Specialization& constants,
+                     DabBuffers& buffers)
+{
+    Octree& octree = site.tree.dag.tree;
+    vk::Pass pass = graph.addPass(kernel, constants);
+    gpu::EditVoxelsParams params{};
+    params.nodes = pass.read(octree.nodes);
+    params.cells = pass.read(buffers.cells);
+    params.states = pass.read(site.states);
+    params.attributes = pass.readWrite(octree.voxel_attributes);
+    params.emission_words = pass.readWrite(octree.emission_words);
+    params.emission = pass.readWrite(octree.emission);
+    params.to = to;
+    params.inner_count = extent.inner_count;
+    params.brush = brush;
+    params.box = extent.box;
+    pass.dispatch(std::uint64_t{extent.cell_count - extent.inner_count} * gpu::kEditGroup, params);
+}
+
+void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
+                      const gpu::EditPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+{
+    Octree& octree = site.tree.dag.tree;
+    const bool emits = octree.emission_words.count() != 0;
+    if (emits)
+    {
+        vk::Pass pass = graph.addPass("edit/emission_words");
+        gpu::EditEmissionWordsParams params{};
+        params.words = pass.write(octree.emission_words);
+        params.states = pass.read(site.states);
+        params.from = places.from;
+        params.to = places.to;
+        params.emission_offset = site.emission_offset;
+        pass.dispatch(divideUp(extent.voxel_bound, kVoxelBlock), params);
+    }
+    recordVoxelPass(graph, "edit/voxels", site, brush, extent, places.to, {emits ? 1U : 0U}, buffers);
+    if (emits)
+    {
+        recordVoxelPass(graph, "edit/emission", site, brush, extent, places.to, {}, buffers);
+    }
+    std::uint32_t first_cell = extent.cell_count;
+    for (std::uint32_t level = extent.box.level_count; level-- > 0;)
+    {
+        const bool are_leaves = level + 1 == extent.box.level_count;
+        const std::uint32_t cell_count = levelCells(extent.box, level);
+        first_cell -= cell_count;
+        vk::Pass pass = graph.addPass("edit/average");
+        gpu::EditAverageParams params{};
+        params.scene = pass.read(tables);
+        params.cells = pass.read(buffers.cells);
+        params.states = pass.read(site.states);
+        params.children = are_leaves ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes);
+        params.averages = pass.readWrite(octree.node_attributes);
+        params.first_cell = first_cell;
+        params.cell_count = cell_count;
+        params.to = places.to;
+        params.children_offset = are_leaves ? 0 : site.tree.attributeOffset();
+        params.attribute_offset = site.tree.attributeOffset();
+        pass.dispatch(cell_count, params);
+    }
+}
+
+// Marks what kept places are made of, level by level from their roots down.
+void recordMarks(vk::FrameGraph& graph, EditSite& site, const std::vector<bool>& kept, CompactBuffers& buffers)
+{
+    Octree& octree = site.tree.dag.tree;
+    std::vector<gpu::uint> roots(site.placeCount());
+    std::ranges::transform(kept, roots.begin(), [](bool is_kept) { return is_kept ? 1U : gpu::kMarkPlace; });
+    graph.fill(buffers.marks, 0);
+    graph.update(buffers.marks, 0, roots);
+    if (site.tree.hasAttributes())
+    {
+        graph.fill(buffers.voxel_bits, 0);
+    }
+    const std::uint32_t level_count = octree.grid.nodeLevels();
+    for (std::uint32_t level = 0; level + (site.tree.hasAttributes() ? 0 : 1) < level_count; ++level)
+    {
+        const bool are_leaves = level + 1 == level_count;
+        vk::Pass pass = graph.addPass("edit/mark", {are_leaves ? 1U : 0U});
+        gpu::EditMarkParams params{};
+        params.nodes = pass.read(octree.nodes);
+        params.marks = pass.readWrite(buffers.marks);
+        params.voxel_bits = pass.readWrite(buffers.voxel_bits);
+        params.first_node = site.region.first_node;
+        params.node_count = site.region.node_capacity;
+        params.first_voxel = site.region.first_voxel;
+        params.voxel_count = site.region.voxel_capacity;
+        params.level = level;
+        pass.dispatch(site.region.node_capacity, params);
+    }
+}
+
+// numbers[i] becomes what is kept before the i-th element of marks.
+void recordNumbers(vk::FrameGraph& graph, bool are_voxels, const vk::BufferOf<gpu::uint>& marks,
+                   vk::BufferOf<gpu::uint>& numbers, CompactBuffers& buffers)
+{
+    const std::uint64_t count = marks.count();
+    const std::uint64_t threads = divideUp(count, gpu::kScanItems);
+    const auto sum = [&](const char* kernel)
+    {
+        vk::Pass pass = graph.addPass(kernel, {are_voxels ? 1U : 0U});
+        gpu::EditSumParams params{};
+        params.marks = pass.read(marks);
+        params.partials = pass.readWrite(buffers.partials);
+        params.numbers = pass.write(numbers);
+        params.element_count = static_cast<gpu::uint>(count);
+        pass.dispatch(threads, params);
+    };
+    sum("edit/live_sums");
+    {
+        vk::Pass pass = graph.addPass("octree/scan");
+        gpu::ScanParams params{};
+        params.values = pass.readWrite(buffers.partials);
+        params.total = pass.write(buffers.total);
+        params.count = static_cast<gpu::uint>(divideUp(count, gpu::kScanBlock));
+        pass.dispatch(gpu::kScanGroup, params);
+    }
+    sum("edit/renumber");
+}
+
+void clearEmission(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& region)
+{
+    vk::Pass pass = graph.addPass("update/emission_places");
+    gpu::EmissionPlacesParams params{};
+    params.words = pass.write(site.tree.dag.tree.emission_words);
+    params.first_word = region.first_voxel / kVoxelBlock;
+    params.word_count = region.voxel_capacity / kVoxelBlock;
+    params.first_place = region.first_voxel + site.emission_offset;
+    pass.dispatch(params.word_count, params);
+}
+
+} // namespace
+
+std::optional<DabExtent> DabExtent::of(const Brush& brush, const Grid& grid)
+{
+    if (brush.radius > gpu::kBrushRadiusMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a brush's radius is at most {} voxels", gpu::kBrushRadiusMax));
+    }
+    using Wide = glm::vec<3, std::int64_t>;
+    const Wide lo = glm::max(Wide(brush.center) - std::int64_t{brush.radius}, Wide(0));
+    const Wide hi = glm::min(Wide(brush.center) + std::int64_t{brush.radius}, Wide(grid.resolution() - 1));
+    if (glm::any(glm::greaterThan(lo, hi)))
+    {
+        return std::nullopt;
+    }
+    DabExtent extent;
+    extent.box = {gpu::uvec3(lo), gpu::uvec3(hi), grid.nodeLevels()};
+    for (std::uint32_t level = 0; level < extent.box.level_count; ++level)
+    {
+        extent.inner_count = extent.cell_count;
+        extent.cell_count += levelCells(extent.box, level);
+    }
+    extent.node_bound = 64 * extent.inner_count;
+    extent.voxel_bound = 64 * (extent.cell_count - extent.inner_count) + kVoxelBlock - 1;
+    return extent;
+}
+
+DabBuffers::DabBuffers(vk::Device& device, std::uint32_t cell_count) : cells(device, "edit/cells", cell_count) {}
+
+CompactBuffers::CompactBuffers(vk::Device& device, const OverlayRegion& region)
+    : marks(device, "edit/marks", region.node_capacity), numbers(device, "edit/numbers", region.node_capacity),
+      voxel_bits(device, "edit/voxel_bits", region.voxel_capacity / kVoxelBlock),
+      voxel_numbers(device, "edit/voxel_numbers", region.voxel_capacity / kVoxelBlock),
+      partials(device, "edit/partials",
+               divideUp(std::max(region.node_capacity, region.voxel_capacity / kVoxelBlock), gpu::kScanBlock)),
+      total(device, "edit/total", 1)
+{
+}
+
+std::uint64_t CompactBuffers::bytes(const OverlayRegion& region)
+{
+    return 2 * sizeof(gpu::uint) * (std::uint64_t{region.node_capacity} + region.voxel_capacity / kVoxelBlock);
+}
+
+void beginEdits(vk::FrameGraph& graph, EditSite& site)
+{
+    OverlaidTree& tree = site.tree;
+    vk::Pass pass = graph.addPass("edit/begin", {tree.hasAttributes() ? 1U : 0U, tree.hasRanks() ? 1U : 0U});
+    gpu::EditBeginParams params{};
+    params.nodes = pass.readWrite(tree.dag.tree.nodes);
+    params.node_attributes = pass.readWrite(tree.dag.tree.node_attributes);
+    params.ranks = ranksOf(pass, tree);
+    params.states = pass.readWrite(site.states);
+    params.static_root = tree.static_root;
+    params.region_node = site.region.first_node;
+    params.attribute_offset = tree.attributeOffset();
+    params.node_top = site.region.first_node + site.placeCount();
+    params.voxel_top = site.region.first_voxel;
+    params.voxel_count = tree.dag.tree.voxel_count;
+    pass.dispatch(1, params);
+}
+
+void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent, std::uint32_t from,
+               std::uint32_t to, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+{
+    const gpu::Brush dab = gpuBrush(brush);
+    const gpu::EditPlaces places = {site.region.first_node, from, to};
+    recordNodes(graph, site, dab, extent, places, buffers);
+    if (site.tree.hasAttributes())
+    {
+        recordAttributes(graph, site, dab, extent, places, tables, buffers);
+    }
+}
+
+void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to, const std::vector<bool>& kept,
+                      CompactBuffers& buffers)
+{
+    Octree& octree = site.tree.dag.tree;
+    const bool attributes = site.tree.hasAttributes();
+    const bool emits = octree.emission_words.count() != 0;
+    recordMarks(graph, site, kept, buffers);
+    recordNumbers(graph, false, buffers.marks, buffers.numbers, buffers);
+    if (attributes)
+    {
+        recordNumbers(graph, true, buffers.voxel_bits, buffers.voxel_numbers, buffers);
+    }
+    if (emits)
+    {
+        clearEmission(graph, site, to);
+    }
+    const auto move = [&](const char* kernel, const vk::Specialization& constants, std::uint64_t threads)
+    {
+        vk::Pass pass = graph.addPass(kernel, constants);
+        gpu::EditMoveParams params{};
+        params.nodes = pass.readWrite(octree.nodes);
+        params.node_attributes = pass.readWrite(octree.node_attributes);
+        params.ranks = ranksOf(pass, site.tree);
+        params.attributes = pass.readWrite(octree.voxel_attributes);
+        params.emission_words = pass.readWrite(octree.emission_words);
+        params.marks = pass.read(buffers.marks);
+        params.numbers = pass.read(buffers.numbers);
+        params.voxel_bits = pass.read(buffers.voxel_bits);
+        params.voxel_numbers = pass.read(buffers.voxel_numbers);
+        params.first_node = site.region.first_node;
+        params.node_count = site.region.node_capacity;
+        params.first_voxel = site.region.first_voxel;
+        params.voxel_count = site.region.voxel_capacity;
+        params.new_first_node = to.first_node;
+        params.new_first_voxel = to.first_voxel;
+        params.level_count = octree.grid.nodeLevels();
+        params.attribute_offset = site.tree.attributeOffset();
+        pass.dispatch(threads, params);
+    };
+    move("edit/move_nodes", {attributes ? 1U : 0U, site.tree.hasRanks() ? 1U : 0U}, site.region.node_capacity);
+    if (attributes)
+    {
+        move("edit/move_voxels", {emits ? 1U : 0U}, site.region.voxel_capacity);
+    }
+    if (emits)
+    {
+        vk::Pass pass = graph.addPass("edit/move_emission");
+        gpu::EditMoveEmissionParams params{};
+        params.voxel_bits = pass.read(buffers.voxel_bits);
+        params.voxel_numbers = pass.read(buffers.voxel_numbers);
+        params.emission_words = pass.read(octree.emission_words);
+        params.emission = pass.readWrite(octree.emission);
+        params.first_voxel = site.region.first_voxel;
+        params.voxel_count = site.region.voxel_capacity;
+        params.new_first_voxel = to.first_voxel;
+        pass.dispatch(site.region.voxel_capacity, params);
+    }
+    vk::Pass pass = graph.addPass("edit/move_states");
+    gpu::EditMoveStatesParams params{};
+    params.states = pass.readWrite(site.states);
+    params.marks = pass.read(buffers.marks);
+    params.numbers = pass.read(buffers.numbers);
+    params.voxel_bits = pass.read(buffers.voxel_bits);
+    params.voxel_numbers = pass.read(buffers.voxel_numbers);
+    params.place_count = site.placeCount();
+    params.first_node = site.region.first_node;
+    params.node_count = site.region.node_capacity;
+    params.first_voxel = site.region.first_voxel;
+    params.voxel_count = attributes ? site.region.voxel_capacity : 0;
+    params.new_first_node = to.first_node;
+    params.new_first_voxel = to.first_voxel;
+    pass.dispatch(site.placeCount(), params);
+}
+
+} // namespace zvo

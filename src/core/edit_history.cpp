@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "core/edit_history.h"
+
+#include <algorithm>
+
+namespace zvo
+{
+
+EditHistory::EditHistory(std::size_t steps_max)
+    : m_steps_max(std::max<std::size_t>(steps_max, 1)), m_tops(m_steps_max + 2 + kDabsPerFrameMax)
+{
+    for (std::uint32_t place = 1; place < m_tops.size(); ++place)
+    {
+        m_free.push_back(place);
+    }
+    m_tops[0].nodes = m_tops.size(); // the places' roots
+}
+
+EditTop EditHistory::highest() const
+{
+    EditTop highest;
+    for (const std::uint32_t place : m_line)
+    {
+        highest.nodes = std::max(highest.nodes, m_tops[place].nodes);
+        highest.voxels = std::max(highest.voxels, m_tops[place].voxels);
+    }
+    return highest;
+}
+
+void EditHistory::freePlaces(std::size_t first, std::size_t end)
+{
+    const auto begin = m_line.begin();
+    m_free.insert(m_free.end(), begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end));
+    m_line.erase(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end));
+}
+
+std::uint32_t EditHistory::push(std::uint64_t node_bound, std::uint64_t voxel_bound)
+{
+    const EditTop& from = m_tops[place()];
+    const EditTop top = {from.nodes + node_bound, from.voxels + voxel_bound, from.voxel_count, false};
+    dropRedo();
+    const std::uint32_t to = m_free.front();
+    m_free.pop_front();
+    m_tops[to] = top;
+    m_line.push_back(to);
+    if (m_is_stroke)
+    {
+        freePlaces(m_current, m_current + 1);
+    }
+    else if (m_current == m_steps_max)
+    {
+        freePlaces(0, 1);
+    }
+    m_current = m_line.size() - 1;
+    m_is_stroke = true;
+    return to;
+}
+
+bool EditHistory::undo()
+{
+    m_is_stroke = false;
+    const bool moves = undoCount() != 0;
+    m_current -= moves ? 1 : 0;
+    return moves;
+}
+
+bool EditHistory::redo()
+{
+    m_is_stroke = false;
+    const bool moves = redoCount() != 0;
+    m_current += moves ? 1 : 0;
+    return moves;
+}
+
+bool EditHistory::dropOldest()
+{
+    const std::size_t count = (undoCount() + 1) / 2;
+    freePlaces(0, count);
+    m_current -= count;
+    return count != 0;
+}
+
+void EditHistory::dropRedo()
+{
+    freePlaces(m_current + 1, m_line.size());
+}
+
+std::vector<bool> EditHistory::used() const
+{
+    std::vector<bool> used(m_tops.size());
+    for (const std::uint32_t place : m_line)
+    {
+        used[place] = true;
+    }
+    return used;
+}
+
+bool EditHistory::isExact() const
+{
+    return std::ranges::all_of(m_line, [this](std::uint32_t place) { return m_tops[place].is_exact; });
+}
+
+void EditHistory::forgetTops()
+{
+    for (const std::uint32_t place : m_line)
+    {
+        m_tops[place].is_exact = false;
+    }
+}
+
+} // namespace zvo

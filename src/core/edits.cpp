@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: MIT
+#include "core/edits.h"
+
+#include "core/divide_up.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint64_t kDabsAtFirst = 4; // that the first region has room for, whatever they touch
+
+std::uint32_t capacityOf(std::uint32_t capacity, std::uint64_t needed)
+{
+    const std::uint64_t grown =
+        needed > capacity ? std::max<std::uint64_t>(2 * std::uint64_t{capacity}, needed) : capacity;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(grown, UINT32_MAX - kVoxelBlock));
+}
+
+OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
+{
+    return {0, static_cast<std::uint32_t>(nodes), 0,
+            static_cast<std::uint32_t>(divideUp(voxels, kVoxelBlock) * kVoxelBlock)};
+}
+
+} // namespace
+
+Edits::Edits(vk::HeadlessDevice& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
+             std::uint32_t frames_in_flight)
+    : m_device(device), m_overlays(overlays), m_regions(regions),
+      m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.steps_max)},
+      m_report_frames(std::uint64_t{frames_in_flight} + 1)
+{
+    m_now.changes.resize(m_now.history.placeCount());
+}
+
+EditSite Edits::site()
+{
+    return {m_overlays.tree(), *m_now.region, m_states, m_overlays.emissionOffset()};
+}
+
+std::uint32_t Edits::root() const
+{
+    return m_now.region ? m_now.region->first_node + m_now.history.place() : m_overlays.tree().static_root;
+}
+
+std::uint64_t Edits::heldBytes() const
+{
+    return m_now.region ? m_overlays.arena().bytes(*m_now.region) : 0;
+}
+
+std::uint32_t Edits::voxelCount() const
+{
+    return m_now.region ? m_now.history.top(m_now.history.place()).voxel_count : m_overlays.octree().voxel_count;
+}
+
+bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables,
+                vk::Retired& retired)
+{
+    const std::optional<DabExtent> extent = DabExtent::of(brush, m_overlays.octree().grid);
+    if (!extent)
+    {
+        return true;
+    }
+    if (m_dab_count == kDabsPerFrameMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a frame takes at most {} dabs of a brush", kDabsPerFrameMax));
+    }
+    ++m_dab_count;
+    saveFrame();
+    Saved before = save();
+    try
+    {
+        return tryDab(graph, brush, *extent, tables, retired);
+    }
+    catch (...)
+    {
+        restore(std::move(before));
+        throw;
+    }
+}
+
+bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& extent,
+                   const vk::BufferOf<gpu::SceneView>& tables, vk::Retired& retired)
+{
+    m_overlays.catchUp(graph, retired);
+    if (!m_now.region)
+    {
+        begin(graph, extent, retired);
+    }
+    const bool attributes = m_overlays.hasAttributes();
+    const EditTop& top = m_now.history.top(m_now.history.place());
+    const EditTop needed = {top.nodes + extent.node_bound, attributes ? top.voxels + extent.voxel_bound : 0};
+    if ((needed.nodes > m_now.region->node_capacity || needed.voxels > m_now.region->voxel_capacity) &&
+        !makeRoom(graph, needed, retired))
+    {
+        return false;
+    }
+    if (!m_buffers || m_buffers->cells.count() < extent.cell_count)
+    {
+        DabBuffers larger(m_device.device(), extent.cell_count);
+        if (m_buffers)
+        {
+            retired.keep(std::move(*m_buffers));
+        }
+        m_buffers = std::move(larger);
+    }
+    const std::uint32_t from = m_now.history.place();
+    const std::uint32_t to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0);
+    m_now.is_compact = false;
+    m_has_written = true;
+    EditSite where = site();
+    recordDab(graph, where, brush, extent, from, to, tables, *m_buffers);
+    report(graph, to, 1);
+    return true;
+}
+
+OverlayRegion Edits::allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels,
+                                    vk::Retired& retired)
+{
+    OverlayArena& arena = m_overlays.arena();
+    if (const std::optional<OverlayRegion> region = arena.allocate(nodes, voxels))
+    {
+        return *region;
+    }
+    m_overlays.grow(graph, nodes, voxels, retired);
+    return arena.allocate(nodes, voxels).value();
+}
+
+// Makes the first region, in which nothing is edited.
+void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& retired)
+{
+    vk::Device& d = m_device.device();
+    const std::uint32_t places = m_now.history.placeCount();
+    if (m_states.count() == 0)
+    {
+        m_states = {d, "edit/states", places};
+    }
+    if (m_reports.count() == 0)
+    {
+        m_reports = {d, "edit/reports", m_report_frames * places, vk::MemoryKind::Readback};
+    }
+    const std::uint64_t voxels = m_overlays.hasAttributes() ? kDabsAtFirst * extent.voxel_bound : 0;
+    m_now.region = allocateRegion(graph, places + kDabsAtFirst * extent.node_bound, voxels, retired);
+    EditTop top = m_now.history.top(0);
+    top.voxel_count = m_overlays.octree().voxel_count;
+    m_now.history.learn(0, top);
+    EditSite where = site();
+    beginEdits(graph, where);
+}
+
+// Makes room for what is needed, if that is known: otherwise the device has to tell first how much is left.
+bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& retired)
+{
+    const OverlayRegion& region = *m_now.region;
+    const EditTop same = {region.node_capacity, region.voxel_capacity};
+    const EditTop grown = {capacityOf(region.node_capacity, needed.nodes),
+                           capacityOf(region.voxel_capacity, needed.voxels)};
+    if (m_overlays.arena().bytes(regionOf(grown.nodes, grown.voxels)) <= m_bytes_max)
+    {
+        compact(graph, grown, retired);
+        return true;
+    }
+    if (!m_now.history.isExact())
+    {
+        return false;
+    }
+    if (m_now.is_compact && m_now.history.undoCount() == 0 && m_now.history.redoCount() == 0)
+    {
+        compact(graph, grown, retired);
+        return true;
+    }
+    if (m_now.history.redoCount() != 0) // which the dab would drop, too
+    {
+        m_now.history.dropRedo();
+    }
+    else if (m_now.is_compact)
+    {
+        m_now.history.dropOldest();
+    }
+    compact(graph, same, retired);
+    return false;
+}
+
+// Moves what steps show to a region of that capacity.
+void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired& retired)
+{
+    m_device.device().memory().require(CompactBuffers::bytes(*m_now.region), "making room for edits");
+    auto& buffers = retired.keep(CompactBuffers(m_device.device(), *m_now.region));
+    const OverlayRegion to = allocateRegion(graph, capacity.nodes, capacity.voxels, retired);
+    m_left.push_back(to); // given back should something throw
+    EditSite where = site();
+    recordCompaction(graph, where, to, m_now.history.used(), buffers);
+    m_left.back() = std::exchange(*m_now.region, to);
+    m_now.history.forgetTops();
+    m_now.is_compact = true;
+    report(graph, 0, m_now.history.placeCount());
+}
+
+// Has states copied to where the host can read them when the frame is done.
+void Edits::report(vk::FrameGraph& graph, std::uint32_t first_place, std::uint32_t place_count)
+{
+    constexpr std::uint64_t kBytes = sizeof(gpu::EditState);
+    const std::uint64_t ring = m_frame % m_report_frames * m_now.history.placeCount();
+    graph.copy(m_states, first_place * kBytes, m_reports, (ring + first_place) * kBytes, place_count * kBytes);
+    graph.releaseToHost();
+    ++m_change_count;
+    std::fill_n(m_now.changes.begin() + first_place, place_count, m_change_count);
+    m_pending.push_back({m_frame, first_place, place_count, *m_now.region, m_change_count});
+}
+
+void Edits::learn(const Report& report, State& state) const
+{
+    const std::uint64_t ring = report.frame % m_report_frames * m_now.history.placeCount();
+    for (std::uint32_t place = report.first_place; place < report.first_place + report.place_count; ++place)
+    {
+        const gpu::EditState& told = m_reports.mappedData()[ring + place];
+        if (state.changes[place] == report.change)
+        {
+            state.history.learn(place, {told.node_top - report.region.first_node,
+                                        told.voxel_top - report.region.first_voxel, told.voxel_count, true});
+        }
+    }
+}
+
+void Edits::endStroke()
+{
+    m_now.history.endStroke();
+}
+
+bool Edits::undo()
+{
+    saveFrame();
+    return m_now.history.undo();
+}
+
+bool Edits::redo()
+{
+    saveFrame();
+    return m_now.history.redo();
+}
+
+void Edits::saveFrame()
+{
+    if (!m_before)
+    {
+        m_before = save();
+    }
+}
+
+// Goes back to what was saved. Regions that were taken since then may be written by what was recorded.
+void Edits::restore(Saved saved)
+{
+    const auto giveBack = [&](const OverlayRegion& region)
+    {
+        if (saved.state.region != region)
+        {
+            m_regions.giveBack(region);
+        }
+    };
+    if (m_now.region)
+    {
+        giveBack(*m_now.region);
+    }
+    for (; m_left.size() > saved.left_count; m_left.pop_back())
+    {
+        giveBack(m_left.back());
+    }
+    m_now = std::move(saved.state);
+}
+
+void Edits::frameSubmitted()
+{
+    for (const OverlayRegion& region : m_left)
+    {
+        m_regions.giveBack(region);
+    }
+    m_left.clear();
+    m_before.reset();
+    m_has_written = false;
+}
+
+void Edits::beginFrame(std::uint64_t frame)
+{
+    m_frame = frame;
+    m_dab_count = 0;
+}
+
+void Edits::frameDone(std::uint64_t frame)
+{
+    for (; !m_pending.empty() && m_pending.front().frame <= frame; m_pending.pop_front())
+    {
+        learn(m_pending.front(), m_now);
+        if (m_before)
+        {
+            learn(m_pending.front(), m_before->state);
+        }
+    }
+}
+
+void Edits::frameLost()
+{
+    while (!m_pending.empty() && m_pending.back().frame == m_frame)
+    {
+        m_pending.pop_back();
+    }
+    if (!m_before)
+    {
+        return;
+    }
+    restore(std::move(*m_before));
+    m_before.reset();
+    m_now.history.endStroke();
+    if (m_has_written) // what the device did of the frame may stand where steps to redo had theirs
+    {
+        m_now.history.dropRedo();
+    }
+    m_has_written = false;
+}
+
+} // namespace zvo

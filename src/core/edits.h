@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/brush.h"
+#include "core/edit.h"
+#include "core/edit_history.h"
+#include "core/overlay_octree.h"
+#include "core/root_history.h"
+#include "vk/headless.h"
+#include "vk/retired.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace zvo
+{
+
+/// What a brush did to a static tree, and what of it can be undone. Knows nothing of movers. Edits stand in one region
+/// of an OverlayOctree; when that is full they move, without what nothing shows any more, to another one. Frames are
+/// those of DynamicOctree, which owns this.
+class Edits
+{
+public:
+    /// Regions that frames in flight may use go back by way of regions. All must outlive this.
+    Edits(vk::HeadlessDevice& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
+          std::uint32_t frames_in_flight);
+
+    /// Records a dab of the stroke that is under way, or of a new one. False, and no dab, while its room is not known:
+    /// to be tried again in a later frame. The root that is shown may have moved in both cases. Throws Error{Usage} for
+    /// a radius above kBrushRadiusMax and more than kDabsPerFrameMax dabs in a frame, Error{Memory} when the device's
+    /// budget does not suffice.
+    bool dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables,
+             vk::Retired& retired);
+
+    void endStroke();
+    bool undo();
+    bool redo();
+
+    /// Node of what is shown: the static root where nothing was edited.
+    [[nodiscard]] std::uint32_t root() const;
+
+    [[nodiscard]] std::size_t undoCount() const { return m_now.history.undoCount(); }
+    [[nodiscard]] std::size_t redoCount() const { return m_now.history.redoCount(); }
+
+    /// Grows with every dab, and whenever what is shown stands elsewhere.
+    [[nodiscard]] std::uint64_t changeCount() const { return m_change_count; }
+
+    /// Bytes of device memory that edits have.
+    [[nodiscard]] std::uint64_t heldBytes() const;
+
+    /// Voxels of what is shown, without movers. Of a dab, it is known when its frame is done.
+    [[nodiscard]] std::uint32_t voxelCount() const;
+
+    /// See DynamicOctree: the last frame reaches the device, and the next one begins; the device is done with one and
+    /// all before it; the last one does not reach the device, or not all of it: then a stroke under way ends, and steps
+    /// to redo may be gone.
+    void frameSubmitted();
+    void beginFrame(std::uint64_t frame);
+    void frameDone(std::uint64_t frame);
+    void frameLost();
+
+private:
+    struct State
+    {
+        EditHistory history;
+        std::optional<OverlayRegion> region = std::nullopt;
+        bool is_compact = false;                 // nothing was forgotten since everything moved together
+        std::vector<std::uint64_t> changes = {}; // of places: number of the last one
+    };
+    // A state that may come back in the frame in which it was left.
+    struct Saved
+    {
+        State state;
+        std::size_t left_count; // of m_left
+    };
+    // Tops that the device tells with a frame.
+    struct Report
+    {
+        std::uint64_t frame;
+        std::uint32_t first_place;
+        std::uint32_t place_count;
+        OverlayRegion region;
+        std::uint64_t change; // that made them: later ones may have made others
+    };
+
+    [[nodiscard]] EditSite site();
+    [[nodiscard]] Saved save() const { return {m_now, m_left.size()}; }
+    void saveFrame();
+    void restore(Saved saved);
+    bool tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& extent,
+                const vk::BufferOf<gpu::SceneView>& tables, vk::Retired& retired);
+    OverlayRegion allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels,
+                                 vk::Retired& retired);
+    void begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& retired);
+    bool makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& retired);
+    void compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired& retired);
+    void report(vk::FrameGraph& graph, std::uint32_t first_place, std::uint32_t place_count);
+    void learn(const Report& report, State& state) const;
+
+    vk::HeadlessDevice& m_device;
+    OverlayOctree& m_overlays;
+    RootHistory& m_regions;
+    std::uint64_t m_bytes_max;
+    State m_now;
+    std::optional<Saved> m_before;          // of the last frame, if it has changed since that began
+    bool m_has_written = false;             // the last frame, above the top of what was shown
+    std::vector<OverlayRegion> m_left;      // in the last frame
+    vk::BufferOf<gpu::EditState> m_states;  // [places]
+    vk::BufferOf<gpu::EditState> m_reports; // host-visible: copies, for each frame in flight
+    std::uint64_t m_report_frames;          // of m_reports
+    std::optional<DabBuffers> m_buffers;
+    std::deque<Report> m_pending;
+    std::uint64_t m_change_count = 0;
+    std::uint64_t m_frame = 0;
+    std::uint32_t m_dab_count = 0; // in the frame
+};
+
+} // namespace zvo

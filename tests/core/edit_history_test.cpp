@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// The line of strokes, without a device.
+#include "core/edit_history.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <deque>
+#include <set>
+
+namespace zvo
+{
+namespace
+{
+
+TEST(EditHistory, BeginsAtAPlaceThatNothingWasDoneTo)
+{
+    EditHistory history(3);
+    EXPECT_EQ(history.place(), 0U);
+    EXPECT_EQ(history.undoCount() + history.redoCount(), 0U);
+    EXPECT_FALSE(history.undo());
+    EXPECT_FALSE(history.redo());
+    EXPECT_TRUE(history.isExact());
+    EXPECT_EQ(history.top(0).nodes, history.placeCount()) << "the places' roots come first";
+}
+
+TEST(EditHistory, AStrokeIsOneStepHoweverManyDabsItHas)
+{
+    EditHistory history(3);
+    const std::uint32_t first = history.push(10, 20);
+    const std::uint32_t second = history.push(1, 2);
+    EXPECT_NE(first, second);
+    EXPECT_EQ(history.undoCount(), 1U);
+    EXPECT_EQ(history.place(), second);
+    EXPECT_EQ(history.top(second).nodes, history.top(0).nodes + 11);
+    EXPECT_EQ(history.top(second).voxels, 22U);
+    history.endStroke();
+    history.push(0, 0);
+    EXPECT_EQ(history.undoCount(), 2U);
+    EXPECT_TRUE(history.undo());
+    EXPECT_EQ(history.place(), second);
+}
+
+TEST(EditHistory, ADabAfterUndoDropsWhatCouldBeRedone)
+{
+    EditHistory history(8);
+    for (int i = 0; i < 4; ++i)
+    {
+        history.push(1, 1);
+        history.endStroke();
+    }
+    history.undo();
+    history.undo();
+    EXPECT_EQ(history.redoCount(), 2U);
+    const std::uint64_t nodes = history.top(history.place()).nodes;
+    history.push(5, 5);
+    EXPECT_EQ(history.redoCount(), 0U);
+    EXPECT_EQ(history.undoCount(), 3U);
+    EXPECT_EQ(history.top(history.place()).nodes, nodes + 5) << "takes the room of what was undone";
+}
+
+TEST(EditHistory, TheOldestStepFallsOff)
+{
+    EditHistory history(2);
+    for (int i = 0; i < 100; ++i)
+    {
+        history.push(1, 1);
+        history.endStroke();
+        EXPECT_LE(history.undoCount(), 2U);
+    }
+    EXPECT_EQ(std::ranges::count(history.used(), true), 3);
+}
+
+// A frame that is lost may have written the places that it took, and gives back those that it has freed.
+TEST(EditHistory, PlacesThatAFrameFreesAreNotUsedAgainInIt)
+{
+    EditHistory history(2);
+    for (int frame = 0; frame < 50; ++frame)
+    {
+        std::vector<bool> used = history.used();
+        if (frame % 3 == 0)
+        {
+            history.undo();
+        }
+        for (std::uint32_t i = 0; i < kDabsPerFrameMax; ++i)
+        {
+            const std::uint32_t place = history.push(1, 1);
+            EXPECT_FALSE(used[place]) << frame << ' ' << i;
+            if (i % 3 == 0)
+            {
+                history.endStroke();
+            }
+        }
+    }
+}
+
+TEST(EditHistory, DropsTheOlderHalf)
+{
+    EditHistory history(8);
+    for (int i = 0; i < 7; ++i)
+    {
+        history.push(1, 1);
+        history.endStroke();
+    }
+    const std::uint32_t shown = history.place();
+    for (const std::size_t left : {3U, 1U, 0U})
+    {
+        EXPECT_TRUE(history.dropOldest());
+        EXPECT_EQ(history.undoCount(), left);
+        EXPECT_EQ(history.place(), shown);
+    }
+    EXPECT_FALSE(history.dropOldest());
+}
+
+TEST(EditHistory, KnowsWhetherTheDeviceHasToldAllTops)
+{
+    EditHistory history(8);
+    const std::uint32_t place = history.push(100, 100);
+    EXPECT_FALSE(history.isExact());
+    history.learn(place, {history.placeCount() + 3ULL, 4, 5, true});
+    EXPECT_TRUE(history.isExact());
+    EXPECT_EQ(history.highest().voxels, 4U);
+    history.forgetTops();
+    EXPECT_FALSE(history.isExact());
+}
+
+} // namespace
+} // namespace zvo

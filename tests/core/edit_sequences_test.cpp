@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Whatever brushes do, in whatever order and with whatever room: what is shown is what a model has that edits voxel by
+// voxel, and undo and redo lead to what was there.
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/edit_machine.h"
+#include "support/properties.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::DynamicSetting;
+using test::EditCommand;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+template <typename T> rc::Gen<T> anyBetween(T low, T high)
+{
+    return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
+}
+
+rc::Gen<Brush> anyBrush(const Grid& grid)
+{
+    const auto edge = static_cast<int>(grid.resolution());
+    const rc::Gen<int> coordinate = anyBetween(edge - std::min(edge, 64) - 5, edge + 5); // where the scene is
+    return rc::gen::build<Brush>(
+        rc::gen::set(&Brush::shape, rc::gen::element(BrushShape::Sphere, BrushShape::Box)),
+        rc::gen::set(&Brush::action, rc::gen::element(BrushAction::Carve, BrushAction::Fill, BrushAction::Paint)),
+        rc::gen::set(&Brush::center,
+                     rc::gen::map(rc::gen::tuple(coordinate, coordinate, coordinate), [](const auto& c)
+                                  { return gpu::ivec3(std::get<0>(c), std::get<1>(c), std::get<2>(c)); })),
+        rc::gen::set(&Brush::radius, rc::gen::oneOf(anyBetween<std::uint32_t>(0, 4), anyBetween<std::uint32_t>(4, 20))),
+        rc::gen::set(&Brush::color, anyBetween<std::uint32_t>(0, 1U << 24)));
+}
+
+rc::Gen<EditCommand> anyCommand(const Grid& grid)
+{
+    using Action = EditCommand::Action;
+    return rc::gen::build<EditCommand>(
+        rc::gen::set(&EditCommand::action, rc::gen::weightedElement<Action>({{12, Action::Dab},
+                                                                             {4, Action::EndStroke},
+                                                                             {4, Action::Undo},
+                                                                             {3, Action::Redo},
+                                                                             {3, Action::Submit},
+                                                                             {1, Action::Lose},
+                                                                             {1, Action::Compare}})),
+        rc::gen::set(&EditCommand::brush, anyBrush(grid)));
+}
+
+DynamicSetting anySetting()
+{
+    DynamicSetting setting;
+    setting.depth = *rc::gen::element<std::uint32_t>(1, 2, 3, 5, 6, DynamicSetting::kWideDepth);
+    setting.attributes = *rc::gen::weightedElement<bool>({{4, true}, {1, false}});
+    setting.emits = setting.attributes && *rc::gen::arbitrary<bool>();
+    setting.has_static = *rc::gen::weightedElement<bool>({{5, true}, {1, false}});
+    setting.compressed = setting.has_static && *rc::gen::arbitrary<bool>();
+    setting.frames_in_flight = *anyBetween<std::uint32_t>(1, 4);
+    return setting;
+}
+
+// With little room everything moves again and again, and steps are dropped.
+TEST(EditSequences, ShowWhatAModelHas)
+{
+    test::MoverScenery dark(device(), false);
+    test::MoverScenery bright(device(), true);
+    constexpr int kCases = 200;
+    int compared = 0;
+    test::checkProperty(
+        kCases,
+        [&]
+        {
+            const DynamicSetting setting = anySetting();
+            const EditBounds bounds = {*anyBetween<std::size_t>(1, 6),
+                                       *rc::gen::element<std::uint64_t>(0, 100'000, 400'000, 2'000'000, UINT64_MAX)};
+            test::EditMachine machine(device(), setting, bounds, setting.emits ? bright : dark);
+            for (const EditCommand& command : *rc::gen::container<std::vector<EditCommand>>(anyCommand(setting.grid())))
+            {
+                machine.run(command);
+            }
+            machine.finish();
+            ++compared;
+        });
+    EXPECT_GE(compared, kCases);
+}
+
+} // namespace
+} // namespace zvo

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// A brush on voxels, case by case.
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/edit_machine.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo
+{
+namespace
+{
+
+using test::DynamicSetting;
+using test::EditCommand;
+using test::EditMachine;
+using test::MoverScenery;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+MoverScenery& scenery()
+{
+    static MoverScenery scenery(device(), true);
+    return scenery;
+}
+
+constexpr std::uint32_t kBlue = 0xFF0000;
+
+EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32_t radius,
+                BrushShape shape = BrushShape::Sphere)
+{
+    return {EditCommand::Action::Dab, {shape, action, center, radius, kBlue}};
+}
+
+TEST(Edit, ExtentIsWhatTheBrushReachesOfTheGrid)
+{
+    const Grid grid{.origin = {}, .voxel_size = 1.0F, .depth = 5}; // three levels of nodes, 32 voxels
+    const auto extent = DabExtent::of({.center = {1, 16, 40}, .radius = 9}, grid);
+    ASSERT_TRUE(extent);
+    EXPECT_EQ(extent->box.lo, gpu::uvec3(0, 7, 31));
+    EXPECT_EQ(extent->box.hi, gpu::uvec3(10, 25, 31));
+    // 3 x 6 x 1 leaves in 1 x 2 x 1 nodes below the root.
+    EXPECT_EQ(extent->cell_count, 1U + 2U + 18U);
+    EXPECT_EQ(extent->inner_count, 3U);
+    EXPECT_FALSE(DabExtent::of({.center = {1, 16, 41}, .radius = 9}, grid));
+    EXPECT_FALSE(DabExtent::of({.center = gpu::ivec3(INT32_MIN), .radius = 9}, grid));
+    EXPECT_THROW((void)DabExtent::of({.radius = gpu::kBrushRadiusMax + 1}, grid), Error);
+}
+
+// From nothing, so that all voxels are the brush's.
+TEST(Edit, SpheresAndBoxesHaveTheVoxelsTheyAreDefinedBy)
+{
+    for (const BrushShape shape : {BrushShape::Sphere, BrushShape::Box})
+    {
+        for (const std::uint32_t radius : {0U, 1U, 2U, 7U, gpu::kBrushRadiusMax})
+        {
+            EditMachine machine(device(), {.depth = 6, .has_static = false}, {}, scenery());
+            machine.run(dab(BrushAction::Fill, {30, 31, 33}, radius, shape));
+            machine.run({EditCommand::Action::Compare, {}});
+            const std::uint64_t edge = std::min<std::uint64_t>(2 * radius + 1, 64);
+            if (shape == BrushShape::Box)
+            {
+                EXPECT_EQ(machine.octree().edits().voxelCount(), edge * edge * edge);
+            }
+            else if (radius <= 2)
+            {
+                EXPECT_EQ(machine.octree().edits().voxelCount(), radius == 0 ? 1U : radius == 1 ? 19U : 81U);
+            }
+            machine.finish();
+        }
+    }
+}
+
+TEST(Edit, EverythingCanBeCarvedAwayAndFilledAgain)
+{
+    for (const bool compressed : {false, true})
+    {
+        EditMachine machine(device(), {.depth = 6, .compressed = compressed}, {}, scenery());
+        machine.run(dab(BrushAction::Carve, {32, 32, 32}, gpu::kBrushRadiusMax, BrushShape::Box));
+        machine.run({EditCommand::Action::EndStroke, {}});
+        machine.run({EditCommand::Action::Compare, {}});
+        EXPECT_EQ(machine.octree().edits().voxelCount(), 0U);
+        machine.run(dab(BrushAction::Fill, {32, 32, 32}, 5));
+        machine.run({EditCommand::Action::Compare, {}});
+        machine.finish();
+    }
+}
+
+// What a stroke needs does not depend on the scene's size.
+TEST(Edit, WorkFollowsTheBrush)
+{
+    const Brush brush = {.center = {30, 31, 33}, .radius = 16};
+    const auto small = DabExtent::of(brush, {.origin = {}, .voxel_size = 1.0F, .depth = 6});
+    const auto large = DabExtent::of(brush, {.origin = {}, .voxel_size = 1.0F, .depth = 12});
+    EXPECT_EQ(large->cell_count, small->cell_count + 3);
+    EXPECT_LT(large->cell_count, 1000U);
+}
+
+TEST(Edit, ManyStrokesAndAsManyUndosLeaveTheSameBytes)
+{
+    constexpr int kStrokes = 60;
+    for (const bool compressed : {false, true})
+    {
+        EditMachine machine(device(), {.depth = 6, .compressed = compressed}, {.steps_max = kStrokes}, scenery());
+        const auto nodes = [&]
+        {
+            const std::vector<gpu::Node> all =
+                device().download(machine.octree().tree().octree().nodes, 0, machine.octree().staticRoot() + 1);
+            const auto* words = reinterpret_cast<const gpu::uint*>(all.data());
+            return std::vector<gpu::uint>(words, words + 4 * all.size());
+        };
+        const std::vector<gpu::uint> before = nodes();
+        for (int i = 0; i < kStrokes; ++i)
+        {
+            const gpu::ivec3 center(i * 7 % 64, i * 11 % 64, i * 13 % 64);
+            machine.run(dab(static_cast<BrushAction>(i % 3), center, 3 + i % 5));
+            machine.run({EditCommand::Action::EndStroke, {}});
+        }
+        machine.run({EditCommand::Action::Compare, {}});
+        for (int i = 0; i < kStrokes; ++i)
+        {
+            machine.run({EditCommand::Action::Undo, {}});
+        }
+        machine.run({EditCommand::Action::Compare, {}});
+        EXPECT_EQ(nodes(), before);
+        EXPECT_EQ(machine.octree().edits().redoCount(), static_cast<std::size_t>(kStrokes));
+    }
+}
+
+} // namespace
+} // namespace zvo
