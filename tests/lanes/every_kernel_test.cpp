@@ -30,6 +30,9 @@ namespace zvo
 namespace
 {
 
+// The way down to a voxel's rank in a DAG goes below the table of ranks, over every kind of list.
+constexpr std::uint32_t kDepthOfRankSums = 11;
+
 vk::HeadlessDevice& device()
 {
     return test::sharedDevice(zvoKernels());
@@ -173,17 +176,19 @@ Names deformVertices()
     return names;
 }
 
-// The scene merged with itself, moved by two voxels, and that undone.
-Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage)
+// The scene, as an octree or a DAG, merged with itself, moved by two voxels; pictures of that; and that undone.
+Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
 {
     Names names;
     const float emission_scale = brightestEmission(scene);
     const GpuScene gpu_scene = uploadScene(device(), scene, true, emission_scale);
     BuildOptions build{coverage};
     build.keep_sums = true;
-    DynamicOctree octree(device(), buildOctree(device(), gpu_scene, grid, build),
-                         {.coverage = coverage, .emission_scale = emission_scale});
-    const std::vector<test::Cell> before = test::cellsOf(device(), octree.tree().octree());
+    BuildResult built = buildOctree(device(), gpu_scene, grid, build);
+    StaticTree fixed = compressed ? StaticTree(test::svdagOf(device(), built.octree), std::move(built.sums))
+                                  : StaticTree(std::move(built));
+    DynamicOctree octree(device(), std::move(fixed), {.coverage = coverage, .emission_scale = emission_scale});
+    const std::vector<test::Cell> before = test::cellsOf(device(), octree.tree());
 
     Scene moved = scene;
     Pose pose;
@@ -201,11 +206,17 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage)
     } while (octree.needsUpdate());
     Scene both = scene;
     both.append(std::move(moved));
-    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree().octree()), grid),
-              oracle::voxelize(both, grid, coverage).codes);
+    EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid), oracle::voxelize(both, grid, coverage).codes);
+
+    Names shown = tracePictures(octree.tree());
+    for (const char* kernel : {"trace/beam_ranks", "trace/primary_ranks", "trace/ranks"}) // their variants for overlays
+    {
+        EXPECT_EQ(shown.contains(kernel), compressed) << kernel;
+    }
+    names.merge(shown);
 
     addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undo(graph); }));
-    EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree().octree()), before), "");
+    EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), before), "");
     return names;
 }
 
@@ -282,9 +293,13 @@ TEST(EveryKernel, RunsOnASmallScene)
         addNames(names, built.passes);
         if (c.pictures)
         {
-            names.merge(mergeMovers(scene, grid, c.coverage));
+            names.merge(mergeMovers(scene, grid, c.coverage, false));
             names.merge(tracePictures(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
+            const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
+            names.merge(mergeMovers(scene, deep, c.coverage, true));
+            names.merge(
+                tracePictures(test::svdagOf(device(), buildOctree(device(), gpu_scene, deep, {c.coverage}).octree)));
             for (const AttributeForm form : {AttributeForm::Bytes4, AttributeForm::Blocks})
             {
                 names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), form));
