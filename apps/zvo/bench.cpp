@@ -95,35 +95,61 @@ private:
         row.rays = primaryRayCount(buffers);
         row.hits = countHits(m_device, buffers);
         row.peak_device_bytes = m_device.device().memory().peakBytes();
-        const Svdag dag = measureCompress(octree, row);
-        PrimaryRays dag_rays(m_device, dag, camera, buffers);
-        const TraceRuns runs = traceInTurns(octree_rays, dag_rays, kTraceTurns * m_options.run_count);
+        const std::uint32_t turn_count = kTraceTurns * m_options.run_count;
+        TraceRuns runs;
+        try
+        {
+            Compression compression = measureCompress(octree);
+            PrimaryRays dag_rays(m_device, compression.dag, camera, buffers);
+            runs = traceInTurns(octree_rays, dag_rays, turn_count);
+            row.dag = compression.numbers;
+            row.dag->trace_ms = runs.dag_ms;
+            row.dag->trace_ratio = runs.ratio;
+            addPasses(row.passes, std::move(compression.passes), 1);
+        }
+        catch (const Error& error)
+        {
+            if (error.code() != ErrorCode::Memory)
+            {
+                throw;
+            }
+            talk(fmt::format("warning: no DAG of {} at {}: {}", row.scene, row.resolution, error.what()));
+            runs = traceAlone(octree_rays, turn_count);
+        }
         row.trace_ms = runs.octree_ms;
-        row.trace_dag_ms = runs.dag_ms;
-        row.trace_dag_ratio = runs.ratio;
         addPasses(row.passes, runs.octree_passes, 1);
         addPasses(row.passes, ofDag(runs.dag_passes), 1);
     }
 
-    // After a warm-up. Each run takes a copy of the octree, which it uses up.
-    Svdag measureCompress(const Octree& octree, BenchRow& row)
+    struct Compression
+    {
+        Svdag dag;
+        DagNumbers numbers;               // but those of pictures
+        std::vector<vk::PassTime> passes; // mean of the runs, summed by name
+    };
+
+    // After a warm-up. Each run takes a copy of the octree, which it uses up. Throws Error{Memory} where memory does
+    // not suffice for both at once.
+    Compression measureCompress(const Octree& octree)
     {
         const TreeData copy = downloadTree(m_device, octree);
         const auto run = [&] { return compress(m_device, std::get<Octree>(uploadTree(m_device, copy))); };
         CompressResult compressed = run();
+        Compression compression;
         std::vector<double> compress_ms;
         for (std::uint32_t i = 0; i < m_options.run_count; ++i)
         {
             compressed = {}; // its memory goes before the next one's comes
             compressed = run();
             compress_ms.push_back(compressed.ms());
-            addPasses(row.passes, ofDag(compressed.passes), m_options.run_count);
+            addPasses(compression.passes, ofDag(compressed.passes), m_options.run_count);
         }
-        row.compress_ms = Spread::of(compress_ms);
-        row.dag_nodes = compressed.dag.tree.node_count;
-        row.dag_geometry_bytes = compressed.dag.geometryBytes();
-        row.dag_rank_bytes = compressed.dag.rankBytes();
-        return std::move(compressed.dag);
+        compression.numbers.compress_ms = Spread::of(compress_ms);
+        compression.numbers.nodes = compressed.dag.tree.node_count;
+        compression.numbers.geometry_bytes = compressed.dag.geometryBytes();
+        compression.numbers.rank_bytes = compressed.dag.rankBytes();
+        compression.dag = std::move(compressed.dag);
+        return compression;
     }
 
 #ifdef ZVO_EMBREE

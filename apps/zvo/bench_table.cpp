@@ -30,6 +30,12 @@ std::string percent(double part)
     return fmt::format("{:.1f} %", 100 * part);
 }
 
+// What text(numbers) says of the DAG, or that there is none.
+template <typename Text> std::string orDash(const std::optional<DagNumbers>& dag, const Text& text)
+{
+    return dag ? text(*dag) : "-";
+}
+
 const Columns<BenchRow>& columns()
 {
     static const Columns<BenchRow> all = {
@@ -45,15 +51,31 @@ const Columns<BenchRow>& columns()
          [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.attribute_bytes)); }},
         {"voxelize ms", 23, [](const BenchRow& row) { return spreadText(row.voxelize_ms); }},
         {"build ms", 23, [](const BenchRow& row) { return spreadText(row.build_ms); }},
-        {"compress ms", 23, [](const BenchRow& row) { return spreadText(row.compress_ms); }},
-        {"of both", 7, [](const BenchRow& row) { return percent(row.compressRatio()); }},
-        {"DAG nodes", 9, [](const BenchRow& row) { return fmt::format("{}", row.dag_nodes); }},
+        {"compress ms", 23,
+         [](const BenchRow& row)
+         { return orDash(row.dag, [](const DagNumbers& dag) { return spreadText(dag.compress_ms); }); }},
+        {"of both", 7,
+         [](const BenchRow& row)
+         { return orDash(row.dag, [&](const DagNumbers& dag) { return percent(row.compressRatio(dag)); }); }},
+        {"DAG nodes", 9,
+         [](const BenchRow& row)
+         { return orDash(row.dag, [](const DagNumbers& dag) { return fmt::format("{}", dag.nodes); }); }},
         {"DAG B/voxel", 11,
-         [](const BenchRow& row) { return fmt::format("{:.3f}", row.perVoxel(row.dag_geometry_bytes)); }},
-        {"of octree", 9, [](const BenchRow& row) { return percent(row.dagGeometryRatio()); }},
+         [](const BenchRow& row)
+         {
+             return orDash(row.dag, [&](const DagNumbers& dag)
+                           { return fmt::format("{:.3f}", row.perVoxel(dag.geometry_bytes)); });
+         }},
+        {"of octree", 9,
+         [](const BenchRow& row)
+         { return orDash(row.dag, [&](const DagNumbers& dag) { return percent(row.dagGeometryRatio(dag)); }); }},
         {"trace ms", 23, [](const BenchRow& row) { return spreadText(row.trace_ms); }},
-        {"trace DAG ms", 23, [](const BenchRow& row) { return spreadText(row.trace_dag_ms); }},
-        {"ratio", 16, [](const BenchRow& row) { return spreadText(row.trace_dag_ratio); }},
+        {"trace DAG ms", 23,
+         [](const BenchRow& row)
+         { return orDash(row.dag, [](const DagNumbers& dag) { return spreadText(dag.trace_ms); }); }},
+        {"ratio", 16,
+         [](const BenchRow& row)
+         { return orDash(row.dag, [](const DagNumbers& dag) { return spreadText(dag.trace_ratio); }); }},
         {"Mvoxels/s", 9, [](const BenchRow& row) { return rate(row.mvoxelsPerSecond()); }},
         {"Mrays/s", 7, [](const BenchRow& row) { return rate(row.mraysPerSecond()); }},
         {"hits %", 6,
@@ -81,6 +103,12 @@ template <typename T> Json orNull(const std::optional<T>& value)
     return value ? Json(*value) : Json(nullptr);
 }
 
+// What value(numbers) says of the DAG, or null.
+template <typename Value> Json dagJson(const std::optional<DagNumbers>& dag, const Value& value)
+{
+    return dag ? Json(value(*dag)) : Json(nullptr);
+}
+
 Json rowJson(const BenchRow& row)
 {
     Json json;
@@ -96,16 +124,18 @@ Json rowJson(const BenchRow& row)
     json["attribute_bytes_per_voxel"] = row.perVoxel(row.attribute_bytes);
     json["voxelize_ms"] = spreadJson(row.voxelize_ms);
     json["build_ms"] = spreadJson(row.build_ms);
-    json["compress_ms"] = spreadJson(row.compress_ms);
-    json["compress_ratio"] = row.compressRatio();
-    json["dag_nodes"] = row.dag_nodes;
-    json["dag_geometry_bytes"] = row.dag_geometry_bytes;
-    json["dag_geometry_bytes_per_voxel"] = row.perVoxel(row.dag_geometry_bytes);
-    json["dag_geometry_ratio"] = row.dagGeometryRatio();
-    json["dag_rank_bytes"] = row.dag_rank_bytes;
+    const auto ofDag = [&](const auto& value) { return dagJson(row.dag, value); };
+    json["compress_ms"] = ofDag([](const DagNumbers& dag) { return spreadJson(dag.compress_ms); });
+    json["compress_ratio"] = ofDag([&](const DagNumbers& dag) { return row.compressRatio(dag); });
+    json["dag_nodes"] = ofDag([](const DagNumbers& dag) { return dag.nodes; });
+    json["dag_geometry_bytes"] = ofDag([](const DagNumbers& dag) { return dag.geometry_bytes; });
+    json["dag_geometry_bytes_per_voxel"] =
+        ofDag([&](const DagNumbers& dag) { return row.perVoxel(dag.geometry_bytes); });
+    json["dag_geometry_ratio"] = ofDag([&](const DagNumbers& dag) { return row.dagGeometryRatio(dag); });
+    json["dag_rank_bytes"] = ofDag([](const DagNumbers& dag) { return dag.rank_bytes; });
     json["trace_ms"] = spreadJson(row.trace_ms);
-    json["trace_dag_ms"] = spreadJson(row.trace_dag_ms);
-    json["trace_dag_ratio"] = spreadJson(row.trace_dag_ratio);
+    json["trace_dag_ms"] = ofDag([](const DagNumbers& dag) { return spreadJson(dag.trace_ms); });
+    json["trace_dag_ratio"] = ofDag([](const DagNumbers& dag) { return spreadJson(dag.trace_ratio); });
     json["mvoxels_per_s"] = row.mvoxelsPerSecond();
     json["mrays_per_s"] = row.mraysPerSecond();
     json["embree_user_mrays_per_s"] = orNull(row.embree_user_mrays_per_s);
@@ -156,15 +186,16 @@ double BenchRow::mraysPerSecond() const
     return trace_ms.median > 0 ? static_cast<double>(rays) / trace_ms.median / 1e3 : 0.0;
 }
 
-double BenchRow::dagGeometryRatio() const
+double BenchRow::dagGeometryRatio(const DagNumbers& numbers) const
 {
-    return geometry_bytes == 0 ? 0.0 : static_cast<double>(dag_geometry_bytes) / static_cast<double>(geometry_bytes);
+    return geometry_bytes == 0 ? 0.0
+                               : static_cast<double>(numbers.geometry_bytes) / static_cast<double>(geometry_bytes);
 }
 
-double BenchRow::compressRatio() const
+double BenchRow::compressRatio(const DagNumbers& numbers) const
 {
     const double ms = voxelize_ms.median + build_ms.median;
-    return ms > 0 ? compress_ms.median / ms : 0.0;
+    return ms > 0 ? numbers.compress_ms.median / ms : 0.0;
 }
 
 std::string tableHead(const BenchHeader& header)

@@ -31,6 +31,17 @@ Json spreadJson(const Spread& spread);
 
 constexpr std::uint32_t kTraceTurns = 3; // pictures for each run: they take less time than the rest
 
+/// What a row tells of the DAG that is made of its octree.
+struct DagNumbers
+{
+    std::uint64_t nodes = 0;
+    std::uint64_t geometry_bytes = 0; // of nodes and lists
+    std::uint64_t rank_bytes = 0;     // what attributes need beside them
+    Spread compress_ms;
+    Spread trace_ms;
+    Spread trace_ratio; // DAG / octree, of pictures that were traced one after the other
+};
+
 /// One scene at one resolution.
 struct BenchRow
 {
@@ -44,16 +55,11 @@ struct BenchRow
     std::uint64_t geometry_bytes = 0;
     std::uint64_t attribute_bytes = 0;
     std::uint64_t peak_device_bytes = 0; // until the octree was traced
-    std::uint64_t dag_nodes = 0;
-    std::uint64_t dag_geometry_bytes = 0; // of nodes and lists
-    std::uint64_t dag_rank_bytes = 0;     // what attributes need beside them
     Spread voxelize_ms;
     Spread build_ms;
-    Spread compress_ms;
-    Spread trace_ms; // of the octree
-    Spread trace_dag_ms;
-    Spread trace_dag_ratio;  // DAG / octree, of pictures that were traced one after the other
-    double beam_grid_ms = 0; // once for an octree; in no other time
+    Spread trace_ms;               // of the octree
+    std::optional<DagNumbers> dag; // unless memory does not suffice for octree and DAG at once
+    double beam_grid_ms = 0;       // once for an octree; in no other time
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;                               // rays that hit a voxel
     std::optional<double> embree_user_mrays_per_s;        // through the same voxels
@@ -68,9 +74,9 @@ struct BenchRow
     [[nodiscard]] double mraysPerSecond() const;
 
     /// Of the DAG and the octree: bytes of geometry.
-    [[nodiscard]] double dagGeometryRatio() const;
+    [[nodiscard]] double dagGeometryRatio(const DagNumbers& numbers) const;
     /// Compression over voxelization and octree construction: times.
-    [[nodiscard]] double compressRatio() const;
+    [[nodiscard]] double compressRatio(const DagNumbers& numbers) const;
 };
 
 /// What all rows share.

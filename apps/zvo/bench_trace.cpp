@@ -22,29 +22,48 @@ std::vector<vk::PassTime> PrimaryRays::trace()
                         { tracePrimary(graph, m_tree, m_beam, m_camera, TraceOptions{}, m_buffers); });
 }
 
+namespace
+{
+
+// Traces a picture: one more time, and its share of the sums.
+void addPicture(PrimaryRays& rays, std::uint32_t turn_count, std::vector<double>& ms, std::vector<vk::PassTime>& sums)
+{
+    std::vector<vk::PassTime> passes = rays.trace();
+    ms.push_back(sumMs(passes));
+    addPasses(sums, std::move(passes), turn_count);
+}
+
+} // namespace
+
+TraceRuns traceAlone(PrimaryRays& octree, std::uint32_t turn_count)
+{
+    TraceRuns runs;
+    std::vector<double> octree_ms;
+    for (std::uint32_t turn = 0; turn < turn_count; ++turn)
+    {
+        addPicture(octree, turn_count, octree_ms, runs.octree_passes);
+    }
+    runs.octree_ms = Spread::of(octree_ms);
+    return runs;
+}
+
 TraceRuns traceInTurns(PrimaryRays& octree, PrimaryRays& dag, std::uint32_t turn_count)
 {
     TraceRuns runs;
     std::vector<double> octree_ms;
     std::vector<double> dag_ms;
     std::vector<double> ratios;
-    const auto add = [&](PrimaryRays& rays, std::vector<double>& ms, std::vector<vk::PassTime>& sums)
-    {
-        std::vector<vk::PassTime> passes = rays.trace();
-        ms.push_back(sumMs(passes));
-        addPasses(sums, std::move(passes), turn_count);
-    };
     for (std::uint32_t turn = 0; turn < turn_count; ++turn)
     {
         const bool dag_first = turn % 2 != 0;
         if (dag_first)
         {
-            add(dag, dag_ms, runs.dag_passes);
+            addPicture(dag, turn_count, dag_ms, runs.dag_passes);
         }
-        add(octree, octree_ms, runs.octree_passes);
+        addPicture(octree, turn_count, octree_ms, runs.octree_passes);
         if (!dag_first)
         {
-            add(dag, dag_ms, runs.dag_passes);
+            addPicture(dag, turn_count, dag_ms, runs.dag_passes);
         }
         ratios.push_back(octree_ms.back() > 0 ? dag_ms.back() / octree_ms.back() : 0.0);
     }

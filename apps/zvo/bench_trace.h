@@ -47,6 +47,9 @@ struct TraceRuns
 /// Traces both, turn by turn, each turn the other one first: what else the machine does meets both alike.
 TraceRuns traceInTurns(PrimaryRays& octree, PrimaryRays& dag, std::uint32_t turn_count);
 
+/// The octree's alone, where there is no DAG: the rest of the result is empty.
+TraceRuns traceAlone(PrimaryRays& octree, std::uint32_t turn_count);
+
 /// Pixels of the last picture whose ray hit something.
 std::uint64_t countHits(vk::HeadlessDevice& device, const TraceBuffers& buffers);
 

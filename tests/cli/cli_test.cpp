@@ -354,6 +354,37 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
     EXPECT_TRUE(contains(outcome.out, "| trace/ranks (DAG) "));
 }
 
+TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
+{
+    const std::vector<std::string> arguments = {"bench", "cube.glb", "--resolutions", "32", "--runs",
+                                                "1",     "--json",   "bench.json",    "-f", "--passes"};
+    run(arguments);
+    const json whole = json::parse(file("bench.json"))["rows"][0];
+    // A limit that suffices for the octree alone: the DAG's beam grid takes 8 MiB beside it.
+    constexpr std::uint64_t kMiB = 1 << 20;
+    Outcome outcome;
+    for (std::uint64_t mib = whole["peak_device_bytes"].get<std::uint64_t>() / kMiB; outcome.err.empty(); mib -= 4)
+    {
+        std::vector<std::string> limited = arguments;
+        limited.insert(limited.end(), {"--memory-limit", std::to_string(mib) + "MiB"});
+        outcome = run(limited);
+    }
+    EXPECT_TRUE(contains(outcome.err, "zvo: warning: no DAG of cube at 32: ")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "raise --memory-limit")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, " - |")) << outcome.out;
+    EXPECT_FALSE(contains(outcome.out, " (DAG) ")) << outcome.out;
+    const json row = json::parse(file("bench.json"))["rows"][0];
+    for (const auto& [name, value] : whole.items())
+    {
+        const bool of_dag = name.starts_with("dag_") || name.starts_with("compress_") || name.starts_with("trace_dag_");
+        EXPECT_EQ(row[name].is_null(), of_dag || value.is_null()) << name;
+    }
+    EXPECT_EQ(row["voxels"], whole["voxels"]);
+    EXPECT_EQ(row["hits"], whole["hits"]);
+    EXPECT_GT(row["trace_ms"]["median"], 0);
+    EXPECT_GT(row["mrays_per_s"], 0);
+}
+
 TEST_F(CliRun, BenchOfBalanceTellsEverySceneAndItsRatios)
 {
     const Outcome outcome =
