@@ -15,7 +15,7 @@ enum class ErrorCode : int
     Input = 3,  ///< a file that is missing, broken or not supported
     Output = 4, ///< a file that could not be written
     Device = 5, ///< no Vulkan device that will do
-    Memory = 6, ///< the memory limit, or the device's memory, does not suffice
+    Memory = 6, ///< the memory limit, or the memory of device or host, does not suffice
 };
 
 /// A failure at run time. what() is one line: what went wrong, where, and what to do about it.

@@ -5,6 +5,7 @@
 #include "core/tree_build.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
+#include "zvo/error.h"
 
 #include <iostream> // which GridValidator.h lacks
 
@@ -14,7 +15,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <fstream>
+#include <sched.h>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <vector>
+
+#ifdef __has_feature // clang
+#define ZVO_HAS_FEATURE(feature) __has_feature(feature)
+#else
+#define ZVO_HAS_FEATURE(feature) 0
+#endif
 
 namespace zvo::test
 {
@@ -99,6 +111,82 @@ TEST(NvdbWrite, GivesTheSameBytesForEqualVoxels)
         }
     }
     EXPECT_GT(dag_count, 3);
+}
+
+// What this process can allocate from here on.
+class MemoryLimit
+{
+public:
+    explicit MemoryLimit(std::uint64_t bytes)
+    {
+        std::ifstream statm("/proc/self/statm");
+        std::uint64_t pages = 0;
+        statm >> pages;
+        getrlimit(RLIMIT_AS, &m_before);
+        const struct rlimit limit = {pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) + bytes,
+                                     m_before.rlim_max};
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    ~MemoryLimit() { setrlimit(RLIMIT_AS, &m_before); }
+    MemoryLimit(const MemoryLimit&) = delete;
+    MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+private:
+    struct rlimit m_before = {};
+};
+
+// One processor, on which NanoVDB starts no threads.
+class OneProcessor
+{
+public:
+    OneProcessor()
+    {
+        sched_getaffinity(0, sizeof(m_before), &m_before);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(sched_getcpu(), &one);
+        sched_setaffinity(0, sizeof(one), &one);
+    }
+    ~OneProcessor() { sched_setaffinity(0, sizeof(m_before), &m_before); }
+    OneProcessor(const OneProcessor&) = delete;
+    OneProcessor& operator=(const OneProcessor&) = delete;
+
+private:
+    cpu_set_t m_before{};
+};
+
+TEST(NvdbWrite, TooLittleMemoryIsSaidBeforeAnythingIsWritten)
+{
+#if defined(__SANITIZE_ADDRESS__) || ZVO_HAS_FEATURE(address_sanitizer)
+    GTEST_SKIP() << "AddressSanitizer's own memory exceeds any limit";
+#endif
+    std::vector<std::uint64_t> codes;
+    for (std::uint64_t block = 0; block < 1U << 15; ++block)
+    {
+        codes.push_back(block << 9); // 2 KiB of values each, first in nodes and then in the grid
+    }
+    const TreeData tree = octreeOf(codes, 8);
+    const OneProcessor processor;
+    constexpr std::uint64_t kMiB = 1 << 20;
+    std::uint32_t failed_count = 0;
+    std::uint64_t written_bytes = 0;
+    for (std::uint64_t bytes = 0; written_bytes == 0 && bytes < 256 * kMiB; bytes += 8 * kMiB)
+    {
+        try
+        {
+            const MemoryLimit limit(bytes);
+            writeNvdb(tree, [&](std::span<const std::byte> more) { written_bytes += more.size(); });
+        }
+        catch (const Error& error)
+        {
+            EXPECT_EQ(error.code(), ErrorCode::Memory);
+            EXPECT_NE(std::string(error.what()).find("of 32768 voxels"), std::string::npos) << error.what();
+            ASSERT_EQ(written_bytes, 0U);
+            ++failed_count;
+        }
+    }
+    EXPECT_GE(failed_count, 8U) << "there was no room for the grid";
+    EXPECT_EQ(written_bytes, nvdbOf(tree).size());
 }
 
 } // namespace
