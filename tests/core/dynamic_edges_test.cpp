@@ -4,6 +4,7 @@
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
 #include "support/device.h"
+#include "support/dynamic_updates.h"
 #include "support/mover_scenery.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
@@ -81,30 +82,9 @@ public:
     MoverId add(const Item& item) { return m_octree->add(m_scenery.mover(item.mesh, true), m_scenery.poseOf(item)); }
     void place(MoverId mover, const Item& item) { m_octree->place(mover, m_scenery.poseOf(item)); }
 
-    // Updates until everything is shown.
-    UpdateReport update()
-    {
-        for (int attempt = 0; attempt < 64; ++attempt)
-        {
-            const std::uint64_t frame = m_octree->beginFrame();
-            m_device.run([&](vk::FrameGraph& graph) { m_octree->update(graph); });
-            const std::vector<UpdateReport> reports = m_octree->frameDone(frame);
-            if (!m_octree->needsUpdate())
-            {
-                return reports.empty() ? UpdateReport{} : reports.back();
-            }
-        }
-        throw std::runtime_error("no update succeeded");
-    }
-
-    bool show(bool undo)
-    {
-        const std::uint64_t frame = m_octree->beginFrame();
-        bool shown = false;
-        m_device.run([&](vk::FrameGraph& graph) { shown = undo ? m_octree->undo(graph) : m_octree->redo(graph); });
-        m_octree->frameDone(frame);
-        return shown;
-    }
+    UpdateReport update() { return test::updateAll(m_device, *m_octree); }
+    bool undo() { return test::undo(m_device, *m_octree); }
+    bool redo() { return test::redo(m_device, *m_octree); }
 
     std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->tree().octree()); }
     std::vector<Cell> rebuilt(const std::multiset<Item>& items)
@@ -372,18 +352,18 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyStepsAsItMay)
     EXPECT_EQ(world.octree().history().undoCount(), 3U);
     for (const std::size_t step : {6U, 5U})
     {
-        EXPECT_TRUE(world.show(true));
+        EXPECT_TRUE(world.undo());
         EXPECT_EQ(test::difference(world.shown(), shown[step]), "");
     }
-    EXPECT_TRUE(world.show(true)); // the oldest is always the static octree
+    EXPECT_TRUE(world.undo()); // the oldest is always the static octree
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
-    EXPECT_FALSE(world.show(true));
+    EXPECT_FALSE(world.undo());
     for (const std::size_t step : {5U, 6U, 7U})
     {
-        EXPECT_TRUE(world.show(false));
+        EXPECT_TRUE(world.redo());
         EXPECT_EQ(test::difference(world.shown(), shown[step]), "");
     }
-    EXPECT_FALSE(world.show(false));
+    EXPECT_FALSE(world.redo());
 }
 
 TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)

@@ -3,6 +3,7 @@
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
 #include "support/device.h"
+#include "support/dynamic_updates.h"
 #include "support/materials_scene.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
@@ -62,39 +63,9 @@ public:
         return pose;
     }
 
-    // Updates until everything had room.
-    UpdateReport update()
-    {
-        for (int attempt = 0; attempt < 64; ++attempt)
-        {
-            const std::uint64_t frame = m_octree->beginFrame();
-            device().run([&](vk::FrameGraph& graph) { m_octree->update(graph); });
-            const std::vector<UpdateReport> reports = m_octree->frameDone(frame);
-            if (!m_octree->needsUpdate())
-            {
-                return reports.empty() ? UpdateReport{} : reports.back();
-            }
-        }
-        throw std::runtime_error("no update succeeded");
-    }
-
-    bool undo()
-    {
-        const std::uint64_t frame = m_octree->beginFrame();
-        bool shown = false;
-        device().run([&](vk::FrameGraph& graph) { shown = m_octree->undo(graph); });
-        m_octree->frameDone(frame);
-        return shown;
-    }
-
-    bool redo()
-    {
-        const std::uint64_t frame = m_octree->beginFrame();
-        bool shown = false;
-        device().run([&](vk::FrameGraph& graph) { shown = m_octree->redo(graph); });
-        m_octree->frameDone(frame);
-        return shown;
-    }
+    UpdateReport update() { return test::updateAll(device(), *m_octree); }
+    bool undo() { return test::undo(device(), *m_octree); }
+    bool redo() { return test::redo(device(), *m_octree); }
 
     std::vector<Cell> shown() const { return test::cellsOf(device(), m_octree->tree().octree()); }
 

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// Movers merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it was.
+#include "core/dynamic_octree.h"
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/dynamic_updates.h"
+#include "support/mover_scenery.h"
+#include "support/octree_contents.h"
+#include "support/trace_octrees.h"
+#include "support/tree_comparison.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::DynamicSetting;
+using test::Item;
+using test::MoverScenery;
+using Kind = test::Place::Kind;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+/// A scenery with a DAG for its static part.
+class World
+{
+public:
+    explicit World(const DynamicSetting& setting) : m_setting(setting), m_scenery(device(), true)
+    {
+        m_setting.compressed = true;
+        m_octree = std::make_unique<DynamicOctree>(device(), m_scenery.buildStatic(m_setting),
+                                                   m_setting.options(m_scenery.emissionScale()));
+    }
+
+    DynamicOctree& octree() { return *m_octree; }
+
+    MoverId add(const Item& item) { return m_octree->add(m_scenery.mover(item.mesh, true), m_scenery.poseOf(item)); }
+    void place(MoverId mover, const Item& item) { m_octree->place(mover, m_scenery.poseOf(item)); }
+
+    void expectRebuilt(const std::multiset<Item>& items, bool with_pictures)
+    {
+        const std::shared_ptr<const test::Rebuilt> rebuilt = m_scenery.rebuilt(m_setting, true, items);
+        EXPECT_EQ(test::difference(test::cellsOf(device(), m_octree->tree()), rebuilt->cells), "");
+        if (with_pictures)
+        {
+            const double edge = m_setting.grid().resolution();
+            const ViewCamera close =
+                ViewCamera::lookAt(edge * glm::dvec3(1.27, 1.11, 1.47), edge * glm::dvec3(0.43, 0.51, 0.39), 0.9);
+            test::TreeComparison(device(), rebuilt->octree, m_octree->tree()).pictures(close);
+        }
+    }
+
+private:
+    DynamicSetting m_setting;
+    MoverScenery m_scenery;
+    std::unique_ptr<DynamicOctree> m_octree;
+};
+
+constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
+constexpr Item kTurned = {0, {Kind::Turned, {2, 1, 2}}};
+constexpr Item kBent = {2, {Kind::Inside, {1, 2, 1}}, 3};
+
+TEST(DynamicSvdagMerge, AveragedMoversGiveWhatARebuildGives)
+{
+    for (const std::uint32_t depth : {6U, 1U, 2U, 5U, 7U, 13U})
+    {
+        SCOPED_TRACE("depth " + std::to_string(depth));
+        const bool with_pictures = depth > 4 && depth < 13;
+        World world({.depth = depth, .minimal_capacities = depth % 2 != 0});
+        world.expectRebuilt({}, with_pictures);
+        const MoverId first = world.add(kMiddle);
+        test::updateAll(device(), world.octree());
+        world.expectRebuilt({kMiddle}, false);
+        const MoverId second = world.add(kTurned);
+        world.add(kBent);
+        test::updateAll(device(), world.octree());
+        world.expectRebuilt({kMiddle, kTurned, kBent}, with_pictures);
+        world.place(first, {0, {Kind::Mirrored, {0, 2, 1}}});
+        world.octree().remove(second);
+        test::updateAll(device(), world.octree());
+        world.expectRebuilt({{0, {Kind::Mirrored, {0, 2, 1}}}, kBent}, false);
+        EXPECT_TRUE(test::undo(device(), world.octree()));
+        world.expectRebuilt({kMiddle, kTurned, kBent}, false);
+        EXPECT_TRUE(test::undo(device(), world.octree()));
+        EXPECT_TRUE(test::undo(device(), world.octree()));
+        world.expectRebuilt({}, with_pictures);
+    }
+}
+
+// Words of buffer, from element first on.
+template <typename T>
+void addWords(std::vector<gpu::uint>& words, const vk::BufferOf<T>& buffer, std::uint64_t first, std::uint64_t count)
+{
+    const std::vector<T> values = device().download(buffer, first, count);
+    const auto* begin = reinterpret_cast<const gpu::uint*>(values.data());
+    words.insert(words.end(), begin, begin + values.size() * sizeof(T) / sizeof(gpu::uint));
+}
+
+TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
+{
+    const DynamicSetting setting = {.depth = 6, .compressed = true, .minimal_capacities = true};
+    MoverScenery scenery(device(), true);
+    StaticTree fixed = scenery.buildStatic(setting);
+    const std::uint64_t node_end = fixed.dag.tree.nodes.count();
+    ASSERT_GT(fixed.dag.entry_count, 100U);
+    const auto bytes = [&](const Svdag& dag)
+    {
+        std::vector<gpu::uint> words;
+        addWords(words, dag.tree.nodes, 1, node_end - 1); // behind the slot; lists included
+        addWords(words, dag.tree.node_attributes, 1, dag.octree_node_count - 1);
+        addWords(words, dag.tree.voxel_attributes, 0, dag.tree.voxel_count);
+        addWords(words, dag.before, 0, dag.before.count());
+        addWords(words, dag.voxels_before_leaf, 0, dag.voxels_before_leaf.count());
+        return words;
+    };
+    const gpu::Node root = device().download(fixed.dag.tree.nodes, 0, 1).front();
+    const std::vector<gpu::uint> before = bytes(fixed.dag);
+    DynamicOctree octree(device(), std::move(fixed), setting.options(scenery.emissionScale()));
+    EXPECT_EQ(octree.staticRoot(), node_end);
+    const auto expectUnchanged = [&]
+    {
+        EXPECT_TRUE(bytes(*octree.tree().svdag()) == before);
+        const gpu::Node shown = device().download(octree.tree().octree().nodes, octree.staticRoot(), 1).front();
+        EXPECT_EQ(shown.mask_lo, root.mask_lo);
+        EXPECT_EQ(shown.base_lo, root.base_lo);
+        EXPECT_EQ(shown.mask_hi, root.mask_hi);
+        EXPECT_EQ(shown.base_hi, root.base_hi);
+    };
+    expectUnchanged();
+    for (const Item& item : {kMiddle, kTurned, kBent})
+    {
+        octree.add(scenery.mover(item.mesh, true), scenery.poseOf(item));
+        test::updateAll(device(), octree);
+        expectUnchanged();
+    }
+    EXPECT_TRUE(test::undo(device(), octree));
+    expectUnchanged();
+}
+
+TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
+{
+    World world({.depth = 6});
+    const MoverId mover = world.add(kMiddle);
+    test::updateAll(device(), world.octree());
+    const auto bytes = [&]
+    {
+        const Octree& octree = world.octree().tree().octree();
+        std::vector<gpu::uint> words;
+        addWords(words, octree.nodes, 0, octree.nodes.count());
+        addWords(words, octree.node_attributes, 0, octree.node_attributes.count());
+        addWords(words, octree.voxel_attributes, 0, octree.voxel_attributes.count());
+        return words;
+    };
+    const std::vector<gpu::uint> before = bytes();
+    world.place(mover, kTurned);
+    test::updateAll(device(), world.octree());
+    EXPECT_FALSE(bytes() == before);
+    EXPECT_TRUE(test::undo(device(), world.octree()));
+    const std::vector<gpu::uint> after = bytes();
+    // The overlay that was undone is left behind it, where there was nothing.
+    const RootStep step = world.octree().history().current();
+    const Octree& octree = world.octree().tree().octree();
+    const std::uint64_t words_per_node = sizeof(gpu::Node) / sizeof(gpu::uint);
+    const std::uint64_t end = words_per_node * (step.region->first_node + step.region->node_capacity);
+    ASSERT_LT(end, octree.nodes.count() * words_per_node);
+    EXPECT_TRUE(std::equal(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(end), after.begin()));
+}
+
+TEST(DynamicSvdagMerge, OverlaysTakeEightBytesANodeMoreThanOnAnOctree)
+{
+    const DynamicSetting setting = {.depth = 6};
+    std::array<std::uint64_t, 2> bytes{};
+    std::array<UpdateReport, 2> reports;
+    for (const bool compressed : {false, true})
+    {
+        DynamicSetting with = setting;
+        with.compressed = compressed;
+        MoverScenery scenery(device(), true);
+        DynamicOctree octree(device(), scenery.buildStatic(with), with.options(scenery.emissionScale()));
+        octree.add(scenery.mover(0, true), scenery.poseOf(kMiddle));
+        reports.at(compressed ? 1 : 0) = test::updateAll(device(), octree);
+        bytes.at(compressed ? 1 : 0) = octree.history().stepBytes();
+    }
+    EXPECT_EQ(reports[1].node_count, reports[0].node_count);
+    EXPECT_EQ(bytes[1], bytes[0] + sizeof(gpu::BeforeChild) * reports[0].node_count);
+}
+
+TEST(DynamicSvdagMerge, MoreNodesThanListsCanBeToldFromAreRefused)
+{
+    const test::Codes codes = {0, 5, 70};
+    const auto make = [&](std::uint64_t room)
+    {
+        Svdag dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
+        return OverlayOctree(device(), StaticTree(std::move(dag), {}), {false, 0.0F}, room);
+    };
+    EXPECT_GE(make(1).arena().largestFreeNodes(), 1U);
+    try
+    {
+        make(std::uint64_t{1} << 31);
+        FAIL() << "no error";
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), ErrorCode::Memory);
+        EXPECT_NE(std::string(error.what()).find("more nodes or voxels than the 2147483648 that can be told apart"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+} // namespace
+} // namespace zvo

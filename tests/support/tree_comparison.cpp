@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "support/tree_comparison.h"
+
+#include "support/trace_rays.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <random>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+constexpr std::array kViews = {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations};
+constexpr std::uint32_t kWidth = 53;
+constexpr std::uint32_t kHeight = 41;
+
+bool showsAttributes(View view)
+{
+    return view == View::Color || view == View::Albedo || view == View::Normal;
+}
+
+void expectSameHits(const std::vector<gpu::Hit>& expected, const Looks& expected_looks,
+                    const std::vector<gpu::Hit>& hits, const Looks& looks, bool with_looks)
+{
+    ASSERT_EQ(hits.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+    {
+        ASSERT_EQ(hits[i].index == gpu::kHitMiss, expected[i].index == gpu::kHitMiss) << i;
+        if (hits[i].index == gpu::kHitMiss)
+        {
+            continue;
+        }
+        ASSERT_EQ(std::bit_cast<std::uint32_t>(hits[i].t), std::bit_cast<std::uint32_t>(expected[i].t)) << i;
+        ASSERT_EQ(hits[i].where, expected[i].where) << i;
+        if (with_looks)
+        {
+            ASSERT_EQ(looks.of(hits[i]), expected_looks.of(expected[i])) << i;
+        }
+    }
+}
+
+} // namespace
+
+Looks::Looks(vk::HeadlessDevice& device, const TreeView& tree)
+    : voxels(device.download(tree.octree().voxel_attributes)), nodes(device.download(tree.octree().node_attributes)),
+      levels(tree.octree().grid.nodeLevels())
+{
+}
+
+std::uint64_t Looks::of(const gpu::Hit& hit) const
+{
+    const bool is_voxel = unpack(hit)->level == levels;
+    const gpu::Attribute& look = (is_voxel ? voxels : nodes).at(hit.index);
+    return look.color | std::uint64_t{look.normal} << 32;
+}
+
+TreeComparison::Subject::Subject(vk::HeadlessDevice& device, const TreeView& view)
+    : tree(view), looks(device, view), beam(device.device(), view.hasLists())
+{
+    device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); });
+}
+
+TreeComparison::TreeComparison(vk::HeadlessDevice& device, const TreeView& expected, const TreeView& tree)
+    : m_device(device), m_expected(device, expected), m_subject(device, tree),
+      m_buffers(device.device(), kWidth, kHeight)
+{
+}
+
+void TreeComparison::pictures(const ViewCamera& close)
+{
+    const std::vector<ViewCamera> views = manyCameras(m_subject.tree.octree().grid);
+    TraceOptions options;
+    options.occlusion_rays = 2;
+    for (const View shown : kViews)
+    {
+        options.view = shown;
+        picture(views.front(), options);
+        picture(close, options);
+    }
+    options = {};
+    for (std::size_t i = 1; i < views.size(); i += 3)
+    {
+        options.stack = i % 2 == 0 ? TraceStack::Private : TraceStack::Registers;
+        options.beam = i % 4 != 1;
+        picture(views[i], options);
+    }
+    for (const std::uint32_t level : {1U, 2U, 3U, 4U, UINT32_MAX})
+    {
+        TraceOptions coarse;
+        coarse.detail_level = level;
+        coarse.detail_pixels = level == UINT32_MAX ? 6.0F : 0.0F;
+        picture(views.front(), coarse);
+        picture(close, coarse);
+    }
+}
+
+void TreeComparison::rays(const Codes& codes) const
+{
+    const std::uint32_t resolution = m_subject.tree.octree().grid.rootResolution();
+    std::mt19937 random(resolution);
+    std::vector<gpu::Ray> rays;
+    for (int i = 0; i < 1001; ++i)
+    {
+        rays.push_back(deviceRay(pickRay(random, resolution, codes)));
+    }
+    for (const std::uint32_t level : {UINT32_MAX, 1U, 2U, 3U})
+    {
+        TraceOptions options;
+        options.detail_level = level;
+        expectSameHits(traceOnDevice(m_device, m_expected.tree, rays, options), m_expected.looks,
+                       traceOnDevice(m_device, m_subject.tree, rays, options), m_subject.looks,
+                       m_subject.tree.octree().hasAttributes());
+    }
+}
+
+Picture TreeComparison::take(const Subject& subject, const TraceCamera& camera, const TraceOptions& options)
+{
+    m_device.run(
+        [&](vk::FrameGraph& graph)
+        {
+            graph.fill(m_buffers.hits, gpu::kHitMiss);
+            graph.fill(m_buffers.light, 0);
+            trace(graph, subject.tree, subject.beam, camera, options, m_buffers);
+        });
+    const gpu::TraceStatus status = m_device.download(m_buffers.status).front();
+    return {m_device.download(m_buffers.image), m_device.download(m_buffers.hits), m_device.download(m_buffers.light),
+            status.live_tiles, status.capped_rays};
+}
+
+void TreeComparison::picture(const ViewCamera& view, const TraceOptions& options)
+{
+    const Grid& grid = m_subject.tree.octree().grid;
+    const TraceCamera camera = traceCamera(view, grid, kHeight);
+    const Picture expected = take(m_expected, camera, options);
+    const Picture picture = take(m_subject, camera, options);
+    EXPECT_EQ(picture.image, expected.image);
+    EXPECT_EQ(picture.light, expected.light);
+    EXPECT_EQ(picture.live_tiles, expected.live_tiles);
+    EXPECT_EQ(picture.capped_rays, expected.capped_rays);
+    const bool with_looks = m_subject.tree.octree().hasAttributes() && showsAttributes(options.view);
+    ASSERT_NO_FATAL_FAILURE(expectSameHits(expected.hits, m_expected.looks, picture.hits, m_subject.looks, with_looks));
+}
+
+} // namespace zvo::test
