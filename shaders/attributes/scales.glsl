@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two scales of coordinates for the 16 points of a block: x and y at once, each on its own. In integers, with 1 as 4095.
+// Two scales of coordinates for the 16 points of a block: x and y at once, each on its own. In integers; 1 is 4095.
 #include "lib/attribute_forms.glsl"
 
 const uint kStep = 65u;                      // from one end to the next

@@ -3,16 +3,18 @@
 // The includer defines before:
 //   BRICKS_CONSTANT_ID    constant_id of kWideKeys
 //
-// Why a wide key needs no 64-bit atomic, and why nobody waits. An insert takes an entry's two words one after the other:
-// it puts its lower word where the first is 0, and goes on to the next entry if another one stands there; then the same
-// with the upper words. A word is written at most once, so whatever a thread acts on is final: it passes an entry exactly
-// if the entry's words, in the end, are not its own, and stops at the first whose words are. All threads with the same key
-// therefore stop at the same entry, in any order, and the one that wrote the second word has claimed it. An entry never
-// stays half full: who wrote the first word goes on to the second, which is its own or another's of the same lower word.
+// Why a wide key needs no 64-bit atomic, and why nobody waits. An insert takes an entry's two words one after the
+// other: it puts its lower word where the first is 0, and goes on to the next entry if another one stands there; then
+// the same with the upper words. A word is written at most once, so whatever a thread acts on is final: it passes an
+// entry exactly if the entry's words, in the end, are not its own, and stops at the first whose words are. All threads
+// with the same key therefore stop at the same entry, in any order, and the one that wrote the second word has claimed
+// it. An entry never stays half full: who wrote the first word goes on to the second, which is its own or another's of
+// the same lower word.
 #include "lib/morton.glsl"
 #include "shared/bricks.h"
 
-layout(constant_id = BRICKS_CONSTANT_ID) const bool kWideKeys = false; // the octree has more than kNarrowLevelsMax levels
+// The octree has more than kNarrowLevelsMax levels.
+layout(constant_id = BRICKS_CONSTANT_ID) const bool kWideKeys = false;
 
 const uint kNoEntry = ~0u;
 

@@ -49,6 +49,7 @@ uint packColor8(vec3 color)
 // Heat from black over blue, red and yellow to white, for x in [0, 1].
 vec3 heatColor(float x)
 {
-    return clamp(vec3(3.0 * x - 0.75, 3.0 * x - 1.75, x < 0.5 ? 4.0 * x * (1.0 - x) - 2.0 * max(x - 0.25, 0.0) : 4.0 * x - 3.0),
+    return clamp(vec3(3.0 * x - 0.75, 3.0 * x - 1.75,
+                      x < 0.5 ? 4.0 * x * (1.0 - x) - 2.0 * max(x - 0.25, 0.0) : 4.0 * x - 3.0),
                  0.0, 1.0);
 }

@@ -7,8 +7,8 @@ bool hasChild(Node node, uint cell)
     return (((cell < 32u ? node.mask_lo : node.mask_hi) >> (cell & 31u)) & 1u) != 0u;
 }
 
-// Where the child in a cell stands, or, in a leaf, the voxel's attribute; or would, if it existed. For a list, kChildList
-// and the place of the entry that names the child.
+// Where the child in a cell stands, or, in a leaf, the voxel's attribute; or would, if it existed. For a list,
+// kChildList and the place of the entry that names the child.
 uint childIndex(Node node, uint cell)
 {
     uint below = (1u << (cell & 31u)) - 1u;

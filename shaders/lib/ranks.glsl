@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ranks in a DAG (shared/svdag.h): of voxels in Morton order, of the octree's nodes depth first. Both are sums along the
-// path from the root. Overlays (update/update.h) may stand above a DAG: their nodes have ranks of their own. The includer
-// includes trace/trace.h and lib/node.glsl before and defines
+// Ranks in a DAG (shared/svdag.h): of voxels in Morton order, of the octree's nodes depth first. Both are sums along
+// the path from the root. Overlays (update/update.h) may stand above a DAG: their nodes have ranks of their own. The
+// includer includes trace/trace.h and lib/node.glsl before and defines
 //   kEntriesPerWord    of lists
 #include "lib/lists.glsl"
 

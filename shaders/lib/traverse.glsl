@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The one traversal of the octree: the first occupied cell along a ray. Rays are in unit space (shared/trace.h).
 //
-// Rule. A ray crosses plane p of axis i at t = (p - origin_i) * inverse_i: one rounded subtraction, one rounded product.
-// Crossings are events (t, i), ordered by t, then by axis; the start is the event (t_min, 3). A ray visits a cell if the
-// last of the start and its entries through the three lower planes comes before the first of its exits through the three
-// upper ones. The hit is the visited occupied voxel with the earliest entry. Planes are taken one at a time, so visited
-// cells are neighbours by a face and no ray slips diagonally through a 6-separating surface; and whether a cell is
-// visited depends on the ray and that cell alone, not on the way there: all variants find the same hit, bit for bit.
+// Rule. A ray crosses plane p of axis i at t = (p - origin_i) * inverse_i: one rounded subtraction, one rounded
+// product. Crossings are events (t, i), ordered by t, then by axis; the start is the event (t_min, 3). A ray visits a
+// cell if the last of the start and its entries through the three lower planes comes before the first of its exits
+// through the three upper ones. The hit is the visited occupied voxel with the earliest entry. Planes are taken one at
+// a time, so visited cells are neighbours by a face and no ray slips diagonally through a 6-separating surface; and
+// whether a cell is visited depends on the ray and that cell alone, not on the way there: all variants find the same
+// hit, bit for bit.
 //
 // Way. Directions are mirrored to be positive (J. Revelles, C. Urena, M. Lastra, An Efficient Parametric Algorithm for
 // Octree Traversal, 2000), positions are mantissa bits (S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010). The
@@ -22,8 +23,8 @@
 //   uint loadEntry(uint place, uint per_word)  of a list; with kEntriesPerWord (shared/svdag.h)
 //   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
 //                                      kStackShared
-//   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail or
-//                                      fewer than four levels. Then also, as trace/trace.h describes it:
+//   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail
+//                                      or fewer than four levels. Then also, as trace/trace.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
 //   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the place of the entry that named their leaf
@@ -112,8 +113,8 @@ uint savedNode(uint shift)
 }
 
 #ifdef TRAVERSE_PATHS
-// A node that contains the cell which the event behind limits leads to, as low as paths go: that cell is guessed from the
-// ray's position, and counts only if the ray did enter it and did not leave it.
+// A node that contains the cell which the event behind limits leads to, as low as paths go: that cell is guessed from
+// the ray's position, and counts only if the ray did enter it and did not leave it.
 void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout uvec3 corner, inout uint shift,
                     inout uint node)
 {
@@ -155,10 +156,10 @@ uvec3 limitsAfter(float t, uint axis)
     return floatBitsToUint(t) + uvec3(1u, axis >= 1u ? 1u : 0u, axis >= 2u ? 1u : 0u);
 }
 
-// The first occupied cell that the ray enters in [t_min, t_max], found in at most steps_max iterations (at least one). A
-// ray that was left unfinished goes on from the state `from`; 0 for a new one. With kDetail, nodes count as occupied whose edge is at
-// most max(detail.x * t, detail.y) in unit space. Nothing may be NaN; origin must be finite and inverse as
-// lib/ray.glsl's inverseDirection() makes it. What would be entered at an infinite time is never entered.
+// The first occupied cell that the ray enters in [t_min, t_max], found in at most steps_max iterations (at least one).
+// A ray that was left unfinished goes on from the state `from`; 0 for a new one. With kDetail, nodes count as occupied
+// whose edge is at most max(detail.x * t, detail.y) in unit space. Nothing may be NaN; origin must be finite and
+// inverse as lib/ray.glsl's inverseDirection() makes it. What would be entered at an infinite time is never entered.
 Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail, uvec3 from, uint steps_max)
 {
     const uint one = floatBitsToUint(1.0);
@@ -186,8 +187,9 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
 #ifdef TRAVERSE_ENTRIES
     uint leaf_place = 0u;
 #endif
-    bool go = limits.x <= limit_max && all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
-                                                            uintBitsToFloat(limits)));
+    bool go = limits.x <= limit_max &&
+              all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
+                                   uintBitsToFloat(limits)));
 #ifdef TRAVERSE_PATHS
     if (TRAVERSE_PATHS)
         beginBelowRoot(origin, inverse, mirror, limits, corner, shift, node);
@@ -249,7 +251,8 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
             bool listed = occupied && int(child) < 0;
             uint named = loadEntry(listed ? child & ~kChildList : 0u, kEntriesPerWord);
 #ifdef TRAVERSE_ENTRIES
-            leaf_place = listed ? child & ~kChildList : leaf_place; // no ray leaves a leaf for another one without a list
+            // No ray leaves a leaf for another one without a list.
+            leaf_place = listed ? child & ~kChildList : leaf_place;
 #endif
             child = listed ? named : child;
         }

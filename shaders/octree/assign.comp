@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Gives every node of a level its child bases from the prefix sum of child counts, and tells a leaf's table entry, where
-// it has room for it, where its voxels start.
+// Gives every node of a level its child bases from the prefix sum of child counts, and tells a leaf's table entry,
+// where it has room for it, where its voxels start.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/dispatch.glsl"

@@ -29,5 +29,6 @@ void main()
         uint child = listEntry(uint64_t_ConstPtr(uint64_t(params.from)), from + i, kEntriesPerWord);
         params.to_entries.data[to + i] = child + params.child_shift;
     }
-    params.to.data[params.first_to + index] = Node(node.mask_lo, kChildList | to, node.mask_hi, kChildList | (to + low));
+    params.to.data[params.first_to + index] =
+        Node(node.mask_lo, kChildList | to, node.mask_hi, kChildList | (to + low));
 }

@@ -1,9 +1,9 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Puts every node of a level into the table of classes, unless one equal to it is there; the slot keeps the first of the
-// class. Lock-free and exact: a slot that is taken stays with its class, so whoever passes a slot passes it for good,
-// and all nodes of a class stop at the same one, in any order of threads. Which slot that is depends on the order; the
-// class does not.
+// Puts every node of a level into the table of classes, unless one equal to it is there; the slot keeps the first of
+// the class. Lock-free and exact: a slot that is taken stays with its class, so whoever passes a slot passes it for
+// good, and all nodes of a class stop at the same one, in any order of threads. Which slot that is depends on the
+// order; the class does not.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #define LISTS_CONSTANT_ID 0

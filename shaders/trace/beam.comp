@@ -62,7 +62,8 @@ float tileStart(uvec2 tile)
     float end = near ? endWithin(kCoarseEdge) : 0.0;
     // Coarse cells that the ray would leave too late for fine ones end it.
     float fine_end = endWithin(kFineEdge) - kCellDepthMax;
-    vec2 detail = fine_end > kTraceTimeMin ? vec2(1.0 / (float(kBeamCells) * fine_end), 0.0) : vec2(0.0, 1.0 / float(kBeamCells));
+    vec2 detail = fine_end > kTraceTimeMin ? vec2(1.0 / (float(kBeamCells) * fine_end), 0.0)
+                                           : vec2(0.0, 1.0 / float(kBeamCells));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     Traversal beam = traverse(1.5 + (origin - 1.5) * kBeamScale, inverseDirection(direction) / kBeamScale,
                               kTraceTimeMin, end, detail);

@@ -11,8 +11,8 @@ layout(push_constant, scalar) uniform Push
     BeamDilateParams params;
 };
 
-// First and last occupied cell, along one axis, that beam cell b and its neighbours touch; last < first: none. The inner
-// kBeamCells - 2 beam cells cover the cube.
+// First and last occupied cell, along one axis, that beam cell b and its neighbours touch; last < first: none. The
+// inner kBeamCells - 2 beam cells cover the cube.
 ivec2 touched(uint b)
 {
     int inner = int(kBeamCells) - 2;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traces the rays of all pixels in live tiles, one workgroup a tile. Rays that use up their iterations go on in another
-// round. The includer defines PRIMARY_RANKS, or does not: then hits in a DAG get the ranks that are the indices of their
-// attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
-// 2017, who sum up during the traversal; here only the path of the hit is summed up).
+// round. The includer defines PRIMARY_RANKS, or does not: then hits in a DAG get the ranks that are the indices of
+// their attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface
+// Geometry, 2017, who sum up during the traversal; here only the path of the hit is summed up).
 #include "trace/trace.h"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From hits to their pixels, one workgroup a live tile: sun with shadow, sky light, emission; or one of the other views.
-// Misses keep what is there (trace/sky).
+// From hits to their pixels, one workgroup a live tile: sun with shadow, sky light, emission; or one of the other
+// views. Misses keep what is there (trace/sky).
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute_forms.glsl"

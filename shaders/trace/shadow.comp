@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Which hits the sun reaches, one workgroup a live tile. Rays that use up their iterations go on in another round: until
-// then, light holds the time of the last event, a float greater than all light.
+// Which hits the sun reaches, one workgroup a live tile. Rays that use up their iterations go on in another round:
+// until then, light holds the time of the last event, a float greater than all light.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute_forms.glsl"

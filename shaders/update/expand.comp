@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes the children of each touched node: merged with the base tree's where a layer touches them, else copies of those.
-// A touched child notes how many children of its own it is to have.
+// Writes the children of each touched node: merged with the base tree's where a layer touches them, else copies of
+// those. A touched child notes how many children of its own it is to have.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #define BRICKS_CONSTANT_ID 0
@@ -29,7 +29,8 @@ uvec2 childKey(uvec2 key, uint cell)
     if (!kWideKeys)
         return uvec2((key.x << 6) | cell, 0u);
     uvec2 code = key & ~kBrickKeyTag;
-    return uvec2(((code.x << 6) | cell) & ((1u << kBrickKeyBits) - 1u), (code.y << 6) | (code.x >> (kBrickKeyBits - 6u))) |
+    return uvec2(((code.x << 6) | cell) & ((1u << kBrickKeyBits) - 1u),
+                 (code.y << 6) | (code.x >> (kBrickKeyBits - 6u))) |
            kBrickKeyTag;
 }
 

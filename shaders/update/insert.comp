@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Puts the leaves of all layers into the table of touched nodes. Leaves of several layers with the same key share an entry:
-// its mask is the union of theirs, and they are chained, in any order.
+// Puts the leaves of all layers into the table of touched nodes. Leaves of several layers with the same key share an
+// entry: its mask is the union of theirs, and they are chained, in any order.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #define BRICKS_CONSTANT_ID 0

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Exclusive prefix sum over the blocks of a level's nodes, by one workgroup that walks over them. Then it sizes the next
-// level, or the leaves' voxels: nothing if they find no room.
+// Exclusive prefix sum over the blocks of a level's nodes, by one workgroup that walks over them. Then it sizes the
+// next level, or the leaves' voxels: nothing if they find no room.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/dispatch_args.glsl"

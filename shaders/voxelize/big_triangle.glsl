@@ -27,7 +27,7 @@ void clipColumns(float value, float step, inout vec2 interval)
 }
 
 // Columns that can lie inside the outline in the (u, v) projection, as offsets from the cell's column, in any of
-// row_count rows from the cell's on: where each edge function, linear in both, is not negative in the row that suits it.
+// row_count rows from the cell's on: where each edge function, linear in both, is not negative in the row for it.
 vec2 outlineColumns(RasterTriangle t, RasterCell cell, int column_count, int row_count)
 {
     vec2 interval = vec2(0.0, float(column_count - 1));

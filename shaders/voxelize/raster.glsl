@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Exact coverage of one triangle, walked column by column (docs/voxelization.md; Schwarz and Seidel 2010 with integers).
+// Exact coverage of one triangle, column by column (docs/voxelization.md; Schwarz and Seidel 2010, in integers).
 //
 // Before it is included, EDGE_INT and EDGE_IVEC3 are defined: int and ivec3 for triangles of at most kSmallExtent, else
-// int64_t and i64vec3. Arithmetic wraps around; what is compared in the end fits (int64: vertices within kLatticeLimit).
+// int64_t and i64vec3. Arithmetic wraps; what is compared in the end fits (int64: vertices within kLatticeLimit).
 //
 // Axes are permuted so that w is the triangle's major axis; columns stand along w over the (u, v) plane. Component i of
 // an EDGE_IVEC3 belongs to the edge from vertex i to vertex i + 1.
@@ -88,8 +88,8 @@ RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, EDGE_IVEC3 n, uint ax
 
 // floor(numerator / n_w) of the division that decides a column's layer, numerator being
 //   (w_0 n_w - n_u (c_u - u_0) - n_v (c_v - v_0) + addend) / 256
-// with (c_u, c_v) the centre of column. Products with the low byte of a factor are kept apart so that dividing by 256 is
-// exact; the quotient is estimated in floating point and corrected by the exact (wrapping) remainder.
+// with (c_u, c_v) the centre of column. Products with the low byte of a factor are kept apart so that dividing by 256
+// is exact; the quotient is estimated in floating point and corrected by the exact (wrapping) remainder.
 int columnLayer(RasterTriangle t, ivec2 column, EDGE_INT addend_high, int addend_low, out EDGE_INT rest)
 {
     EDGE_INT to_u = EDGE_INT(column.x * kVoxelLattice + kVoxelLattice / 2 - t.u.x);

@@ -105,7 +105,8 @@ uvec4 unpackTexel(uint64_t texel)
 }
 
 // Linear colour and alpha as 16-bit fractions, filtered bilinearly.
-uvec4 sampleTexture(uint64_t_ConstPtr texels, TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v, uvec3 weights)
+uvec4 sampleTexture(uint64_t_ConstPtr texels, TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v,
+                    uvec3 weights)
 {
     i64vec3 w = i64vec3(weights);
     i64vec3 by_u = w * i64vec3(uv_u);
@@ -131,7 +132,8 @@ uvec4 fragmentColor(Surface surface, uvec3 weights)
     color = uvec4(mul16(color.rgb, surface.factor.rgb), mul16(color.a, surface.factor.a));
     if (surface.colored)
     {
-        uvec4 vertex = (unpackFractions(surface.colors[0]) * weights.x + unpackFractions(surface.colors[1]) * weights.y +
+        uvec4 vertex = (unpackFractions(surface.colors[0]) * weights.x +
+                        unpackFractions(surface.colors[1]) * weights.y +
                         unpackFractions(surface.colors[2]) * weights.z) >> 16;
         color = uvec4(mul16(color.rgb, vertex.rgb), mul16(color.a, vertex.a));
     }

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Snaps every triangle to the lattice. Small ones are rasterized here, one thread each, in 32-bit integers; big ones are
-// listed in bands of rows for voxelize/bands and voxelize/rows. (After Schwarz and Seidel 2010; coverage: docs/voxelization.md.)
+// Snaps every triangle to the lattice. Small ones are rasterized here, one thread each, in 32-bit integers; big ones
+// are listed in bands of rows for voxelize/bands and voxelize/rows. (After Schwarz and Seidel 2010; coverage:
+// docs/voxelization.md.)
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/constants.glsl"
 #define EDGE_INT int
@@ -99,8 +100,8 @@ void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uint axis)
             params.big_triangles.data[first + band] = BigTriangle(t.v0, t.v1, t.v2, draw, triangle, band);
 }
 
-// Thin coverage, at most one voxel a column: first finds the covered columns, then takes these alone. Where branches are
-// not skipped, an empty column costs as little as that, and a fragment is dear.
+// Thin coverage, at most one voxel a column: first finds the covered columns, then takes these alone. Where branches
+// are not skipped, an empty column costs as little as that, and a fragment is dear.
 void rasterizeThin(RasterTriangle t, Surface surface, uvec2 extent, bool selected)
 {
     uint covered = 0u; // bit i: column i, row by row
