@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/byte_source.h"
 #include "core/crc64.h"
 #include "core/divide_up.h"
 #include "core/input_error.h"
@@ -9,10 +10,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -24,76 +23,11 @@ namespace
 
 static_assert(std::endian::native == std::endian::little); // structs are read as they stand in memory
 
-/// A file's bytes, wherever they are.
-class Source
-{
-public:
-    Source() = default;
-    virtual ~Source() = default;
-    Source(const Source&) = delete;
-    Source& operator=(const Source&) = delete;
-
-    [[nodiscard]] virtual std::uint64_t size() const = 0;
-
-    /// Fills target with the bytes from offset on, which the file has.
-    virtual void read(std::uint64_t offset, std::span<std::byte> target) = 0;
-};
-
-class MemorySource : public Source
-{
-public:
-    explicit MemorySource(std::span<const std::byte> bytes) : m_bytes(bytes) {}
-
-    [[nodiscard]] std::uint64_t size() const override { return m_bytes.size(); }
-    void read(std::uint64_t offset, std::span<std::byte> target) override
-    {
-        const std::span<const std::byte> from = m_bytes.subspan(offset, target.size());
-        std::copy(from.begin(), from.end(), target.begin());
-    }
-
-private:
-    std::span<const std::byte> m_bytes;
-};
-
-class FileSource : public Source
-{
-public:
-    FileSource(const std::filesystem::path& path, std::uint64_t size)
-        : m_path(path), m_size(size), m_file(std::fopen(path.c_str(), "rb"))
-    {
-        if (!m_file)
-        {
-            static_cast<void>(readFile(path)); // says why
-            throw inputError(path, "cannot be opened; try again");
-        }
-    }
-
-    [[nodiscard]] std::uint64_t size() const override { return m_size; }
-    void read(std::uint64_t offset, std::span<std::byte> target) override
-    {
-        if (::fseeko(m_file.get(), static_cast<off_t>(offset), SEEK_SET) != 0 ||
-            std::fread(target.data(), 1, target.size(), m_file.get()) != target.size())
-        {
-            throw inputError(m_path, fmt::format("byte {} cannot be read; {}", offset, kCutShort));
-        }
-    }
-
-private:
-    struct Close
-    {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
-    std::filesystem::path m_path;
-    std::uint64_t m_size;
-    std::unique_ptr<std::FILE, Close> m_file;
-};
-
 /// Reads one file.
 class Reader
 {
 public:
-    Reader(Source& source, const std::filesystem::path& path) : m_source(source), m_path(path) {}
+    Reader(ByteSource& source, const std::filesystem::path& path) : m_source(source), m_path(path) {}
 
     ZvoFile read()
     {
@@ -436,7 +370,7 @@ private:
         require(ZvoSectionId::Lists, tree.lists.size(), header.entry_count);
     }
 
-    Source& m_source;
+    ByteSource& m_source;
     const std::filesystem::path& m_path;
     ZvoFile m_file;
     std::uint64_t m_end = 0; // of what was read
