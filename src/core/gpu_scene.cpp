@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/gpu_scene.h"
 
+#include "core/draws.h"
 #include "core/texture_pool.h"
-#include "zvo/error.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace zvo
@@ -68,15 +66,6 @@ bool emits(const Material& material)
     return std::max({material.emission.r, material.emission.g, material.emission.b}) > 0.0F;
 }
 
-std::uint32_t checkedCount(std::size_t count, const char* what)
-{
-    if (count >= gpu::kAbsent)
-    {
-        throw Error(ErrorCode::Input, std::string("the scene has too many ") + what + " for 32-bit numbers; split it");
-    }
-    return static_cast<std::uint32_t>(count);
-}
-
 // The host's copies of the buffers while they are put together.
 struct Staging
 {
@@ -91,12 +80,6 @@ struct Staging
     TexturePool pool;
     std::array<std::vector<gpu::Chunk>, gpu::kClassCount> chunks;
 };
-
-// Whether an array of a primitive is absent or as long as its positions.
-template <typename T> [[maybe_unused]] bool isWhole(const std::vector<T>& values, const Primitive& primitive)
-{
-    return values.empty() || values.size() == primitive.positions.size();
-}
 
 void addPrimitive(Staging& staging, const Primitive& primitive)
 {
@@ -191,32 +174,6 @@ double triangleArea(const Primitive& primitive, const glm::dmat3& linear)
     return area;
 }
 
-void placeDraw(gpu::Draw& draw, const glm::mat4& transform)
-{
-    const glm::dmat3 linear(transform);
-    const double determinant = glm::determinant(linear);
-    const double sign = determinant < 0 ? -1.0 : 1.0;
-    draw.transform = gpu::mat4x3(transform);
-    draw.normal_transform =
-        gpu::mat3(glm::dmat3(glm::cross(linear[1], linear[2]) * sign, glm::cross(linear[2], linear[0]) * sign,
-                             glm::cross(linear[0], linear[1]) * sign));
-    draw.mirrored = determinant < 0 ? 1 : 0;
-}
-
-gpu::Draw makeDraw(const Primitive& primitive, const PrimitivePlace& place, const glm::mat4& transform)
-{
-    gpu::Draw draw{};
-    draw.first_triangle = place.first_triangle;
-    draw.triangle_count = checkedCount(primitive.triangles.size(), "triangles");
-    draw.first_vertex = place.first_vertex;
-    draw.first_normal = place.first_normal;
-    draw.first_uv = place.first_uv;
-    draw.first_color = place.first_color;
-    draw.material = primitive.material;
-    placeDraw(draw, transform);
-    return draw;
-}
-
 void addChunks(Staging& staging, std::uint32_t draw_number)
 {
     const gpu::Draw& draw = staging.draws[draw_number];
@@ -249,67 +206,6 @@ std::vector<std::uint32_t> packBytes(const std::vector<std::uint8_t>& bytes)
 }
 
 } // namespace
-
-std::vector<PrimitivePlace> primitivePlaces(const Scene& scene)
-{
-    std::vector<PrimitivePlace> places;
-    places.reserve(scene.primitives.size());
-    std::uint64_t triangle_count = 0;
-    std::uint64_t vertex_count = 0;
-    std::uint64_t normal_count = 0;
-    std::uint64_t uv_count = 0;
-    std::uint64_t color_count = 0;
-    for (const Primitive& primitive : scene.primitives)
-    {
-        assert(isWhole(primitive.normals, primitive) && isWhole(primitive.uvs, primitive) &&
-               isWhole(primitive.colors, primitive));
-        const auto placeOf = [](std::uint64_t first, std::size_t count, const char* what)
-        { return count == 0 ? gpu::kAbsent : checkedCount(first, what); };
-        PrimitivePlace place{};
-        place.first_triangle = checkedCount(triangle_count, "triangles");
-        place.first_vertex = checkedCount(vertex_count, "vertices");
-        place.first_normal = placeOf(normal_count, primitive.normals.size(), "normals");
-        place.first_uv = placeOf(uv_count, primitive.uvs.size(), "texture coordinates");
-        place.first_color = placeOf(color_count, primitive.colors.size(), "colours");
-        places.push_back(place);
-        triangle_count += primitive.triangles.size();
-        vertex_count += primitive.positions.size();
-        normal_count += primitive.normals.size();
-        uv_count += primitive.uvs.size();
-        color_count += primitive.colors.size();
-    }
-    checkedCount(triangle_count, "triangles"); // the last ones have numbers, too
-    checkedCount(vertex_count, "vertices");
-    return places;
-}
-
-std::vector<gpu::Draw> makeDraws(const Scene& scene)
-{
-    const std::vector<PrimitivePlace> places = primitivePlaces(scene);
-    std::vector<gpu::Draw> draws;
-    draws.reserve(scene.instances.size());
-    for (const Instance& instance : scene.instances)
-    {
-        draws.push_back(makeDraw(scene.primitives[instance.primitive], places[instance.primitive], instance.transform));
-    }
-    return draws;
-}
-
-std::vector<gpu::Draw> makeDraws(const Scene& scene, std::span<const glm::mat4> transforms)
-{
-    std::vector<gpu::Draw> draws = makeDraws(scene);
-    placeDraws(draws, transforms);
-    return draws;
-}
-
-void placeDraws(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms)
-{
-    assert(transforms.size() == draws.size());
-    for (std::size_t i = 0; i < draws.size(); ++i)
-    {
-        placeDraw(draws[i], transforms[i]);
-    }
-}
 
 float brightestEmission(const Scene& scene)
 {

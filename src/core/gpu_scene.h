@@ -9,8 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
-#include <vector>
 
 namespace zvo
 {
@@ -40,28 +38,6 @@ struct GpuScene
     double surface_area = 0;          // world units squared
     float emission_scale = 0;         // of which emission is a fraction; 0: nothing emits light
 };
-
-/// Where a primitive's arrays start in the buffers of a GpuScene.
-struct PrimitivePlace
-{
-    std::uint32_t first_triangle;
-    std::uint32_t first_vertex;
-    std::uint32_t first_normal; // gpu::kAbsent where the primitive has none; likewise below
-    std::uint32_t first_uv;
-    std::uint32_t first_color;
-};
-
-/// The places of all primitives of scene. Throws Error{Input} for more than 2^32 - 1 of anything.
-std::vector<PrimitivePlace> primitivePlaces(const Scene& scene);
-
-/// The draws of scene's instances ([instances]), at rest, or with these transforms ([instances], object to world) in
-/// place of their own. Throws as primitivePlaces().
-std::vector<gpu::Draw> makeDraws(const Scene& scene);
-std::vector<gpu::Draw> makeDraws(const Scene& scene, std::span<const glm::mat4> transforms);
-
-/// Gives each draw the transform of the same number. A transform that is not finite is kept: the voxelizer counts the
-/// triangles.
-void placeDraws(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms);
 
 /// The largest emission of any material of scene, 0 where nothing emits light.
 float brightestEmission(const Scene& scene);

@@ -3,6 +3,7 @@
 
 #include "core/animation.h"
 #include "core/deform.h"
+#include "core/draws.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/gpu_scene.h"
 
+#include "core/draws.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "support/device.h"
