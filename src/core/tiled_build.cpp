@@ -2,9 +2,9 @@
 #include "core/tiled_build.h"
 
 #include "core/attribute_pack.h"
-#include "core/octree_build.h"
 #include "core/pipeline.h"
 #include "core/svdag_forest.h"
+#include "core/tile_nodes.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,6 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kCellBits = 6;      // of a code, for each level of nodes
 constexpr std::uint32_t kTileDepthMin = 4;  // smaller tiles would take no less memory
 constexpr std::uint32_t kVoxelsOfWord = 32; // of the emission table
 
@@ -96,14 +95,6 @@ struct Tile
     std::vector<gpu::Attribute> voxel_attributes;
 };
 
-// Tiles of equal depth, ascending: where they stand, and their looks.
-struct Tiles
-{
-    std::vector<std::uint64_t> codes;
-    std::vector<gpu::Attribute> roots;                        // averages of all below
-    std::vector<std::vector<gpu::Attribute>> node_attributes; // depth first, from the tile's root on
-};
-
 class TiledBuilder
 {
 public:
@@ -118,8 +109,6 @@ private:
     std::optional<Part> buildPart(std::uint32_t depth, std::uint64_t code);
     std::optional<Tile> buildWhole(std::uint32_t depth, std::uint64_t code);
     std::optional<Part> buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth);
-    void orderNodes(const Tiles& tiles, std::size_t top_levels, Looks& looks);
-    Octree topOctree(const Tiles& tiles, std::size_t top_levels);
     void finishAttributes(Looks& looks, TreeData& tree);
 
     [[nodiscard]] bool hasAttributes() const { return m_options.attributes != AttributeForm::None; }
@@ -227,7 +216,7 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
     const std::size_t top_levels = m_grid.nodeLevels() - tile_depth / 2;
     SvdagForest forest(m_device, m_grid, tile_depth);
     Part part;
-    Tiles tiles;
+    TileNodes tiles;
     for (std::uint64_t i = 0; i >> code_bits == 0; ++i)
     {
         if (m_options.progress && depth == m_grid.depth)
@@ -249,7 +238,7 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
             tiles.roots.push_back(looks.node_attributes[top_levels]);
             looks.node_attributes.erase(looks.node_attributes.begin(),
                                         looks.node_attributes.begin() + static_cast<std::ptrdiff_t>(top_levels));
-            tiles.node_attributes.push_back(std::move(looks.node_attributes));
+            tiles.attributes.push_back(std::move(looks.node_attributes));
         }
         forest.add(tile, std::move(built->dag));
     }
@@ -264,86 +253,11 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
     }
     if (hasAttributes())
     {
-        orderNodes(tiles, top_levels, part.looks);
+        part.looks.node_attributes = joinNodes(m_device, m_scene.uploaded(), m_grid, top_levels, tiles);
     }
     part.dag = forest.finish(hasAttributes() && depth == m_grid.depth);
     append(m_result.passes, forest.passes());
     return part;
-}
-
-// The nodes above tiles as an octree whose voxels are the tiles.
-Octree TiledBuilder::topOctree(const Tiles& tiles, std::size_t top_levels)
-{
-    std::vector<std::vector<gpu::Node>> levels; // the lowest first
-    std::vector<std::uint64_t> codes = tiles.codes;
-    for (std::size_t level = 0; level < top_levels; ++level)
-    {
-        std::vector<gpu::Node> nodes;
-        std::vector<std::uint64_t> parents;
-        for (std::size_t i = 0; i < codes.size(); ++i)
-        {
-            if (parents.empty() || parents.back() != codes[i] >> kCellBits)
-            {
-                parents.push_back(codes[i] >> kCellBits);
-                nodes.push_back({0, static_cast<std::uint32_t>(i), 0, 0});
-            }
-            const std::uint64_t cell = codes[i] & ((1U << kCellBits) - 1);
-            (cell < 32 ? nodes.back().mask_lo : nodes.back().mask_hi) |= 1U << (cell & 31);
-        }
-        levels.push_back(std::move(nodes));
-        codes = std::move(parents);
-    }
-    std::ranges::reverse(levels);
-    Octree top;
-    top.grid = m_grid;
-    std::vector<gpu::Node> all;
-    for (std::size_t level = 0; level < top_levels; ++level)
-    {
-        const std::size_t first_node = all.size();
-        const bool is_lowest = level + 1 == top_levels;
-        top.levels.push_back(
-            {static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(levels[level].size())});
-        const auto first_child = static_cast<std::uint32_t>(is_lowest ? 0 : first_node + levels[level].size());
-        for (gpu::Node node : levels[level])
-        {
-            node.base_lo += first_child;
-            node.base_hi = node.base_lo + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
-            all.push_back(node);
-        }
-    }
-    top.node_count = static_cast<std::uint32_t>(all.size());
-    top.voxel_count = static_cast<std::uint32_t>(tiles.codes.size());
-    top.nodes = m_device.makeBuffer("octree/nodes", std::span<const gpu::Node>(all));
-    top.voxel_attributes = m_device.makeBuffer("octree/voxel_attributes", std::span(tiles.roots));
-    top.node_attributes = {m_device.device(), "octree/node_attributes", top.node_count};
-    return top;
-}
-
-// looks.node_attributes: those above tiles, averaged as in an octree, and those of tiles, all depth first.
-void TiledBuilder::orderNodes(const Tiles& tiles, std::size_t top_levels, Looks& looks)
-{
-    Octree top = topOctree(tiles, top_levels);
-    m_device.run([&](vk::FrameGraph& graph) { averageNodes(graph, m_scene.uploaded(), top); });
-    const std::vector<gpu::Attribute> averages = m_device.download(top.node_attributes);
-    looks.node_attributes.reserve(looks.octree_node_count);
-    std::vector<std::uint32_t> next(top_levels); // node of each level that comes next
-    for (std::size_t level = 0; level < top_levels; ++level)
-    {
-        next[level] = top.levels[level].first_node;
-    }
-    for (std::size_t tile = 0; tile < tiles.codes.size(); ++tile)
-    {
-        // Nodes above that begin with this tile come before it, the highest first.
-        for (std::size_t level = 0; level < top_levels; ++level)
-        {
-            const auto shift = static_cast<std::uint32_t>(kCellBits * (top_levels - level));
-            if (tile == 0 || tiles.codes[tile] >> shift != tiles.codes[tile - 1] >> shift)
-            {
-                looks.node_attributes.push_back(averages[next[level]++]);
-            }
-        }
-        append(looks.node_attributes, tiles.node_attributes[tile]);
-    }
 }
 
 // Attributes and emission of the whole. What has room on the device is packed there, whichever parts it came in.
