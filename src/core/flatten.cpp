@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "core/flatten.h"
+
+#include "core/divide_up.h"
+#include "core/svdag_lists.h"
+#include "zvo/error.h"
+
+#include <bit>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kCellsOfHalf = 32;
+constexpr std::uint32_t kVoxelsOfWord = 32; // of emission_words
+
+// A node on the way down.
+struct Place
+{
+    std::uint32_t node = 0;
+    gpu::BeforeChild rank{0, 0}; // of the static octree's node, where it stands in a list
+    bool is_listed = false;
+};
+
+/// A tree in the host's memory, as it is traced.
+class Source
+{
+public:
+    Source(vk::HeadlessDevice& device, const TreeView& tree)
+        : m_nodes(device.download(tree.octree().nodes)), m_voxels(device.download(tree.octree().voxel_attributes)),
+          m_averages(device.download(tree.octree().node_attributes)),
+          m_emission_words(device.download(tree.octree().emission_words)),
+          m_emission(device.download(tree.octree().emission))
+    {
+        const Svdag* dag = tree.svdag();
+        if (dag == nullptr)
+        {
+            return;
+        }
+        m_before = device.download(dag->before);
+        m_voxels_before_leaf = device.download(dag->voxels_before_leaf);
+        m_entries = nodesToEntries(device.download(dag->tree.nodes, dag->tree.node_count), dag->packing());
+        m_first_place = dag->packing().firstPlace();
+        m_first_short_place = m_first_place + dag->long_entry_count;
+        m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
+        if (const OverlaidTree* overlaid = tree.overlaid())
+        {
+            m_ranks = device.download(overlaid->ranks);
+            m_first_overlay_node = overlaid->static_root + 1;
+            m_attribute_offset = overlaid->attributeOffset();
+        }
+    }
+
+    [[nodiscard]] const gpu::Node& node(const Place& place) const { return m_nodes[place.node]; }
+    [[nodiscard]] bool hasAttributes() const { return !m_voxels.empty(); }
+    [[nodiscard]] bool hasAverages() const { return !m_averages.empty(); }
+
+    [[nodiscard]] const gpu::Attribute& average(const Place& place) const
+    {
+        const std::uint32_t own = place.node == 0 ? 0 : place.node + m_attribute_offset; // modulo 2^32
+        return m_averages[place.is_listed ? place.rank.nodes : own];
+    }
+
+    // What a node's base and the rank of a child in its half name.
+    [[nodiscard]] Place child(const Place& parent, std::uint32_t base, std::uint32_t rank, bool is_leaf) const
+    {
+        if ((base & gpu::kChildList) == 0 || m_entries.empty())
+        {
+            return {.node = base + rank};
+        }
+        const std::uint32_t place = (base & ~gpu::kChildList) + rank;
+        return {.node = m_entries[place - m_first_place], .rank = rankOf(parent, place, is_leaf), .is_listed = true};
+    }
+
+    // The attribute, and what is emitted, of a leaf's voxel.
+    [[nodiscard]] const gpu::Attribute& voxel(std::uint64_t index) const { return m_voxels[index]; }
+    [[nodiscard]] std::uint32_t firstVoxel(const Place& leaf) const { return leaf.is_listed ? leaf.rank.voxels : 0; }
+    [[nodiscard]] std::uint32_t emission(std::uint64_t index) const
+    {
+        const gpu::uvec2& word = m_emission_words[index / kVoxelsOfWord];
+        const std::uint32_t below = (1U << index % kVoxelsOfWord) - 1;
+        return m_emission[word.y + static_cast<std::uint32_t>(std::popcount(word.x & below))];
+    }
+
+private:
+    [[nodiscard]] gpu::BeforeChild rankOf(const Place& parent, std::uint32_t place, bool is_leaf) const
+    {
+        if (m_voxels.empty())
+        {
+            return {0, 0};
+        }
+        const bool in_overlay = parent.node >= m_first_overlay_node;
+        const gpu::BeforeChild& rank = in_overlay ? m_ranks[parent.node - m_first_overlay_node] : parent.rank;
+        if (!is_leaf)
+        {
+            const gpu::BeforeChild& before = m_before[place - m_first_place];
+            return {rank.voxels + before.voxels, rank.nodes + 1 + before.nodes};
+        }
+        const std::uint64_t entry = place - m_first_short_place;
+        const std::uint32_t before = m_voxels_before_leaf[entry / 2] >> 16 * (entry % 2) & 0xFFFFU;
+        const std::uint32_t first = m_nodes[parent.node].base_lo & ~gpu::kChildList;
+        return {rank.voxels + before, rank.nodes + 1 + (place - first)};
+    }
+
+    std::vector<gpu::Node> m_nodes;
+    std::vector<gpu::Attribute> m_voxels;
+    std::vector<gpu::Attribute> m_averages;
+    std::vector<gpu::uvec2> m_emission_words;
+    std::vector<gpu::uint> m_emission;
+    std::vector<gpu::uint> m_entries;
+    std::vector<gpu::BeforeChild> m_before;
+    std::vector<gpu::uint> m_voxels_before_leaf;
+    std::vector<gpu::BeforeChild> m_ranks;
+    std::uint64_t m_first_place = 0;
+    std::uint64_t m_first_short_place = 0;
+    std::uint32_t m_first_overlay_node = 0;
+    std::uint32_t m_attribute_offset = 0;
+};
+
+/// Makes the octree, level by level.
+class Flattener
+{
+public:
+    Flattener(const Source& source, const Octree& octree) : m_source(source), m_level_count(octree.grid.nodeLevels())
+    {
+        m_tree.grid = octree.grid;
+        m_tree.emission_scale = octree.emission_scale;
+    }
+
+    TreeData run()
+    {
+        std::vector<Place> level(1);
+        if (cellMask(m_source.node(level.front())) == 0)
+        {
+            return std::move(m_tree);
+        }
+        for (std::uint32_t depth = 0; depth < m_level_count; ++depth)
+        {
+            level = addLevel(level, depth);
+        }
+        m_tree.voxel_count = static_cast<std::uint32_t>(m_voxel_count);
+        m_tree.octree_node_count = static_cast<std::uint32_t>(m_tree.nodes.size());
+        if (m_tree.emission.empty())
+        {
+            m_tree.emission_words.clear();
+            m_tree.emission_scale = 1.0F;
+        }
+        return std::move(m_tree);
+    }
+
+private:
+    // Adds a level's nodes, whose children follow them all; returns those.
+    std::vector<Place> addLevel(const std::vector<Place>& level, std::uint32_t depth)
+    {
+        const bool are_leaves = depth + 1 == m_level_count;
+        std::vector<Place> children;
+        m_tree.levels.push_back(
+            {static_cast<std::uint32_t>(m_tree.nodes.size()), static_cast<std::uint32_t>(level.size())});
+        const std::uint64_t first_child = m_tree.nodes.size() + level.size();
+        for (const Place& place : level)
+        {
+            gpu::Node node = m_source.node(place);
+            const std::uint64_t first = are_leaves ? m_voxel_count : first_child + children.size();
+            addHalf(place, node.mask_lo, node.base_lo, depth, children);
+            addHalf(place, node.mask_hi, node.base_hi, depth, children);
+            node.base_lo = static_cast<std::uint32_t>(first);
+            node.base_hi = node.base_lo + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
+            m_tree.nodes.push_back(node);
+            if (m_source.hasAverages())
+            {
+                m_tree.node_attributes.push_back(m_source.average(place));
+            }
+        }
+        if (m_voxel_count > UINT32_MAX || m_tree.nodes.size() + children.size() > UINT32_MAX)
+        {
+            throw Error(ErrorCode::Memory, "more voxels or nodes than 32-bit numbers count; lower the resolution");
+        }
+        return children;
+    }
+
+    void addHalf(const Place& place, std::uint32_t mask, std::uint32_t base, std::uint32_t depth,
+                 std::vector<Place>& children)
+    {
+        const auto count = static_cast<std::uint32_t>(std::popcount(mask));
+        static_assert(kCellsOfHalf == 32);
+        for (std::uint32_t rank = 0; rank < count; ++rank)
+        {
+            if (depth + 1 < m_level_count)
+            {
+                children.push_back(m_source.child(place, base, rank, depth + 2 == m_level_count));
+            }
+            else
+            {
+                addVoxel(std::uint64_t{m_source.firstVoxel(place)} + base + rank);
+            }
+        }
+    }
+
+    void addVoxel(std::uint64_t index)
+    {
+        if (m_source.hasAttributes())
+        {
+            const gpu::Attribute& look = m_source.voxel(index);
+            m_tree.voxel_attributes.push_back(look);
+            if (m_voxel_count % kVoxelsOfWord == 0)
+            {
+                m_tree.emission_words.push_back({0, static_cast<std::uint32_t>(m_tree.emission.size())});
+            }
+            if ((look.color >> 24 & gpu::kAttributeEmissive) != 0)
+            {
+                m_tree.emission_words.back().x |= 1U << m_voxel_count % kVoxelsOfWord;
+                m_tree.emission.push_back(m_source.emission(index));
+            }
+        }
+        ++m_voxel_count;
+    }
+
+    const Source& m_source;
+    std::uint32_t m_level_count;
+    std::uint64_t m_voxel_count = 0;
+    TreeData m_tree;
+};
+
+} // namespace
+
+TreeData flattenTree(vk::HeadlessDevice& device, const TreeView& tree)
+{
+    const Octree& octree = tree.octree();
+    if (isPacked(octree.attributeForm()))
+    {
+        throw Error(ErrorCode::Usage, "only a tree with attributes of 8 bytes can be made an octree again");
+    }
+    if (octree.node_count == 0)
+    {
+        TreeData empty;
+        empty.grid = octree.grid;
+        return empty;
+    }
+    return Flattener(Source(device, tree), octree).run();
+}
+
+} // namespace zvo

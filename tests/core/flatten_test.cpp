@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// What is shown as an octree of its own.
+#include "core/flatten.h"
+
+#include "core/kernels.h"
+#include "core/tree_check.h"
+#include "support/device.h"
+#include "support/edit_machine.h"
+#include "support/mover_scenery.h"
+#include "support/tree_samples.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo
+{
+namespace
+{
+
+using test::DynamicSetting;
+using test::MoverScenery;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+// Settings of octrees and DAGs, with and without attributes and emission.
+std::vector<DynamicSetting> settings()
+{
+    std::vector<DynamicSetting> all;
+    for (const bool compressed : {false, true})
+    {
+        for (const bool attributes : {false, true})
+        {
+            for (const std::uint32_t depth : {2U, 6U})
+            {
+                all.push_back(
+                    {.depth = depth, .attributes = attributes, .emits = attributes, .compressed = compressed});
+            }
+        }
+    }
+    return all;
+}
+
+TEST(FlattenTree, OfWhatWasJustBuiltIsWhatIsDownloaded)
+{
+    for (const test::TreeSample& sample : test::treeSamples())
+    {
+        if (isPacked(sample.tree.attributeForm()))
+        {
+            EXPECT_ANY_THROW((void)std::visit([](const auto& tree) { return flattenTree(device(), tree); },
+                                              uploadTree(device(), sample.tree)));
+            continue;
+        }
+        const DeviceTree uploaded = uploadTree(device(), sample.tree);
+        const TreeData flat = std::visit([](const auto& tree) { return flattenTree(device(), tree); }, uploaded);
+        EXPECT_EQ(checkTree(flat), std::nullopt) << sample.name;
+        EXPECT_EQ(flat.structure, TreeStructure::Svo);
+        if (sample.tree.structure == TreeStructure::Svo)
+        {
+            EXPECT_EQ(test::treeDifference(flat, sample.tree), "") << sample.name;
+        }
+        else
+        {
+            EXPECT_EQ(test::treeDifference(test::dagOf(flat), sample.tree), "") << sample.name;
+        }
+    }
+}
+
+TEST(FlattenTree, OfMergedMoversIsWhatVoxelizingEverythingGives)
+{
+    MoverScenery scenery(device(), true);
+    for (const DynamicSetting& setting : settings())
+    {
+        SCOPED_TRACE(::testing::PrintToString(setting));
+        DynamicOctree octree(device(), scenery.buildStatic(setting), setting.options(scenery.emissionScale()));
+        const test::Item item = {1, {test::Place::Kind::Turned, {1, 2, 1}}};
+        octree.add(scenery.mover(item.mesh, setting.attributes), scenery.poseOf(item));
+        for (bool first = true; first || octree.needsUpdate(); first = false)
+        {
+            const std::uint64_t frame = octree.beginFrame();
+            device().run([&](vk::FrameGraph& graph) { octree.update(graph); });
+            octree.frameDone(frame);
+        }
+        const TreeData expected = downloadTree(device(), scenery.rebuilt(setting, true, {item})->octree);
+        EXPECT_EQ(test::treeDifference(flattenTree(device(), octree.tree()), expected), "");
+    }
+}
+
+TEST(FlattenTree, OfAnEditedTreeHasWhatTheModelHas)
+{
+    MoverScenery scenery(device(), true);
+    for (const DynamicSetting& setting : settings())
+    {
+        SCOPED_TRACE(::testing::PrintToString(setting));
+        test::EditMachine machine(device(), setting, {}, scenery);
+        const auto edge = static_cast<int>(setting.grid().resolution());
+        for (const BrushAction action : {BrushAction::Carve, BrushAction::Fill, BrushAction::Paint})
+        {
+            const int at = edge / 2 + static_cast<int>(action) * edge / 8;
+            machine.run(
+                {test::EditCommand::Action::Dab,
+                 {BrushShape::Sphere, action, gpu::ivec3(at), 5 + static_cast<std::uint32_t>(action), 0x40FF20}});
+        }
+        machine.run({test::EditCommand::Action::Compare, {}});
+        const TreeData flat = flattenTree(device(), machine.octree().tree());
+        EXPECT_EQ(checkTree(flat), std::nullopt);
+        const Octree again = std::get<Octree>(uploadTree(device(), flat));
+        EXPECT_EQ(test::difference(test::cellsOf(device(), again), machine.model().cells()), "");
+    }
+}
+
+TEST(FlattenTree, OfNothingIsNothing)
+{
+    MoverScenery scenery(device(), false);
+    const DynamicSetting setting = {.emits = false, .has_static = false};
+    DynamicOctree octree(device(), scenery.buildStatic(setting), setting.options(scenery.emissionScale()));
+    const TreeData flat = flattenTree(device(), octree.tree());
+    EXPECT_EQ(checkTree(flat), std::nullopt);
+    EXPECT_TRUE(flat.nodes.empty());
+}
+
+} // namespace
+} // namespace zvo
