@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 namespace zvo::vk
 {
@@ -103,8 +104,9 @@ private:
 class RunSlicer : public Slicer
 {
 public:
-    RunSlicer(CommandContext& commands, SlicePlanner& planner, TimerPool& timers, Buffer& readback)
-        : m_commands(commands), m_planner(planner), m_timers(timers), m_readback(readback)
+    RunSlicer(CommandContext& commands, SlicePlanner& planner, TimerPool& timers, Buffer& readback,
+              std::function<void()> pause)
+        : m_commands(commands), m_planner(planner), m_timers(timers), m_readback(readback), m_pause(std::move(pause))
     {
         m_planner.beginRun();
     }
@@ -126,6 +128,7 @@ public:
     VkCommandBuffer next() override
     {
         submit();
+        m_pause();
         return begin();
     }
 
@@ -166,6 +169,7 @@ private:
     SlicePlanner& m_planner;
     TimerPool& m_timers;
     Buffer& m_readback;
+    std::function<void()> m_pause; // between two submissions
     std::vector<PassTime> m_times;
     std::uint32_t m_submission_count = 0;
 };
@@ -237,6 +241,18 @@ struct HeadlessDevice::Impl
         record(graph);
         commands.submit();
         commands.wait();
+        pauseHere();
+    }
+
+    // Where no command buffer is being recorded. What a pause does goes on without pauses.
+    void pauseHere()
+    {
+        if (pause)
+        {
+            const std::function<void()> call = std::exchange(pause, nullptr);
+            call();
+            pause = call;
+        }
     }
 
     // The flight that is free, or whose submission is the oldest.
@@ -260,6 +276,7 @@ struct HeadlessDevice::Impl
     TimerPool timers;
     Buffer readback; // arguments of an indirect dispatch
     SlicePlanner planner;
+    std::function<void()> pause;        // between submissions; empty: none
     std::uint32_t submission_count = 0; // of the last run
     std::uint32_t timer_capacity;
     std::size_t flights_max;
@@ -286,7 +303,8 @@ Device& HeadlessDevice::device()
 
 std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>& record)
 {
-    RunSlicer slicer(m_impl->commands, m_impl->planner, m_impl->timers, m_impl->readback);
+    RunSlicer slicer(m_impl->commands, m_impl->planner, m_impl->timers, m_impl->readback,
+                     [this] { m_impl->pauseHere(); });
     FrameGraph graph(m_impl->device, slicer.begin(), &m_impl->timers, &slicer);
     record(graph);
     slicer.submit();
@@ -299,6 +317,25 @@ Submission HeadlessDevice::submit(const std::function<void(FrameGraph&)>& record
     Submission submission = m_impl->nextFlight(m_impl->next_flight).submit(record);
     m_impl->next_flight = (m_impl->next_flight + 1) % m_impl->flights_max;
     return submission;
+}
+
+void HeadlessDevice::withPauses(const std::function<void()>& pause, double submission_ms,
+                                const std::function<void()>& work)
+{
+    const double usual_ms = m_impl->planner.aimAt(submission_ms);
+    m_impl->pause = pause;
+    try
+    {
+        work();
+    }
+    catch (...)
+    {
+        m_impl->pause = nullptr;
+        m_impl->planner.aimAt(usual_ms);
+        throw;
+    }
+    m_impl->pause = nullptr;
+    m_impl->planner.aimAt(usual_ms);
 }
 
 std::uint32_t HeadlessDevice::submissionCount() const

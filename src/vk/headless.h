@@ -63,6 +63,11 @@ public:
     /// Throws what record throws, and Error{Other} on a lost device.
     [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record);
 
+    /// Calls work, in which run(), uploads and downloads call pause between their submissions; those of run() aim at
+    /// submission_ms meanwhile. So a window stays alive while something long is made: pause may submit(). It must not
+    /// touch what work is making, and ends it by throwing. Throws what work throws.
+    void withPauses(const std::function<void()>& pause, double submission_ms, const std::function<void()>& work);
+
     /// Submissions of the last run().
     [[nodiscard]] std::uint32_t submissionCount() const;
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace zvo::vk
@@ -34,6 +35,9 @@ public:
     explicit SlicePlanner(const SliceOptions& options) : m_options(options) {}
 
     void beginRun();
+
+    /// From the next run on, submissions aim at so many milliseconds. Returns what they aimed at before.
+    double aimAt(double submission_ms) { return std::exchange(m_options.submission_ms, submission_ms); }
 
     /// How many of units may go into the current submission; 0: submit first. Never 0 in an empty submission.
     std::uint64_t admit(Key key, std::uint64_t units);

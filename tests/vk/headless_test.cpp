@@ -118,6 +118,61 @@ TEST(Headless, ARunThatThrowsLeavesTheDeviceUsable)
     EXPECT_EQ(device().download(iota(device(), 27)), counting(27));
 }
 
+// Something else is drawn while something long is made.
+TEST(Headless, PausesBetweenSubmissionsCanSubmit)
+{
+    constexpr std::uint64_t kCount = 1 << 16;
+    constexpr double kSoonMs = 1e-3;
+    int pauses = 0;
+    std::vector<vk::BufferOf<gpu::uint>> between;
+    std::vector<vk::Submission> submissions;
+    vk::BufferOf<gpu::uint> made;
+    device().withPauses(
+        [&]
+        {
+            ++pauses;
+            auto& values = between.emplace_back(device().device(), "between", 77);
+            submissions.push_back(device().submit(
+                [&](vk::FrameGraph& graph)
+                {
+                    vk::Pass pass = graph.addPass("test/iota");
+                    pass.dispatch(77, gpu::FillParams{.values = pass.write(values), .count = 77});
+                }));
+        },
+        kSoonMs, [&] { made = iota(device(), kCount); });
+    EXPECT_GE(pauses, 2);
+    const int so_far = pauses;
+    EXPECT_EQ(device().download(made), counting(kCount));
+    EXPECT_EQ(pauses, so_far) << "outside of withPauses";
+    for (vk::Submission& submission : submissions)
+    {
+        submission.wait();
+    }
+    for (const vk::BufferOf<gpu::uint>& values : between)
+    {
+        EXPECT_EQ(device().download(values), counting(77));
+    }
+}
+
+TEST(Headless, APauseEndsTheWorkByThrowing)
+{
+    for (const int last : {1, 2})
+    {
+        int pauses = 0;
+        const auto pause = [&]
+        {
+            if (++pauses == last)
+            {
+                throw Error(ErrorCode::Input, "enough");
+            }
+        };
+        EXPECT_THROW(device().withPauses(pause, 1e-3, [&] { iota(device(), 1 << 16); }), Error);
+        EXPECT_EQ(pauses, last);
+        EXPECT_EQ(device().download(iota(device(), 27)), counting(27));
+        EXPECT_EQ(pauses, last);
+    }
+}
+
 TEST(Headless, TwoDevicesWorkInOneProcess)
 {
     vk::HeadlessDevice other(test::deviceOptions(), testKernels());
