@@ -10,6 +10,7 @@
 #include "output.h"
 #include "pictures.h"
 #include "progress.h"
+#include "render_report.h"
 #include "renderer.h"
 #include "report.h"
 #include "session.h"
@@ -31,13 +32,14 @@ namespace zvo::cli
 namespace
 {
 
-/// The pictures of a scene, and what there is to tell of them.
+/// The pictures of a scene.
 class Run
 {
 public:
     Run(const RenderOptions& options, Pictures& pictures, Progress& progress)
         : m_options(options), m_pictures(pictures), m_progress(progress),
-          m_device(headlessOptions(options.device), zvoKernels()), m_renderer(m_device, options)
+          m_device(headlessOptions(options.device), zvoKernels()), m_renderer(m_device, options),
+          m_report(options, m_device)
     {
     }
 
@@ -45,7 +47,7 @@ public:
     void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& centre)
     {
         BuildResult result = voxelize(std::move(scene), grid);
-        report(result);
+        m_report.addOctree(result, m_triangle_count);
         const DeviceTree tree = structured(std::move(result.octree));
         std::visit([&](const auto& made) { turn(TreeView(made), camera, centre); }, tree);
     }
@@ -54,7 +56,7 @@ public:
     void turn(TreeData&& tree, const ViewCamera& camera, const glm::dvec3& centre)
     {
         m_progress.step("copying to the device");
-        report(tree);
+        m_report.addFile(tree);
         const DeviceTree uploaded = uploadTree(m_device, tree);
         tree = {};
         std::visit([&](const auto& on_device) { turn(TreeView(on_device), camera, centre); }, uploaded);
@@ -74,20 +76,14 @@ public:
             const std::vector<vk::PassTime> beam_passes = m_renderer.show(octree.tree());
             if (i == 0)
             {
-                report(stage, octree, update);
-                m_beam_passes = beam_passes;
+                const StaticPart& part = octree.staticPart();
+                warnOfDropped(std::uint64_t{part.voxel_count} + update.report.dynamic_count, part.dropped);
+                m_report.addStage(stage, octree, update);
+                m_report.addBeam(beam_passes);
             }
             m_has_warned = m_has_warned || warnOfDroppedMovers(seconds, update.report.dropped);
             draw(i, camera);
-            m_frames.push_back({{"frame", m_pictures.number(i)},
-                                {"seconds", seconds},
-                                {"voxels_dynamic", update.report.dynamic_count},
-                                {"nodes_dynamic", update.report.node_count},
-                                {"dropped", update.report.dropped},
-                                {"dynamic_ms", sumMs(update.passes)},
-                                {"retries", update.retry_count},
-                                {"trace_ms", m_times.back().trace_ms},
-                                {"shade_ms", m_times.back().shade_ms}});
+            m_report.addFrame(updateFrame(m_pictures.number(i), seconds, update));
         }
     }
 
@@ -100,63 +96,36 @@ public:
             BuildResult result = voxelize(stageAt(stage, seconds), grid);
             if (i == 0)
             {
-                report(result);
+                m_report.addOctree(result, m_triangle_count);
             }
-            Json frame = frameJson(m_pictures.number(i), seconds, result);
+            Json frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, result, m_triangle_count);
             const DeviceTree tree = structured(std::move(result.octree));
             const std::vector<vk::PassTime> beam_passes =
                 std::visit([&](const auto& made) { return m_renderer.show(made); }, tree);
-            m_beam_passes = i == 0 ? beam_passes : m_beam_passes;
+            if (i == 0)
+            {
+                m_report.addBeam(beam_passes);
+            }
             draw(i, camera);
-            frame["trace_ms"] = m_times.back().trace_ms;
-            frame["shade_ms"] = m_times.back().shade_ms;
-            m_frames.push_back(std::move(frame));
+            m_report.addFrame(std::move(frame));
         }
     }
 
-    // The report, if one was asked for, after all pictures.
-    Json json()
+    // After all pictures.
+    void finish(std::optional<Output>& file)
     {
-        double trace_ms = 0;
-        double shade_ms = 0;
-        for (const PictureTimes& picture : m_times)
+        if (file)
         {
-            trace_ms += picture.trace_ms / static_cast<double>(m_times.size());
-            shade_ms += picture.shade_ms / static_cast<double>(m_times.size());
+            file->write(jsonText(m_report.json(m_pictures.count(), m_renderer.cappedRays())));
+            file->finish();
         }
-        for (const std::vector<vk::PassTime>* passes : {&m_beam_passes, &m_times.front().passes})
-        {
-            const Json more = passesJson(*passes);
-            m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
-        }
-        m_json["bytes"]["peak_device"] = m_device.device().memory().peakBytes();
-        m_json["trace_ms"] = trace_ms;
-        m_json["shade_ms"] = shade_ms;
-        m_json["beam_grid_ms"] = sumMs(m_beam_passes);
-        m_json["capped_rays"] = m_renderer.cappedRays();
-        m_json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", m_pictures.count()}};
-        if (!m_frames.empty())
-        {
-            m_json["frames"] = m_frames;
-        }
-        return m_json;
-    }
-
-    // What was made, on one line.
-    void tell()
-    {
-        if (m_renderer.cappedRays() != 0)
-        {
-            talk(fmt::format("warning: {} rays took too many steps and were given up", m_renderer.cappedRays()));
-        }
-        talk(fmt::format("{}; trace {:.1f} ms, light and shade {:.1f} ms on {}", m_built, m_times.front().trace_ms,
-                         m_times.front().shade_ms, m_device.device().report().name));
+        m_report.tell(m_renderer.cappedRays());
     }
 
 private:
     void turn(const TreeView& tree, const ViewCamera& camera, const glm::dvec3& centre)
     {
-        m_beam_passes = m_renderer.show(tree);
+        m_report.addBeam(m_renderer.show(tree));
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
@@ -166,7 +135,7 @@ private:
 
     [[nodiscard]] TreeStructure structure() const { return m_options.structure.value_or(TreeStructure::Svo); }
 
-    // What was voxelized, as it is to be traced. Tells of the first.
+    // What was voxelized, as it is to be traced.
     DeviceTree structured(Octree&& octree)
     {
         if (structure() == TreeStructure::Svo)
@@ -175,12 +144,7 @@ private:
         }
         m_progress.step("compressing");
         CompressResult result = compress(m_device, std::move(octree));
-        if (!m_json.empty() && !m_json.contains("dag"))
-        {
-            m_json["dag"] = {{"nodes", result.dag.tree.node_count},
-                             {"geometry_bytes", result.dag.geometryBytes()},
-                             {"compress_ms", result.ms()}};
-        }
+        m_report.addDag(result);
         return std::move(result.dag);
     }
 
@@ -203,88 +167,12 @@ private:
         return result;
     }
 
-    // The octree of the first picture.
-    void report(const BuildResult& result)
-    {
-        m_built = fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms",
-                              result.octree.voxel_count, result.octree.grid.resolution(), m_triangle_count,
-                              result.stageMs("voxelize"), result.stageMs("octree"));
-        if (!m_options.output.json.empty())
-        {
-            m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, m_triangle_count, result,
-                                octreeSha256(m_device, result.octree), 0);
-        }
-    }
-
-    // What a file holds.
-    void report(const TreeData& tree)
-    {
-        m_built =
-            fmt::format("{} voxels of {}^3 in {} nodes", tree.voxel_count, tree.grid.resolution(), tree.nodes.size());
-        m_json["schema"] = "zvo.render_tree/1";
-        m_json["zvo"] = ZVO_VERSION;
-        m_json["device"] = deviceJson(m_device.device().report());
-        m_json["structure"] = structureName(tree.structure);
-        m_json["grid"] = gridJson(tree.grid);
-        m_json["resolution"] = tree.grid.resolution();
-        m_json["voxels"] = tree.voxel_count;
-        m_json["nodes"] = tree.nodes.size();
-        m_json["bytes"] = {{"geometry", tree.geometryBytes()}, {"attributes", tree.attributeBytes()}};
-        m_json["passes"] = Json::array();
-    }
-
-    // What stands still, and the first update.
-    void report(const Stage& stage, StageOctree& octree, const StageUpdate& update)
-    {
-        const StaticPart& part = octree.staticPart();
-        const Grid& grid = octree.tree().octree().grid;
-        const std::uint64_t triangle_count = part.triangle_count + octree.moverTriangleCount();
-        warnOfDropped(std::uint64_t{part.voxel_count} + update.report.dynamic_count, part.dropped);
-        const double voxelize_ms = operationMs(part.passes, "voxelize");
-        const double build_ms = operationMs(part.passes, "octree");
-        m_built = fmt::format("{} static and {} dynamic voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build "
-                              "{:.1f} ms, update {:.1f} ms",
-                              part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count,
-                              voxelize_ms, build_ms, sumMs(update.passes));
-        m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
-        m_json["merge"] = mergeRuleName(stage.merge);
-        m_json["scene"] = {{"triangles_static", part.triangle_count},
-                           {"triangles_dynamic", octree.moverTriangleCount()},
-                           {"movers", stage.movers.size()},
-                           {"dropped", part.dropped}};
-        m_json["voxels_static"] = part.voxel_count;
-        m_json["nodes_static"] = part.node_count;
-        m_json["structure"] = structureName(structure());
-        m_json["bytes"]["geometry_static"] = part.geometry_bytes;
-        m_json["passes"] = Json::array();
-        for (const std::vector<vk::PassTime>* passes : {&part.passes, &part.compress_passes, &update.passes})
-        {
-            const Json more = passesJson(*passes);
-            m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
-        }
-        m_json["voxelize_ms"] = voxelize_ms;
-        m_json["build_ms"] = build_ms;
-        m_json["compress_ms"] = structure() == TreeStructure::Svdag ? Json(sumMs(part.compress_passes)) : Json(nullptr);
-    }
-
-    Json frameJson(std::uint32_t number, double seconds, const BuildResult& result)
-    {
-        const bool is_wanted = !m_options.output.json.empty();
-        return {{"frame", number},
-                {"seconds", seconds},
-                {"triangles", m_triangle_count},
-                {"voxels", result.octree.voxel_count},
-                {"nodes", result.octree.node_count},
-                {"octree_sha256", is_wanted ? octreeSha256(m_device, result.octree) : ""},
-                {"voxelize_ms", result.stageMs("voxelize")},
-                {"build_ms", result.stageMs("octree")}};
-    }
-
     void draw(std::uint32_t index, const ViewCamera& camera)
     {
         m_progress.step("tracing");
-        m_times.emplace_back();
-        const std::vector<std::uint8_t> png = m_renderer.render(camera, m_times.back());
+        PictureTimes times;
+        const std::vector<std::uint8_t> png = m_renderer.render(camera, times);
+        m_report.addPicture(std::move(times));
         checkValidation(m_device);
         m_pictures.write(index, png);
     }
@@ -294,13 +182,9 @@ private:
     Progress& m_progress;
     vk::HeadlessDevice m_device;
     Renderer m_renderer;
+    RenderReport m_report;
     std::uint64_t m_triangle_count = 0; // of the scene voxelized last
-    std::vector<vk::PassTime> m_beam_passes;
-    std::vector<PictureTimes> m_times;
-    bool m_has_warned = false; // of triangles that were dropped, which one frame after the other may have
-    std::string m_built;
-    Json m_json;
-    Json m_frames = Json::array();
+    bool m_has_warned = false;          // of triangles that were dropped, which one frame after the other may have
 };
 
 bool hasZvoFile(const VoxelOptions& options)
@@ -369,12 +253,7 @@ void renderTree(const RenderOptions& options, Pictures& pictures, std::optional<
         chooseCamera(options.camera, Scene(), subject, static_cast<double>(options.width) / options.height);
     Run run(options, pictures, progress);
     run.turn(std::move(tree), camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
-    if (report)
-    {
-        report->write(jsonText(run.json()));
-        report->finish();
-    }
-    run.tell();
+    run.finish(report);
 }
 
 } // namespace
@@ -419,12 +298,7 @@ void render(const RenderOptions& options)
     {
         run.turn(std::move(stage.fixed), grid, camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     }
-    if (report)
-    {
-        report->write(jsonText(run.json()));
-        report->finish();
-    }
-    run.tell();
+    run.finish(report);
 }
 
 } // namespace zvo::cli

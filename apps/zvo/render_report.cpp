@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "render_report.h"
+
+#include "core/zvo_file.h"
+#include "progress.h"
+#include "session.h"
+
+#include <fmt/format.h>
+
+namespace zvo::cli
+{
+
+Json updateFrame(std::uint32_t number, double seconds, const StageUpdate& update)
+{
+    return {{"frame", number},
+            {"seconds", seconds},
+            {"voxels_dynamic", update.report.dynamic_count},
+            {"nodes_dynamic", update.report.node_count},
+            {"dropped", update.report.dropped},
+            {"dynamic_ms", sumMs(update.passes)},
+            {"retries", update.retry_count}};
+}
+
+void RenderReport::addOctree(const BuildResult& result, std::uint64_t triangle_count)
+{
+    m_built = fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms",
+                          result.octree.voxel_count, result.octree.grid.resolution(), triangle_count,
+                          result.stageMs("voxelize"), result.stageMs("octree"));
+    if (!m_options.output.json.empty())
+    {
+        m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, triangle_count, result,
+                            octreeSha256(m_device, result.octree), 0);
+    }
+}
+
+void RenderReport::addDag(const CompressResult& result)
+{
+    if (!m_json.empty() && !m_json.contains("dag"))
+    {
+        m_json["dag"] = {{"nodes", result.dag.tree.node_count},
+                         {"geometry_bytes", result.dag.geometryBytes()},
+                         {"compress_ms", result.ms()}};
+    }
+}
+
+void RenderReport::addFile(const TreeData& tree)
+{
+    m_built = fmt::format("{} voxels of {}^3 in {} nodes", tree.voxel_count, tree.grid.resolution(), tree.nodes.size());
+    m_json["schema"] = "zvo.render_tree/1";
+    m_json["zvo"] = ZVO_VERSION;
+    m_json["device"] = deviceJson(m_device.device().report());
+    m_json["structure"] = structureName(tree.structure);
+    m_json["grid"] = gridJson(tree.grid);
+    m_json["resolution"] = tree.grid.resolution();
+    m_json["voxels"] = tree.voxel_count;
+    m_json["nodes"] = tree.nodes.size();
+    m_json["bytes"] = {{"geometry", tree.geometryBytes()}, {"attributes", tree.attributeBytes()}};
+    m_json["passes"] = Json::array();
+}
+
+void RenderReport::addStage(const Stage& stage, StageOctree& octree, const StageUpdate& update)
+{
+    const StaticPart& part = octree.staticPart();
+    const Grid& grid = octree.tree().octree().grid;
+    const std::uint64_t triangle_count = part.triangle_count + octree.moverTriangleCount();
+    const double voxelize_ms = operationMs(part.passes, "voxelize");
+    const double build_ms = operationMs(part.passes, "octree");
+    m_built = fmt::format("{} static and {} dynamic voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build "
+                          "{:.1f} ms, update {:.1f} ms",
+                          part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count, voxelize_ms,
+                          build_ms, sumMs(update.passes));
+    m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
+    m_json["merge"] = mergeRuleName(stage.merge);
+    m_json["scene"] = {{"triangles_static", part.triangle_count},
+                       {"triangles_dynamic", octree.moverTriangleCount()},
+                       {"movers", stage.movers.size()},
+                       {"dropped", part.dropped}};
+    m_json["voxels_static"] = part.voxel_count;
+    m_json["nodes_static"] = part.node_count;
+    const TreeStructure structure = m_options.structure.value_or(TreeStructure::Svo);
+    m_json["structure"] = structureName(structure);
+    m_json["bytes"]["geometry_static"] = part.geometry_bytes;
+    m_json["passes"] = Json::array();
+    for (const std::vector<vk::PassTime>* passes : {&part.passes, &part.compress_passes, &update.passes})
+    {
+        const Json more = passesJson(*passes);
+        m_json["passes"].insert(m_json["passes"].end(), more.begin(), more.end());
+    }
+    m_json["voxelize_ms"] = voxelize_ms;
+    m_json["build_ms"] = build_ms;
+    m_json["compress_ms"] = structure == TreeStructure::Svdag ? Json(sumMs(part.compress_passes)) : Json(nullptr);
+}
+
+void RenderReport::addFrame(Json frame)
+{
+    frame["trace_ms"] = m_times.back().trace_ms;
+    frame["shade_ms"] = m_times.back().shade_ms;
+    m_frames.push_back(std::move(frame));
+}
+
+Json RenderReport::rebuiltFrame(std::uint32_t number, double seconds, const BuildResult& result,
+                                std::uint64_t triangle_count) const
+{
+    const bool is_wanted = !m_options.output.json.empty();
+    return {{"frame", number},
+            {"seconds", seconds},
+            {"triangles", triangle_count},
+            {"voxels", result.octree.voxel_count},
+            {"nodes", result.octree.node_count},
+            {"octree_sha256", is_wanted ? octreeSha256(m_device, result.octree) : ""},
+            {"voxelize_ms", result.stageMs("voxelize")},
+            {"build_ms", result.stageMs("octree")}};
+}
+
+Json RenderReport::json(std::uint32_t picture_count, std::uint64_t capped_rays) const
+{
+    Json json = m_json;
+    double trace_ms = 0;
+    double shade_ms = 0;
+    for (const PictureTimes& picture : m_times)
+    {
+        trace_ms += picture.trace_ms / static_cast<double>(m_times.size());
+        shade_ms += picture.shade_ms / static_cast<double>(m_times.size());
+    }
+    for (const std::vector<vk::PassTime>* passes : {&m_beam_passes, &m_times.front().passes})
+    {
+        const Json more = passesJson(*passes);
+        json["passes"].insert(json["passes"].end(), more.begin(), more.end());
+    }
+    json["bytes"]["peak_device"] = m_device.device().memory().peakBytes();
+    json["trace_ms"] = trace_ms;
+    json["shade_ms"] = shade_ms;
+    json["beam_grid_ms"] = sumMs(m_beam_passes);
+    json["capped_rays"] = capped_rays;
+    json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", picture_count}};
+    if (!m_frames.empty())
+    {
+        json["frames"] = m_frames;
+    }
+    return json;
+}
+
+void RenderReport::tell(std::uint64_t capped_rays) const
+{
+    if (capped_rays != 0)
+    {
+        talk(fmt::format("warning: {} rays took too many steps and were given up", capped_rays));
+    }
+    talk(fmt::format("{}; trace {:.1f} ms, light and shade {:.1f} ms on {}", m_built, m_times.front().trace_ms,
+                     m_times.front().shade_ms, m_device.device().report().name));
+}
+
+} // namespace zvo::cli
