@@ -52,7 +52,7 @@ VkCommandBuffer CommandContext::begin()
     return m_commands;
 }
 
-void CommandContext::submit()
+void CommandContext::submit(const SubmitSync& sync)
 {
     const Functions& fn = m_device.fn();
     VK_CHECK(fn.vkEndCommandBuffer(m_commands));
@@ -63,6 +63,18 @@ void CommandContext::submit()
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &commands;
+    VkSemaphoreSubmitInfo wait{};
+    wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
+    wait.semaphore = sync.wait;
+    wait.stageMask = sync.wait_stages;
+    submit.waitSemaphoreInfoCount = sync.wait != VK_NULL_HANDLE ? 1 : 0;
+    submit.pWaitSemaphoreInfos = &wait;
+    VkSemaphoreSubmitInfo signal{};
+    signal.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
+    signal.semaphore = sync.signal;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    submit.signalSemaphoreInfoCount = sync.signal != VK_NULL_HANDLE ? 1 : 0;
+    submit.pSignalSemaphoreInfos = &signal;
     VK_CHECK(fn.vkQueueSubmit2(m_queue, 1, &submit, m_fence));
 }
 

@@ -8,6 +8,14 @@ namespace zvo::vk
 
 class Device;
 
+/// What a submission waits for on the device, and what it tells when it is done: semaphores, or null.
+struct SubmitSync
+{
+    VkSemaphore wait = VK_NULL_HANDLE;
+    VkPipelineStageFlags2 wait_stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT; // of this submission: they wait
+    VkSemaphore signal = VK_NULL_HANDLE;
+};
+
 /// A command buffer and the fence that says when the device is done with it. It is recorded again only then.
 class CommandContext
 {
@@ -22,7 +30,7 @@ public:
     VkCommandBuffer begin();
 
     /// Ends recording and submits.
-    void submit();
+    void submit(const SubmitSync& sync = {});
 
     /// Whether wait() would return, or throw, at once.
     [[nodiscard]] bool done() const;

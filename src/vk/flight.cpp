@@ -17,7 +17,7 @@ Flight::~Flight()
     finish();
 }
 
-Submission Flight::submit(const std::function<void(FrameGraph&)>& record)
+Submission Flight::submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync)
 {
     assert(m_state == nullptr);
     Submission submission;
@@ -25,7 +25,7 @@ Submission Flight::submit(const std::function<void(FrameGraph&)>& record)
     m_timers.reset();
     FrameGraph graph(m_device, m_commands.begin(), &m_timers);
     record(graph);
-    m_commands.submit();
+    m_commands.submit(sync);
     m_state = submission.m_state.get();
     m_state->flight = this;
     return submission;

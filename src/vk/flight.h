@@ -25,7 +25,7 @@ public:
 
     /// Records with record and submits, without waiting. The last submission must be finished. Throws what record
     /// throws, and Error when a call fails; then nothing is under way.
-    [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record);
+    [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync);
 
     /// Whether finish() would not wait.
     [[nodiscard]] bool done() const { return m_state == nullptr || m_commands.done(); }

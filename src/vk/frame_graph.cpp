@@ -22,6 +22,7 @@ constexpr std::uint64_t kPieceBytes = 64 << 10;
 constexpr std::uint64_t kFillKey = 1; // no kernel's address
 constexpr std::uint64_t kCopyKey = 2;
 constexpr std::uint64_t kUpdateKey = 3;
+constexpr std::uint64_t kRecordKey = 4;
 constexpr std::uint64_t kMaxThreads = std::uint64_t{1} << 32; // kernels number their threads with 32 bits
 
 [[noreturn]] void misuse(const std::string& what)
@@ -306,6 +307,21 @@ void FrameGraph::update(Buffer& buffer, std::uint64_t offset, std::span<const st
                                                          data.data() + first);
                      }
                  });
+}
+
+void FrameGraph::record(const std::string& name, std::span<const CopyUse> uses,
+                        const std::function<void(VkCommandBuffer)>& commands)
+{
+    std::vector<BufferAccess> accesses;
+    for (const CopyUse& use : uses)
+    {
+        if (use.buffer->handle() != VK_NULL_HANDLE)
+        {
+            accesses.push_back(accessOf(*use.buffer, use.access));
+        }
+    }
+    declarePass(name, accesses, "commands");
+    recordPieces(name, kRecordKey, 1, 1, [&](std::uint64_t, std::uint64_t) { commands(m_commands); });
 }
 
 void FrameGraph::releaseToHost()

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -94,6 +95,16 @@ private:
     bool m_dispatched = false;
 };
 
+/// A buffer that a pass of the caller's own commands copies from or to.
+struct CopyUse
+{
+    static CopyUse read(const Buffer& buffer) { return {&buffer, Access::CopyRead}; }
+    static CopyUse write(Buffer& buffer) { return {&buffer, Access::CopyWrite}; }
+
+    const Buffer* buffer;
+    Access access;
+};
+
 /// Records passes into a command buffer in the order in which they are declared, with one global memory barrier before
 /// a pass that has a hazard. Records only: it never submits and never waits. The command buffer may be a host's. With a
 /// slicer, passes and pieces of passes go into as many command buffers as that asks for; the results are the same.
@@ -122,6 +133,17 @@ public:
     void update(BufferOf<T>& buffer, std::uint64_t first, std::span<const std::type_identity_t<T>> values)
     {
         update(static_cast<Buffer&>(buffer), first * sizeof(T), std::as_bytes(values));
+    }
+
+    /// Records a pass of the caller's own commands, which copy from and to buffers: what it reads and writes of them is
+    /// declared here. Other resources are the caller's affair: passes before it may still be running when it begins.
+    /// commands gets the command buffer, outside a render pass, and leaves it so.
+    void record(const std::string& name, std::span<const CopyUse> uses,
+                const std::function<void(VkCommandBuffer)>& commands);
+    void record(const std::string& name, std::initializer_list<CopyUse> uses,
+                const std::function<void(VkCommandBuffer)>& commands)
+    {
+        record(name, std::span(uses.begin(), uses.size()), commands);
     }
 
     /// Makes everything written so far visible to the host once the work is complete.

@@ -15,6 +15,7 @@ Functions Functions::ofInstance(PFN_vkGetInstanceProcAddr get_instance_proc_addr
 #define ZVO_VK_LOAD(name) functions.name = reinterpret_cast<PFN_##name>(get_instance_proc_addr(instance, #name));
     ZVO_VK_INSTANCE_FUNCTIONS(ZVO_VK_LOAD)
     ZVO_VK_DEBUG_FUNCTIONS(ZVO_VK_LOAD)
+    ZVO_VK_WINDOW_INSTANCE_FUNCTIONS(ZVO_VK_LOAD)
 #undef ZVO_VK_LOAD
     return functions;
 }
@@ -32,6 +33,9 @@ Functions Functions::ofDevice(PFN_vkGetInstanceProcAddr get_instance_proc_addr, 
     functions.name = reinterpret_cast<PFN_##name>(functions.vkGetDeviceProcAddr(device, #name));                       \
     missing += functions.name == nullptr ? " " #name : "";
     ZVO_VK_DEVICE_FUNCTIONS(ZVO_VK_LOAD)
+#undef ZVO_VK_LOAD
+#define ZVO_VK_LOAD(name) functions.name = reinterpret_cast<PFN_##name>(functions.vkGetDeviceProcAddr(device, #name));
+    ZVO_VK_WINDOW_DEVICE_FUNCTIONS(ZVO_VK_LOAD)
 #undef ZVO_VK_LOAD
     if (!missing.empty())
     {

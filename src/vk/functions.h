@@ -82,6 +82,35 @@ namespace zvo::vk
     X(vkCreateDebugUtilsMessengerEXT)            \
     X(vkDestroyDebugUtilsMessengerEXT)           \
     X(vkSetDebugUtilsObjectNameEXT)
+
+// Of windows, and of what is drawn in them: null where the instance has no surfaces or the device no swapchains.
+#define ZVO_VK_WINDOW_INSTANCE_FUNCTIONS(X)      \
+    X(vkDestroySurfaceKHR)                       \
+    X(vkGetPhysicalDeviceFormatProperties)       \
+    X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR) \
+    X(vkGetPhysicalDeviceSurfaceFormatsKHR)      \
+    X(vkGetPhysicalDeviceSurfacePresentModesKHR) \
+    X(vkGetPhysicalDeviceSurfaceSupportKHR)
+
+#define ZVO_VK_WINDOW_DEVICE_FUNCTIONS(X)        \
+    X(vkAcquireNextImageKHR)                     \
+    X(vkCmdBeginRenderPass)                      \
+    X(vkCmdBlitImage)                            \
+    X(vkCmdCopyBufferToImage)                    \
+    X(vkCmdCopyImageToBuffer)                    \
+    X(vkCmdEndRenderPass)                        \
+    X(vkCreateDescriptorPool)                    \
+    X(vkCreateFramebuffer)                       \
+    X(vkCreateRenderPass)                        \
+    X(vkCreateSemaphore)                         \
+    X(vkCreateSwapchainKHR)                      \
+    X(vkDestroyDescriptorPool)                   \
+    X(vkDestroyFramebuffer)                      \
+    X(vkDestroyRenderPass)                       \
+    X(vkDestroySemaphore)                        \
+    X(vkDestroySwapchainKHR)                     \
+    X(vkGetSwapchainImagesKHR)                   \
+    X(vkQueuePresentKHR)
 // clang-format on
 
 /// The Vulkan functions of one instance and one device. Every context has its own table: nothing is global, so that two
@@ -99,6 +128,8 @@ struct Functions
     ZVO_VK_INSTANCE_FUNCTIONS(ZVO_VK_MEMBER)
     ZVO_VK_DEVICE_FUNCTIONS(ZVO_VK_MEMBER)
     ZVO_VK_DEBUG_FUNCTIONS(ZVO_VK_MEMBER)
+    ZVO_VK_WINDOW_INSTANCE_FUNCTIONS(ZVO_VK_MEMBER)
+    ZVO_VK_WINDOW_DEVICE_FUNCTIONS(ZVO_VK_MEMBER)
 #undef ZVO_VK_MEMBER
 };
 

@@ -30,12 +30,12 @@ constexpr std::uint64_t kStagingBytesMin = 64ull << 10; // where memory is short
 class LogicalDevice
 {
 public:
-    LogicalDevice(const Instance& instance, const DeviceReport& report, bool gpu_assisted_validation,
+    LogicalDevice(const Instance& instance, const DeviceReport& report, const HeadlessOptions& options,
                   bool subgroup_size_control)
     {
         RequiredFeatures features;
         features.chain().vulkan13.subgroupSizeControl = subgroup_size_control ? VK_TRUE : VK_FALSE;
-        if (gpu_assisted_validation)
+        if (options.gpu_assisted_validation)
         {
             enableForInstrumentation(features.chain(), instance, report);
         }
@@ -50,6 +50,9 @@ public:
         info.pNext = features.head();
         info.queueCreateInfoCount = 1;
         info.pQueueCreateInfos = &queue;
+        const char* const swapchains = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+        info.enabledExtensionCount = options.window ? 1 : 0;
+        info.ppEnabledExtensionNames = &swapchains;
         VK_CHECK(instance.fn().vkCreateDevice(report.physical_device, &info, nullptr, &m_handle));
         try
         {
@@ -200,9 +203,22 @@ InstanceOptions instanceOptions(const HeadlessOptions& options)
 {
     return {.validation = options.validation,
             .gpu_assisted_validation = options.gpu_assisted_validation,
-            .extensions = {},
+            .extensions = options.window ? options.window->instance_extensions : std::vector<const char*>(),
             .message_counter = options.message_counter,
             .get_instance_proc_addr = options.get_instance_proc_addr};
+}
+
+std::vector<DeviceReport> queryFor(const Instance& instance, const HeadlessOptions& options)
+{
+    std::vector<DeviceReport> reports = instance.queryAll();
+    if (options.window)
+    {
+        for (DeviceReport& report : reports)
+        {
+            requireWindow(*options.window, instance, report);
+        }
+    }
+    return reports;
 }
 
 } // namespace
@@ -210,9 +226,9 @@ InstanceOptions instanceOptions(const HeadlessOptions& options)
 struct HeadlessDevice::Impl
 {
     Impl(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels)
-        : instance(instanceOptions(options)), reports(instance.queryAll()),
+        : instance(instanceOptions(options)), reports(queryFor(instance, options)),
           chosen(chooseDevice(reports, options.device)),
-          logical(instance, chosen, options.gpu_assisted_validation, choosesSubgroupSize(options, chosen)),
+          logical(instance, chosen, options, choosesSubgroupSize(options, chosen)),
           cache(logical.fn(), chosen.physical_device, logical.handle(), options.pipeline_cache_path),
           device(handles(options), kernels), commands(device, logical.queue()), timers(device, options.timer_capacity),
           readback(device, "slice readback", sizeof(gpu::DispatchArgs), MemoryKind::Readback), planner(options.slices),
@@ -301,6 +317,11 @@ Device& HeadlessDevice::device()
     return m_impl->device;
 }
 
+VkQueue HeadlessDevice::queue()
+{
+    return m_impl->logical.queue();
+}
+
 std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>& record)
 {
     RunSlicer slicer(m_impl->commands, m_impl->planner, m_impl->timers, m_impl->readback,
@@ -312,9 +333,9 @@ std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>
     return slicer.takeTimes();
 }
 
-Submission HeadlessDevice::submit(const std::function<void(FrameGraph&)>& record)
+Submission HeadlessDevice::submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync)
 {
-    Submission submission = m_impl->nextFlight(m_impl->next_flight).submit(record);
+    Submission submission = m_impl->nextFlight(m_impl->next_flight).submit(record, sync);
     m_impl->next_flight = (m_impl->next_flight + 1) % m_impl->flights_max;
     return submission;
 }

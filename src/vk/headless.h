@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "vk/command_context.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/slice_planner.h"
 #include "vk/submission.h"
+#include "vk/window_support.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +33,7 @@ struct HeadlessOptions
     std::uint32_t submissions_in_flight = 3;                    // of submit(): at most; at least 1
     std::string pipeline_cache_path;                            // empty: pipelines are not kept on disk
     std::uint32_t timer_capacity = 4096;                        // passes of one run that are timed; 0: none
+    std::optional<WindowSupport> window;                        // for work that a window shows: a Swapchain
     std::atomic<std::uint32_t>* message_counter = nullptr;      // also counts validation messages, to the very end
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: of the machine's loader. For tests
     DeviceOverrides overrides;                                  // likewise
@@ -38,8 +42,8 @@ struct HeadlessOptions
 /// Reports of all physical devices, usable or not, in the loader's order; the index is their number for `device`.
 std::vector<DeviceReport> queryAllDevices();
 
-/// The project's own Vulkan instance, device and queue for work without a window. It plays the host of the embedding
-/// contract: it owns what DeviceHandles names, submits and waits.
+/// The project's own Vulkan instance, device and queue: for work without a window, unless options ask for one. It plays
+/// the host of the embedding contract: it owns what DeviceHandles names, submits and waits.
 class HeadlessDevice
 {
 public:
@@ -51,6 +55,9 @@ public:
 
     [[nodiscard]] Device& device();
 
+    /// The queue that everything is submitted to. Not to be used while a call of this class is going on.
+    [[nodiscard]] VkQueue queue();
+
     /// Records with record, submits and waits; in several submissions where one would take too long
     /// (HeadlessOptions::slices), which the results do not depend on. Returns the GPU time of each pass, in order.
     /// Throws Error{Other} on a lost device.
@@ -60,8 +67,9 @@ public:
     /// Work runs, and sees what was written, in the order of submission, run() and transfers included. When
     /// HeadlessOptions::submissions_in_flight are under way, waits for the oldest. What fails on the device is thrown
     /// by Submission::wait(). The host may read mapped buffers then if record ends with FrameGraph::releaseToHost().
-    /// Throws what record throws, and Error{Other} on a lost device.
-    [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record);
+    /// sync: semaphores that it waits for and signals. Throws what record throws, and Error{Other} on a lost device:
+    /// then it does neither.
+    [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync = {});
 
     /// Calls work, in which run(), uploads and downloads call pause between their submissions; those of run() aim at
     /// submission_ms meanwhile. So a window stays alive while something long is made: pause may submit(). It must not

@@ -12,9 +12,10 @@ namespace zvo::vk
 
 // Delegates, so that the destructor cleans up when something below throws.
 Image::Image(Device& device, std::string name, std::uint32_t width, std::uint32_t height, VkFormat format,
-             VkImageUsageFlags usage)
+             VkImageUsageFlags usage, VkFormat view_format)
     : Image()
 {
+    view_format = view_format == VK_FORMAT_UNDEFINED ? format : view_format;
     m_device = &device;
     m_name = std::move(name);
     m_format = format;
@@ -23,6 +24,7 @@ Image::Image(Device& device, std::string name, std::uint32_t width, std::uint32_
 
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.flags = view_format != format ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = format;
     info.extent = {width, height, 1};
@@ -54,7 +56,7 @@ Image::Image(Device& device, std::string name, std::uint32_t width, std::uint32_
     view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view.image = m_handle;
     view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = format;
+    view.format = view_format;
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     VK_CHECK(fn.vkCreateImageView(device.handle(), &view, device.allocationCallbacks(), &m_view));
     device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, reinterpret_cast<std::uint64_t>(m_view), m_name);

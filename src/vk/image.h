@@ -17,9 +17,10 @@ public:
     Image() = default;
 
     /// width x height pixels in format; the contents are undefined and the layout is VK_IMAGE_LAYOUT_UNDEFINED.
-    /// There is a view unless usage is copies only. Throws Error{Memory} when the device's budget does not allow it.
+    /// There is a view unless usage is copies only: in format, or in another one of the same size. Throws Error{Memory}
+    /// when the device's budget does not allow it.
     Image(Device& device, std::string name, std::uint32_t width, std::uint32_t height, VkFormat format,
-          VkImageUsageFlags usage);
+          VkImageUsageFlags usage, VkFormat view_format = VK_FORMAT_UNDEFINED);
     ~Image();
     Image(Image&& other) noexcept;
     Image& operator=(Image&& other) noexcept;

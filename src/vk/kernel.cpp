@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace zvo::vk
 {
@@ -76,18 +77,36 @@ std::string debugName(const EmbeddedKernel& kernel, const Specialization& specia
 } // namespace
 
 KernelCache::KernelCache(Device& device, std::span<const EmbeddedKernel> kernels, VkPipelineCache pipeline_cache)
-    : m_device(device), m_embedded(kernels), m_pipeline_cache(pipeline_cache)
+    : m_device(device), m_embedded(kernels.begin(), kernels.end()), m_pipeline_cache(pipeline_cache)
 {
 }
 
 KernelCache::~KernelCache()
 {
-    const Functions& fn = m_device.fn();
+    releaseReplaced();
     for (const auto& [key, kernel] : m_kernels)
     {
-        fn.vkDestroyPipeline(m_device.handle(), kernel.pipeline, m_device.allocationCallbacks());
-        fn.vkDestroyPipelineLayout(m_device.handle(), kernel.layout, m_device.allocationCallbacks());
+        destroy(kernel);
     }
+}
+
+void KernelCache::destroy(const Kernel& kernel) noexcept
+{
+    const Functions& fn = m_device.fn();
+    fn.vkDestroyPipeline(m_device.handle(), kernel.pipeline, m_device.allocationCallbacks());
+    fn.vkDestroyPipelineLayout(m_device.handle(), kernel.layout, m_device.allocationCallbacks());
+}
+
+const EmbeddedKernel& KernelCache::find(std::string_view name) const
+{
+    const auto embedded = std::find_if(m_embedded.begin(), m_embedded.end(),
+                                       [&](const EmbeddedKernel& kernel) { return kernel.name == name; });
+    if (embedded == m_embedded.end())
+    {
+        throw Error(ErrorCode::Other, fmt::format("there is no kernel {}: {} kernels are embedded, none with that name",
+                                                  name, m_embedded.size()));
+    }
+    return *embedded;
 }
 
 const Kernel& KernelCache::get(std::string_view name, const Specialization& specialization)
@@ -98,26 +117,84 @@ const Kernel& KernelCache::get(std::string_view name, const Specialization& spec
     {
         return known->second;
     }
-    const auto embedded = std::find_if(m_embedded.begin(), m_embedded.end(),
-                                       [&](const EmbeddedKernel& kernel) { return kernel.name == name; });
-    if (embedded == m_embedded.end())
-    {
-        throw Error(ErrorCode::Other, fmt::format("there is no kernel {}: {} kernels are embedded, none with that name",
-                                                  name, m_embedded.size()));
-    }
+    const EmbeddedKernel& embedded = find(name);
     Kernel& kernel = m_kernels[std::move(key)]; // the cache destroys what it holds, complete or not
     try
     {
-        create(*embedded, specialization, kernel);
+        create(embedded, specialization, kernel);
     }
     catch (...)
     {
-        const Functions& fn = m_device.fn();
-        fn.vkDestroyPipelineLayout(m_device.handle(), kernel.layout, m_device.allocationCallbacks());
+        destroy(kernel);
         m_kernels.erase({std::string(name), specialization});
         throw;
     }
     return kernel;
+}
+
+void KernelCache::replace(std::string_view name, std::vector<std::uint32_t> words)
+{
+    const EmbeddedKernel old = find(name);
+    const KernelInterface before = reflectKernel(old.words);
+    const KernelInterface after = reflectKernel(words);
+    if (after.push_constant_bytes != before.push_constant_bytes || after.local_size != before.local_size)
+    {
+        throw Error(ErrorCode::Other,
+                    fmt::format("kernel {} takes other parameters, or other workgroups, than this program gives it: "
+                                "build the program anew",
+                                name));
+    }
+    const EmbeddedKernel embedded = {old.name, words};
+    std::vector<Kernel> made;
+    std::vector<Kernel*> targets;
+    try
+    {
+        for (auto& [key, kernel] : m_kernels)
+        {
+            if (key.first == name)
+            {
+                targets.push_back(&kernel);
+                create(embedded, key.second, made.emplace_back());
+            }
+        }
+    }
+    catch (...)
+    {
+        for (const Kernel& kernel : made)
+        {
+            destroy(kernel);
+        }
+        throw;
+    }
+    for (std::size_t i = 0; i < made.size(); ++i)
+    {
+        std::swap(*targets[i], made[i]); // references to it stay valid
+    }
+    m_replaced.insert(m_replaced.end(), made.begin(), made.end());
+    std::vector<std::uint32_t>& kept = m_modules[std::string(name)];
+    kept = std::move(words);
+    std::find_if(m_embedded.begin(), m_embedded.end(),
+                 [&](const EmbeddedKernel& kernel) { return kernel.name == name; })
+        ->words = kept;
+}
+
+void KernelCache::releaseReplaced() noexcept
+{
+    for (const Kernel& kernel : m_replaced)
+    {
+        destroy(kernel);
+    }
+    m_replaced.clear();
+}
+
+std::vector<std::string> KernelCache::names() const
+{
+    std::vector<std::string> names;
+    for (const EmbeddedKernel& kernel : m_embedded)
+    {
+        names.emplace_back(kernel.name);
+    }
+    return names;
 }
 
 void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& specialization, Kernel& kernel)

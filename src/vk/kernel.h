@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -50,7 +51,8 @@ struct Kernel
     VkPipeline pipeline = VK_NULL_HANDLE;
 };
 
-/// Creates pipelines on demand and keeps them for the life of a device. Not thread safe.
+/// Creates pipelines on demand and keeps them for the life of a device, or until their kernel is replaced. Not thread
+/// safe.
 class KernelCache
 {
 public:
@@ -64,15 +66,30 @@ public:
     /// declare and for a workgroup that the device cannot run.
     const Kernel& get(std::string_view name, const Specialization& specialization = {});
 
+    /// The kernel of that name is this module from now on, also where get() has returned it before; work that was
+    /// recorded before goes on with the old one until releaseReplaced(). Throws Error{Other}, and changes nothing, for
+    /// a name that was not embedded and for a module that does not take the same parameters, in the same workgroups.
+    void replace(std::string_view name, std::vector<std::uint32_t> words);
+
+    /// The device is done with all work that was recorded before replace().
+    void releaseReplaced() noexcept;
+
+    /// The names of all kernels.
+    [[nodiscard]] std::vector<std::string> names() const;
+
 private:
     using Key = std::pair<std::string, Specialization>;
 
+    [[nodiscard]] const EmbeddedKernel& find(std::string_view name) const;
     void create(const EmbeddedKernel& embedded, const Specialization& specialization, Kernel& kernel);
+    void destroy(const Kernel& kernel) noexcept;
 
     Device& m_device;
-    std::span<const EmbeddedKernel> m_embedded;
+    std::vector<EmbeddedKernel> m_embedded;
+    std::map<std::string, std::vector<std::uint32_t>, std::less<>> m_modules; // of kernels that were replaced
     VkPipelineCache m_pipeline_cache;
     std::map<Key, Kernel> m_kernels;
+    std::vector<Kernel> m_replaced;
 };
 
 } // namespace zvo::vk

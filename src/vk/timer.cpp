@@ -16,7 +16,8 @@ constexpr std::uint32_t kFullTimestampBits = 64;
 
 } // namespace
 
-TimerPool::TimerPool(Device& device, std::uint32_t pass_capacity) : m_device(device), m_pass_capacity(pass_capacity)
+TimerPool::TimerPool(Device& device, std::uint32_t pass_capacity)
+    : m_device(device), m_pass_capacity(pass_capacity), m_stamp_count(device.report().type == "cpu" ? 3 : 2)
 {
     if (device.report().timestamp_period_ns == 0 || pass_capacity == 0)
     {
@@ -26,10 +27,10 @@ TimerPool::TimerPool(Device& device, std::uint32_t pass_capacity) : m_device(dev
     VkQueryPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = 2 * pass_capacity;
+    info.queryCount = m_stamp_count * pass_capacity;
     VK_CHECK(device.fn().vkCreateQueryPool(device.handle(), &info, device.allocationCallbacks(), &m_pool));
     device.setName(VK_OBJECT_TYPE_QUERY_POOL, reinterpret_cast<std::uint64_t>(m_pool), "zvo pass timers");
-    device.fn().vkResetQueryPool(device.handle(), m_pool, 0, 2 * pass_capacity);
+    device.fn().vkResetQueryPool(device.handle(), m_pool, 0, info.queryCount);
 }
 
 TimerPool::~TimerPool()
@@ -41,7 +42,8 @@ void TimerPool::reset()
 {
     if (!m_names.empty())
     {
-        m_device.fn().vkResetQueryPool(m_device.handle(), m_pool, 0, 2 * static_cast<std::uint32_t>(m_names.size()));
+        m_device.fn().vkResetQueryPool(m_device.handle(), m_pool, 0,
+                                       m_stamp_count * static_cast<std::uint32_t>(m_names.size()));
     }
     m_names.clear();
     m_dropped_count = 0;
@@ -57,17 +59,23 @@ void TimerPool::begin(VkCommandBuffer commands, const std::string& name)
         m_dropped_count += m_pool != VK_NULL_HANDLE ? 1 : 0;
         return;
     }
-    const auto query = 2 * static_cast<std::uint32_t>(m_names.size());
+    const std::uint32_t query = m_stamp_count * static_cast<std::uint32_t>(m_names.size());
     m_names.push_back(name);
     m_open = true;
     m_device.fn().vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_pool, query);
+    // Where something was drawn before, lavapipe takes a stamp only when another command is waited for: it would see
+    // the end of the pass. A stamp that nobody looks at is such a command.
+    if (m_stamp_count == 3)
+    {
+        m_device.fn().vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_pool, query + 2);
+    }
 }
 
 void TimerPool::end(VkCommandBuffer commands)
 {
     if (m_open)
     {
-        const auto query = 2 * static_cast<std::uint32_t>(m_names.size()) - 1;
+        const std::uint32_t query = m_stamp_count * static_cast<std::uint32_t>(m_names.size() - 1) + 1;
         m_device.fn().vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_pool, query);
         m_open = false;
     }
@@ -79,7 +87,7 @@ std::vector<PassTime> TimerPool::collect() const
     {
         return {};
     }
-    std::vector<std::uint64_t> stamps(2 * m_names.size());
+    std::vector<std::uint64_t> stamps(m_stamp_count * m_names.size());
     const VkResult result = m_device.fn().vkGetQueryPoolResults(
         m_device.handle(), m_pool, 0, static_cast<std::uint32_t>(stamps.size()), stamps.size() * sizeof(stamps[0]),
         stamps.data(), sizeof(stamps[0]), VK_QUERY_RESULT_64_BIT);
@@ -97,7 +105,7 @@ std::vector<PassTime> TimerPool::collect() const
     times.reserve(m_names.size());
     for (std::size_t i = 0; i < m_names.size(); ++i)
     {
-        const std::uint64_t ticks = (stamps[2 * i + 1] - stamps[2 * i]) & mask;
+        const std::uint64_t ticks = (stamps[m_stamp_count * i + 1] - stamps[m_stamp_count * i]) & mask;
         times.push_back({m_names[i], static_cast<double>(ticks) * m_device.report().timestamp_period_ns * kMsPerNs});
     }
     return times;

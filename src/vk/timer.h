@@ -42,6 +42,7 @@ private:
     Device& m_device;
     VkQueryPool m_pool = VK_NULL_HANDLE;
     std::uint32_t m_pass_capacity;
+    std::uint32_t m_stamp_count; // of a pass: begin, end and, on software devices, one more
     std::uint32_t m_dropped_count = 0;
     bool m_open = false;
     std::vector<std::string> m_names;

@@ -257,6 +257,34 @@ TEST(FrameGraph, UpdatesOutsideABufferOrOfPartsOfWordsAreRefused)
         });
 }
 
+TEST(FrameGraph, CommandsOfTheCallersOwnAreAPassAmongOthers)
+{
+    Words a(device().device(), "a", 100);
+    Words b(device().device(), "b", 100);
+    std::string dump;
+    const std::vector<vk::PassTime> passes = device().run(
+        [&](vk::FrameGraph& graph)
+        {
+            iota(graph, a);
+            graph.record("own copy", {vk::CopyUse::read(a), vk::CopyUse::write(b)},
+                         [&](VkCommandBuffer commands)
+                         {
+                             const VkBufferCopy region = {0, 0, a.bytes()};
+                             device().device().fn().vkCmdCopyBuffer(commands, a.handle(), b.handle(), 1, &region);
+                         });
+            scale(graph, b, a, 2);
+            dump = graph.dump();
+        });
+    EXPECT_EQ(dump, "pass test/iota: 100 threads in 2 x 1 groups of 64; writes a\n"
+                    "barrier compute -> transfer\n"
+                    "pass own copy: commands; copies from a; copies to b\n"
+                    "barrier transfer -> compute\n"
+                    "pass test/scale: 100 threads in 4 x 1 groups of 32; reads b; writes a\n");
+    ASSERT_EQ(passes.size(), 3U);
+    EXPECT_EQ(passes[1].name, "own copy");
+    EXPECT_EQ(device().download(a).at(99), 198U);
+}
+
 TEST(FrameGraph, CopiesWithinOneBufferWork)
 {
     Words a(device().device(), "a", 100);

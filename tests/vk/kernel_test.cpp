@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
 namespace
 {
 
@@ -55,6 +59,46 @@ TEST(Kernel, OneChoiceOfConstantsIsOnePipeline)
     EXPECT_EQ(&kernels.get("test/specialized", {8}), &kernels.get("test/specialized", {8}));
     EXPECT_NE(&kernels.get("test/specialized", {8}), &kernels.get("test/specialized", {16}));
     EXPECT_EQ(kernels.get("test/specialized", {16}).interface.local_size[0], 16u);
+}
+
+// The words of a kernel that is embedded.
+std::vector<std::uint32_t> wordsOf(std::string_view name)
+{
+    const auto kernels = testKernels();
+    const auto found = std::ranges::find(kernels, name, &vk::EmbeddedKernel::name);
+    return {found->words.begin(), found->words.end()};
+}
+
+std::vector<gpu::uint> iotaOn(vk::HeadlessDevice& own)
+{
+    vk::BufferOf<gpu::uint> values(own.device(), "values", 5);
+    own.run([&](vk::FrameGraph& graph) { test::iota(graph, values); });
+    return own.download(values);
+}
+
+TEST(Kernel, AReplacedKernelRunsFromThenOn)
+{
+    vk::HeadlessDevice own(test::deviceOptions(), testKernels());
+    EXPECT_EQ(iotaOn(own), (std::vector<gpu::uint>{0, 1, 2, 3, 4}));
+    const vk::Kernel& kernel = own.device().kernels().get("test/iota");
+    own.device().kernels().replace("test/iota", wordsOf("test/reversed"));
+    EXPECT_EQ(&own.device().kernels().get("test/iota"), &kernel);
+    EXPECT_EQ(iotaOn(own), (std::vector<gpu::uint>{4, 3, 2, 1, 0}));
+    own.device().kernels().replace("test/iota", wordsOf("test/iota"));
+    own.device().kernels().releaseReplaced();
+    EXPECT_EQ(iotaOn(own), (std::vector<gpu::uint>{0, 1, 2, 3, 4}));
+}
+
+TEST(Kernel, ReplacingByWhatDoesNotFitChangesNothing)
+{
+    vk::HeadlessDevice own(test::deviceOptions(), testKernels());
+    vk::KernelCache& kernels = own.device().kernels();
+    EXPECT_EQ(iotaOn(own).at(4), 4U);
+    EXPECT_THROW(kernels.replace("test/nothing", wordsOf("test/iota")), Error);
+    EXPECT_THROW(kernels.replace("test/iota", wordsOf("test/scale")), Error) << "other push constants";
+    EXPECT_THROW(kernels.replace("test/iota", wordsOf("test/specialized")), Error) << "other workgroups";
+    EXPECT_THROW(kernels.replace("test/iota", {1, 2, 3}), Error) << "not a module";
+    EXPECT_EQ(iotaOn(own).at(4), 4U);
 }
 
 TEST(Kernel, UnknownNamesAreRefused)

@@ -466,4 +466,31 @@ TEST(Submission, EveryCallOfANewDeviceThatFailsLeavesNothing)
     test::failCall(UINT64_MAX);
 }
 
+TEST(Submission, WaitsForSemaphoresAndSignalsThem)
+{
+    vk::HeadlessDevice own(test::deviceOptions(), testKernels());
+    const vk::Device& d = own.device();
+    VkSemaphoreCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    ASSERT_EQ(d.fn().vkCreateSemaphore(d.handle(), &info, nullptr, &semaphore), VK_SUCCESS);
+    {
+        Frame first(own);
+        Frame second(own);
+        // Validation speaks where a binary semaphore is waited for that nothing has signalled, or is signalled twice.
+        for (gpu::uint turn = 1; turn <= 3; ++turn)
+        {
+            const vk::Submission one =
+                own.submit([&](vk::FrameGraph& graph) { first.record(graph, turn); }, {.signal = semaphore});
+            vk::Submission two =
+                own.submit([&](vk::FrameGraph& graph) { second.record(graph, 10 * turn); }, {.wait = semaphore});
+            two.wait();
+            EXPECT_TRUE(one.done());
+            EXPECT_EQ(first.result(), multiples(turn));
+            EXPECT_EQ(second.result(), multiples(10 * turn));
+        }
+    }
+    d.fn().vkDestroySemaphore(d.handle(), semaphore, nullptr);
+}
+
 } // namespace
