@@ -5,6 +5,7 @@
 #include "deform/deform.h"
 #include "edit/edit.h"
 #include "octree/octree.h"
+#include "present/present.h"
 #include "support/spirv_structs.h"
 #include "svdag/svdag.h"
 #include "trace/trace.h"

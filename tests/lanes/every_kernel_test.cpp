@@ -8,6 +8,7 @@
 #include "core/grid.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "core/present.h"
 #include "core/svdag.h"
 #include "core/svdag_forest.h"
 #include "core/trace.h"
@@ -268,6 +269,25 @@ Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, cons
     return names;
 }
 
+// A picture of 3 x 2 pixels at twice and at a third of its width.
+Names scalePictures()
+{
+    const std::vector<gpu::uint> from = {1, 2, 3, 4, 5, 6};
+    const vk::BufferOf<gpu::uint> small = device().makeBuffer<gpu::uint>("picture", from);
+    vk::BufferOf<gpu::uint> wide(device().device(), "wide picture", 12);
+    vk::BufferOf<gpu::uint> narrow(device().device(), "narrow picture", 2);
+    Names names;
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph)
+                        {
+                            scalePicture(graph, small, {3, 2}, wide, {6, 2});
+                            scalePicture(graph, small, {3, 2}, narrow, {1, 2});
+                        }));
+    EXPECT_EQ(device().download(wide), (std::vector<gpu::uint>{1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6}));
+    EXPECT_EQ(device().download(narrow), (std::vector<gpu::uint>{2, 5}));
+    return names;
+}
+
 TEST(EveryKernel, RunsOnASmallScene)
 {
     const Scene scene = smallScene();
@@ -311,6 +331,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         }
         names.merge(compressOctree(std::move(built.octree), {.table_slots = c.table_slots}));
     }
+    names.merge(scalePictures());
     for (const vk::EmbeddedKernel& kernel : zvoKernels())
     {
         EXPECT_TRUE(names.contains(std::string(kernel.name))) << kernel.name << " did not run";

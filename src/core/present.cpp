@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "core/present.h"
+
+#include "core/divide_up.h"
+#include "present/present.h"
+
+namespace zvo
+{
+
+void scalePicture(vk::FrameGraph& graph, const vk::BufferOf<gpu::uint>& from, PictureSize from_size,
+                  vk::BufferOf<gpu::uint>& to, PictureSize to_size)
+{
+    vk::Pass pass = graph.addPass("present/scale");
+    gpu::ScaleParams params{};
+    params.from = pass.read(from);
+    params.to = pass.write(to);
+    params.from_size = {from_size.width, from_size.height};
+    params.to_size = {to_size.width, to_size.height};
+    pass.dispatch(std::uint64_t{to_size.width} * divideUp(to_size.height, gpu::kScaleRows), params);
+}
+
+} // namespace zvo

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "shared/gpu.h"
+#include "vk/frame_graph.h"
+
+#include <cstdint>
+
+namespace zvo
+{
+
+/// A picture's size in pixels, at most kImageEdgeMax along each edge.
+struct PictureSize
+{
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+
+    bool operator==(const PictureSize&) const = default;
+};
+
+/// Records the pass that makes a picture of to_size of one of from_size, each pixel the one in which its centre lies.
+/// Both are stored row by row, a word a pixel. Cost: pixels of the result.
+void scalePicture(vk::FrameGraph& graph, const vk::BufferOf<gpu::uint>& from, PictureSize from_size,
+                  vk::BufferOf<gpu::uint>& to, PictureSize to_size);
+
+} // namespace zvo
