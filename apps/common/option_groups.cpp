@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "option_groups.h"
+#include "common/option_groups.h"
 
-#include "parse.h"
+#include "common/parse.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

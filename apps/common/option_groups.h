@@ -2,7 +2,8 @@
 // Options that several commands have; for options.cpp.
 #pragma once
 
-#include "options.h"
+#include "common/scene_options.h"
+#include "core/tree_data.h"
 
 #include <CLI/CLI.hpp>
 

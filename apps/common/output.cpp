@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "output.h"
+#include "common/output.h"
 
 #include "zvo/error.h"
 

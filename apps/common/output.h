@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/atomic_file.h"
-#include "options.h"
+#include "common/scene_options.h"
 
 #include <cstddef>
 #include <memory>

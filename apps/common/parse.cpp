@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "parse.h"
+#include "common/parse.h"
 
 #include "core/image_io.h"
 #include "zvo/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "progress.h"
+#include "common/progress.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 namespace zvo::cli
 {
@@ -16,6 +17,8 @@ namespace zvo::cli
 namespace
 {
 
+const char* g_program = "zvo";
+std::function<void(std::string_view)> g_listener;
 std::atomic<bool> g_bar_shown = false;
 static_assert(std::atomic<bool>::is_always_lock_free); // or a signal handler could not use it
 
@@ -27,11 +30,25 @@ constexpr char kClearLine[] = "\r\033[K";
 void talk(std::string_view text)
 {
     clearProgressBar();
-    std::string line = fmt::format("zvo: {}", text);
+    if (g_listener)
+    {
+        g_listener(text);
+    }
+    std::string line = fmt::format("{}: {}", g_program, text);
     std::replace_if(
         line.begin(), line.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
     line += '\n';
     std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+void nameProgram(const char* name)
+{
+    g_program = name;
+}
+
+void listenToTalk(std::function<void(std::string_view)> listener)
+{
+    g_listener = std::move(listener);
 }
 
 void clearProgressBar() noexcept

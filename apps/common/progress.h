@@ -3,14 +3,21 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
 namespace zvo::cli
 {
 
-/// A line on standard error that begins with "zvo: "; control characters become spaces.
+/// A line on standard error that begins with the program's name; control characters become spaces.
 void talk(std::string_view text);
+
+/// The program's name for talk(): "zvo" until it is told. name must outlive all talk.
+void nameProgram(const char* name);
+
+/// What is told from now on goes to listener, too; null: nowhere else.
+void listenToTalk(std::function<void(std::string_view)> listener);
 
 /// Takes the progress bar off the screen, if one is shown. Async-signal-safe.
 void clearProgressBar() noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report.h"
+#include "common/report.h"
 
 #include <algorithm>
 #include <numeric>

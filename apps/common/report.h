@@ -4,7 +4,7 @@
 
 #include "core/merge_rule.h"
 #include "core/pipeline.h"
-#include "options.h"
+#include "common/scene_options.h"
 #include "vk/device.h"
 
 #include <nlohmann/json.hpp>

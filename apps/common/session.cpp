@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "session.h"
+#include "common/session.h"
 
 #include "core/load_scene.h"
-#include "progress.h"
-#include "report.h"
+#include "common/progress.h"
+#include "common/report.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

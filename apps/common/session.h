@@ -6,7 +6,7 @@
 #include "core/pipeline.h"
 #include "core/scene.h"
 #include "core/stage.h"
-#include "options.h"
+#include "common/scene_options.h"
 #include "vk/headless.h"
 
 #include <cstdint>

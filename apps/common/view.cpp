@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "view.h"
+#include "common/view.h"
 
-#include "parse.h"
+#include "common/parse.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -19,28 +19,10 @@ namespace
 constexpr float kDefaultFov = 45.0F;    // degrees
 constexpr double kCloseDistance = 0.42; // of the framing camera's: about two thirds of the rays hit a single object
 
-struct NamedView
-{
-    std::string_view name;
-    View view;
-};
-
 constexpr std::array kViews = {
     NamedView{"color", View::Color}, NamedView{"albedo", View::Albedo}, NamedView{"normal", View::Normal},
     NamedView{"depth", View::Depth}, NamedView{"level", View::Level},   NamedView{"iterations", View::Iterations},
 };
-
-ViewCamera cameraFromNumbers(const std::vector<float>& v)
-{
-    if (v.size() != 6 && v.size() != 7)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("--camera: expected ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov, but "
-                                                  "there are {} numbers",
-                                                  v.size()));
-    }
-    const float fov = v.size() == 7 ? v[6] : kDefaultFov;
-    return ViewCamera::lookAt({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, glm::radians(double{fov}));
-}
 
 Error noSuchCamera(const std::string& wanted, const Scene& scene)
 {
@@ -56,6 +38,35 @@ Error noSuchCamera(const std::string& wanted, const Scene& scene)
 }
 
 } // namespace
+
+ViewCamera cameraOfNumbers(const std::vector<float>& v)
+{
+    if (v.size() != 6 && v.size() != 7)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("--camera: expected ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov, but "
+                                                  "there are {} numbers",
+                                                  v.size()));
+    }
+    const float fov = v.size() == 7 ? v[6] : kDefaultFov;
+    return ViewCamera::lookAt({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, glm::radians(double{fov}));
+}
+
+std::span<const NamedView> allViews()
+{
+    return kViews;
+}
+
+std::string viewHelp()
+{
+    std::string names;
+    for (const NamedView& named : kViews)
+    {
+        const bool is_last = &named == &kViews.back();
+        names += fmt::format("{}{}{}", is_last ? " or " : names.empty() ? "" : ", ", named.name,
+                             named.view == View::Level ? " (of --detail)" : "");
+    }
+    return names + " (default color)";
+}
 
 Bounds subjectOf(const Bounds& scene, const Grid& grid)
 {
@@ -86,7 +97,7 @@ ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bou
     }
     if (const auto numbers = tryParseFloats(wanted))
     {
-        return cameraFromNumbers(*numbers);
+        return cameraOfNumbers(*numbers);
     }
     throw noSuchCamera(wanted, scene);
 }

@@ -5,7 +5,10 @@
 #include "core/stage.h"
 #include "core/trace.h"
 
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace zvo::cli
 {
@@ -21,7 +24,22 @@ ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bou
 /// The same of a stage, whose own camera comes before the first one of what is fixed in it.
 ViewCamera chooseCamera(const std::string& wanted, const Stage& stage, const Bounds& subject, double aspect);
 
+/// A camera by eye, target and, if it is there, vertical field of view in degrees. Throws Error{Usage} where they are
+/// not six or seven numbers, or make no camera.
+ViewCamera cameraOfNumbers(const std::vector<float>& numbers);
+
 /// The view of that name. Throws Error{Usage} that lists the names.
 View viewOf(std::string_view option, std::string_view name);
+
+/// All views with the names that viewOf() takes.
+struct NamedView
+{
+    std::string_view name;
+    View view;
+};
+std::span<const NamedView> allViews();
+
+/// What --help says of --view.
+std::string viewHelp();
 
 } // namespace zvo::cli

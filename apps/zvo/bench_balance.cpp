@@ -4,11 +4,11 @@
 #include "balance_scenes.h"
 #include "bench_runs.h"
 #include "bench_scenes.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/session.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
-#include "output.h"
-#include "progress.h"
-#include "session.h"
 #include "table.h"
 
 #include <fmt/format.h>

@@ -3,15 +3,15 @@
 
 #include "bench_runs.h"
 #include "bench_table.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/report.h"
+#include "common/session.h"
+#include "common/view.h"
 #include "core/kernels.h"
 #include "core/stage_octree.h"
 #include "core/trace.h"
-#include "output.h"
-#include "progress.h"
-#include "report.h"
-#include "session.h"
 #include "table.h"
-#include "view.h"
 
 #include <fmt/format.h>
 

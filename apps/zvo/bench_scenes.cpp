@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench_scenes.h"
 
-#include "progress.h"
-#include "session.h"
+#include "common/progress.h"
+#include "common/session.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "common/report.h"
 #include "core/coverage.h"
-#include "report.h"
 #include "vk/timer.h"
 
 #include <cstdint>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "build.h"
 
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/report.h"
+#include "common/session.h"
 #include "core/attribute_pack.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/tiled_build.h"
 #include "core/zvo_file.h"
-#include "output.h"
-#include "progress.h"
-#include "report.h"
-#include "session.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "convert.h"
 
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/session.h"
+#include "common/tree_input.h"
 #include "core/glb_write.h"
-#include "core/gpu_scene.h"
 #include "core/input_error.h"
 #include "core/kernels.h"
 #include "core/nvdb_write.h"
-#include "core/octree_build.h"
-#include "core/read_file.h"
 #include "core/svdag.h"
-#include "core/tree_build.h"
 #include "core/vox_file.h"
 #include "core/zvo_file.h"
 #include "export.h"
-#include "output.h"
-#include "progress.h"
-#include "session.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -47,39 +44,6 @@ std::string formatOf(const ConvertOptions& options)
                                                   options.output.path, fmt::join(kFormats, ", .")));
     }
     return format;
-}
-
-bool isVoxFile(const std::filesystem::path& path)
-{
-    return extensionOf(path.string()) == ".vox";
-}
-
-// The octree of what a .vox file shows, with attributes of nodes, which the device makes.
-TreeData loadVox(const std::filesystem::path& path, std::optional<vk::HeadlessDevice>& device)
-{
-    VoxVoxels voxels;
-    {
-        const std::vector<std::uint8_t> bytes = readFile(path);
-        voxels = readVox(bytes, path);
-    }
-    for (const std::string& warning : voxels.warnings)
-    {
-        talk(fmt::format("warning: {}", warning));
-    }
-    TreeData tree = octreeOfVoxels(voxels.grid, voxels.codes);
-    if (tree.nodes.empty())
-    {
-        talk("warning: the file has no voxels");
-        return tree;
-    }
-    addColors(tree, voxels.colors);
-    voxels = {};
-    const GpuScene tables = uploadScene(*device, Scene(), true);
-    Octree octree = std::get<Octree>(uploadTree(*device, tree));
-    octree.node_attributes = {device->device(), "octree/node_attributes", octree.node_count};
-    device->run([&](vk::FrameGraph& graph) { averageNodes(graph, tables, octree); });
-    tree.node_attributes = device->download(octree.node_attributes);
-    return tree;
 }
 
 TreeData compressed(vk::HeadlessDevice& device, TreeData&& tree)
@@ -144,7 +108,7 @@ void convert(const ConvertOptions& options)
     {
         openDevice();
     }
-    TreeData tree = is_vox ? loadVox(options.file, device) : readZvo(options.file).tree;
+    TreeData tree = is_vox ? loadVox(options.file, *device) : readZvo(options.file).tree;
     if (format == "zvo" && tree.structure != options.structure)
     {
         if (tree.structure == TreeStructure::Svdag)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "common/output.h"
 #include "core/tree_data.h"
-#include "output.h"
 
 namespace zvo::cli
 {

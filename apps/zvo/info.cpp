@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "info.h"
 
-#include "output.h"
-#include "report.h"
+#include "common/output.h"
+#include "common/report.h"
 #include "vk/headless.h"
 #include "vk/instance.h"
 #include "zvo/error.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "inspect.h"
 
+#include "common/output.h"
+#include "common/report.h"
 #include "core/input_error.h"
 #include "core/read_file.h"
 #include "core/sha256.h"
 #include "core/tree_stats.h"
 #include "core/zvo_file.h"
-#include "output.h"
-#include "report.h"
 
 #include <fmt/format.h>
 

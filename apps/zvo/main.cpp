@@ -2,56 +2,27 @@
 // zvo: the command line program. Standard output is data, standard error is talk.
 #include "bench.h"
 #include "build.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/signals.h"
 #include "convert.h"
-#include "core/atomic_file.h"
 #include "info.h"
 #include "inspect.h"
 #include "options.h"
-#include "output.h"
-#include "progress.h"
 #include "render.h"
 #include "voxelize.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
-#include <csignal>
 #include <exception>
 #include <new>
-#include <unistd.h>
 
 namespace zvo::cli
 {
 
 namespace
 {
-
-// Ends the process at once, without half-written files. Calls only what a signal handler may call.
-void onSignal(int signal)
-{
-    constexpr int kSignalExit = 128; // plus the signal's number, as shells have it
-    removePendingFiles();
-    clearProgressBar();
-    ::_exit(kSignalExit + signal);
-}
-
-void installSignalHandlers()
-{
-    struct sigaction action = {};
-    action.sa_handler = onSignal;
-    sigfillset(&action.sa_mask);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    {
-        struct sigaction inherited = {};
-        sigaction(signal, nullptr, &inherited);
-        if (inherited.sa_handler != SIG_IGN) // as under nohup
-        {
-            sigaction(signal, &action, nullptr);
-        }
-    }
-    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of the write
-    std::signal(SIGXFSZ, SIG_IGN); // and so is a file that grows too big
-}
 
 struct Run
 {

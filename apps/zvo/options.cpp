@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
-#include "option_groups.h"
-#include "parse.h"
-#include "view.h"
+#include "common/option_groups.h"
+#include "common/parse.h"
+#include "common/view.h"
 #include "zvo/error.h"
 
 #include <CLI/CLI.hpp>
@@ -39,6 +39,7 @@ Examples:
   zvo render room.glb lamp.glb -o room.png --camera 4,2,5,0,1,0,60 --occlusion 16
   zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f
   zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119 --structure svdag
+  zvo render scenes/atrium.glb -o 'fly_####.png' --camera-path flight.json --frames 0..89
   zvo render bunny.zvo -o bunny.png
   zvo render scenes/sponza_bunny.scene.json -o later.png --scenes ../models --time 1.5)";
 
@@ -111,8 +112,13 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
             "pixels of the picture (default 1280x720)")
         ->type_name("WxH");
     addCameraOption(*render, options.camera);
-    addValue(*render, "--view", options.view, viewOf, "VIEW",
-             "color, albedo, normal, depth, level (of --detail) or iterations (default color)");
+    addValue(
+        *render, "--camera-path", options.camera_path,
+        [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "FILE",
+        "a camera that flies along the keys in a JSON file; of --frames, frame N at N / frames_per_second seconds, or "
+        "at --time")
+        ->excludes("--camera");
+    addValue(*render, "--view", options.view, viewOf, "VIEW", viewHelp());
     addValue(
         *render, "--occlusion", options.occlusion_rays,
         [](std::string_view option, std::string_view text)

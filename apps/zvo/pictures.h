@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "common/output.h"
 #include "options.h"
-#include "output.h"
 
 #include <cstddef>
 #include <cstdint>

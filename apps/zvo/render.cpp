@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "render.h"
 
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/report.h"
+#include "common/session.h"
+#include "common/tree_input.h"
+#include "common/view.h"
+#include "core/camera_path.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/stage_octree.h"
 #include "core/tree_view.h"
 #include "core/zvo_file.h"
-#include "output.h"
 #include "pictures.h"
-#include "progress.h"
 #include "render_report.h"
 #include "renderer.h"
-#include "report.h"
-#include "session.h"
-#include "view.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -32,18 +34,45 @@ namespace zvo::cli
 namespace
 {
 
+/// Where the pictures are taken from.
+class CameraWork
+{
+public:
+    explicit CameraWork(const RenderOptions& options) : m_options(options)
+    {
+        if (options.camera_path)
+        {
+            m_path = readCameraPath(*options.camera_path);
+        }
+    }
+
+    /// The camera of the frame with that number; start: without a path.
+    [[nodiscard]] ViewCamera at(std::uint32_t number, double frames_per_second, const ViewCamera& start) const
+    {
+        return !m_path            ? start
+               : m_options.frames ? m_path->at(number / frames_per_second)
+                                  : m_path->at(m_options.voxels.time.value_or(0.0));
+    }
+
+    [[nodiscard]] bool flies() const { return m_path.has_value(); }
+
+private:
+    const RenderOptions& m_options;
+    std::optional<CameraPath> m_path;
+};
+
 /// The pictures of a scene.
 class Run
 {
 public:
-    Run(const RenderOptions& options, Pictures& pictures, Progress& progress)
-        : m_options(options), m_pictures(pictures), m_progress(progress),
+    Run(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures, Progress& progress)
+        : m_options(options), m_camera_work(camera_work), m_pictures(pictures), m_progress(progress),
           m_device(headlessOptions(options.device), zvoKernels()), m_renderer(m_device, options),
           m_report(options, m_device)
     {
     }
 
-    // A camera that turns around what stands still.
+    // A camera that turns around what stands still, or flies.
     void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& centre)
     {
         BuildResult result = voxelize(std::move(scene), grid);
@@ -82,7 +111,7 @@ public:
                 m_report.addBeam(beam_passes);
             }
             m_has_warned = m_has_warned || warnOfDroppedMovers(seconds, update.report.dropped);
-            draw(i, camera);
+            draw(i, m_camera_work.at(m_pictures.number(i), stage.frames_per_second, camera));
             m_report.addFrame(updateFrame(m_pictures.number(i), seconds, update));
         }
     }
@@ -106,7 +135,7 @@ public:
             {
                 m_report.addBeam(beam_passes);
             }
-            draw(i, camera);
+            draw(i, m_camera_work.at(m_pictures.number(i), stage.frames_per_second, camera));
             m_report.addFrame(std::move(frame));
         }
     }
@@ -129,7 +158,8 @@ private:
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
-            draw(i, camera.turnedAround(centre, turn));
+            draw(i, m_camera_work.flies() ? m_camera_work.at(m_pictures.number(i), Stage().frames_per_second, camera)
+                                          : camera.turnedAround(centre, turn));
         }
     }
 
@@ -178,6 +208,7 @@ private:
     }
 
     const RenderOptions& m_options;
+    const CameraWork& m_camera_work;
     Pictures& m_pictures;
     Progress& m_progress;
     vk::HeadlessDevice m_device;
@@ -205,7 +236,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--up", voxels.load.up != plain.load.up},
         {"--scale", voxels.load.scale != plain.load.scale},
         {"--scenes", voxels.scenes_folder.has_value()},
-        {"--time", voxels.time.has_value()},
+        {"--time", voxels.time.has_value() && !options.camera_path},
         {"--resolution", voxels.depth.has_value()},
         {"--coverage", voxels.coverage != plain.coverage},
         {"--attributes", voxels.attributes != plain.attributes},
@@ -224,21 +255,8 @@ void checkTreeOptions(const RenderOptions& options)
     }
 }
 
-// The voxels' box in world space.
-Bounds boundsOf(const TreeData& tree)
-{
-    const std::optional<CellBox> box = voxelBox(tree);
-    Bounds bounds;
-    if (box)
-    {
-        const auto corner = [&grid = tree.grid](const glm::uvec3& cell)
-        { return glm::vec3(glm::dvec3(grid.origin) + glm::dvec3(cell) * double{grid.voxel_size}); };
-        bounds = {corner(box->min), corner(box->max)};
-    }
-    return bounds;
-}
-
-void renderTree(const RenderOptions& options, Pictures& pictures, std::optional<Output>& report)
+void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures,
+                std::optional<Output>& report)
 {
     checkTreeOptions(options);
     Progress progress(2 + pictures.count());
@@ -251,7 +269,7 @@ void renderTree(const RenderOptions& options, Pictures& pictures, std::optional<
     const Bounds subject = subjectOf(boundsOf(tree), tree.grid);
     const ViewCamera camera =
         chooseCamera(options.camera, Scene(), subject, static_cast<double>(options.width) / options.height);
-    Run run(options, pictures, progress);
+    Run run(options, camera_work, pictures, progress);
     run.turn(std::move(tree), camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     run.finish(report);
 }
@@ -260,18 +278,29 @@ void renderTree(const RenderOptions& options, Pictures& pictures, std::optional<
 
 void render(const RenderOptions& options)
 {
-    checkPlaces(options.output, options.voxels.scenes);
+    std::vector<std::filesystem::path> inputs = options.voxels.scenes;
+    if (options.camera_path)
+    {
+        inputs.push_back(*options.camera_path);
+    }
+    checkPlaces(options.output, inputs);
+    const CameraWork camera_work(options);
     Pictures pictures(options);
     std::optional<Output> report = openReport(options.output);
     if (hasZvoFile(options.voxels))
     {
-        renderTree(options, pictures, report);
+        renderTree(options, camera_work, pictures, report);
         return;
     }
 
     Progress progress(3 + pictures.count());
     progress.step("loading");
-    Stage stage = loadStageWithWarnings(options.voxels, options.frames || options.voxels.time);
+    VoxelOptions voxels = options.voxels;
+    if (options.camera_path)
+    {
+        voxels.time.reset(); // it is the camera's where nothing else moves
+    }
+    Stage stage = loadStageWithWarnings(voxels, options.frames || options.voxels.time);
     const bool moves = !stage.movers.empty();
     const std::uint32_t compressions = options.structure == TreeStructure::Svdag ? 1 : 0;
     progress.expect(!moves            ? 3 + compressions + pictures.count()
@@ -284,7 +313,7 @@ void render(const RenderOptions& options)
     const ViewCamera camera =
         chooseCamera(options.camera, stage, subject, static_cast<double>(options.width) / options.height);
 
-    Run run(options, pictures, progress);
+    Run run(options, camera_work, pictures, progress);
     if (moves && options.rebuild)
     {
         warnOfMergeRule(stage);

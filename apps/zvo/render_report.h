@@ -2,6 +2,7 @@
 // What `zvo render` tells of its pictures.
 #pragma once
 
+#include "common/report.h"
 #include "core/pipeline.h"
 #include "core/stage.h"
 #include "core/stage_octree.h"
@@ -9,7 +10,6 @@
 #include "core/tree_data.h"
 #include "options.h"
 #include "renderer.h"
-#include "report.h"
 #include "vk/headless.h"
 
 #include <cstdint>

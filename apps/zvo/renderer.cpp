@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer.h"
 
+#include "common/report.h"
 #include "core/image_io.h"
-#include "report.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

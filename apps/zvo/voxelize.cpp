@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "voxelize.h"
 
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/report.h"
+#include "common/session.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "export.h"
-#include "output.h"
-#include "progress.h"
-#include "report.h"
-#include "session.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Files that hold voxels already.
+#pragma once
+
+#include "core/scene.h"
+#include "core/tree_data.h"
+#include "vk/headless.h"
+
+#include <filesystem>
+
+namespace zvo::cli
+{
+
+/// Whether a file, by its name, is one of MagicaVoxel.
+bool isVoxFile(const std::filesystem::path& path);
+
+/// The octree of what a .vox file shows, with attributes of nodes, which the device makes. Tells what was left out.
+/// Throws Error{Input}, and Error{Memory} when the device's budget does not suffice.
+TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device);
+
+/// The box around a tree's voxels in world space; empty where there are none.
+Bounds boundsOf(const TreeData& tree);
+
+} // namespace zvo::cli
