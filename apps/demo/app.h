@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/atomic_file.h"
+#include "core/camera_path.h"
+#include "demo/camera_control.h"
+#include "demo/compose.h"
+#include "demo/frame_stats.h"
+#include "demo/input_script.h"
+#include "demo/keys.h"
+#include "demo/notices.h"
+#include "demo/options.h"
+#include "demo/panels.h"
+#include "demo/renderer.h"
+#include "demo/resolution_ladder.h"
+#include "demo/screenshot.h"
+#include "demo/timeline.h"
+#include "demo/ui.h"
+#include "demo/view_state.h"
+#include "demo/window.h"
+#include "demo/world.h"
+#include "vk/headless.h"
+#include "vk/swapchain.h"
+
+#include <array>
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zvo::demo
+{
+
+/// The program: a window, the world in it, and what happens in a frame.
+class App
+{
+public:
+    /// start: when the program began. Throws Error where there is no display or no device, and when the scene that
+    /// options name cannot be shown.
+    App(const DemoOptions& options, std::chrono::steady_clock::time_point start);
+
+    /// The device is done with all frames.
+    ~App();
+    App(const App&) = delete;
+    App& operator=(const App&) = delete;
+
+    /// Frame by frame, until someone quits. Throws Error where a frame cannot be made, where results cannot be written,
+    /// and where the validation layers have said something.
+    void run();
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    // A frame that the device works on.
+    struct Flight
+    {
+        vk::Submission submission;
+        std::uint64_t frame = 0;       // this program's number
+        std::uint64_t world_frame = 0; // the world's number
+        double internal_scale = 1;
+        std::uint64_t ray_count = 0;
+        std::unique_ptr<Screenshot> screenshot;
+    };
+
+    void frame();
+    void takeInput();
+    void apply(const InputEvent& event);
+    void onKey(const KeyEvent& event);
+    void perform(const KeyBinding& binding, Key key);
+    void advanceTime();
+    void buildPanels();
+    void draw();
+    void submit(Picture& picture, std::unique_ptr<Screenshot> screenshot);
+    void finishOldest();
+    void finishAll();
+    std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
+
+    void load(const std::vector<std::filesystem::path>& files);
+    void show(std::unique_ptr<World> world);
+    void frameScene();
+    void copyCamera();
+    void pasteCamera();
+    void changeView(int by);
+    void toggleRecording();
+    void togglePath();
+    void addPathKey();
+
+    [[nodiscard]] double aspect() const;
+    [[nodiscard]] double internalScale() const;
+    [[nodiscard]] double worldSeconds() const;
+    void note(const std::string& text);
+    void writeStats();
+
+    const DemoOptions m_options;
+    Clock::time_point m_start;
+    std::unique_ptr<cli::Output> m_screenshot_output; // of the last frame
+    std::unique_ptr<cli::Output> m_stats_output;
+    std::unique_ptr<cli::Output> m_record_output;
+    std::optional<InputReplay> m_replay;
+    std::optional<CameraPath> m_path;
+
+    Window m_window;
+    vk::HeadlessDevice m_device;
+    vk::Swapchain m_swapchain;
+    ComposePass m_compose_pass;
+    Ui m_ui;
+    std::unique_ptr<World> m_world;
+    Renderer m_renderer;
+    std::deque<Flight> m_flights;
+
+    ViewState m_view;
+    PanelState m_panels;
+    Notices m_notices;
+    Timeline m_timeline;
+    CameraControl m_camera;
+    std::array<std::optional<ViewCamera>, 9> m_bookmarks;
+    bool m_path_plays = false;
+    double m_path_seconds = 0;
+    std::vector<CameraKey> m_path_recorded;
+    bool m_path_records = false;
+    double m_record_seconds = 0;
+
+    std::vector<ScriptedEvent> m_recorded;
+    std::optional<bool> m_wanted_screenshot; // with panels, or without
+    std::optional<ResolutionLadder> m_ladder;
+    FrameStats m_stats;
+    std::uint64_t m_frame = 0;       // of the loop
+    std::uint64_t m_drawn_count = 0; // frames that were drawn
+    Clock::time_point m_frame_start;
+    double m_step = 0; // seconds of this frame
+    std::optional<double> m_first_frame_ms;
+    bool m_quits = false;
+};
+
+} // namespace zvo::demo

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// What happens to the window, in the order in which it happens: from the window system, or from a script.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace zvo::demo
+{
+
+/// The keys that the program, or a text field, knows.
+enum class Key : std::uint8_t
+{
+    // clang-format off
+    A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T, U, V, W, X, Y, Z,
+    Digit0, Digit1, Digit2, Digit3, Digit4, Digit5, Digit6, Digit7, Digit8, Digit9,
+    F1, F2, F3, F4, F5, F6, F7, F8, F9, F10, F11, F12,
+    Space, Comma, Period, Minus, Equal, LeftBracket, RightBracket,
+    Escape, Enter, Tab, Backspace, Delete, Insert, Left, Right, Up, Down, Home, End, PageUp, PageDown,
+    LeftShift, RightShift, LeftControl, RightControl, LeftAlt, RightAlt,
+    // clang-format on
+};
+inline constexpr std::size_t kKeyCount = static_cast<std::size_t>(Key::RightAlt) + 1;
+
+/// The key's name in scripts and in the table of keys: "W", "1", "F5", "Space".
+std::string_view keyName(Key key);
+std::optional<Key> keyOf(std::string_view name);
+
+/// Keys held while another one, or a button, is pressed.
+struct Modifiers
+{
+    bool shift = false;
+    bool control = false;
+    bool alt = false;
+
+    bool operator==(const Modifiers&) const = default;
+};
+
+enum class MouseButton : std::uint8_t
+{
+    Left,
+    Right,
+    Middle
+};
+inline constexpr std::size_t kMouseButtonCount = 3;
+
+struct KeyEvent
+{
+    Key key = Key::Escape;
+    bool pressed = false; // or released; held keys repeat presses
+    Modifiers modifiers = {};
+
+    bool operator==(const KeyEvent&) const = default;
+};
+
+/// A character that was typed.
+struct TextEvent
+{
+    char32_t code = 0;
+
+    bool operator==(const TextEvent&) const = default;
+};
+
+/// The pointer's place, from the window's top left corner in the window's units, which high-density screens have
+/// several pixels of.
+struct MouseMoveEvent
+{
+    double x = 0;
+    double y = 0;
+
+    bool operator==(const MouseMoveEvent&) const = default;
+};
+
+struct MouseButtonEvent
+{
+    MouseButton button = MouseButton::Left;
+    bool pressed = false;
+    Modifiers modifiers = {};
+
+    bool operator==(const MouseButtonEvent&) const = default;
+};
+
+struct WheelEvent
+{
+    double x = 0; // notches to the right
+    double y = 0; // notches away from the user
+
+    bool operator==(const WheelEvent&) const = default;
+};
+
+/// The window has this size in its own units from now on; without an extent there is nothing to draw.
+struct ResizeEvent
+{
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+
+    bool operator==(const ResizeEvent&) const = default;
+};
+
+struct MinimiseEvent
+{
+    bool minimised = false;
+
+    bool operator==(const MinimiseEvent&) const = default;
+};
+
+struct DropEvent
+{
+    std::vector<std::filesystem::path> files;
+
+    bool operator==(const DropEvent&) const = default;
+};
+
+/// Someone wants the window closed.
+struct CloseEvent
+{
+    bool operator==(const CloseEvent&) const = default;
+};
+
+using InputEvent = std::variant<KeyEvent, TextEvent, MouseMoveEvent, MouseButtonEvent, WheelEvent, ResizeEvent,
+                                MinimiseEvent, DropEvent, CloseEvent>;
+
+} // namespace zvo::demo

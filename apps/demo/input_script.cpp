@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "demo/input_script.h"
+
+#include "core/json_cursor.h"
+#include "core/read_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "zvo.input/1";
+constexpr std::uint32_t kFrameMax = 1'000'000'000;
+constexpr std::uint32_t kEdgeMax = 16384; // of a window
+constexpr double kWheelMax = 1000;
+constexpr std::array<const char*, kMouseButtonCount> kButtonNames = {"left", "right", "middle"};
+
+// The code point that is all of text.
+std::optional<char32_t> onlyCodePoint(std::string_view text)
+{
+    const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    if (text.empty())
+    {
+        return std::nullopt;
+    }
+    const unsigned first = byte(0);
+    const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    if (text.size() != length)
+    {
+        return std::nullopt;
+    }
+    char32_t code = length == 1 ? first : first & (0xFFU >> (length + 1));
+    for (std::size_t i = 1; i < length; ++i)
+    {
+        code = (code << 6) | (byte(i) & 0x3FU);
+    }
+    return code;
+}
+
+std::string utf8(char32_t code)
+{
+    const auto byte = [](char32_t value) { return static_cast<char>(value); };
+    if (code < 0x80)
+    {
+        return {byte(code)};
+    }
+    if (code < 0x800)
+    {
+        return {byte(0xC0 | code >> 6), byte(0x80 | (code & 0x3F))};
+    }
+    if (code < 0x10000)
+    {
+        return {byte(0xE0 | code >> 12), byte(0x80 | (code >> 6 & 0x3F)), byte(0x80 | (code & 0x3F))};
+    }
+    return {byte(0xF0 | code >> 18), byte(0x80 | (code >> 12 & 0x3F)), byte(0x80 | (code >> 6 & 0x3F)),
+            byte(0x80 | (code & 0x3F))};
+}
+
+Modifiers readModifiers(const JsonCursor& event)
+{
+    Modifiers modifiers;
+    if (const auto names = event.find("modifiers"))
+    {
+        for (const JsonCursor& name : names->items())
+        {
+            const std::size_t which = name.oneOf({"shift", "ctrl", "alt"});
+            (which == 0 ? modifiers.shift : which == 1 ? modifiers.control : modifiers.alt) = true;
+        }
+    }
+    return modifiers;
+}
+
+std::array<double, 2> readPair(const JsonCursor& value, double most)
+{
+    const std::vector<JsonCursor> items = value.items();
+    if (items.size() != 2)
+    {
+        throw value.mismatch("two numbers");
+    }
+    std::array<double, 2> pair{};
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+        pair[i] = items[i].number();
+        if (pair[i] < -most || pair[i] > most)
+        {
+            throw items[i].mismatch("a smaller number");
+        }
+    }
+    return pair;
+}
+
+InputEvent readKey(const JsonCursor& event, const JsonCursor& name)
+{
+    event.allowKeys({"frame", "key", "pressed", "modifiers"});
+    const std::optional<Key> key = keyOf(name.text());
+    if (!key)
+    {
+        throw name.mismatch("the name of a key, such as W, 1, F5, Space or LeftCtrl");
+    }
+    return KeyEvent{*key, event.at("pressed").flag(), readModifiers(event)};
+}
+
+InputEvent readButton(const JsonCursor& event, const JsonCursor& name)
+{
+    event.allowKeys({"frame", "button", "pressed", "modifiers"});
+    const std::size_t button = name.oneOf({kButtonNames[0], kButtonNames[1], kButtonNames[2]});
+    return MouseButtonEvent{static_cast<MouseButton>(button), event.at("pressed").flag(), readModifiers(event)};
+}
+
+InputEvent readText(const JsonCursor& event, const JsonCursor& text)
+{
+    event.allowKeys({"frame", "text"});
+    const std::optional<char32_t> code = onlyCodePoint(text.text());
+    if (!code)
+    {
+        throw text.mismatch("one character");
+    }
+    return TextEvent{*code};
+}
+
+InputEvent readMove(const JsonCursor& event, const JsonCursor& place)
+{
+    event.allowKeys({"frame", "move"});
+    const auto [x, y] = readPair(place, kEdgeMax);
+    return MouseMoveEvent{x, y};
+}
+
+InputEvent readWheel(const JsonCursor& event, const JsonCursor& notches)
+{
+    event.allowKeys({"frame", "wheel"});
+    const auto [x, y] = readPair(notches, kWheelMax);
+    return WheelEvent{x, y};
+}
+
+InputEvent readResize(const JsonCursor& event, const JsonCursor& size)
+{
+    event.allowKeys({"frame", "resize"});
+    const std::vector<JsonCursor> items = size.items();
+    if (items.size() != 2)
+    {
+        throw size.mismatch("a width and a height");
+    }
+    return ResizeEvent{items[0].whole(0, kEdgeMax), items[1].whole(0, kEdgeMax)};
+}
+
+InputEvent readMinimise(const JsonCursor& event, const JsonCursor& minimised)
+{
+    event.allowKeys({"frame", "minimised"});
+    return MinimiseEvent{minimised.flag()};
+}
+
+InputEvent readDrop(const JsonCursor& event, const JsonCursor& files)
+{
+    event.allowKeys({"frame", "drop"});
+    DropEvent drop;
+    for (const JsonCursor& file : files.items())
+    {
+        drop.files.emplace_back(file.text());
+    }
+    return drop;
+}
+
+InputEvent readClose(const JsonCursor& event, const JsonCursor& close)
+{
+    event.allowKeys({"frame", "close"});
+    if (!close.flag())
+    {
+        throw close.mismatch("true");
+    }
+    return CloseEvent{};
+}
+
+InputEvent readEvent(const JsonCursor& event)
+{
+    using Read = InputEvent (*)(const JsonCursor& event, const JsonCursor& value);
+    constexpr std::pair<const char*, Read> kKinds[] = {
+        {"key", readKey},     {"button", readButton}, {"text", readText},          {"move", readMove},
+        {"wheel", readWheel}, {"resize", readResize}, {"minimised", readMinimise}, {"drop", readDrop},
+        {"close", readClose}};
+    for (const auto& [name, read] : kKinds)
+    {
+        if (const auto value = event.find(name))
+        {
+            return read(event, *value);
+        }
+    }
+    throw event.mismatch("an event: key, button, text, move, wheel, resize, minimised, drop or close");
+}
+
+void addModifiers(Json& json, const Modifiers& modifiers)
+{
+    for (const auto& [name, held] :
+         {std::pair("shift", modifiers.shift), {"ctrl", modifiers.control}, {"alt", modifiers.alt}})
+    {
+        if (held)
+        {
+            json["modifiers"].push_back(name);
+        }
+    }
+}
+
+struct Write
+{
+    Json& json;
+
+    void operator()(const KeyEvent& event) const
+    {
+        json["key"] = keyName(event.key);
+        json["pressed"] = event.pressed;
+        addModifiers(json, event.modifiers);
+    }
+    void operator()(const TextEvent& event) const { json["text"] = utf8(event.code); }
+    void operator()(const MouseMoveEvent& event) const { json["move"] = {event.x, event.y}; }
+    void operator()(const MouseButtonEvent& event) const
+    {
+        json["button"] = kButtonNames[static_cast<std::size_t>(event.button)];
+        json["pressed"] = event.pressed;
+        addModifiers(json, event.modifiers);
+    }
+    void operator()(const WheelEvent& event) const { json["wheel"] = {event.x, event.y}; }
+    void operator()(const ResizeEvent& event) const { json["resize"] = {event.width, event.height}; }
+    void operator()(const MinimiseEvent& event) const { json["minimised"] = event.minimised; }
+    void operator()(const DropEvent& event) const
+    {
+        json["drop"] = Json::array();
+        for (const std::filesystem::path& file : event.files)
+        {
+            json["drop"].push_back(file.string());
+        }
+    }
+    void operator()(const CloseEvent&) const { json["close"] = true; }
+};
+
+} // namespace
+
+std::vector<ScriptedEvent> parseInputScript(std::string_view text, const std::filesystem::path& file)
+{
+    const nlohmann::json document = parseJsonStrictly(text, file);
+    const JsonCursor script(document, file);
+    script.allowKeys({"schema", "events"});
+    static_cast<void>(script.at("schema").oneOf({kSchema}));
+    std::vector<ScriptedEvent> events;
+    for (const JsonCursor& event : script.at("events").items())
+    {
+        const std::uint64_t last = events.empty() ? 0 : events.back().frame;
+        events.push_back({event.at("frame").whole(static_cast<std::uint32_t>(last), kFrameMax), readEvent(event)});
+    }
+    return events;
+}
+
+std::vector<ScriptedEvent> readInputScript(const std::filesystem::path& file)
+{
+    const std::vector<std::uint8_t> bytes = readFile(file);
+    return parseInputScript({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+}
+
+std::string inputScriptText(std::span<const ScriptedEvent> events)
+{
+    // A line for each event.
+    std::string text = fmt::format("{{\"schema\": \"{}\", \"events\": [", kSchema);
+    for (const ScriptedEvent& event : events)
+    {
+        Json json = {{"frame", event.frame}};
+        std::visit(Write{json}, event.event);
+        text += &event == events.data() ? "\n" : ",\n";
+        text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+    return text + "\n]}\n";
+}
+
+std::vector<InputEvent> InputReplay::take(std::uint64_t frame)
+{
+    std::vector<InputEvent> events;
+    for (; m_next < m_events.size() && m_events[m_next].frame <= frame; ++m_next)
+    {
+        events.push_back(m_events[m_next].event);
+    }
+    return events;
+}
+
+} // namespace zvo::demo

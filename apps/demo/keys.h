@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// The table of keys: what they do, and what F1 and the README say that they do.
+#pragma once
+
+#include "demo/input_event.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace zvo::demo
+{
+
+/// What a key makes the program do.
+enum class Action
+{
+    None, // the camera's affair, or the mouse's
+    ShowKeys,
+    ShowPanels,
+    NextView,
+    PreviousView,
+    FrameScene,
+    CopyCamera,
+    PasteCamera,
+    StoreBookmark,
+    RecallBookmark,
+    RecordPath,
+    PlayPath,
+    PlayScene,
+    StepScene,
+    ReloadShaders,
+    Screenshot,
+    ScreenshotOfPicture,
+    Quit,
+};
+
+/// A row of the table.
+struct KeyBinding
+{
+    std::string_view keys; // as people read them
+    std::string_view what;
+    Action action = Action::None;
+    Key key = Key::Escape;      // with an action
+    Key last_key = Key::Escape; // of a range that begins with key
+    bool shift = false;
+    bool control = false;
+};
+
+constexpr KeyBinding boundTo(std::string_view keys, Action action, Key key, std::string_view what, bool shift = false,
+                             bool control = false)
+{
+    return {keys, what, action, key, key, shift, control};
+}
+
+inline constexpr std::array kKeyBindings = {
+    KeyBinding{"W A S D, E Q", "fly forward, left, back, right, up and down; Shift: four times as fast"},
+    KeyBinding{"right mouse button", "look around; with the wheel: change the speed"},
+    KeyBinding{"left mouse button", "orbit around what is in front of the camera"},
+    KeyBinding{"middle mouse button", "move sideways"},
+    KeyBinding{"wheel", "go nearer or farther"},
+    boundTo("F", Action::FrameScene, Key::F, "show the whole scene"),
+    KeyBinding{"Ctrl+1 to Ctrl+9", "keep the camera as a bookmark", Action::StoreBookmark, Key::Digit1, Key::Digit9,
+               false, true},
+    KeyBinding{"1 to 9", "go to a bookmark", Action::RecallBookmark, Key::Digit1, Key::Digit9},
+    boundTo("Ctrl+C", Action::CopyCamera, Key::C, "copy the camera, as zvo render --camera takes it", false, true),
+    boundTo("Ctrl+V", Action::PasteCamera, Key::V, "take the camera that was copied", false, true),
+    boundTo("R", Action::RecordPath, Key::R, "begin or end recording a camera path"),
+    boundTo("P", Action::PlayPath, Key::P, "fly along the camera path, or stop"),
+    boundTo("Space", Action::PlayScene, Key::Space, "let the scene move, or stop it"),
+    boundTo("Period", Action::StepScene, Key::Period, "let the scene move by one frame"),
+    boundTo("V", Action::NextView, Key::V, "the next view"),
+    boundTo("Shift+V", Action::PreviousView, Key::V, "the view before", true),
+    boundTo("H", Action::ShowPanels, Key::H, "show or hide the panels"),
+    boundTo("F1", Action::ShowKeys, Key::F1, "show or hide this table"),
+    boundTo("F5", Action::ReloadShaders, Key::F5, "compile the shaders that have changed"),
+    boundTo("F12", Action::Screenshot, Key::F12, "write a screenshot to the working folder"),
+    boundTo("Shift+F12", Action::ScreenshotOfPicture, Key::F12, "the same without the panels", true),
+    boundTo("Ctrl+Q", Action::Quit, Key::Q, "quit", false, true),
+};
+
+/// The row of the table that a press of a key names.
+const KeyBinding* bindingOf(const KeyEvent& event);
+
+/// The table in Markdown, as the README has it.
+std::string keyTableText();
+
+} // namespace zvo::demo

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "demo/options.h"
+
+#include "common/option_groups.h"
+#include "common/parse.h"
+#include "common/view.h"
+#include "zvo/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+constexpr std::size_t kHelpColumn = 34;
+constexpr std::uint32_t kFramesInFlightMax = 4;
+constexpr double kStepMax = 10; // seconds
+
+constexpr const char* kFooter = R"(
+F1 lists the keys. Files dropped onto the window replace what it shows. Settings are kept in
+$XDG_CONFIG_HOME/zvo/demo.json, or ~/.config/zvo/demo.json, unless --frames is given.
+
+Examples:
+  zvo-demo scenes/atrium.glb --resolution 256
+  zvo-demo scenes/atrium_knot.scene.json --structure svdag
+  zvo-demo bunny.zvo --view iterations --present immediate
+  zvo-demo scenes/atrium.glb --frames 60 --fixed-step 1/60 --hide-ui --screenshot last.png --json stats.json
+
+Exit codes: 0 success, 2 usage, 3 input, 4 output, 5 no usable device or no display, 6 memory, 1 anything else.)";
+
+// Seconds: "0.02" or "1/60".
+double parseStep(std::string_view option, std::string_view text)
+{
+    const std::size_t slash = text.find('/');
+    const double step = slash == std::string_view::npos
+                            ? double{cli::parsePositive(option, text)}
+                            : double{cli::parsePositive(option, text.substr(0, slash))} /
+                                  double{cli::parsePositive(option, text.substr(slash + 1))};
+    if (step > kStepMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: expected at most {} seconds", option, text, kStepMax));
+    }
+    return step;
+}
+
+double parseScale(std::string_view option, std::string_view text)
+{
+    const float scale = cli::parsePositive(option, text);
+    if (scale > 1.0F)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: expected a number above 0 and at most 1", option, text));
+    }
+    return double{scale};
+}
+
+vk::PresentMode parsePresentMode(std::string_view option, std::string_view text)
+{
+    const std::string name = cli::oneOf(option, text, {"fifo", "mailbox", "immediate"});
+    return name == "fifo"      ? vk::PresentMode::Fifo
+           : name == "mailbox" ? vk::PresentMode::Mailbox
+                               : vk::PresentMode::Immediate;
+}
+
+PictureSize parsePictureSize(std::string_view option, std::string_view text)
+{
+    const auto [width, height] = cli::parseSize(option, text);
+    return {width, height};
+}
+
+template <std::uint32_t low, std::uint32_t high>
+std::uint32_t parseCount(std::string_view option, std::string_view text)
+{
+    return static_cast<std::uint32_t>(cli::parseInteger(option, text, low, high));
+}
+
+std::filesystem::path parsePath(std::string_view, const std::string& text)
+{
+    return text;
+}
+
+void addViewOptions(CLI::App& app, DemoOptions& options)
+{
+    constexpr const char* kGroup = "View";
+    cli::addCameraOption(app, options.camera);
+    app.get_option("--camera")->group(kGroup);
+    cli::addValue(app, "--camera-path", options.camera_path, parsePath, "FILE",
+                  "fly along the cameras of a file, as zvo render does")
+        ->group(kGroup);
+    cli::addValue(app, "--view", options.view, cli::viewOf, "VIEW", cli::viewHelp())->group(kGroup);
+    cli::addValue(app, "--occlusion", options.occlusion_rays, parseCount<0, kOcclusionRaysMax>, "RAYS",
+                  "rays a pixel that find how much of the sky it sees (default 0)")
+        ->group(kGroup);
+    cli::addValue(app, "--sun", options.to_sun, cli::parseDirection, "x,y,z", "direction to the sun")->group(kGroup);
+    cli::addValue(app, "--exposure", options.exposure, cli::parsePositive, "FACTOR", "brightness (default 1)")
+        ->group(kGroup);
+    cli::addValue(app, "--detail", options.detail_pixels, cli::parsePositive, "PIXELS",
+                  "rays stop at octree nodes up to this many pixels wide")
+        ->group(kGroup);
+}
+
+void addWindowOptions(CLI::App& app, DemoOptions& options)
+{
+    constexpr const char* kGroup = "Window";
+    cli::addValue(app, "--size", options.size, parsePictureSize, "WxH", "of the window (default 1280x720)")
+        ->group(kGroup);
+    cli::addValue(app, "--internal-scale", options.internal_scale, parseScale, "FACTOR",
+                  "trace pictures this much smaller than the window (default 1; on CPU devices whatever is fast)")
+        ->group(kGroup);
+    cli::addValue(app, "--present", options.present_mode, parsePresentMode, "fifo|mailbox|immediate",
+                  "how pictures wait for the screen (default fifo)")
+        ->group(kGroup);
+    cli::addValue(app, "--frames-in-flight", options.frames_in_flight, parseCount<1, kFramesInFlightMax>, "N",
+                  "frames that are under way at once, 1 to 4 (default 2)")
+        ->group(kGroup);
+    app.add_flag("--hide-ui", options.hide_ui, "without panels; H shows them")->group(kGroup);
+}
+
+void addScriptOptions(CLI::App& app, DemoOptions& options)
+{
+    constexpr const char* kGroup = "Scripts";
+    constexpr std::uint64_t kFramesMax = 1'000'000'000;
+    cli::addValue(
+        app, "--frames", options.frame_count,
+        [](std::string_view option, std::string_view text) { return cli::parseInteger(option, text, 1, kFramesMax); },
+        "N", "end after so many frames")
+        ->group(kGroup);
+    cli::addValue(app, "--fixed-step", options.fixed_step, parseStep, "SECONDS",
+                  "time that a frame takes, such as 1/60, whatever the clock says: every run shows the same")
+        ->group(kGroup);
+    cli::addValue(app, "--input-script", options.input_script, parsePath, "FILE",
+                  "input events to play, in place of the user's")
+        ->group(kGroup);
+    cli::addValue(app, "--record-input", options.record_input, parsePath, "FILE", "write the user's input events")
+        ->group(kGroup);
+    cli::addText(app, "--screenshot", options.screenshot, "FILE", "write the last frame of --frames as a PNG file")
+        ->group(kGroup);
+    cli::addText(app, "--json", options.json, "FILE|-", "write statistics; - is standard output")->group(kGroup);
+    app.add_flag("-f,--force", options.overwrite, "overwrite files that exist")->group(kGroup);
+}
+
+Error usageError(std::string what)
+{
+    while (!what.empty() && (what.back() == '\n' || what.back() == '.'))
+    {
+        what.pop_back();
+    }
+    return {ErrorCode::Usage, fmt::format("{}; see zvo-demo --help", what)};
+}
+
+void check(const DemoOptions& options)
+{
+    if (options.voxels.bounds && options.voxels.grid_place)
+    {
+        throw usageError("--bounds and --grid exclude each other");
+    }
+    if (!options.screenshot.empty() && !options.frame_count)
+    {
+        throw usageError("--screenshot needs --frames, whose last one it shows");
+    }
+    if (options.screenshot == "-")
+    {
+        throw usageError("--screenshot needs a file's name");
+    }
+}
+
+} // namespace
+
+std::variant<std::string, DemoOptions> parseCommandLine(int argc, const char* const* argv)
+{
+    CLI::App app("zvo-demo shows triangle scenes, and trees, as voxels in a window.", "zvo-demo");
+    app.get_formatter()->column_width(kHelpColumn);
+    app.footer(kFooter);
+    app.set_version_flag("--version", "zvo-demo " ZVO_VERSION, "print the version");
+    DemoOptions options;
+    cli::addVoxelOptions(app, options.voxels, "; or one .zvo or .vox file");
+    app.get_option("SCENE")->required(false);
+    cli::addAttributesOption(app, options.voxels.attributes);
+    cli::addValue(app, "--structure", options.structure, cli::parseStructure, "svo|svdag",
+                  "what stands still is an octree or a DAG (default svo)");
+    addViewOptions(app, options);
+    addWindowOptions(app, options);
+    addScriptOptions(app, options);
+    cli::addDeviceOptions(app, options.device);
+    try
+    {
+        app.parse(argc, argv);
+    }
+    catch (const CLI::CallForHelp&)
+    {
+        return app.help();
+    }
+    catch (const CLI::CallForVersion& version)
+    {
+        return std::string(version.what()) + "\n";
+    }
+    catch (const CLI::ParseError& error)
+    {
+        throw usageError(error.what());
+    }
+    catch (const Error& error)
+    {
+        throw usageError(error.what());
+    }
+    check(options);
+    return options;
+}
+
+} // namespace zvo::demo

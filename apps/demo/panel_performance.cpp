@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "demo/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <cfloat>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+constexpr double kMiB = 1 << 20;
+
+void tell(const std::string& text)
+{
+    ImGui::TextUnformatted(text.c_str());
+}
+
+// A row of the table of passes, and the curve of its last frames.
+void passRow(const std::string& name, const History& history)
+{
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    tell(name);
+    ImGui::TableNextColumn();
+    tell(fmt::format("{:.2f}", history.mean()));
+    ImGui::TableNextColumn();
+    tell(fmt::format("{:.2f}", history.p95()));
+    ImGui::TableNextColumn();
+    ImGui::PushID(name.c_str());
+    ImGui::PlotLines("##curve", history.values().data(), static_cast<int>(history.values().size()), 0, nullptr, 0.0F,
+                     FLT_MAX, {ImGui::GetFontSize() * 6, ImGui::GetTextLineHeight()});
+    ImGui::PopID();
+}
+
+} // namespace
+
+void performancePanel(const FrameStats& stats, const vk::MemoryAllocator& memory, const WorldInfo& info)
+{
+    if (!ImGui::CollapsingHeader("Performance", ImGuiTreeNodeFlags_DefaultOpen))
+    {
+        return;
+    }
+    tell(fmt::format("{:.1f} frames/s, {:.1f} ms (95 %: {:.1f} ms)", stats.framesPerSecond(), stats.frameMs().mean(),
+                     stats.frameMs().p95()));
+    tell(fmt::format("{:.1f} Mrays/s primary", stats.megaraysPerSecond()));
+    tell(fmt::format("memory {:.1f} MiB: geometry {:.1f}, attributes {:.1f}, held {:.1f}",
+                     static_cast<double>(memory.usedBytes()) / kMiB, static_cast<double>(info.geometry_bytes) / kMiB,
+                     static_cast<double>(info.attribute_bytes) / kMiB, static_cast<double>(memory.heldBytes()) / kMiB));
+    if (ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
+    {
+        ImGui::TableSetupColumn("pass");
+        ImGui::TableSetupColumn("mean ms");
+        ImGui::TableSetupColumn("95 %");
+        ImGui::TableSetupColumn("last frames");
+        ImGui::TableHeadersRow();
+        passRow("device, all", stats.gpuMs());
+        for (const std::string& name : stats.names())
+        {
+            passRow(name, stats.pass(name));
+        }
+        ImGui::EndTable();
+    }
+}
+
+} // namespace zvo::demo

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "common/view.h"
+#include "demo/panels.h"
+#include "demo/resolution_ladder.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+constexpr std::array kModes = {vk::PresentMode::Fifo, vk::PresentMode::Mailbox, vk::PresentMode::Immediate};
+constexpr std::array kModeNames = {"fifo (vsync)", "mailbox", "immediate"};
+
+void viewChoice(ViewState& view)
+{
+    const auto views = cli::allViews();
+    const auto current = std::ranges::find(views, view.view, &cli::NamedView::view);
+    if (ImGui::BeginCombo("view", std::string(current->name).c_str()))
+    {
+        for (const cli::NamedView& named : views)
+        {
+            if (ImGui::Selectable(std::string(named.name).c_str(), named.view == view.view))
+            {
+                view.view = named.view;
+            }
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void integratorChoice(ViewState& view)
+{
+    int chosen = static_cast<int>(view.integrator);
+    const auto name = [](void*, int index, const char** text)
+    {
+        *text = kIntegratorNames[static_cast<std::size_t>(index)].data();
+        return true;
+    };
+    if (ImGui::Combo("light", &chosen, name, nullptr, static_cast<int>(kIntegratorNames.size())))
+    {
+        view.integrator = static_cast<Integrator>(chosen);
+    }
+}
+
+void resolutionChoice(ViewState& view, const ViewFacts& facts)
+{
+    const std::string current = view.internal_scale ? fmt::format("{:g}", *view.internal_scale)
+                                                    : fmt::format("automatic ({:g})", facts.internal_scale);
+    if (ImGui::BeginCombo("resolution", current.c_str()))
+    {
+        if (ImGui::Selectable("automatic", !view.internal_scale))
+        {
+            view.internal_scale.reset();
+        }
+        for (const double scale : ResolutionLadder::kScales)
+        {
+            if (ImGui::Selectable(fmt::format("{:g}", scale).c_str(), view.internal_scale == scale))
+            {
+                view.internal_scale = scale;
+            }
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void presentChoice(ViewState& view, const ViewFacts& facts)
+{
+    int chosen = static_cast<int>(view.present_mode);
+    if (ImGui::Combo("present", &chosen, kModeNames.data(), static_cast<int>(kModeNames.size())))
+    {
+        view.present_mode = kModes[static_cast<std::size_t>(chosen)];
+    }
+    if (facts.mode != view.present_mode)
+    {
+        ImGui::SameLine();
+        ImGui::TextUnformatted("(fifo: the window has no other)");
+    }
+}
+
+// What the colours of the iterations view stand for (trace/shade.comp).
+void iterationsLegend()
+{
+    constexpr std::array kCounts = {1, 3, 7, 15, 31, 63, 127};
+    const auto heat = [](float x)
+    {
+        const float blue = x < 0.5F ? 4 * x * (1 - x) - 2 * std::max(x - 0.25F, 0.0F) : 4 * x - 3;
+        return ImVec4(std::clamp(3 * x - 0.75F, 0.0F, 1.0F), std::clamp(3 * x - 1.75F, 0.0F, 1.0F),
+                      std::clamp(blue, 0.0F, 1.0F), 1.0F);
+    };
+    for (std::size_t i = 0; i < kCounts.size(); ++i)
+    {
+        if (i != 0)
+        {
+            ImGui::SameLine();
+        }
+        ImGui::ColorButton(fmt::format("{} iterations", kCounts[i]).c_str(), heat(static_cast<float>(i + 1) / 7.0F),
+                           ImGuiColorEditFlags_NoAlpha | ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoPicker);
+        ImGui::SameLine();
+        ImGui::Text("%d", kCounts[i]);
+    }
+}
+
+} // namespace
+
+void viewPanel(ViewState& view, const ViewFacts& facts)
+{
+    if (!ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen))
+    {
+        return;
+    }
+    viewChoice(view);
+    if (view.view == View::Iterations)
+    {
+        iterationsLegend();
+    }
+    if (view.view == View::Color)
+    {
+        integratorChoice(view);
+        ImGui::Checkbox("shadows", &view.shadows);
+        int rays = static_cast<int>(view.occlusion_rays);
+        if (ImGui::SliderInt("occlusion rays", &rays, 0, static_cast<int>(kOcclusionRaysMax), "%d",
+                             ImGuiSliderFlags_AlwaysClamp))
+        {
+            view.occlusion_rays = static_cast<std::uint32_t>(rays);
+        }
+        ImGui::SliderFloat("exposure", &view.exposure, 0.05F, 20.0F, "%.2f",
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    }
+    ImGui::SliderFloat("detail, pixels", &view.detail_pixels, 0.0F, 16.0F, "%.1f", ImGuiSliderFlags_AlwaysClamp);
+    resolutionChoice(view, facts);
+    presentChoice(view, facts);
+    ImGui::TextUnformatted(fmt::format("speed {:.3g} units/s", facts.camera_speed).c_str());
+}
+
+} // namespace zvo::demo

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The panels over the picture, each in a file of its name. They are built within a frame of Dear ImGui, show what they
+// are given, and change what the user changes.
+#pragma once
+
+#include "demo/frame_stats.h"
+#include "demo/notices.h"
+#include "demo/timeline.h"
+#include "demo/view_state.h"
+#include "demo/world.h"
+#include "vk/device.h"
+
+#include <string>
+
+namespace zvo::demo
+{
+
+/// Where the panels stand, and which of them are open.
+struct PanelState
+{
+    bool shows_panels = true;
+    bool shows_keys = false;
+};
+
+/// What the view panel also shows.
+struct ViewFacts
+{
+    double internal_scale = 1; // in use
+    vk::PresentMode mode = vk::PresentMode::Fifo;
+    double camera_speed = 1; // world units a second
+};
+
+/// Frames a second, Mrays/s, and the device's time by pass.
+void performancePanel(const FrameStats& stats, const vk::MemoryAllocator& memory, const WorldInfo& info);
+
+/// View, light, detail, resolution.
+void viewPanel(ViewState& view, const ViewFacts& facts);
+
+/// What is shown, and when.
+void scenePanel(const World& world, Timeline& timeline);
+
+/// The table of keys.
+void keysPanel(bool& is_open);
+
+/// What the program has to say.
+void noticesPanel(const Notices& notices);
+
+} // namespace zvo::demo

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "demo/renderer.h"
+
+#include "core/camera.h"
+
+#include <utility>
+
+namespace zvo::demo
+{
+
+void Renderer::begin(std::uint64_t frame, const Picture& picture, bool encodes_srgb)
+{
+    m_retired.beginFrame(frame);
+    const PictureSize internal = picture.internal;
+    if (m_trace == nullptr || m_trace->width != internal.width || m_trace->height != internal.height)
+    {
+        auto trace = std::make_unique<TraceBuffers>(m_device.device(), internal.width, internal.height);
+        m_retired.keep(std::exchange(m_trace, std::move(trace)));
+    }
+    if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
+    {
+        auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);
+        m_retired.keep(std::exchange(m_compose, std::move(compose)));
+    }
+}
+
+void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& picture)
+{
+    const TreeView tree = world.tree();
+    const TraceCamera camera = traceCamera(picture.camera, tree.octree().grid, m_trace->height);
+    switch (picture.view.integrator)
+    {
+    case Integrator::Primary:
+        trace(graph, tree, world.beam(), camera, picture.view.traceOptions(), *m_trace);
+        break;
+    }
+    m_compose->fill(graph, *m_trace);
+    if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
+    {
+        m_compose->copyTo(graph, *picture.screenshot);
+    }
+    if (picture.panels)
+    {
+        m_compose->drawOver(graph, picture.panels);
+    }
+    if (picture.screenshot != nullptr && picture.screenshot_has_panels)
+    {
+        m_compose->copyTo(graph, *picture.screenshot);
+    }
+    if (picture.target != nullptr)
+    {
+        m_compose->show(graph, *picture.target);
+    }
+    if (picture.screenshot != nullptr)
+    {
+        graph.releaseToHost();
+    }
+}
+
+} // namespace zvo::demo

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/present.h"
+#include "core/trace.h"
+#include "demo/compose.h"
+#include "demo/view_state.h"
+#include "demo/world.h"
+#include "vk/headless.h"
+#include "vk/retired.h"
+#include "vk/swapchain.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+namespace zvo::demo
+{
+
+/// A frame's picture.
+struct Picture
+{
+    ViewCamera camera;
+    ViewState view;
+    PictureSize window;                            // in pixels
+    PictureSize internal;                          // that is traced
+    std::function<void(VkCommandBuffer)> panels;   // draws over the picture; may be empty
+    const vk::SwapchainImage* target = nullptr;    // null: it is not shown
+    vk::BufferOf<gpu::uint>* screenshot = nullptr; // gets the window's pixels; may be null
+    bool screenshot_has_panels = true;
+};
+
+/// Records frames: from the world's tree to the image of the swapchain. Its buffers follow the sizes that are asked
+/// for; old ones go when the device is done with their frames.
+class Renderer
+{
+public:
+    Renderer(vk::HeadlessDevice& device, const ComposePass& pass) : m_device(device), m_pass(pass) {}
+
+    /// The frame with this number begins, upwards. encodes_srgb: of the swapchain's format. Throws Error{Memory} for
+    /// pictures that the device's budget does not allow: then the last ones stay.
+    void begin(std::uint64_t frame, const Picture& picture, bool encodes_srgb);
+
+    /// Records it.
+    void record(vk::FrameGraph& graph, const World& world, const Picture& picture);
+
+    /// The device is done with that frame and all before it.
+    void frameDone(std::uint64_t frame) { m_retired.frameDone(frame); }
+
+    /// Primary rays of a frame.
+    [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(*m_trace); }
+
+private:
+    vk::HeadlessDevice& m_device;
+    const ComposePass& m_pass;
+    vk::Retired m_retired;
+    std::unique_ptr<TraceBuffers> m_trace;
+    std::unique_ptr<ComposeImage> m_compose;
+};
+
+} // namespace zvo::demo

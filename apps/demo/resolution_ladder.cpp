@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "demo/resolution_ladder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zvo::demo
+{
+
+void ResolutionLadder::add(double gpu_ms)
+{
+    m_long_count = gpu_ms > kTooLongMs ? m_long_count + 1 : 0;
+    const double growth = m_step == 0 ? 1.0 : kScales[m_step - 1] / kScales[m_step];
+    const bool has_time = m_step != 0 && gpu_ms * growth * growth < kShortMs;
+    m_short_count = has_time ? m_short_count + 1 : 0;
+    if (m_long_count >= kFramesToLower && m_step + 1 < kScales.size())
+    {
+        ++m_step;
+        m_long_count = 0;
+        m_short_count = 0;
+    }
+    else if (m_short_count >= kFramesToRaise)
+    {
+        --m_step;
+        m_long_count = 0;
+        m_short_count = 0;
+    }
+}
+
+PictureSize scaledSize(PictureSize window, double scale)
+{
+    const auto edge = [scale](std::uint32_t length)
+    { return std::min(length, static_cast<std::uint32_t>(std::max(1.0, std::round(length * scale)))); };
+    return {edge(window.width), edge(window.height)};
+}
+
+} // namespace zvo::demo

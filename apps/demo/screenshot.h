@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "common/output.h"
+#include "core/present.h"
+#include "shared/gpu.h"
+#include "vk/buffer.h"
+#include "vk/device.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace zvo::demo
+{
+
+/// A frame's pixels on their way into a PNG file.
+class Screenshot
+{
+public:
+    /// Of size, into output, or where there is none into a new file zvo-NNNN.png in the working folder.
+    Screenshot(vk::Device& device, PictureSize size, std::unique_ptr<cli::Output> output, bool has_panels);
+
+    /// What the frame copies its pixels to.
+    [[nodiscard]] vk::BufferOf<gpu::uint>& pixels() { return m_pixels; }
+    [[nodiscard]] bool hasPanels() const { return m_has_panels; }
+
+    /// Writes the file, once the device is done with the frame. Returns its name where that was not given. Throws
+    /// Error{Output}.
+    std::string write();
+
+private:
+    PictureSize m_size;
+    vk::BufferOf<gpu::uint> m_pixels;
+    std::unique_ptr<cli::Output> m_output;
+    bool m_has_panels;
+};
+
+} // namespace zvo::demo

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/trace.h"
+#include "demo/integrator.h"
+#include "vk/swapchain.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace zvo::demo
+{
+
+/// How the world is shown: what the view panel changes and the settings keep.
+struct ViewState
+{
+    View view = View::Color;
+    Integrator integrator = Integrator::Primary;
+    bool shadows = true;
+    std::uint32_t occlusion_rays = 0;
+    glm::dvec3 to_sun = TraceOptions{}.to_sun;
+    float exposure = 1.0F;
+    float detail_pixels = 0.0F;           // 0: rays go on to voxels
+    std::optional<double> internal_scale; // of the window's edges; not given: as fast as the device allows
+    vk::PresentMode present_mode = vk::PresentMode::Fifo;
+
+    [[nodiscard]] TraceOptions traceOptions() const
+    {
+        TraceOptions options;
+        options.view = view;
+        options.shadows = shadows;
+        options.occlusion_rays = occlusion_rays;
+        options.to_sun = to_sun;
+        options.exposure = exposure;
+        options.detail_pixels = detail_pixels;
+        return options;
+    }
+};
+
+} // namespace zvo::demo

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/present.h"
+#include "demo/input_event.h"
+#include "vk/window_support.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace zvo::demo
+{
+
+/// A window of the window system, by GLFW. One in a process.
+class Window
+{
+public:
+    /// Of size in the window's units. Throws Error{Device} where there is no display.
+    Window(PictureSize size, const std::string& title);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// What Vulkan needs to present to it.
+    [[nodiscard]] vk::WindowSupport support() const;
+
+    /// A surface for swapchains. Throws Error{Device}.
+    [[nodiscard]] VkSurfaceKHR makeSurface(VkInstance instance) const;
+
+    /// What has happened since the last call. seconds: how long to wait until something does; 0: not at all.
+    std::vector<InputEvent> takeEvents(double seconds);
+
+    /// Size in the window's units; nothing while it is minimised.
+    [[nodiscard]] PictureSize size() const;
+
+    /// Size in pixels.
+    [[nodiscard]] PictureSize framebufferSize() const;
+
+    /// How much larger than usual the system wants things to be shown, in the window's units.
+    [[nodiscard]] float uiScale() const;
+
+    /// Asks for another size and waits for it, but not for long: the window system has the last word. Without an
+    /// extent, size() is that from now on, whatever the system shows.
+    void resize(PictureSize size);
+
+    /// As if the system had minimised or restored it, which it is asked to do.
+    void minimise(bool minimised);
+
+    void setTitle(const std::string& title);
+
+    [[nodiscard]] std::string clipboard() const;
+    void setClipboard(const std::string& text);
+
+    /// Callbacks of the window system put events here.
+    void note(InputEvent event) { m_events.push_back(std::move(event)); }
+    void noteMinimised(bool minimised) { m_is_minimised = minimised; }
+
+private:
+    GLFWwindow* m_window = nullptr;
+    std::vector<InputEvent> m_events;
+    bool m_is_minimised = false;
+    bool m_has_no_extent = false; // because resize() said so
+};
+
+} // namespace zvo::demo

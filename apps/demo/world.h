@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "common/scene_options.h"
+#include "core/camera.h"
+#include "core/dynamic_octree.h"
+#include "core/stage.h"
+#include "core/trace.h"
+#include "core/tree_data.h"
+#include "core/tree_view.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace zvo::demo
+{
+
+/// What becomes of files.
+struct WorldOptions
+{
+    cli::VoxelOptions voxels;               // scenes: the files; none: an empty world
+    std::optional<TreeStructure> structure; // of what stands still; not given: an octree, or the file's
+    std::uint32_t frames_in_flight = 2;     // that may be recorded before frameDone() was told of the first
+};
+
+/// What there is to tell of a world.
+struct WorldInfo
+{
+    std::string name; // of the file
+    Grid grid;
+    TreeStructure structure = TreeStructure::Svo;
+    std::uint64_t static_triangle_count = 0;
+    std::uint64_t moving_triangle_count = 0;
+    std::uint64_t static_voxel_count = 0;
+    std::uint64_t static_node_count = 0;
+    std::uint64_t geometry_bytes = 0;
+    std::uint64_t attribute_bytes = 0;
+    std::size_t mover_count = 0;
+    double build_ms = 0;   // voxelization, construction, compression; 0: it came out of a file
+    UpdateReport update{}; // the last one that is known
+};
+
+/// What is shown: the voxels of what stands still with what moves merged into them, in device memory, and the grid that
+/// primary rays begin with. A frame: beginFrame(), then update() into the frame's commands, then frameDone() once the
+/// device is done with it. The device must be done with all frames when a World goes.
+class World
+{
+public:
+    /// Loads what options name, as `zvo render` does, .vox files, too; tells of what was left out. Waits. Throws what
+    /// `zvo render` throws: Error{Input}, Error{Usage} and Error{Memory}. Other worlds stay as they are.
+    static std::unique_ptr<World> load(vk::HeadlessDevice& device, const WorldOptions& options);
+
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    /// Numbers the frame that is to be recorded.
+    std::uint64_t beginFrame();
+
+    /// Records what it takes to show the world at a time of the stage; nothing where that is shown already. Memory may
+    /// not suffice for what moves: then it stays where it is, and trouble() says why. Throws what making a kernel
+    /// throws: then the frame is lost, if it is not submitted.
+    void update(vk::FrameGraph& graph, double seconds);
+
+    /// The same, in a frame of its own, until it is shown, and waits: update() has nothing more to do then.
+    void settle(double seconds);
+
+    /// The device is done with a frame and all before it.
+    void frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes);
+
+    /// The frame that began last does not reach the device.
+    void frameLost();
+
+    [[nodiscard]] TreeView tree() const;
+    [[nodiscard]] const BeamGrid& beam() const { return m_beam; }
+    [[nodiscard]] const WorldInfo& info() const { return m_info; }
+    [[nodiscard]] const Stage& stage() const { return m_stage; }
+
+    /// What a picture is about.
+    [[nodiscard]] const Bounds& subject() const { return m_subject; }
+
+    [[nodiscard]] bool moves() const { return !m_movers.empty(); }
+
+    /// Why something does not move as it should; empty: nothing is wrong.
+    [[nodiscard]] const std::string& trouble() const { return m_trouble; }
+
+private:
+    World(vk::HeadlessDevice& device, Stage stage, const Bounds& subject, bool has_lists);
+
+    static std::unique_ptr<World> ofTree(vk::HeadlessDevice& device, const WorldOptions& options);
+    static std::unique_ptr<World> ofStage(vk::HeadlessDevice& device, const WorldOptions& options);
+    void keep(DeviceTree&& tree, const WorldOptions& options);
+    void build(const WorldOptions& options, const Grid& grid);
+    void updateMovers(vk::FrameGraph& graph, double seconds);
+
+    vk::HeadlessDevice& m_device;
+    Stage m_stage;
+    Bounds m_subject;
+    BeamGrid m_beam;
+    bool m_beam_is_stale = true;
+    std::variant<DeviceTree, std::unique_ptr<DynamicOctree>> m_tree;
+    std::vector<MoverId> m_movers;         // in the order of the stage
+    std::optional<double> m_shown_seconds; // that the movers were placed for
+    std::uint64_t m_frame = 0;             // of worlds that nothing can be merged with
+    std::string m_trouble;
+    WorldInfo m_info;
+};
+
+} // namespace zvo::demo
