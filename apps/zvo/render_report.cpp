@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render_report.h"
 
+#include "common/progress.h"
 #include "common/session.h"
 #include "core/zvo_file.h"
-#include "progress.h"
 
 #include <fmt/format.h>
 
