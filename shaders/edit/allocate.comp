@@ -18,9 +18,10 @@ layout(push_constant, scalar) uniform Push
 void main()
 {
     EditState from = params.states.data[params.from];
-    uint node_top = from.node_top;
+    EditState kept = params.states.data[params.kept];
+    uint node_top = max(from.node_top, kept.node_top);
     // Words of the emission table belong to one dab.
-    uint voxel_top = (from.voxel_top + 31u) & ~31u;
+    uint voxel_top = (max(from.voxel_top, kept.voxel_top) + 31u) & ~31u;
     for (uint first = 0u; first < params.cell_count; first += kScanGroup)
     {
         uint i = first + gl_LocalInvocationIndex;

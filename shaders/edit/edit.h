@@ -15,7 +15,8 @@
 //
 // A *place* has a root and an EditState, which says how far up the copies reach that it is made of. A dab begins at the
 // state of the place that it changes, so what stood above that is forgotten: undo is another place, and a dab after it
-// takes the room of those that it undoes.
+// takes the room of those that it undoes. But a frame may be lost, whether the device has run it or not: what was shown
+// before it keeps its room until its end.
 //
 // The cells of a dab are the nodes, of all levels, that its box touches: the root first, each level x first. Their
 // number depends on the brush alone, not on the tree.
@@ -137,6 +138,7 @@ struct EditAllocateParams // push constants of edit/allocate: one workgroup
     uint inner_count; // cells that are no leaves
     uint from;
     uint to;
+    uint kept;     // a place that keeps its room, too
     uint node_end; // of the region
     uint voxel_end;
 };
@@ -163,6 +165,7 @@ struct EditEmissionWordsParams // push constants of edit/emission_words: one thr
     GPU_CONST_PTR(EditState) states;
     uint from;
     uint to;
+    uint kept;            // as in EditAllocateParams
     uint emission_offset; // from a voxel to the first place of its word, modulo 2^32
 };
 
@@ -254,7 +257,8 @@ struct EditMoveEmissionParams // push constants of edit/move_emission: one threa
 
 struct EditMoveStatesParams // push constants of edit/move_states: one thread a place
 {
-    GPU_PTR(EditState) states;
+    GPU_CONST_PTR(EditState) states;
+    GPU_PTR(EditState) new_states;
     GPU_CONST_PTR(uint) marks;
     GPU_CONST_PTR(uint) numbers;
     GPU_CONST_PTR(uint) voxel_bits; // or null

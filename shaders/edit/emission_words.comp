@@ -14,7 +14,8 @@ layout(push_constant, scalar) uniform Push
 
 void main()
 {
-    uint word = ((params.states.data[params.from].voxel_top + 31u) >> 5) + threadIndex();
+    uint voxel_top = max(params.states.data[params.from].voxel_top, params.states.data[params.kept].voxel_top);
+    uint word = ((voxel_top + 31u) >> 5) + threadIndex();
     if (32u * word < params.states.data[params.to].voxel_top)
         params.words.data[word] = uvec2(0u, 32u * word + params.emission_offset);
 }

@@ -35,5 +35,5 @@ void main()
     EditState state = params.states.data[place];
     state.node_top = params.new_first_node + nodesBefore(state.node_top - params.first_node);
     state.voxel_top = params.new_first_voxel + voxelsBefore(state.voxel_top - params.first_voxel);
-    params.states.data[place] = state;
+    params.new_states.data[place] = state;
 }

@@ -339,6 +339,11 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
 bool DynamicOctree::edit(vk::FrameGraph& graph, const Brush& brush)
 {
     m_has_recorded = true;
+    if (m_owes_root) // before anything is written where a lost frame wrote
+    {
+        showRoot(graph, m_overlays.tree(), m_roots, rootOf(m_history.current()));
+        m_owes_root = false;
+    }
     const std::uint64_t before = m_edits.changeCount();
     const bool is_done = m_edits.dab(graph, brush, m_tables.view, m_retired);
     if (m_edits.changeCount() != before)

@@ -55,9 +55,10 @@ std::uint32_t levelCells(const gpu::EditBox& box, std::uint32_t level)
 
 // Everything but attributes.
 void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
-                 const gpu::EditPlaces& places, DabBuffers& buffers)
+                 const DabPlaces& dab, DabBuffers& buffers)
 {
     OverlaidTree& tree = site.tree;
+    const gpu::EditPlaces places = {site.region.first_node, dab.from, dab.to};
     const std::uint32_t attributes = tree.hasAttributes() ? 1 : 0;
     graph.fill(site.states, 0, std::uint64_t{places.to} * (sizeof(gpu::EditState) / 4), sizeof(gpu::EditState) / 4);
     {
@@ -91,6 +92,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         params.inner_count = extent.inner_count;
         params.from = places.from;
         params.to = places.to;
+        params.kept = dab.kept;
         params.node_end = site.region.first_node + site.region.node_capacity;
         params.voxel_end = site.region.first_voxel + site.region.voxel_capacity;
         pass.dispatch(gpu::kScanGroup, params);
@@ -131,7 +133,7 @@ void recordVoxelPass(vk::FrameGraph& graph, const char* kernel, EditSite& site, 
 }
 
 void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
-                      const gpu::EditPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+                      const DabPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
     Octree& octree = site.tree.dag.tree;
     const bool emits = octree.emission_words.count() != 0;
@@ -143,6 +145,7 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
         params.states = pass.read(site.states);
         params.from = places.from;
         params.to = places.to;
+        params.kept = places.kept;
         params.emission_offset = site.emission_offset;
         pass.dispatch(divideUp(extent.voxel_bound, kVoxelBlock), params);
     }
@@ -304,11 +307,10 @@ void beginEdits(vk::FrameGraph& graph, EditSite& site)
     pass.dispatch(1, params);
 }
 
-void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent, std::uint32_t from,
-               std::uint32_t to, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
+               const DabPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
     const gpu::Brush dab = gpuBrush(brush);
-    const gpu::EditPlaces places = {site.region.first_node, from, to};
     recordNodes(graph, site, dab, extent, places, buffers);
     if (site.tree.hasAttributes())
     {
@@ -316,8 +318,8 @@ void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const 
     }
 }
 
-void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to, const std::vector<bool>& kept,
-                      CompactBuffers& buffers)
+void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to,
+                      vk::BufferOf<gpu::EditState>& states, const std::vector<bool>& kept, CompactBuffers& buffers)
 {
     Octree& octree = site.tree.dag.tree;
     const bool attributes = site.tree.hasAttributes();
@@ -375,7 +377,8 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
     }
     vk::Pass pass = graph.addPass("edit/move_states");
     gpu::EditMoveStatesParams params{};
-    params.states = pass.readWrite(site.states);
+    params.states = pass.read(site.states);
+    params.new_states = pass.write(states);
     params.marks = pass.read(buffers.marks);
     params.numbers = pass.read(buffers.numbers);
     params.voxel_bits = pass.read(buffers.voxel_bits);

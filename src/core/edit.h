@@ -50,11 +50,19 @@ struct EditSite
 /// Records the pass that makes place 0 the static tree, of which nothing was edited.
 void beginEdits(vk::FrameGraph& graph, EditSite& site);
 
+/// The places of a dab.
+struct DabPlaces
+{
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    std::uint32_t kept = 0; // nothing is written over what it is made of; it may be from
+};
+
 /// Records a dab: place `to` becomes place `from` with what brush does to it. tables: [1] of sRGB codes. Cost: cells of
 /// the brush's box, whatever the size of tree and grid; nothing is read back. Where the region's room does not suffice,
 /// place `to` becomes a copy of `from` and EditState::failed tells.
-void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent, std::uint32_t from,
-               std::uint32_t to, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers);
+void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
+               const DabPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers);
 
 /// What compaction needs while it runs.
 struct CompactBuffers
@@ -72,10 +80,10 @@ struct CompactBuffers
     vk::BufferOf<gpu::uint> total;         // [1]
 };
 
-/// Records the passes that move what kept places are made of from site's region to another one, in which the other
+/// Records the passes that copy what kept places are made of from site's region to another one, in which the other
 /// places are undefined. kept: for each place whether it is. `to` has room for it, and does not overlap site's region.
-/// Cost: site's region.
-void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to, const std::vector<bool>& kept,
-                      CompactBuffers& buffers);
+/// states: [place_count] of the places there. Nothing of site changes. Cost: site's region.
+void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to,
+                      vk::BufferOf<gpu::EditState>& states, const std::vector<bool>& kept, CompactBuffers& buffers);
 
 } // namespace zvo

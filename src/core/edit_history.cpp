@@ -16,15 +16,12 @@ EditHistory::EditHistory(std::size_t steps_max)
     m_tops[0].nodes = m_tops.size(); // the places' roots
 }
 
-EditTop EditHistory::highest() const
+EditTop EditHistory::topAbove(std::uint32_t kept) const
 {
-    EditTop highest;
-    for (const std::uint32_t place : m_line)
-    {
-        highest.nodes = std::max(highest.nodes, m_tops[place].nodes);
-        highest.voxels = std::max(highest.voxels, m_tops[place].voxels);
-    }
-    return highest;
+    EditTop top = m_tops[place()];
+    top.nodes = std::max(top.nodes, m_tops[kept].nodes);
+    top.voxels = std::max(top.voxels, m_tops[kept].voxels);
+    return top;
 }
 
 void EditHistory::freePlaces(std::size_t first, std::size_t end)
@@ -34,9 +31,9 @@ void EditHistory::freePlaces(std::size_t first, std::size_t end)
     m_line.erase(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end));
 }
 
-std::uint32_t EditHistory::push(std::uint64_t node_bound, std::uint64_t voxel_bound)
+std::uint32_t EditHistory::push(std::uint64_t node_bound, std::uint64_t voxel_bound, std::uint32_t kept)
 {
-    const EditTop& from = m_tops[place()];
+    const EditTop from = topAbove(kept);
     const EditTop top = {from.nodes + node_bound, from.voxels + voxel_bound, from.voxel_count, false};
     dropRedo();
     const std::uint32_t to = m_free.front();

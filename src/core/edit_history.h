@@ -34,7 +34,8 @@ struct EditTop
 ///
 /// What a place is made of stands below its top, and reaches down into what earlier steps have. So tops grow along the
 /// line, and a dab may write above the top of the place that it begins at: what is there belongs to steps that the push
-/// drops. A place that is freed is used again kDabsPerFrameMax pushes later at the earliest.
+/// drops. Where these may come back, as the frame is not sure to reach the device, it goes above their tops. A place
+/// that is freed is used again kDabsPerFrameMax pushes later at the earliest.
 class EditHistory
 {
 public:
@@ -47,13 +48,17 @@ public:
     [[nodiscard]] std::uint32_t place() const { return m_line[m_current]; }
     [[nodiscard]] const EditTop& top(std::uint32_t place) const { return m_tops[place]; }
 
-    /// The highest of both tops of the steps' places.
-    [[nodiscard]] EditTop highest() const;
+    /// Where a dab begins that takes no room of what is shown, nor of another place, whether a step has that or not.
+    [[nodiscard]] EditTop topAbove(std::uint32_t kept) const;
 
-    /// A dab that takes at most so many nodes and voxels: returns its place. It begins a step, or goes on with the
-    /// stroke that is under way, whose place it replaces. Steps to redo are dropped, and the oldest one if there are
-    /// too many.
-    std::uint32_t push(std::uint64_t node_bound, std::uint64_t voxel_bound);
+    /// A dab that begins at topAbove(kept) and takes at most so many nodes and voxels: returns its place. It begins a
+    /// step, or goes on with the stroke that is under way, whose place it replaces. Steps to redo are dropped, and the
+    /// oldest one if there are too many.
+    std::uint32_t push(std::uint64_t node_bound, std::uint64_t voxel_bound, std::uint32_t kept);
+    std::uint32_t push(std::uint64_t node_bound, std::uint64_t voxel_bound)
+    {
+        return push(node_bound, voxel_bound, place());
+    }
 
     /// The next dab begins a step.
     void endStroke() { m_is_stroke = false; }

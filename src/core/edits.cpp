@@ -36,14 +36,14 @@ Edits::Edits(vk::HeadlessDevice& device, OverlayOctree& overlays, RootHistory& r
              std::uint32_t frames_in_flight)
     : m_device(device), m_overlays(overlays), m_regions(regions),
       m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.steps_max)},
-      m_report_frames(std::uint64_t{frames_in_flight} + 1)
+      m_slot_count(std::uint64_t{frames_in_flight} + 1)
 {
     m_now.changes.resize(m_now.history.placeCount());
 }
 
 EditSite Edits::site()
 {
-    return {m_overlays.tree(), *m_now.region, m_states, m_overlays.emissionOffset()};
+    return {m_overlays.tree(), *m_now.region, *m_now.states, m_overlays.emissionOffset()};
 }
 
 std::uint32_t Edits::root() const
@@ -76,15 +76,30 @@ bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gp
     ++m_dab_count;
     saveFrame();
     Saved before = save();
+    const bool has_written = std::exchange(m_has_written, false);
     try
     {
-        return tryDab(graph, brush, *extent, tables, retired);
+        const bool is_done = tryDab(graph, brush, *extent, tables, retired);
+        m_has_written = m_has_written || has_written;
+        return is_done;
     }
     catch (...)
     {
         restore(std::move(before));
+        if (m_has_written) // a part of the dab was recorded, where steps to redo may have theirs
+        {
+            m_now.history.dropRedo();
+        }
+        m_has_written = m_has_written || has_written;
         throw;
     }
+}
+
+// What was shown when the frame began: the frame may be lost, whatever of it the device has run.
+std::uint32_t Edits::keptPlace() const
+{
+    const bool is_kept = m_before && m_before->state.region == m_now.region; // otherwise it stands elsewhere
+    return (is_kept ? m_before->state : m_now).history.place();
 }
 
 bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& extent,
@@ -96,7 +111,7 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         begin(graph, extent, retired);
     }
     const bool attributes = m_overlays.hasAttributes();
-    const EditTop& top = m_now.history.top(m_now.history.place());
+    const EditTop top = m_now.history.topAbove(keptPlace());
     const EditTop needed = {top.nodes + extent.node_bound, attributes ? top.voxels + extent.voxel_bound : 0};
     if ((needed.nodes > m_now.region->node_capacity || needed.voxels > m_now.region->voxel_capacity) &&
         !makeRoom(graph, needed, retired))
@@ -112,13 +127,13 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         }
         m_buffers = std::move(larger);
     }
-    const std::uint32_t from = m_now.history.place();
-    const std::uint32_t to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0);
+    DabPlaces places = {.from = m_now.history.place(), .kept = keptPlace()};
+    places.to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0, places.kept);
     m_now.is_compact = false;
     m_has_written = true;
     EditSite where = site();
-    recordDab(graph, where, brush, extent, from, to, tables, *m_buffers);
-    report(graph, to, 1);
+    recordDab(graph, where, brush, extent, places, tables, *m_buffers);
+    report(graph, places.to, 1);
     return true;
 }
 
@@ -134,18 +149,22 @@ OverlayRegion Edits::allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, 
     return arena.allocate(nodes, voxels).value();
 }
 
+// For frames in flight, they outlive those who have them.
+std::shared_ptr<vk::BufferOf<gpu::EditState>> Edits::makeStates(vk::Retired& retired)
+{
+    return retired.keep(
+        std::make_shared<vk::BufferOf<gpu::EditState>>(m_device.device(), "edit/states", m_now.history.placeCount()));
+}
+
 // Makes the first region, in which nothing is edited.
 void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& retired)
 {
     vk::Device& d = m_device.device();
     const std::uint32_t places = m_now.history.placeCount();
-    if (m_states.count() == 0)
-    {
-        m_states = {d, "edit/states", places};
-    }
+    m_now.states = makeStates(retired);
     if (m_reports.count() == 0)
     {
-        m_reports = {d, "edit/reports", m_report_frames * places, vk::MemoryKind::Readback};
+        m_reports = {d, "edit/reports", m_slot_count * places, vk::MemoryKind::Readback};
     }
     const std::uint64_t voxels = m_overlays.hasAttributes() ? kDabsAtFirst * extent.voxel_bound : 0;
     m_now.region = allocateRegion(graph, places + kDabsAtFirst * extent.node_bound, voxels, retired);
@@ -197,8 +216,10 @@ void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired&
     const OverlayRegion to = allocateRegion(graph, capacity.nodes, capacity.voxels, retired);
     m_left.push_back(to); // given back should something throw
     EditSite where = site();
-    recordCompaction(graph, where, to, m_now.history.used(), buffers);
+    std::shared_ptr<vk::BufferOf<gpu::EditState>> states = makeStates(retired);
+    recordCompaction(graph, where, to, *states, m_now.history.used(), buffers);
     m_left.back() = std::exchange(*m_now.region, to);
+    retired.keep(std::exchange(m_now.states, std::move(states)));
     m_now.history.forgetTops();
     m_now.is_compact = true;
     report(graph, 0, m_now.history.placeCount());
@@ -208,20 +229,22 @@ void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired&
 void Edits::report(vk::FrameGraph& graph, std::uint32_t first_place, std::uint32_t place_count)
 {
     constexpr std::uint64_t kBytes = sizeof(gpu::EditState);
-    const std::uint64_t ring = m_frame % m_report_frames * m_now.history.placeCount();
-    graph.copy(m_states, first_place * kBytes, m_reports, (ring + first_place) * kBytes, place_count * kBytes);
+    const bool has_slot = !m_pending.empty() && m_pending.back().frame == m_frame;
+    m_slot = has_slot ? m_slot : (m_slot + 1) % m_slot_count;
+    const std::uint64_t first = m_slot * m_now.history.placeCount() + first_place;
+    graph.copy(*m_now.states, first_place * kBytes, m_reports, first * kBytes, place_count * kBytes);
     graph.releaseToHost();
     ++m_change_count;
     std::fill_n(m_now.changes.begin() + first_place, place_count, m_change_count);
-    m_pending.push_back({m_frame, first_place, place_count, *m_now.region, m_change_count});
+    m_pending.push_back({m_frame, m_slot, first_place, place_count, *m_now.region, m_change_count});
 }
 
 void Edits::learn(const Report& report, State& state) const
 {
-    const std::uint64_t ring = report.frame % m_report_frames * m_now.history.placeCount();
+    const std::uint64_t slot = report.slot * m_now.history.placeCount();
     for (std::uint32_t place = report.first_place; place < report.first_place + report.place_count; ++place)
     {
-        const gpu::EditState& told = m_reports.mappedData()[ring + place];
+        const gpu::EditState& told = m_reports.mappedData()[slot + place];
         if (state.changes[place] == report.change)
         {
             state.history.learn(place, {told.node_top - report.region.first_node,
@@ -307,6 +330,10 @@ void Edits::frameDone(std::uint64_t frame)
 
 void Edits::frameLost()
 {
+    if (!m_pending.empty() && m_pending.back().frame == m_frame)
+    {
+        m_slot = (m_slot + m_slot_count - 1) % m_slot_count; // frames in flight have the others
+    }
     while (!m_pending.empty() && m_pending.back().frame == m_frame)
     {
         m_pending.pop_back();

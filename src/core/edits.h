@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,7 +32,8 @@ public:
     /// Records a dab of the stroke that is under way, or of a new one. False, and no dab, while its room is not known:
     /// to be tried again in a later frame. The root that is shown may have moved in both cases. Throws Error{Usage} for
     /// a radius above kBrushRadiusMax and more than kDabsPerFrameMax dabs in a frame, Error{Memory} when the device's
-    /// budget does not suffice.
+    /// budget does not suffice, and what making a kernel throws: then there is no dab, whatever the frame does. Steps
+    /// to redo may be gone.
     bool dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables,
              vk::Retired& retired);
 
@@ -56,7 +58,7 @@ public:
 
     /// See DynamicOctree: the last frame reaches the device, and the next one begins; the device is done with one and
     /// all before it; the last one does not reach the device, or not all of it: then a stroke under way ends, and steps
-    /// to redo may be gone.
+    /// to redo may be gone. What was shown before it is as it was, even if the device has run the frame.
     void frameSubmitted();
     void beginFrame(std::uint64_t frame);
     void frameDone(std::uint64_t frame);
@@ -67,6 +69,7 @@ private:
     {
         EditHistory history;
         std::optional<OverlayRegion> region = std::nullopt;
+        std::shared_ptr<vk::BufferOf<gpu::EditState>> states = {}; // [places] in region
         bool is_compact = false;                 // nothing was forgotten since everything moved together
         std::vector<std::uint64_t> changes = {}; // of places: number of the last one
     };
@@ -80,6 +83,7 @@ private:
     struct Report
     {
         std::uint64_t frame;
+        std::uint64_t slot; // of m_reports
         std::uint32_t first_place;
         std::uint32_t place_count;
         OverlayRegion region;
@@ -87,6 +91,7 @@ private:
     };
 
     [[nodiscard]] EditSite site();
+    [[nodiscard]] std::uint32_t keptPlace() const;
     [[nodiscard]] Saved save() const { return {m_now, m_left.size()}; }
     void saveFrame();
     void restore(Saved saved);
@@ -94,6 +99,7 @@ private:
                 const vk::BufferOf<gpu::SceneView>& tables, vk::Retired& retired);
     OverlayRegion allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels,
                                  vk::Retired& retired);
+    [[nodiscard]] std::shared_ptr<vk::BufferOf<gpu::EditState>> makeStates(vk::Retired& retired);
     void begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& retired);
     bool makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& retired);
     void compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired& retired);
@@ -108,9 +114,9 @@ private:
     std::optional<Saved> m_before;          // of the last frame, if it has changed since that began
     bool m_has_written = false;             // the last frame, above the top of what was shown
     std::vector<OverlayRegion> m_left;      // in the last frame
-    vk::BufferOf<gpu::EditState> m_states;  // [places]
-    vk::BufferOf<gpu::EditState> m_reports; // host-visible: copies, for each frame in flight
-    std::uint64_t m_report_frames;          // of m_reports
+    vk::BufferOf<gpu::EditState> m_reports; // [slots][places] host-visible: of frames in flight that have any
+    std::uint64_t m_slot_count;
+    std::uint64_t m_slot = 0; // of the last frame that has any
     std::optional<DabBuffers> m_buffers;
     std::deque<Report> m_pending;
     std::uint64_t m_change_count = 0;

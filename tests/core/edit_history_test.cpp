@@ -59,6 +59,23 @@ TEST(EditHistory, ADabAfterUndoDropsWhatCouldBeRedone)
     EXPECT_EQ(history.top(history.place()).nodes, nodes + 5) << "takes the room of what was undone";
 }
 
+// As long as the frame in which it was undone may be lost.
+TEST(EditHistory, ADabAfterUndoLeavesRoomToWhatIsKept)
+{
+    EditHistory history(8);
+    history.push(10, 1);
+    history.endStroke();
+    const std::uint32_t shown = history.push(2, 20);
+    const EditTop top = history.top(shown);
+    history.undo();
+    EXPECT_EQ(history.topAbove(shown).nodes, top.nodes);
+    const std::uint32_t place = history.push(5, 6, shown);
+    EXPECT_EQ(history.top(place).nodes, top.nodes + 5);
+    EXPECT_EQ(history.top(place).voxels, top.voxels + 6);
+    history.undo();
+    EXPECT_EQ(history.topAbove(history.place()).nodes, history.top(history.place()).nodes);
+}
+
 TEST(EditHistory, TheOldestStepFallsOff)
 {
     EditHistory history(2);
@@ -119,7 +136,7 @@ TEST(EditHistory, KnowsWhetherTheDeviceHasToldAllTops)
     EXPECT_FALSE(history.isExact());
     history.learn(place, {history.placeCount() + 3ULL, 4, 5, true});
     EXPECT_TRUE(history.isExact());
-    EXPECT_EQ(history.highest().voxels, 4U);
+    EXPECT_EQ(history.top(place).voxels, 4U);
     history.forgetTops();
     EXPECT_FALSE(history.isExact());
 }
