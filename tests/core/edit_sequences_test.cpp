@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace zvo
@@ -17,6 +19,8 @@ namespace
 
 using test::DynamicSetting;
 using test::EditCommand;
+using test::MoverScenery;
+using test::Place;
 
 vk::HeadlessDevice& device()
 {
@@ -42,7 +46,7 @@ rc::Gen<Brush> anyBrush(const Grid& grid)
         rc::gen::set(&Brush::color, anyBetween<std::uint32_t>(0, 1U << 24)));
 }
 
-rc::Gen<EditCommand> anyCommand(const Grid& grid)
+rc::Gen<EditCommand> anyStroke(const Grid& grid)
 {
     using Action = EditCommand::Action;
     return rc::gen::build<EditCommand>(
@@ -52,8 +56,39 @@ rc::Gen<EditCommand> anyCommand(const Grid& grid)
                                                                              {3, Action::Redo},
                                                                              {3, Action::Submit},
                                                                              {1, Action::Lose},
+                                                                             {1, Action::LoseRun},
                                                                              {1, Action::Compare}})),
         rc::gen::set(&EditCommand::brush, anyBrush(grid)));
+}
+
+rc::Gen<EditCommand> anyMove()
+{
+    using Action = EditCommand::Action;
+    using Kind = Place::Kind;
+    const rc::Gen<Place> place =
+        rc::gen::build<Place>(rc::gen::set(&Place::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
+                                                                                         {1, Kind::Outside},
+                                                                                         {1, Kind::Flat},
+                                                                                         {3, Kind::Mirrored},
+                                                                                         {3, Kind::Turned},
+                                                                                         {1, Kind::Nan}})),
+                              rc::gen::set(&Place::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
+    return rc::gen::build<EditCommand>(
+        rc::gen::set(
+            &EditCommand::action,
+            rc::gen::weightedElement<Action>(
+                {{3, Action::Add}, {3, Action::Place}, {1, Action::Remove}, {4, Action::Update}, {6, Action::Slice}})),
+        rc::gen::set(&EditCommand::mover, anyBetween<std::uint32_t>(0, test::EditMachine::kMoversMax)),
+        rc::gen::set(&EditCommand::item,
+                     rc::gen::build<test::Item>(
+                         rc::gen::set(&test::Item::mesh, anyBetween<std::uint32_t>(0, MoverScenery::kMeshCount)),
+                         rc::gen::set(&test::Item::place, place),
+                         rc::gen::set(&test::Item::bend, anyBetween<std::uint32_t>(0, 4)))));
+}
+
+rc::Gen<EditCommand> anyCommand(const Grid& grid, bool movers)
+{
+    return movers ? rc::gen::weightedOneOf<EditCommand>({{2, anyStroke(grid)}, {1, anyMove()}}) : anyStroke(grid);
 }
 
 DynamicSetting anySetting()
@@ -64,33 +99,48 @@ DynamicSetting anySetting()
     setting.emits = setting.attributes && *rc::gen::arbitrary<bool>();
     setting.has_static = *rc::gen::weightedElement<bool>({{5, true}, {1, false}});
     setting.compressed = setting.has_static && *rc::gen::arbitrary<bool>();
+    setting.coverage = *rc::gen::element(Coverage::Thin, Coverage::Conservative);
+    setting.merge =
+        *rc::gen::element(MergeRule::Average, MergeRule::Average, MergeRule::DynamicWins, MergeRule::StaticWins);
+    setting.minimal_capacities = *rc::gen::arbitrary<bool>();
     setting.frames_in_flight = *anyBetween<std::uint32_t>(1, 4);
     return setting;
 }
 
 // With little room everything moves again and again, and steps are dropped.
-TEST(EditSequences, ShowWhatAModelHas)
+void play(bool movers, int cases)
 {
-    test::MoverScenery dark(device(), false);
-    test::MoverScenery bright(device(), true);
-    constexpr int kCases = 200;
+    MoverScenery dark(device(), false);
+    MoverScenery bright(device(), true);
     int compared = 0;
     test::checkProperty(
-        kCases,
+        cases,
         [&]
         {
             const DynamicSetting setting = anySetting();
             const EditBounds bounds = {*anyBetween<std::size_t>(1, 6),
                                        *rc::gen::element<std::uint64_t>(0, 100'000, 400'000, 2'000'000, UINT64_MAX)};
+            const auto commands = *rc::gen::container<std::vector<EditCommand>>(anyCommand(setting.grid(), movers));
             test::EditMachine machine(device(), setting, bounds, setting.emits ? bright : dark);
-            for (const EditCommand& command : *rc::gen::container<std::vector<EditCommand>>(anyCommand(setting.grid())))
+            for (const EditCommand& command : commands)
             {
                 machine.run(command);
             }
             machine.finish();
             ++compared;
         });
-    EXPECT_GE(compared, kCases);
+    EXPECT_GE(compared, cases);
+}
+
+TEST(EditSequences, ShowWhatAModelHas)
+{
+    play(false, 200);
+}
+
+// Wherever movers are, and however much of an update is recorded when a brush comes.
+TEST(EditSequences, WithMoversShowWhatAModelHas)
+{
+    play(true, 150);
 }
 
 } // namespace

@@ -60,7 +60,7 @@ TEST(Edit, SpheresAndBoxesHaveTheVoxelsTheyAreDefinedBy)
         {
             EditMachine machine(device(), {.depth = 6, .has_static = false}, {}, scenery());
             machine.run(dab(BrushAction::Fill, {30, 31, 33}, radius, shape));
-            machine.run({EditCommand::Action::Compare, {}});
+            machine.run({EditCommand::Action::Compare});
             const std::uint64_t edge = std::min<std::uint64_t>(2 * radius + 1, 64);
             if (shape == BrushShape::Box)
             {
@@ -81,11 +81,11 @@ TEST(Edit, EverythingCanBeCarvedAwayAndFilledAgain)
     {
         EditMachine machine(device(), {.depth = 6, .compressed = compressed}, {}, scenery());
         machine.run(dab(BrushAction::Carve, {32, 32, 32}, gpu::kBrushRadiusMax, BrushShape::Box));
-        machine.run({EditCommand::Action::EndStroke, {}});
-        machine.run({EditCommand::Action::Compare, {}});
+        machine.run({EditCommand::Action::EndStroke});
+        machine.run({EditCommand::Action::Compare});
         EXPECT_EQ(machine.octree().edits().voxelCount(), 0U);
         machine.run(dab(BrushAction::Fill, {32, 32, 32}, 5));
-        machine.run({EditCommand::Action::Compare, {}});
+        machine.run({EditCommand::Action::Compare});
         machine.finish();
     }
 }
@@ -118,14 +118,14 @@ TEST(Edit, ManyStrokesAndAsManyUndosLeaveTheSameBytes)
         {
             const gpu::ivec3 center(i * 7 % 64, i * 11 % 64, i * 13 % 64);
             machine.run(dab(static_cast<BrushAction>(i % 3), center, 3 + i % 5));
-            machine.run({EditCommand::Action::EndStroke, {}});
+            machine.run({EditCommand::Action::EndStroke});
         }
-        machine.run({EditCommand::Action::Compare, {}});
+        machine.run({EditCommand::Action::Compare});
         for (int i = 0; i < kStrokes; ++i)
         {
-            machine.run({EditCommand::Action::Undo, {}});
+            machine.run({EditCommand::Action::Undo});
         }
-        machine.run({EditCommand::Action::Compare, {}});
+        machine.run({EditCommand::Action::Compare});
         EXPECT_EQ(nodes(), before);
         EXPECT_EQ(machine.octree().edits().redoCount(), static_cast<std::size_t>(kStrokes));
     }

@@ -5,7 +5,10 @@
 
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -16,8 +19,16 @@ namespace
 {
 
 constexpr int kAttemptsMax = 64;
-constexpr std::array kActionNames = {"dab", "end of stroke", "undo", "redo", "submit", "lose", "compare"};
+constexpr std::ptrdiff_t kUpdatesPerFrame = 4; // that DynamicOctree takes
+constexpr double kTinyBudgetMs = 1e-6;
+constexpr std::array kActionNames = {"dab",    "end of stroke", "undo",   "redo", "add",           "place",  "remove",
+                                     "update", "slice",         "submit", "lose", "lose what ran", "compare"};
 constexpr std::array kBrushNames = {"carve", "fill", "paint"};
+
+bool isUpdate(const EditCommand& command)
+{
+    return command.action == EditCommand::Action::Update || command.action == EditCommand::Action::Slice;
+}
 
 } // namespace
 
@@ -31,12 +42,24 @@ std::ostream& operator<<(std::ostream& out, const EditCommand& command)
             << (brush.shape == BrushShape::Box ? " box " : " sphere ") << brush.radius << " at " << brush.center.x
             << ' ' << brush.center.y << ' ' << brush.center.z;
     }
+    if (command.action == EditCommand::Action::Add)
+    {
+        out << " mesh " << command.item.mesh;
+    }
+    if (command.action == EditCommand::Action::Place || command.action == EditCommand::Action::Remove)
+    {
+        out << " mover " << command.mover;
+    }
+    if (command.action == EditCommand::Action::Add || command.action == EditCommand::Action::Place)
+    {
+        out << ' ' << command.item.place << " bend " << command.item.bend;
+    }
     return out;
 }
 
 EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
                          MoverScenery& scenery)
-    : m_device(device), m_setting(setting), m_steps_max(bounds.steps_max)
+    : m_device(device), m_setting(setting), m_scenery(scenery), m_steps_max(bounds.steps_max)
 {
     DynamicOptions options = setting.options(scenery.emissionScale());
     options.edits = bounds;
@@ -46,21 +69,41 @@ EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setti
 
 void EditMachine::run(const EditCommand& command)
 {
+    using Action = EditCommand::Action;
     switch (command.action)
     {
-    case EditCommand::Action::Submit:
-    case EditCommand::Action::Lose:
-        submit(command.action == EditCommand::Action::Lose);
+    case Action::Submit:
+        submit();
         break;
-    case EditCommand::Action::Compare:
+    case Action::Lose:
+        submit(Fate::Lose);
+        break;
+    case Action::LoseRun:
+        submit(Fate::LoseRun);
+        break;
+    case Action::Add:
+        add(command.item);
+        break;
+    case Action::Compare:
         compare();
         break;
     default:
         m_commands.push_back(command);
-        if (m_commands.size() == kDabsPerFrameMax)
+        if (m_commands.size() == kDabsPerFrameMax || std::ranges::count_if(m_commands, isUpdate) == kUpdatesPerFrame)
         {
-            submit(false);
+            submit();
         }
+    }
+}
+
+void EditMachine::add(const Item& item)
+{
+    submit();
+    if (m_wanted.size() < kMoversMax)
+    {
+        const Item added = {item.mesh, item.place, item.mesh < MoverScenery::kRigidCount ? 0 : item.bend};
+        const std::shared_ptr<const MoverMesh> mesh = m_scenery.mover(added.mesh, m_setting.attributes);
+        m_wanted[m_octree->add(mesh, m_scenery.poseOf(added))] = added;
     }
 }
 
@@ -72,8 +115,10 @@ bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
     dropForgotten();
     if (!is_done || m_octree->edits().changeCount() == before) // nothing of the grid is under the brush
     {
+        m_shown = m_octree->edits().changeCount() == before ? m_shown : Movers{};
         return is_done;
     }
+    m_shown = Movers{};
     EditModel edited = m_line[m_at];
     edited.apply(brush);
     m_line.resize(m_at + 1, edited);
@@ -113,30 +158,81 @@ void EditMachine::record(vk::FrameGraph& graph)
 {
     for (; !m_commands.empty(); m_commands.pop_front())
     {
-        const EditCommand& command = m_commands.front();
-        switch (command.action)
+        if (!recordOne(graph, m_commands.front()))
         {
-        case EditCommand::Action::Dab:
-            if (!dab(graph, command.brush))
-            {
-                return; // in a later frame
-            }
-            break;
-        case EditCommand::Action::EndStroke:
-            m_octree->endStroke();
-            m_is_stroke = false;
-            break;
-        default:
-            const bool undo = command.action == EditCommand::Action::Undo;
-            const bool moves = undo ? m_at != 0 : m_at + 1 != m_line.size();
-            RC_ASSERT((undo ? m_octree->undoEdit(graph) : m_octree->redoEdit(graph)) == moves);
-            m_at += moves ? (undo ? -1 : 1) : 0;
-            m_is_stroke = false;
+            return; // the rest in a later frame
         }
     }
 }
 
-void EditMachine::submit(bool loses)
+// False where it has to be tried again.
+bool EditMachine::recordOne(vk::FrameGraph& graph, const EditCommand& command)
+{
+    using Action = EditCommand::Action;
+    switch (command.action)
+    {
+    case Action::Dab:
+        return dab(graph, command.brush);
+    case Action::EndStroke:
+        m_octree->endStroke();
+        m_is_stroke = false;
+        break;
+    case Action::Undo:
+    case Action::Redo:
+    {
+        const bool undo = command.action == Action::Undo;
+        const bool moves = undo ? m_at != 0 : m_at + 1 != m_line.size();
+        RC_ASSERT((undo ? m_octree->undoEdit(graph) : m_octree->redoEdit(graph)) == moves);
+        m_at += moves ? (undo ? -1 : 1) : 0;
+        m_shown = moves ? Movers{} : m_shown;
+        m_is_stroke = false;
+        break;
+    }
+    case Action::Update:
+        update(graph, 0);
+        break;
+    case Action::Slice:
+        update(graph, kTinyBudgetMs);
+        break;
+    default:
+        move(command);
+    }
+    return true;
+}
+
+void EditMachine::move(const EditCommand& command)
+{
+    if (m_wanted.empty())
+    {
+        return;
+    }
+    const auto mover = std::next(m_wanted.begin(), command.mover % std::ssize(m_wanted));
+    if (command.action == EditCommand::Action::Place)
+    {
+        Item& item = mover->second;
+        item.place = command.item.place;
+        item.bend = item.mesh < MoverScenery::kRigidCount ? 0 : command.item.bend;
+        m_octree->place(mover->first, m_scenery.poseOf(item));
+    }
+    else
+    {
+        m_octree->remove(mover->first);
+        m_wanted.erase(mover);
+    }
+}
+
+void EditMachine::update(vk::FrameGraph& graph, double budget_ms)
+{
+    if (!m_octree->isUpdating())
+    {
+        m_under_way = m_wanted;
+    }
+    const bool is_complete = m_octree->update(graph, budget_ms);
+    RC_ASSERT(is_complete == !m_octree->isUpdating());
+    m_shown = is_complete ? m_under_way : m_shown;
+}
+
+void EditMachine::submit(Fate fate)
 {
     if (m_commands.empty())
     {
@@ -145,29 +241,39 @@ void EditMachine::submit(bool loses)
     wait(m_setting.frames_in_flight - 1);
     const std::uint64_t frame = m_octree->beginFrame();
     const Line before = {m_line, m_at};
+    if (fate == Fate::Submit)
+    {
+        m_flights.emplace_back(frame, m_device.submit(
+                                          [&](vk::FrameGraph& graph)
+                                          {
+                                              record(graph);
+                                              graph.releaseToHost();
+                                          }));
+        return;
+    }
     try
     {
-        vk::Submission submission = m_device.submit(
+        m_device.run(
             [&](vk::FrameGraph& graph)
             {
                 record(graph);
-                if (loses)
+                if (fate == Fate::Lose)
                 {
                     throw Error(ErrorCode::Other, "the frame is lost");
                 }
             });
-        m_flights.emplace_back(frame, std::move(submission));
     }
     catch (const Error&)
     {
-        ++m_failure_count;
-        m_commands.clear();
-        m_octree->frameLost();
-        m_line = before.line;
-        m_at = before.at;
-        m_is_stroke = false;
-        dropForgotten();
+        RC_ASSERT(fate == Fate::Lose);
     }
+    m_commands.clear();
+    m_octree->frameLost();
+    m_line = before.line;
+    m_at = before.at;
+    m_is_stroke = false;
+    m_shown.reset();
+    dropForgotten();
 }
 
 void EditMachine::wait(std::size_t flights_left)
@@ -175,7 +281,13 @@ void EditMachine::wait(std::size_t flights_left)
     for (; m_flights.size() > flights_left; m_flights.pop_front())
     {
         m_flights.front().second.wait();
-        m_octree->frameDone(m_flights.front().first);
+        for (const UpdateReport& report : m_octree->frameDone(m_flights.front().first))
+        {
+            if (report.failed != 0)
+            {
+                m_shown.reset();
+            }
+        }
     }
 }
 
@@ -183,21 +295,52 @@ void EditMachine::compare()
 {
     for (int attempt = 0; attempt < kAttemptsMax && !m_commands.empty(); ++attempt)
     {
-        submit(false);
+        submit();
         wait(0);
     }
     RC_ASSERT(m_commands.empty());
     wait(0);
-    if (m_octree->needsUpdate()) // after a frame that was lost
-    {
-        const std::uint64_t frame = m_octree->beginFrame();
-        m_device.run([&](vk::FrameGraph& graph) { m_octree->update(graph); });
-        m_octree->frameDone(frame);
-    }
     RC_ASSERT(m_octree->edits().undoCount() == m_at);
     RC_ASSERT(m_octree->edits().redoCount() == m_line.size() - 1 - m_at);
     RC_ASSERT(m_octree->edits().voxelCount() == model().voxelCount());
-    const std::string what = difference(cellsOf(m_device, m_octree->tree()), model().cells());
+    if (m_shown)
+    {
+        compareShown();
+    }
+    if (m_octree->needsUpdate() || m_shown != m_wanted)
+    {
+        settle();
+        compareShown();
+    }
+}
+
+// Updates until movers are where they were put.
+void EditMachine::settle()
+{
+    for (int attempt = 0; attempt < kAttemptsMax; ++attempt)
+    {
+        m_commands.push_back({EditCommand::Action::Update});
+        submit();
+        wait(0);
+        if (m_shown == m_wanted && !m_octree->needsUpdate())
+        {
+            return;
+        }
+    }
+    RC_FAIL("no update succeeded");
+}
+
+void EditMachine::compareShown()
+{
+    std::multiset<Item> items;
+    for (const auto& [id, item] : *m_shown)
+    {
+        items.insert(item);
+    }
+    const auto rebuilt = [&](bool with_static) { return m_scenery.rebuilt(m_setting, with_static, items)->cells; };
+    const std::vector<Cell> expected =
+        items.empty() ? model().cells() : model().merged(m_setting.merge, rebuilt(false), rebuilt(true)).cells();
+    const std::string what = difference(cellsOf(m_device, m_octree->tree()), expected);
     if (!what.empty())
     {
         RC_FAIL(what);
@@ -212,7 +355,7 @@ void EditMachine::finish()
         const bool undo = action == EditCommand::Action::Undo;
         while (undo ? m_at != 0 : m_at + 1 != m_line.size())
         {
-            m_commands.push_back({action, {}});
+            m_commands.push_back({action});
             compare();
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strokes of a brush on a DynamicOctree, and a model of what they have to leave.
+// Strokes of a brush on a DynamicOctree, with movers above, and a model of what they have to leave.
 #pragma once
 
 #include "support/edit_model.h"
@@ -7,10 +7,11 @@
 
 #include <cstdint>
 #include <deque>
-#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <utility>
 #include <vector>
 
 namespace zvo::test
@@ -24,21 +25,32 @@ struct EditCommand
         EndStroke,
         Undo,
         Redo,
-        Submit, // what was recorded so far, without waiting
-        Lose,   // the same, but it fails when all is recorded
-        Compare // waits for all frames
+        Add,
+        Place,
+        Remove,
+        Update,
+        Slice,   // an update under a budget that is far too small
+        Submit,  // what was recorded so far, without waiting
+        Lose,    // the same, but it fails when all is recorded
+        LoseRun, // the same, and the device has run it
+        Compare  // waits for all frames, and updates until movers are where they were put
     };
 
     Action action = Action::Compare;
-    Brush brush;
+    Brush brush = {};        // Dab
+    std::uint32_t mover = 0; // Place, Remove: which of those that are there
+    Item item = {};          // Add; Place: only the place and the bend
 };
 
 std::ostream& operator<<(std::ostream& out, const EditCommand& command);
 
-/// Runs commands, and compares what is shown with a model that edits voxel by voxel. Properties fail where they differ.
+/// Runs commands, and compares what is shown with a model that edits voxel by voxel, in which a voxel that a mover has
+/// looks like the mover, or as rebuilding the unedited scene makes it. Properties fail where they differ.
 class EditMachine
 {
 public:
+    static constexpr std::size_t kMoversMax = 3; // more are not added
+
     /// scenery: of the setting. Both must outlive the machine.
     EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
                 MoverScenery& scenery);
@@ -50,7 +62,6 @@ public:
 
     [[nodiscard]] DynamicOctree& octree() { return *m_octree; }
     [[nodiscard]] const EditModel& model() const { return m_line[m_at]; }
-    [[nodiscard]] std::uint32_t failureCount() const { return m_failure_count; }
 
 private:
     // What frameLost() brings back.
@@ -59,24 +70,41 @@ private:
         std::vector<EditModel> line;
         std::size_t at;
     };
+    using Movers = std::map<MoverId, Item>;
 
+    enum class Fate
+    {
+        Submit,
+        Lose,
+        LoseRun
+    };
+
+    void add(const Item& item);
     bool dab(vk::FrameGraph& graph, const Brush& brush);
     void record(vk::FrameGraph& graph);
-    void submit(bool loses);
+    [[nodiscard]] bool recordOne(vk::FrameGraph& graph, const EditCommand& command);
+    void move(const EditCommand& command);
+    void update(vk::FrameGraph& graph, double budget_ms);
+    void submit(Fate fate = Fate::Submit);
     void wait(std::size_t flights_left);
     void compare();
+    void compareShown();
+    void settle();
     void dropForgotten();
 
     vk::HeadlessDevice& m_device;
     DynamicSetting m_setting;
+    MoverScenery& m_scenery;
     std::size_t m_steps_max;
     std::unique_ptr<DynamicOctree> m_octree;
     std::vector<EditModel> m_line;
     std::size_t m_at = 0;
     bool m_is_stroke = false;
-    std::deque<EditCommand> m_commands; // of the frame that is submitted next
+    Movers m_wanted;                          // where movers were put
+    Movers m_under_way;                       // what the update under way is going to show
+    std::optional<Movers> m_shown = Movers(); // by the last frame; nothing where an update failed, or a frame was lost
+    std::deque<EditCommand> m_commands;       // of the frame that is submitted next
     std::deque<std::pair<std::uint64_t, vk::Submission>> m_flights;
-    std::uint32_t m_failure_count = 0;
 };
 
 } // namespace zvo::test

@@ -120,9 +120,10 @@ void EditModel::apply(const Brush& brush)
                 }
                 const std::uint64_t code = oracle::mortonEncode(glm::uvec3(voxel));
                 const auto found = m_voxels.find(code);
+                bool is_changed = false;
                 if (brush.action == BrushAction::Carve)
                 {
-                    m_voxels.erase(code);
+                    is_changed = m_voxels.erase(code) != 0;
                 }
                 else if (brush.action == BrushAction::Fill && found == m_voxels.end())
                 {
@@ -132,15 +133,37 @@ void EditModel::apply(const Brush& brush)
                         made.attribute = {brush.color, normalCode(outwards(brush, away))};
                     }
                     m_voxels[code] = made;
+                    is_changed = true;
                 }
                 else if (brush.action == BrushAction::Paint && found != m_voxels.end() && m_attributes)
                 {
                     found->second.attribute.color = brush.color;
                     found->second.emission = 0;
+                    is_changed = true;
+                }
+                if (is_changed)
+                {
+                    m_changed.insert(code >> 6);
                 }
             }
         }
     }
+}
+
+EditModel EditModel::merged(MergeRule rule, const std::vector<Cell>& moving, const std::vector<Cell>& all) const
+{
+    const EditModel movers(m_grid, moving, m_attributes);
+    const EditModel unedited(m_grid, all, m_attributes);
+    EditModel merged = *this;
+    for (const auto& [code, voxel] : movers.m_voxels)
+    {
+        const bool is_mean = rule == MergeRule::Average && !m_changed.contains(code >> 6);
+        if (rule != MergeRule::StaticWins || !has(code))
+        {
+            merged.m_voxels[code] = is_mean ? unedited.m_voxels.at(code) : voxel;
+        }
+    }
+    return merged;
 }
 
 std::vector<Cell> EditModel::cells() const

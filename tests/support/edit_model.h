@@ -4,10 +4,12 @@
 
 #include "core/brush.h"
 #include "core/grid.h"
+#include "core/merge_rule.h"
 #include "support/octree_contents.h"
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace zvo::test
@@ -22,7 +24,12 @@ public:
 
     void apply(const Brush& brush);
 
+    /// With movers. moving: the cells of what moves alone; all: of that and the tree from before all brushes. A voxel
+    /// of both is the mean, for MergeRule::Average, only in leaves that no brush has changed.
+    [[nodiscard]] EditModel merged(MergeRule rule, const std::vector<Cell>& moving, const std::vector<Cell>& all) const;
+
     [[nodiscard]] std::size_t voxelCount() const { return m_voxels.size(); }
+    [[nodiscard]] const std::map<std::uint64_t, Cell>& voxels() const { return m_voxels; } // by code
     [[nodiscard]] bool has(std::uint64_t code) const { return m_voxels.contains(code); }
 
     /// As cellsOf() lists them: voxels, and all nodes above with the mean of their children.
@@ -32,6 +39,7 @@ private:
     Grid m_grid;
     bool m_attributes;
     std::map<std::uint64_t, Cell> m_voxels; // by code
+    std::set<std::uint64_t> m_changed;      // codes of leaves that brushes have changed
 };
 
 } // namespace zvo::test

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+// Movers above what brushes have left, case by case.
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/edit_machine.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::Cell;
+using test::DynamicSetting;
+using test::EditCommand;
+using test::EditMachine;
+using test::EditModel;
+using test::Item;
+using test::MoverScenery;
+using Action = EditCommand::Action;
+using Kind = test::Place::Kind;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+MoverScenery& scenery()
+{
+    static MoverScenery scenery(device(), true);
+    return scenery;
+}
+
+constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
+constexpr Item kApart = {0, {Kind::Mirrored, {2, 0, 2}}};
+
+EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32_t radius)
+{
+    return {Action::Dab, {BrushShape::Sphere, action, center, radius, 0x30C0F0}};
+}
+
+EditCommand add(const Item& item)
+{
+    return {.action = Action::Add, .item = item};
+}
+
+void runFrame(DynamicOctree& octree, const std::function<void(vk::FrameGraph&)>& record)
+{
+    const std::uint64_t frame = octree.beginFrame();
+    device().run(record);
+    octree.frameDone(frame);
+}
+
+std::vector<Cell> mergedCells(const DynamicSetting& setting, const EditModel& model, const std::multiset<Item>& items)
+{
+    return model
+        .merged(setting.merge, scenery().rebuilt(setting, false, items)->cells,
+                scenery().rebuilt(setting, true, items)->cells)
+        .cells();
+}
+
+// A stroke ends the movers' history: what they were merged with is another tree.
+TEST(EditMovers, HaveAHistoryAboveEachStroke)
+{
+    for (const bool compressed : {false, true})
+    {
+        SCOPED_TRACE(compressed);
+        const DynamicSetting setting = {.depth = 5, .compressed = compressed};
+        EditMachine machine(device(), setting, {}, scenery());
+        DynamicOctree& octree = machine.octree();
+        const auto expectShown = [&](const std::vector<Cell>& expected)
+        { EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), expected), ""); };
+        const auto move = [&](bool undo)
+        {
+            bool moved = false;
+            runFrame(octree, [&](vk::FrameGraph& graph) { moved = undo ? octree.undo(graph) : octree.redo(graph); });
+            return moved;
+        };
+        machine.run(dab(BrushAction::Carve, {20, 16, 12}, 7));
+        machine.run({Action::EndStroke});
+        machine.run(add(kMiddle));
+        machine.run({Action::Compare});
+        machine.run({.action = Action::Place, .item = kApart});
+        machine.run({Action::Compare});
+        EXPECT_EQ(octree.history().undoCount(), 2U);
+        EXPECT_TRUE(move(true));
+        expectShown(mergedCells(setting, machine.model(), {kMiddle}));
+        EXPECT_TRUE(move(true));
+        expectShown(machine.model().cells());
+        EXPECT_FALSE(move(true));
+        EXPECT_TRUE(move(false));
+        EXPECT_TRUE(move(false));
+        expectShown(mergedCells(setting, machine.model(), {kApart}));
+
+        machine.run(dab(BrushAction::Fill, {6, 20, 6}, 4));
+        machine.run({Action::Submit});
+        EXPECT_EQ(octree.history().undoCount() + octree.history().redoCount(), 0U);
+        EXPECT_TRUE(octree.needsUpdate());
+        machine.run({Action::Compare});
+        EXPECT_TRUE(move(true));
+        expectShown(machine.model().cells());
+        EXPECT_FALSE(move(true));
+    }
+}
+
+// In leaves that a brush has changed a mover's voxels look like the mover, in the others like the mean.
+TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
+{
+    const DynamicSetting setting = {.depth = 6};
+    EditMachine machine(device(), setting, {}, scenery());
+    const std::uint32_t leaf_level = setting.grid().nodeLevels();
+    const auto voxels = [&](const std::vector<Cell>& cells)
+    {
+        std::map<std::uint64_t, Cell> found;
+        for (const Cell& cell : cells)
+        {
+            if (cell.level == leaf_level)
+            {
+                found[cell.code] = cell;
+            }
+        }
+        return found;
+    };
+    const std::map<std::uint64_t, Cell> fixed = voxels(scenery().rebuilt(setting, true, {})->cells);
+    const std::map<std::uint64_t, Cell> moving = voxels(scenery().rebuilt(setting, false, {kMiddle})->cells);
+    const std::map<std::uint64_t, Cell> means = voxels(scenery().rebuilt(setting, true, {kMiddle})->cells);
+    machine.run(dab(BrushAction::Paint, {28, 28, 28}, 12));
+    machine.run(add(kMiddle));
+    machine.run({Action::Compare});
+    std::set<std::uint64_t> painted; // leaves
+    for (const auto& [code, voxel] : machine.model().voxels())
+    {
+        if (!(voxel == fixed.at(code)))
+        {
+            painted.insert(code >> 6);
+        }
+    }
+    std::size_t changed_count = 0;
+    std::size_t mean_count = 0;
+    for (const auto& [code, voxel] : voxels(test::cellsOf(device(), machine.octree().tree())))
+    {
+        if (fixed.contains(code) && moving.contains(code) && !(moving.at(code) == means.at(code)))
+        {
+            const bool is_changed = painted.contains(code >> 6);
+            EXPECT_TRUE(voxel == (is_changed ? moving : means).at(code)) << code;
+            ++(is_changed ? changed_count : mean_count);
+        }
+    }
+    EXPECT_GT(changed_count, 5U);
+    EXPECT_GT(mean_count, 5U);
+}
+
+// A brush comes after each slice of an update.
+TEST(EditMovers, AnUpdateUnderWayIsGivenUpForAStroke)
+{
+    for (std::size_t slices = 1; slices < 12; ++slices)
+    {
+        EditMachine machine(device(), {.depth = 5, .compressed = slices % 2 == 0}, {}, scenery());
+        machine.run(dab(BrushAction::Carve, {20, 16, 12}, 5));
+        machine.run({Action::EndStroke});
+        machine.run(add(kMiddle));
+        machine.run(add(kApart));
+        for (std::size_t i = 0; i < slices; ++i)
+        {
+            machine.run({Action::Slice});
+            machine.run({Action::Submit});
+        }
+        const bool was_updating = machine.octree().isUpdating();
+        EXPECT_TRUE(was_updating || slices > 2);
+        machine.run(slices % 3 == 0 ? EditCommand{Action::Undo} : dab(BrushAction::Fill, {16, 16, 16}, 6));
+        machine.run({Action::Submit});
+        EXPECT_FALSE(machine.octree().isUpdating());
+        EXPECT_TRUE(machine.octree().needsUpdate());
+        machine.run({Action::Compare});
+        machine.finish();
+    }
+}
+
+} // namespace
+} // namespace zvo
