@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+// Vulkan calls that fail, and memory that does not suffice, while a brush is at work: an error comes out, what was
+// shown still is, and the octree goes on.
+#include "core/kernels.h"
+#include "support/device.h"
+#include "support/edit_model.h"
+#include "support/failing_vulkan.h"
+#include "support/mover_scenery.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::Cell;
+using test::DynamicSetting;
+using test::EditModel;
+using test::Item;
+using test::MoverScenery;
+using Kind = test::Place::Kind;
+
+constexpr std::uint64_t kLimitBytes = 512U << 20;
+constexpr Item kMover = {0, {Kind::Inside, {1, 1, 1}}};
+
+vk::HeadlessOptions limitedOptions()
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.slices.submission_ms = 0;          // the same calls in every run, however busy the machine is
+    options.memory_budget_bytes = kLimitBytes; // and small blocks of memory
+    return options;
+}
+
+Brush sphere(BrushAction action, const gpu::ivec3& center, std::uint32_t radius)
+{
+    return {BrushShape::Sphere, action, center, radius, 0x3080F0};
+}
+
+// What becomes of a frame in which edit() or update() throws.
+enum class AfterError
+{
+    Lose,
+    Submit
+};
+
+// Fails one call, or more, from that number on.
+using Fail = std::function<void(std::uint64_t)>;
+
+// Frames with edits, each of which fails at each of its calls, one after the other, before it succeeds. Everything is
+// compared with a model.
+class Session
+{
+public:
+    Session(vk::HeadlessDevice& device, MoverScenery& scenery, const DynamicSetting& setting, const EditBounds& bounds,
+            AfterError after_error, Fail fail)
+        : m_device(device), m_scenery(scenery), m_setting(setting), m_after_error(after_error), m_fail(std::move(fail))
+    {
+        DynamicOptions options = setting.options(scenery.emissionScale());
+        options.edits = bounds;
+        m_octree = std::make_unique<DynamicOctree>(device, scenery.buildStatic(setting), options);
+        m_cells = cells();
+        m_line.emplace_back(setting.grid(), m_cells, true);
+    }
+
+    [[nodiscard]] std::uint64_t errorCount() const { return m_error_count; }
+    [[nodiscard]] const std::set<std::string>& failedFunctions() const { return m_failed_functions; }
+    [[nodiscard]] std::size_t undoCount() const { return m_at; }
+
+    void add(const Item& item)
+    {
+        m_octree->add(m_scenery.mover(item.mesh, true), m_scenery.poseOf(item));
+        m_items.insert(item);
+    }
+
+    // In one frame: undoes strokes, then does one.
+    void stroke(const Brush& brush, std::size_t undo_count = 0)
+    {
+        bool is_done = false;
+        do
+        {
+            frame(
+                [&](vk::FrameGraph& graph)
+                {
+                    for (std::size_t i = 0; i < undo_count; ++i)
+                    {
+                        m_octree->undoEdit(graph);
+                    }
+                    mayThrow([&] { is_done = m_octree->edit(graph, brush); });
+                });
+            m_at -= undo_count;
+            undo_count = 0; // once they are undone
+            dropForgotten(is_done);
+            ASSERT_LT(++m_frame_count, 500U);
+        } while (!is_done);
+        m_octree->endStroke();
+        m_line.resize(m_at + 1, m_line.front());
+        m_line.push_back(m_line[m_at]);
+        m_line[++m_at].apply(brush);
+        expectCells(m_line[m_at].cells());
+    }
+
+    void move(bool undo)
+    {
+        frame([&](vk::FrameGraph& graph)
+              { EXPECT_TRUE(undo ? m_octree->undoEdit(graph) : m_octree->redoEdit(graph)); });
+        m_at += undo ? -1 : 1;
+        expectCells(m_line.at(m_at).cells());
+    }
+
+    // Until movers are shown.
+    void update()
+    {
+        do
+        {
+            frame([&](vk::FrameGraph& graph) { mayThrow([&] { m_octree->update(graph); }); });
+            ASSERT_LT(++m_frame_count, 500U);
+        } while (m_octree->needsUpdate());
+        expectCells(m_line[m_at]
+                        .merged(m_setting.merge, m_scenery.rebuilt(m_setting, false, m_items)->cells,
+                                m_scenery.rebuilt(m_setting, true, m_items)->cells)
+                        .cells());
+    }
+
+private:
+    // Takes what is free of the memory that is allocated: for anything more, more will have to be.
+    std::vector<vk::Buffer> ballast()
+    {
+        constexpr std::uint64_t kBlockBytes = vk::MemoryAllocator::kLimitedBlockBytes;
+        const vk::MemoryAllocator& memory = m_device.device().memory();
+        std::vector<vk::Buffer> pieces;
+        const auto add_piece = [&](std::uint64_t bytes) { pieces.emplace_back(m_device.device(), "ballast", bytes); };
+        for (std::uint64_t bytes = kBlockBytes / 2; bytes >= 128; bytes /= 8)
+        {
+            for (const std::uint64_t held = memory.heldBytes(); memory.heldBytes() == held;)
+            {
+                add_piece(bytes);
+            }
+            pieces.pop_back();
+            add_piece(kBlockBytes / 2); // of the block that has just been allocated
+            add_piece(kBlockBytes / 2);
+        }
+        return pieces;
+    }
+
+    std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->tree()); }
+
+    void expectCells(const std::vector<Cell>& expected)
+    {
+        EXPECT_EQ(test::difference(cells(), expected), "") << "after " << m_failed;
+    }
+
+    // Steps that were dropped to make room, or for a frame that was lost. A dab adds one.
+    void dropForgotten(bool is_done)
+    {
+        const std::size_t kept = m_octree->edits().undoCount() - (is_done ? 1 : 0);
+        ASSERT_LE(kept, m_at);
+        m_line.erase(m_line.begin(), m_line.begin() + static_cast<std::ptrdiff_t>(m_at - kept));
+        m_at = kept;
+    }
+
+    void mayThrow(const std::function<void()>& call)
+    {
+        if (m_after_error == AfterError::Lose)
+        {
+            call();
+            return;
+        }
+        try
+        {
+            call();
+        }
+        catch (const Error& error)
+        {
+            noteError(error);
+        }
+    }
+
+    void noteError(const Error& error)
+    {
+        EXPECT_NE(test::failedFunction(), "") << error.what();
+        m_failed_functions.insert(test::failedFunction());
+        ++m_error_count;
+        m_has_failed = true;
+    }
+
+    void frame(const std::function<void(vk::FrameGraph&)>& record)
+    {
+        std::vector<std::vector<Cell>> seen; // once a frame has run that was lost
+        bool has_restarted = false;
+        for (std::uint64_t number = 0;; ++number)
+        {
+            const std::vector<vk::Buffer> full = ballast();
+            const std::size_t undo_count = m_octree->edits().undoCount();
+            const std::uint64_t frame = m_octree->beginFrame();
+            bool is_lost = false;
+            m_has_failed = false;
+            m_fail(number);
+            try
+            {
+                m_device.run(record);
+            }
+            catch (const Error& error)
+            {
+                noteError(error);
+                is_lost = true;
+            }
+            m_failed = test::failedFunction();
+            test::failCall(UINT64_MAX);
+            if (is_lost)
+            {
+                m_octree->frameLost();
+                EXPECT_EQ(m_octree->edits().undoCount(), undo_count);
+            }
+            else
+            {
+                m_octree->frameDone(frame);
+                if (!m_has_failed)
+                {
+                    break;
+                }
+            }
+            if (!has_restarted && m_failed == "vkCreateShaderModule") // other things were made, which are kept: fewer
+            {                                                         // calls come before this
+                has_restarted = true;
+                number = 0;
+            }
+            if (!seen.empty() || (is_lost && (m_failed == "vkWaitForFences" || m_failed == "vkGetQueryPoolResults")))
+            {
+                seen.push_back(cells());
+            }
+            else
+            {
+                expectCells(m_cells);
+            }
+        }
+        const std::vector<Cell> before = std::exchange(m_cells, cells());
+        for (const std::vector<Cell>& one : seen)
+        {
+            EXPECT_TRUE(one == before || one == m_cells) << test::difference(one, before);
+        }
+    }
+
+    vk::HeadlessDevice& m_device;
+    MoverScenery& m_scenery;
+    DynamicSetting m_setting;
+    AfterError m_after_error;
+    Fail m_fail;
+    std::unique_ptr<DynamicOctree> m_octree;
+    std::multiset<Item> m_items;
+    std::vector<Cell> m_cells; // that are shown
+    std::vector<EditModel> m_line;
+    std::size_t m_at = 0;
+    std::string m_failed;
+    bool m_has_failed = false; // in the frame
+    std::set<std::string> m_failed_functions;
+    std::uint64_t m_error_count = 0;
+    std::uint32_t m_frame_count = 0;
+};
+
+void play(Session& session, bool loses)
+{
+    session.stroke(sphere(BrushAction::Carve, {10, 8, 6}, 2));
+    session.stroke(sphere(BrushAction::Fill, {4, 5, 6}, 1));
+    session.stroke(sphere(BrushAction::Paint, {9, 9, 9}, 5)); // larger than the room there was
+    if (loses && session.undoCount() > 1)                     // submitted with an error, undo would be done twice
+    {
+        session.stroke(sphere(BrushAction::Fill, {8, 3, 6}, 3), 2);
+    }
+    session.add(kMover);
+    session.update();
+    session.stroke(sphere(BrushAction::Carve, {8, 8, 8}, 6));
+    session.update();
+    if (session.undoCount() != 0)
+    {
+        session.move(true);
+        session.update();
+        session.move(false);
+        session.update();
+    }
+}
+
+TEST(EditFailingCalls, AnyOneOfAFrameIsAnErrorAndTheOctreeGoesOn)
+{
+    test::failCall(UINT64_MAX);
+    test::countNames(false);
+    std::set<std::string> failed;
+    std::uint64_t error_count = 0;
+    for (const AfterError after_error : {AfterError::Lose, AfterError::Submit})
+    {
+        SCOPED_TRACE(after_error == AfterError::Lose ? "lost" : "submitted");
+        {
+            vk::HeadlessOptions options = limitedOptions();
+            options.get_instance_proc_addr = test::failingVulkan();
+            vk::HeadlessDevice device(options, zvoKernels());
+            const std::uint64_t used_before = device.device().memory().usedBytes();
+            for (const std::uint64_t bytes_max : {UINT64_MAX, std::uint64_t{0}})
+            {
+                SCOPED_TRACE(bytes_max);
+                const bool fails_on = bytes_max == 0 && after_error == AfterError::Lose;
+                MoverScenery scenery(device, true);
+                Session session(device, scenery, {.depth = 4, .compressed = bytes_max == 0},
+                                {.steps_max = 8, .bytes_max = bytes_max}, after_error,
+                                [&](std::uint64_t number)
+                                {
+                                    fails_on ? test::failAllFrom(number, VK_ERROR_DEVICE_LOST)
+                                             : test::failCall(number, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+                                });
+                play(session, after_error == AfterError::Lose);
+                failed.insert(session.failedFunctions().begin(), session.failedFunctions().end());
+                error_count += session.errorCount();
+            }
+            EXPECT_EQ(device.device().memory().usedBytes(), used_before);
+        }
+        EXPECT_TRUE(test::liveObjects().empty()) << test::liveObjects().front();
+    }
+    test::countNames(true);
+    EXPECT_GT(error_count, 500U);
+    for (const char* function :
+         {"vkAllocateMemory", "vkBeginCommandBuffer", "vkBindBufferMemory", "vkCreateBuffer",
+          "vkCreateComputePipelines", "vkCreatePipelineLayout", "vkCreateShaderModule", "vkEndCommandBuffer",
+          "vkGetQueryPoolResults", "vkQueueSubmit2", "vkResetCommandPool", "vkResetFences", "vkWaitForFences"})
+    {
+        EXPECT_TRUE(failed.contains(function)) << function;
+    }
+}
+
+} // namespace
+} // namespace zvo
