@@ -3,6 +3,7 @@
 #include "core/attribute_pack.h"
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
+#include "support/ballast.h"
 #include "support/device.h"
 #include "support/dynamic_updates.h"
 #include "support/mover_scenery.h"
@@ -99,28 +100,6 @@ private:
     std::unique_ptr<DynamicOctree> m_octree;
 };
 
-constexpr std::uint64_t kPieceBytes = 4096;
-
-// Takes what the limit leaves, whole blocks and what is free in them: nothing is left, but for pieces that are not
-// taken.
-std::vector<vk::BufferOf<gpu::uint>> ballast(vk::HeadlessDevice& device, std::size_t pieces_left)
-{
-    std::vector<vk::BufferOf<gpu::uint>> pieces;
-    for (std::uint64_t bytes = device.device().memory().roomBytes(); bytes != 0;)
-    {
-        try
-        {
-            pieces.emplace_back(device.device(), "ballast", bytes / sizeof(gpu::uint));
-        }
-        catch (const Error&)
-        {
-            bytes = bytes > (1 << 20) ? 1 << 20 : bytes > kPieceBytes ? kPieceBytes : 0;
-        }
-    }
-    pieces.resize(pieces.size() - std::min(pieces_left, pieces.size()));
-    return pieces;
-}
-
 constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 
 // With less memory than an update needs, whatever it is that finds none.
@@ -145,7 +124,7 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
             items.insert(apart);
             world.add(apart);
         }
-        auto rest = ballast(limited, pieces_left);
+        auto rest = test::ballast(limited, pieces_left);
         bool is_enough = true;
         for (int i = 0; i < 2 && is_enough; ++i)
         {
@@ -189,7 +168,7 @@ TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
         world.update();
     }
     const std::array expected = {world.rebuilt({items[0]}), world.rebuilt({items[1]})};
-    auto rest = ballast(limited, 0);
+    auto rest = test::ballast(limited, 0);
     struct Flight
     {
         std::uint64_t frame;
