@@ -32,12 +32,6 @@ vk::HeadlessDevice& device()
     return test::sharedDevice(zvoKernels());
 }
 
-MoverScenery& scenery()
-{
-    static MoverScenery scenery(device(), true);
-    return scenery;
-}
-
 constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 constexpr Item kApart = {0, {Kind::Mirrored, {2, 0, 2}}};
 
@@ -58,22 +52,24 @@ void runFrame(DynamicOctree& octree, const std::function<void(vk::FrameGraph&)>&
     octree.frameDone(frame);
 }
 
-std::vector<Cell> mergedCells(const DynamicSetting& setting, const EditModel& model, const std::multiset<Item>& items)
+std::vector<Cell> mergedCells(MoverScenery& scenery, const DynamicSetting& setting, const EditModel& model,
+                              const std::multiset<Item>& items)
 {
     return model
-        .merged(setting.merge, scenery().rebuilt(setting, false, items)->cells,
-                scenery().rebuilt(setting, true, items)->cells)
+        .merged(setting.merge, scenery.rebuilt(setting, false, items)->cells,
+                scenery.rebuilt(setting, true, items)->cells)
         .cells();
 }
 
 // A stroke ends the movers' history: what they were merged with is another tree.
 TEST(EditMovers, HaveAHistoryAboveEachStroke)
 {
+    MoverScenery scenery(device(), true);
     for (const bool compressed : {false, true})
     {
         SCOPED_TRACE(compressed);
         const DynamicSetting setting = {.depth = 5, .compressed = compressed};
-        EditMachine machine(device(), setting, {}, scenery());
+        EditMachine machine(device(), setting, {}, scenery);
         DynamicOctree& octree = machine.octree();
         const auto expectShown = [&](const std::vector<Cell>& expected)
         { EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), expected), ""); };
@@ -91,13 +87,13 @@ TEST(EditMovers, HaveAHistoryAboveEachStroke)
         machine.run({Action::Compare});
         EXPECT_EQ(octree.history().undoCount(), 2U);
         EXPECT_TRUE(move(true));
-        expectShown(mergedCells(setting, machine.model(), {kMiddle}));
+        expectShown(mergedCells(scenery, setting, machine.model(), {kMiddle}));
         EXPECT_TRUE(move(true));
         expectShown(machine.model().cells());
         EXPECT_FALSE(move(true));
         EXPECT_TRUE(move(false));
         EXPECT_TRUE(move(false));
-        expectShown(mergedCells(setting, machine.model(), {kApart}));
+        expectShown(mergedCells(scenery, setting, machine.model(), {kApart}));
 
         machine.run(dab(BrushAction::Fill, {6, 20, 6}, 4));
         machine.run({Action::Submit});
@@ -113,8 +109,9 @@ TEST(EditMovers, HaveAHistoryAboveEachStroke)
 // In leaves that a brush has changed a mover's voxels look like the mover, in the others like the mean.
 TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
 {
+    MoverScenery scenery(device(), true);
     const DynamicSetting setting = {.depth = 6};
-    EditMachine machine(device(), setting, {}, scenery());
+    EditMachine machine(device(), setting, {}, scenery);
     const std::uint32_t leaf_level = setting.grid().nodeLevels();
     const auto voxels = [&](const std::vector<Cell>& cells)
     {
@@ -128,9 +125,9 @@ TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
         }
         return found;
     };
-    const std::map<std::uint64_t, Cell> fixed = voxels(scenery().rebuilt(setting, true, {})->cells);
-    const std::map<std::uint64_t, Cell> moving = voxels(scenery().rebuilt(setting, false, {kMiddle})->cells);
-    const std::map<std::uint64_t, Cell> means = voxels(scenery().rebuilt(setting, true, {kMiddle})->cells);
+    const std::map<std::uint64_t, Cell> fixed = voxels(scenery.rebuilt(setting, true, {})->cells);
+    const std::map<std::uint64_t, Cell> moving = voxels(scenery.rebuilt(setting, false, {kMiddle})->cells);
+    const std::map<std::uint64_t, Cell> means = voxels(scenery.rebuilt(setting, true, {kMiddle})->cells);
     machine.run(dab(BrushAction::Paint, {28, 20, 24}, 5));
     machine.run(add(kMiddle));
     machine.run({Action::Compare});
@@ -160,9 +157,10 @@ TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
 // A brush comes after each slice of an update.
 TEST(EditMovers, AnUpdateUnderWayIsGivenUpForAStroke)
 {
+    MoverScenery scenery(device(), true);
     for (std::size_t slices = 1; slices < 12; ++slices)
     {
-        EditMachine machine(device(), {.depth = 5, .compressed = slices % 2 == 0}, {}, scenery());
+        EditMachine machine(device(), {.depth = 5, .compressed = slices % 2 == 0}, {}, scenery);
         machine.run(dab(BrushAction::Carve, {20, 16, 12}, 5));
         machine.run({Action::EndStroke});
         machine.run(add(kMiddle));

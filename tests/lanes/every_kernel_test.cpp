@@ -16,6 +16,7 @@
 #include "support/dag_compare.h"
 #include "support/dags.h"
 #include "support/device.h"
+#include "support/edit_model.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
 
@@ -221,6 +222,61 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool 
     return names;
 }
 
+// Strokes of a brush that carve, fill and paint, with so little room that what is left of them moves, and a step is
+// undone.
+Names editVoxels(StaticTree fixed, bool attributes, float emission_scale)
+{
+    Names names;
+    DynamicOptions options;
+    options.emission_scale = emission_scale;
+    options.attributes = attributes;
+    options.edits = {.steps_max = 4, .bytes_max = 0};
+    DynamicOctree octree(device(), std::move(fixed), options);
+    const auto cells = [&] { return test::cellsOf(device(), octree.tree()); };
+    test::EditModel model(octree.tree().octree().grid, cells(), attributes);
+    std::vector<test::Cell> before;
+    for (std::uint32_t i = 0; i < 4; ++i)
+    {
+        const auto action = static_cast<BrushAction>(i % 3);
+        const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(30 + 3 * i, 32, 34), 2 + 2 * i, 0x2060C0};
+        before = model.cells();
+        model.apply(brush);
+        for (bool is_done = false; !is_done;)
+        {
+            const std::uint64_t frame = octree.beginFrame();
+            addNames(names, device().run([&](vk::FrameGraph& graph) { is_done = octree.edit(graph, brush); }));
+            octree.frameDone(frame);
+        }
+        octree.endStroke();
+    }
+    EXPECT_EQ(test::difference(cells(), model.cells()), "");
+    if (octree.edits().undoCount() != 0)
+    {
+        addNames(names, device().run([&](vk::FrameGraph& graph) { octree.undoEdit(graph); }));
+        EXPECT_EQ(test::difference(cells(), before), "");
+    }
+    return names;
+}
+
+// The scene as an octree and as a DAG, with and without attributes.
+Names editTrees(const Scene& scene, const Grid& grid)
+{
+    Names names;
+    for (const bool attributes : {true, false})
+    {
+        const float emission_scale = attributes ? brightestEmission(scene) : 0;
+        const GpuScene gpu_scene = uploadScene(device(), scene, attributes, emission_scale);
+        BuildOptions build;
+        build.attributes = attributes;
+        build.keep_sums = attributes;
+        names.merge(editVoxels(buildOctree(device(), gpu_scene, grid, build), attributes, emission_scale));
+        BuildResult built = buildOctree(device(), gpu_scene, grid, build);
+        names.merge(editVoxels({compress(device(), std::move(built.octree)).dag, std::move(built.sums)}, attributes,
+                               emission_scale));
+    }
+    return names;
+}
+
 // The octree as a DAG, and that DAG once more, of which nothing can be shared.
 Names compressOctree(Octree octree, const CompressOptions& options)
 {
@@ -314,6 +370,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         if (c.pictures)
         {
             names.merge(mergeMovers(scene, grid, c.coverage, false));
+            names.merge(editTrees(scene, grid));
             names.merge(tracePictures(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
