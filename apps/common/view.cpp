@@ -22,6 +22,7 @@ constexpr double kCloseDistance = 0.42; // of the framing camera's: about two th
 constexpr std::array kViews = {
     NamedView{"color", View::Color}, NamedView{"albedo", View::Albedo}, NamedView{"normal", View::Normal},
     NamedView{"depth", View::Depth}, NamedView{"level", View::Level},   NamedView{"iterations", View::Iterations},
+    NamedView{"voxel", View::Voxel}, NamedView{"bricks", View::Bricks}, NamedView{"origin", View::Origin},
 };
 
 Error noSuchCamera(const std::string& wanted, const Scene& scene)
@@ -62,8 +63,11 @@ std::string viewHelp()
     for (const NamedView& named : kViews)
     {
         const bool is_last = &named == &kViews.back();
-        names += fmt::format("{}{}{}", is_last ? " or " : names.empty() ? "" : ", ", named.name,
-                             named.view == View::Level ? " (of --detail)" : "");
+        names += fmt::format("{}{}{}",
+                             is_last         ? " or "
+                             : names.empty() ? ""
+                                             : ", ",
+                             named.name, named.view == View::Level ? " (of --detail)" : "");
     }
     return names + " (default color)";
 }

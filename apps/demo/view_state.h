@@ -24,6 +24,8 @@ struct ViewState
     std::optional<double> internal_scale; // of the window's edges; not given: as fast as the device allows
     vk::PresentMode present_mode = vk::PresentMode::Fifo;
 
+    bool operator==(const ViewState&) const = default;
+
     [[nodiscard]] TraceOptions traceOptions() const
     {
         TraceOptions options;

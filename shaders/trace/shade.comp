@@ -72,6 +72,47 @@ vec3 lit(Surface surface, uint light)
     return surface.albedo * (sun * kSunColor + sky * skyAmbient(surface.normal)) + surface.emission;
 }
 
+// Any numbers that look like chance (M. O'Neill, PCG: A Family of Simple Fast Space-Efficient Statistically Good
+// Algorithms for Random Number Generation, 2014).
+uint scramble(uint x)
+{
+    uint state = x * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+// Never dark, a little darker on some faces than on others.
+vec3 voxelColor(Hit hit)
+{
+    uvec3 cell = hitCell(hit);
+    uint number = scramble(cell.x + scramble(cell.y + scramble(cell.z + scramble(hitLevel(hit)))));
+    float face = hitFace(hit) == 0u ? 0.8 : hitFace(hit) == 2u ? 0.65 : 1.0;
+    return face * (0.3 + 0.7 * unpackUnorm4x8(number).rgb);
+}
+
+// Voxels at a node's lower borders, as the face shows them: white for leaves, then yellow, then red for what is larger.
+vec3 brickColor(Hit hit, vec3 color)
+{
+    uvec3 cell = hitCell(hit);
+    uint face = hitFace(hit);
+    uint rank = 0u; // of the largest node that begins here along an axis of the face
+    for (uint axis = 0u; axis < 3u; ++axis)
+        for (uint levels = 1u; levels <= 3u; ++levels)
+            if (axis != face && (cell[axis] & ((1u << (2u * levels)) - 1u)) == 0u)
+                rank = max(rank, levels);
+    vec3 line = rank == 1u ? vec3(1.0) : rank == 2u ? vec3(1.0, 0.8, 0.1) : vec3(1.0, 0.2, 0.1);
+    return rank == 0u || face == kFaceInside ? color : mix(color, line, 0.6);
+}
+
+vec3 originColor(Hit hit, vec3 color)
+{
+    float bright = 0.25 + 0.75 * dot(color, vec3(0.3, 0.6, 0.1));
+    uint first_voxel = floatBitsToUint(params.sun.x);
+    uint first_node = floatBitsToUint(params.sun.y);
+    bool is_static = hit.index < (hitLevel(hit) == kNodeLevels ? first_voxel : first_node);
+    return bright * (is_static || kForm == kFormNone ? vec3(1.0) : vec3(1.0, 0.5, 0.1));
+}
+
 void main()
 {
     uvec2 size = uvec2(params.width, params.height);
@@ -91,6 +132,8 @@ void main()
         color = vec3(1.0 - kDepthContrast * clamp((hit.t - params.sun.x) / (params.sun.y - params.sun.x), 0.0, 1.0));
     else if (kView == kViewLevel)
         color = heatColor(0.25 + 0.7 * float(kNodeLevels - hitLevel(hit)) / float(kNodeLevels));
+    else if (kView == kViewVoxel)
+        color = voxelColor(hit);
     else
     {
         vec3 direction = params.forward;
@@ -101,6 +144,10 @@ void main()
             color = 0.5 + 0.5 * surface.normal;
         else if (kView == kViewAlbedo)
             color = encodeSrgb(surface.albedo);
+        else if (kView == kViewBricks)
+            color = brickColor(hit, encodeSrgb(surface.albedo));
+        else if (kView == kViewOrigin)
+            color = originColor(hit, encodeSrgb(surface.albedo));
         else
             color = develop(lit(surface, light), params.exposure, pixel);
     }

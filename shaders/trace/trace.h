@@ -77,6 +77,9 @@ const uint kViewNormal = 2u;     // 0.5 + 0.5 * shading normal
 const uint kViewDepth = 3u;      // from white to a dark grey over the depths of the grid
 const uint kViewLevel = 4u;      // how much coarser than a voxel the hit is
 const uint kViewIterations = 5u; // heat map, logarithmic up to 127
+const uint kViewVoxel = 6u;      // a colour for each voxel, by its coordinates
+const uint kViewBricks = 7u;     // base colour, with the borders of nodes
+const uint kViewOrigin = 8u;     // grey: static; orange: in a leaf that a dynamic update made
 
 /// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
 /// left, offset = n.x * step_x + n.y * step_y: perspective rays start at origin along forward + offset, orthographic
@@ -251,6 +254,35 @@ struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a
     float exposure;
 };
 
+/// What the ray of one pixel meets.
+struct PixelReport
+{
+    uint hit;        // 1: something; 0: nothing, and all but iterations is undefined
+    float t;         // as in Hit
+    uvec3 cell;      // coordinates at its level
+    uint level;      // of nodes; nodeLevels() for a voxel
+    uint face;       // as in Hit
+    uint node;       // that the cell is in: its number among the nodes
+    uint index;      // of its attributes, as in Hit
+    Attribute look;  // base colour and normal, in 8 bytes whatever their form; 0 without attributes
+    uint iterations; // of the traversal's loop, from the camera on
+};
+GPU_BUFFER(PixelReport, 4);
+
+struct InspectParams // push constants of trace/inspect: kArgsGroup threads, of which one works
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, in the form of kForm
+    GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_PTR(PixelReport) report; // [1]
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint pixel; // row by row
+    vec2 detail;
+};
+
 struct ShadeParams // push constants of trace/shade
 {
     GPU_CONST_PTR(uvec2) live;
@@ -264,7 +296,9 @@ struct ShadeParams // push constants of trace/shade
     vec3 forward;
     vec3 step_x;
     vec3 step_y;
-    vec3 sun; // towards it, as long as it is strong; kViewDepth: x is the depth that is white, y the one that is dark
+    // Towards it, as long as it is strong; kViewDepth: x is the depth that is white, y the one that is dark; kViewOrigin:
+    // the bits of x are the index of the first voxel that is not static, those of y of the first such node.
+    vec3 sun;
     uint width;
     uint height;
     float emission_scale;

@@ -26,11 +26,6 @@ bool standsByLevels(const TreeView& tree)
     return std::uint64_t{last.first_node} + last.node_count == node_count;
 }
 
-bool showsAttributes(const TraceOptions& options)
-{
-    return options.view == View::Color || options.view == View::Albedo || options.view == View::Normal;
-}
-
 } // namespace
 
 TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)

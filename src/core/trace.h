@@ -20,6 +20,9 @@ enum class View : std::uint32_t
     Depth = gpu::kViewDepth,           ///< near is white, the far end of the grid dark
     Level = gpu::kViewLevel,           ///< brighter is coarser (TraceOptions::detail_pixels)
     Iterations = gpu::kViewIterations, ///< heat map of the traversal's loop
+    Voxel = gpu::kViewVoxel,           ///< a colour for each voxel
+    Bricks = gpu::kViewBricks, ///< base colour with the borders of nodes: leaves white, larger ones yellow and red
+    Origin = gpu::kViewOrigin, ///< orange: in a leaf that a dynamic update made; without attributes nothing is
 };
 
 /// Where a ray keeps the nodes above the current one. The hits are the same.
@@ -99,6 +102,12 @@ void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& 
 /// Records the passes that make buffers.image from hits and, as far as options ask for it, light.
 void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers);
+
+/// Records the pass that tells what the ray of a pixel met, after trace() of the same tree with the same camera,
+/// options and buffers. Without attributes, and where options show none, report.look is 0; of a DAG report.index is
+/// undefined then. report has one element. Cost: one ray.
+void inspectPixel(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+                  const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report);
 
 /// Records all passes from a camera to a picture.
 void trace(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,

@@ -3,6 +3,7 @@
 #include "core/trace_passes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace zvo
@@ -27,6 +28,15 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
     const float middle = glm::dot(gpu::vec3(1.0F + 0.5F * edge) - camera.rays.origin, forward);
     const float reach = 0.5F * edge * (std::fabs(forward.x) + std::fabs(forward.y) + std::fabs(forward.z));
     return {std::max(middle - reach, 0.0F), std::max(middle + reach, 1e-6F)};
+}
+
+// The indices of attributes from which on they are those of overlays, as bits. Of nodes, the static root's is behind
+// the static ones (core/overlaid_tree.h).
+gpu::vec3 originBounds(const TreeView& tree)
+{
+    const std::uint32_t node_count =
+        tree.svdag() != nullptr ? tree.svdag()->octree_node_count : tree.octree().node_count;
+    return {std::bit_cast<float>(tree.octree().voxel_count), std::bit_cast<float>(node_count + 1), 0.0F};
 }
 
 // What the passes have in common that trace rays from hits.
@@ -122,7 +132,9 @@ void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camer
     params.forward = camera.rays.forward;
     params.step_x = camera.rays.step_x;
     params.step_y = camera.rays.step_y;
-    params.sun = options.view == View::Depth ? gpu::vec3(depthRange(octree.grid, camera), 0.0F) : options.sun * to_sun;
+    params.sun = options.view == View::Depth    ? gpu::vec3(depthRange(octree.grid, camera), 0.0F)
+                 : options.view == View::Origin ? originBounds(tree)
+                                                : options.sun * to_sun;
     params.width = buffers.width;
     params.height = buffers.height;
     params.emission_scale = octree.emission_scale;

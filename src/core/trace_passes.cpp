@@ -17,6 +17,25 @@ bool usesAttributes(const Octree& octree, const TraceOptions& options)
     return octree.hasAttributes() && (!options.hasDetail() || octree.hasNodeAttributes());
 }
 
+bool showsAttributes(const TraceOptions& options)
+{
+    switch (options.view)
+    {
+    case View::Color:
+    case View::Albedo:
+    case View::Normal:
+    case View::Bricks:
+    case View::Origin:
+        return true;
+    case View::Depth:
+    case View::Level:
+    case View::Iterations:
+    case View::Voxel:
+        break;
+    }
+    return false;
+}
+
 std::uint32_t formToRead(const Octree& octree, const TraceOptions& options)
 {
     return static_cast<std::uint32_t>(usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None);

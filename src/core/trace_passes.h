@@ -32,6 +32,9 @@ bool isEmpty(const Octree& octree);
 /// Whether there are attributes for every hit that can occur.
 bool usesAttributes(const Octree& octree, const TraceOptions& options);
 
+/// Whether a picture shows anything of the attributes of hits.
+bool showsAttributes(const TraceOptions& options);
+
 /// The form in which kernels read attributes; None: they need not.
 std::uint32_t formToRead(const Octree& octree, const TraceOptions& options);
 

@@ -231,7 +231,8 @@ TEST(TracePicture, EveryViewOfAnEmptyOctreeIsBackground)
 {
     const Octree octree = test::octreeOf(device(), {}, 5);
     const ViewCamera view = ViewCamera::framing({glm::vec3(0.0F), glm::vec3(32.0F)}, 1.0);
-    for (const View shown : {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations})
+    for (const View shown : {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations,
+                             View::Voxel, View::Bricks, View::Origin})
     {
         TraceOptions options;
         options.view = shown;

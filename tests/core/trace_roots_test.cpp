@@ -28,7 +28,8 @@ using test::Relocated;
 using test::takePicture;
 
 constexpr std::uint32_t kFar = 100000; // nodes: more than 16 bits can number
-constexpr std::array kViews = {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations};
+constexpr std::array kViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
+                               View::Level, View::Iterations, View::Voxel,  View::Bricks};
 constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
 vk::HeadlessDevice& device()

@@ -31,7 +31,8 @@ using test::hitCount;
 using test::Picture;
 using test::takePicture;
 
-constexpr std::array kViews = {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations};
+constexpr std::array kViews = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
+                               View::Iterations, View::Voxel,  View::Bricks, View::Origin};
 constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
 vk::HeadlessDevice& device()
@@ -79,7 +80,8 @@ std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
 
 bool showsAttributes(View view)
 {
-    return view == View::Color || view == View::Albedo || view == View::Normal;
+    return view == View::Color || view == View::Albedo || view == View::Normal || view == View::Bricks ||
+           view == View::Origin;
 }
 
 // with_index: hits know which attributes are theirs.

@@ -126,6 +126,11 @@ Names tracePictures(const TreeView& tree)
     coarse.detail_level = 2;
     const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
     addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, coarse, buffers); }));
+    vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1);
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph) {
+                            inspectPixel(graph, tree, camera, coarse, buffers, {8, 4}, report);
+                        }));
     const gpu::Ray ray = {{1.1F, 1.2F, 1.3F}, 0.0F, {-1.0F, -2.0F, 3.0F}, 4.0F};
     const vk::BufferOf<gpu::Ray> rays = device().makeBuffer<gpu::Ray>("rays", std::vector<gpu::Ray>(3, ray));
     vk::BufferOf<gpu::Hit> hits(device().device(), "hits", rays.count());

@@ -15,13 +15,15 @@ namespace zvo::test
 namespace
 {
 
-constexpr std::array kViews = {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations};
+constexpr std::array kViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
+                               View::Level, View::Iterations, View::Voxel,  View::Bricks};
 constexpr std::uint32_t kWidth = 53;
 constexpr std::uint32_t kHeight = 41;
 
 bool showsAttributes(View view)
 {
-    return view == View::Color || view == View::Albedo || view == View::Normal;
+    return view == View::Color || view == View::Albedo || view == View::Normal || view == View::Bricks ||
+           view == View::Origin;
 }
 
 void expectSameHits(const std::vector<gpu::Hit>& expected, const Looks& expected_looks,

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "demo/settings.h"
+
+#include "common/environment.h"
+#include "common/progress.h"
+#include "common/view.h"
+#include "core/atomic_file.h"
+#include "core/image_io.h"
+#include "core/json_cursor.h"
+#include "core/read_file.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <span>
+#include <system_error>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSchema = "zvo.demo_settings/1";
+constexpr double kExposureMax = 1000;
+constexpr double kDetailMax = 1000; // pixels
+
+const char* modeName(vk::PresentMode mode)
+{
+    return mode == vk::PresentMode::Fifo ? "fifo" : mode == vk::PresentMode::Mailbox ? "mailbox" : "immediate";
+}
+
+View readView(const JsonCursor& value)
+{
+    const std::string name = value.text();
+    const auto views = cli::allViews();
+    const auto found = std::ranges::find(views, name, &cli::NamedView::name);
+    if (found == views.end())
+    {
+        throw value.mismatch("the name of a view");
+    }
+    return found->view;
+}
+
+// Calls read with the member of that name, if it is there.
+template <typename Read> void with(const JsonCursor& object, const char* name, Read read)
+{
+    if (const std::optional<JsonCursor> value = object.find(name))
+    {
+        read(*value);
+    }
+}
+
+void readViewState(const JsonCursor& object, ViewState& view)
+{
+    object.allowKeys({"view", "shadows", "occlusion", "sun", "exposure", "detail", "internal_scale", "present"});
+    with(object, "view", [&](const JsonCursor& value) { view.view = readView(value); });
+    with(object, "shadows", [&](const JsonCursor& value) { view.shadows = value.flag(); });
+    with(object, "occlusion",
+         [&](const JsonCursor& value) { view.occlusion_rays = value.whole(0, kOcclusionRaysMax); });
+    with(object, "sun", [&](const JsonCursor& value) { view.to_sun = value.direction(); });
+    with(object, "exposure",
+         [&](const JsonCursor& value) { view.exposure = static_cast<float>(value.positive(kExposureMax)); });
+    with(object, "detail",
+         [&](const JsonCursor& value) { view.detail_pixels = static_cast<float>(value.positive(kDetailMax)); });
+    with(object, "internal_scale", [&](const JsonCursor& value) { view.internal_scale = value.positive(1); });
+    with(object, "present",
+         [&](const JsonCursor& value)
+         { view.present_mode = static_cast<vk::PresentMode>(value.oneOf({"fifo", "mailbox", "immediate"})); });
+}
+
+} // namespace
+
+std::optional<std::filesystem::path> settingsFile()
+{
+    std::filesystem::path base = cli::environmentPath("XDG_CONFIG_HOME");
+    if (base.empty())
+    {
+        base = cli::environmentPath("HOME");
+        base = base.empty() ? base : base / ".config";
+    }
+    return base.empty() ? std::nullopt : std::optional(base / "zvo" / "demo.json");
+}
+
+Settings parseSettings(std::string_view text, const std::filesystem::path& file)
+{
+    const nlohmann::json document = parseJsonStrictly(text, file);
+    const JsonCursor object(document, file);
+    object.allowKeys({"schema", "window", "panels", "keys", "view"});
+    static_cast<void>(object.at("schema").oneOf({kSchema}));
+    Settings settings;
+    with(object, "window",
+         [&](const JsonCursor& value)
+         {
+             value.allowKeys({"width", "height"});
+             settings.window = {value.at("width").whole(1, kImageEdgeMax), value.at("height").whole(1, kImageEdgeMax)};
+         });
+    with(object, "panels", [&](const JsonCursor& value) { settings.shows_panels = value.flag(); });
+    with(object, "keys", [&](const JsonCursor& value) { settings.shows_keys = value.flag(); });
+    with(object, "view", [&](const JsonCursor& value) { readViewState(value, settings.view); });
+    return settings;
+}
+
+std::string settingsText(const Settings& settings)
+{
+    const ViewState& view = settings.view;
+    const auto views = cli::allViews();
+    Json json;
+    json["schema"] = kSchema;
+    json["window"] = {{"width", settings.window.width}, {"height", settings.window.height}};
+    json["panels"] = settings.shows_panels;
+    json["keys"] = settings.shows_keys;
+    Json& shown = json["view"];
+    shown["view"] = std::ranges::find(views, view.view, &cli::NamedView::view)->name;
+    shown["shadows"] = view.shadows;
+    shown["occlusion"] = view.occlusion_rays;
+    shown["sun"] = {view.to_sun.x, view.to_sun.y, view.to_sun.z};
+    shown["exposure"] = double{view.exposure};
+    if (view.detail_pixels > 0.0F)
+    {
+        shown["detail"] = double{view.detail_pixels};
+    }
+    if (view.internal_scale)
+    {
+        shown["internal_scale"] = *view.internal_scale;
+    }
+    shown["present"] = modeName(view.present_mode);
+    return json.dump(2) + "\n";
+}
+
+Settings readSettings(const std::filesystem::path& file)
+{
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored))
+    {
+        return {};
+    }
+    try
+    {
+        const std::vector<std::uint8_t> bytes = readFile(file);
+        return parseSettings({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file);
+    }
+    catch (const Error& error)
+    {
+        cli::talk(fmt::format("warning: settings are not used: {}", error.what()));
+        return {};
+    }
+}
+
+void writeSettings(const std::filesystem::path& file, const Settings& settings)
+{
+    try
+    {
+        std::error_code failure;
+        std::filesystem::create_directories(file.parent_path(), failure);
+        const std::string text = settingsText(settings);
+        writeFileAtomically(file, std::as_bytes(std::span(text)), Overwrite::Allow);
+    }
+    catch (const Error& error)
+    {
+        cli::talk(fmt::format("warning: settings are not kept: {}", error.what()));
+    }
+}
+
+} // namespace zvo::demo

@@ -1,0 +1,66 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// All that there is to know of what one pixel's ray meets: traced once more, without anything that begins below the root,
+// so that its iterations are those of the ray alone.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/attribute_forms.glsl"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/morton.glsl"
+#include "lib/node.glsl"
+#include "lib/ray.glsl"
+
+layout(constant_id = 5) const bool kOrthographic = false;
+layout(constant_id = 6) const uint kForm = kForm8; // of attributes; kFormNone where hits have no index of any
+
+layout(local_size_x = kArgsGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    InspectParams params;
+};
+
+#define TRAVERSE_GROUP kArgsGroup
+#include "lib/octree_half.glsl"
+#include "lib/traverse.glsl"
+
+// The node of a cell's level - 1 that it lies in.
+uint nodeAround(uvec3 cell, uint level)
+{
+    uint node = 0u;
+    for (uint k = 1u; k < level; ++k)
+    {
+        uint place = childIndex(params.nodes.data[node], cellInBlock(cell >> (2u * (level - k))));
+        node = kEntriesPerWord != 0u ? listedChild(params.nodes, place, kEntriesPerWord) : place;
+    }
+    return node;
+}
+
+void main()
+{
+    if (threadIndex() != 0u)
+        return;
+    uvec2 size = uvec2(params.width, params.height);
+    uvec2 pixel = uvec2(params.pixel % size.x, params.pixel / size.x);
+    vec3 offset = rayOffset(pixelOffset(pixel, size), params.camera.step_x, params.camera.step_y);
+    precise vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
+    precise vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
+    g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    Traversal met = traverse(origin, inverseDirection(direction), 0.0, kTraceTimeMax, params.detail);
+
+    PixelReport report;
+    report.hit = met.hit ? 1u : 0u;
+    report.t = met.t;
+    report.cell = met.cell;
+    report.level = met.level;
+    report.face = met.face;
+    report.node = met.hit ? nodeAround(met.cell, met.level) : 0u;
+    report.index = met.hit ? loadHit(params.hits, params.pixel).index : 0u;
+    report.look = Attribute(0u, 0u);
+    if (kForm != kFormNone && met.hit)
+        report.look =
+            readAttribute(kForm, met.level == kNodeLevels, params.attributes, params.node_attributes, report.index);
+    report.iterations = met.iterations;
+    params.report.data[0] = report;
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What one pixel's ray met.
+#include "core/trace_passes.h"
+
+namespace zvo
+{
+
+void inspectPixel(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+                  const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report)
+{
+    const Octree& octree = tree.octree();
+    if (isEmpty(octree))
+    {
+        graph.fill(report, 0);
+        return;
+    }
+    const std::uint32_t form =
+        showsAttributes(options) ? formToRead(octree, options) : static_cast<std::uint32_t>(AttributeForm::None);
+    vk::Pass pass = graph.addPass(
+        "trace/inspect", withConstants(traverseConstants(tree, options), {camera.orthographic ? 1U : 0U, form}));
+    gpu::InspectParams params{};
+    params.nodes = pass.read(octree.nodes);
+    params.hits = pass.read(buffers.hits);
+    readAttributes(pass, octree, params);
+    params.report = pass.write(report);
+    params.camera = camera.rays;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    params.pixel = pixel.y * buffers.width + pixel.x;
+    params.detail = detailOf(options, &camera);
+    pass.dispatch(1, params);
+}
+
+} // namespace zvo
