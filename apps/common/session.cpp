@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "common/session.h"
 
-#include "core/load_scene.h"
+#include "common/environment.h"
 #include "common/progress.h"
 #include "common/report.h"
+#include "core/load_scene.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -19,13 +19,6 @@ namespace zvo::cli
 
 namespace
 {
-
-std::filesystem::path environmentPath(const char* variable)
-{
-    const char* value = std::getenv(variable);
-    const std::filesystem::path path = value != nullptr ? value : "";
-    return path.is_absolute() ? path : std::filesystem::path();
-}
 
 // Empty where there is no place for it.
 std::filesystem::path cacheFolder()

@@ -43,15 +43,22 @@ vk::HeadlessOptions deviceOptions(const DemoOptions& options, const Window& wind
     return device;
 }
 
-ViewState viewOf(const DemoOptions& options)
+Settings settingsFor(const DemoOptions& options)
 {
-    ViewState view;
+    const std::optional<std::filesystem::path> file = options.usesSettings() ? settingsFile() : std::nullopt;
+    return file ? readSettings(*file) : Settings{};
+}
+
+// What options say, and settings where they do not.
+ViewState viewOf(const DemoOptions& options, const Settings& settings)
+{
+    ViewState view = settings.view;
     view.view = options.view.value_or(view.view);
     view.occlusion_rays = options.occlusion_rays.value_or(view.occlusion_rays);
     view.to_sun = options.to_sun.value_or(view.to_sun);
     view.exposure = options.exposure.value_or(view.exposure);
     view.detail_pixels = options.detail_pixels.value_or(view.detail_pixels);
-    view.internal_scale = options.internal_scale;
+    view.internal_scale = options.internal_scale ? options.internal_scale : view.internal_scale;
     view.present_mode = options.present_mode.value_or(view.present_mode);
     return view;
 }
@@ -69,17 +76,19 @@ CameraKey keyOf(const ViewCamera& camera, double seconds, const glm::dvec3& targ
 } // namespace
 
 App::App(const DemoOptions& options, Clock::time_point start)
-    : m_options(options), m_start(start), m_screenshot_output(outputTo(options.screenshot, options.overwrite)),
+    : m_options(options), m_settings(settingsFor(options)), m_start(start),
+      m_screenshot_output(outputTo(options.screenshot, options.overwrite)),
       m_stats_output(outputTo(options.json, options.overwrite)),
       m_record_output(options.record_input ? outputTo(options.record_input->string(), options.overwrite) : nullptr),
-      m_window(options.size, kTitle), m_device(deviceOptions(options, m_window), zvoKernels()),
+      m_window(options.size.value_or(m_settings.window), kTitle),
+      m_device(deviceOptions(options, m_window), zvoKernels()),
       m_swapchain(m_device, [this](VkInstance instance) { return m_window.makeSurface(instance); },
-                  {options.present_mode.value_or(vk::PresentMode::Fifo), options.frames_in_flight}),
+                  {options.present_mode.value_or(m_settings.view.present_mode), options.frames_in_flight}),
       m_compose_pass(m_device.device()), m_ui(m_device, m_compose_pass, m_window, options.frames_in_flight),
       m_world(World::load(m_device, worldOptions(options))), m_renderer(m_device, m_compose_pass),
-      m_view(viewOf(options)),
+      m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
       m_camera(cli::chooseCamera(options.camera, m_world->stage(), m_world->subject(), aspect()), m_world->subject()),
-      m_frame_start(Clock::now())
+      m_path_time(options.fixed_step), m_shaders(options.shaders.value_or(ZVO_SHADERS_DIR)), m_frame_start(Clock::now())
 {
     if (options.input_script)
     {
@@ -90,7 +99,7 @@ App::App(const DemoOptions& options, Clock::time_point start)
         m_path = readCameraPath(*options.camera_path);
         m_path_plays = true;
     }
-    m_panels.shows_panels = !options.hide_ui;
+    m_panels = {m_settings.shows_panels && !options.hide_ui, m_settings.shows_keys};
     m_timeline.start(options.voxels.time.value_or(0.0));
     if (m_device.device().report().type == "cpu" && !options.fixed_step)
     {
@@ -124,6 +133,7 @@ void App::run()
         m_record_output->finish();
     }
     writeStats();
+    keepSettings();
     cli::checkValidation(m_device);
 }
 
@@ -132,7 +142,7 @@ void App::frame()
     const Clock::time_point now = Clock::now();
     const std::chrono::duration<double> passed = now - m_frame_start;
     m_frame_start = now;
-    m_step = m_options.fixed_step.value_or(std::min(passed.count(), kLongestStep));
+    m_step = m_options.fixed_step ? m_options.fixed_step->seconds() : std::min(passed.count(), kLongestStep);
     if (m_frame != 0)
     {
         m_stats.addFrame(Milliseconds(passed).count());
@@ -183,6 +193,10 @@ void App::apply(const InputEvent& event)
     if (m_record_output != nullptr)
     {
         m_recorded.push_back({m_frame, event});
+    }
+    if (const auto* const move = std::get_if<MouseMoveEvent>(&event))
+    {
+        m_mouse = *move;
     }
     if (m_panels.shows_panels && m_ui.handle(event))
     {
@@ -264,6 +278,7 @@ void App::perform(const KeyBinding& binding, Key key)
         m_timeline.step(m_world->stage());
         break;
     case Action::ReloadShaders:
+        reloadShaders();
         break;
     case Action::Screenshot:
         m_wanted_screenshot = true;
@@ -286,13 +301,16 @@ void App::advanceTime()
     if (m_frame != 0) // the first frame shows the beginning
     {
         m_timeline.advance(m_step);
-        m_path_seconds += m_path_plays ? m_step : 0.0;
+        if (m_path_plays)
+        {
+            m_path_time.add(m_step);
+        }
         m_record_seconds += m_step;
     }
     if (m_path && m_path_plays)
     {
-        m_camera.show(m_path->at(m_path_seconds));
-        m_path_plays = m_options.camera_path || m_path_seconds < m_path->seconds();
+        m_camera.show(m_path->at(m_path_time.seconds()));
+        m_path_plays = m_options.camera_path || m_path_time.seconds() < m_path->seconds();
     }
     if (m_path_records &&
         (m_path_recorded.empty() || m_record_seconds - m_path_recorded.back().seconds >= kPathKeySeconds))
@@ -321,10 +339,12 @@ void App::buildPanels()
                    {
                        scenePanel(*m_world, m_timeline);
                        viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed()});
+                       inspectorPanel(m_inspected, m_world->info());
                        performancePanel(m_stats, m_device.device().memory(), m_world->info());
                        ImGui::TextUnformatted("F1: keys");
                    }
                    ImGui::End();
+                   shadersPanel(m_shader_message);
                    keysPanel(m_panels.shows_keys);
                    noticesPanel(m_notices);
                });
@@ -367,12 +387,21 @@ void App::draw()
     {
         picture.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
     }
-    if (screenshot != nullptr)
+    Flight flight;
+    flight.screenshot = std::move(screenshot);
+    if (flight.screenshot != nullptr)
     {
-        picture.screenshot = &screenshot->pixels();
-        picture.screenshot_has_panels = screenshot->hasPanels();
+        picture.screenshot = &flight.screenshot->pixels();
+        picture.screenshot_has_panels = flight.screenshot->hasPanels();
     }
-    submit(picture, std::move(screenshot));
+    flight.inspected = m_panels.shows_panels ? pixelUnderMouse() : std::nullopt;
+    if (flight.inspected)
+    {
+        flight.report = {m_device.device(), "inspected pixel", 1, vk::MemoryKind::Readback};
+        picture.inspected = flight.inspected;
+        picture.report = &flight.report;
+    }
+    submit(picture, std::move(flight));
     if (target)
     {
         m_swapchain.present(*target);
@@ -380,12 +409,10 @@ void App::draw()
     ++m_drawn_count;
 }
 
-void App::submit(Picture& picture, std::unique_ptr<Screenshot> screenshot)
+void App::submit(Picture& picture, Flight flight)
 {
-    Flight flight;
     flight.frame = m_drawn_count;
     flight.internal_scale = internalScale();
-    flight.screenshot = std::move(screenshot);
     m_renderer.begin(m_drawn_count, picture, vk::encodesSrgb(m_swapchain.format()));
     flight.ray_count = m_renderer.rayCount();
     flight.world_frame = m_world->beginFrame();
@@ -424,6 +451,10 @@ void App::finishOldest()
     if (!m_first_frame_ms)
     {
         m_first_frame_ms = Milliseconds(Clock::now() - m_start).count();
+    }
+    if (flight.inspected)
+    {
+        m_inspected = {*flight.inspected, *flight.report.mappedData()};
     }
     if (m_ladder && flight.internal_scale == m_ladder->scale())
     {
@@ -559,7 +590,75 @@ void App::togglePath()
         return;
     }
     m_path_plays = !m_path_plays;
-    m_path_seconds = m_path_plays ? 0.0 : m_path_seconds;
+    m_path_time.reset();
+}
+
+void App::reloadShaders()
+{
+    vk::KernelCache& kernels = m_device.device().kernels();
+    if (!m_shaders.exist())
+    {
+        note(fmt::format("the shaders' sources are not here: {} is not a folder", m_shaders.root().string()));
+        return;
+    }
+    finishAll(); // old pipelines go
+    m_shader_message.clear();
+    std::size_t count = 0;
+    try
+    {
+        for (CompiledShader& shader : m_shaders.compile(m_shaders.takeChanged(kernels.names())))
+        {
+            if (shader.words.empty())
+            {
+                m_shader_message += shader.message;
+                continue;
+            }
+            kernels.replace(shader.name, std::move(shader.words));
+            ++count;
+        }
+    }
+    catch (const Error& error)
+    {
+        m_shader_message += error.what();
+    }
+    kernels.releaseReplaced();
+    m_world->refresh();
+    if (!m_shader_message.empty())
+    {
+        cli::talk(fmt::format("error: shaders: {}", m_shader_message));
+    }
+    note(count != 0                 ? fmt::format("{} {} compiled", count, count == 1 ? "shader" : "shaders")
+         : m_shader_message.empty() ? "no shader has changed"
+                                    : "the old shaders go on");
+    m_frame_start = Clock::now();
+}
+
+void App::keepSettings()
+{
+    const std::optional<std::filesystem::path> file = m_options.usesSettings() ? settingsFile() : std::nullopt;
+    if (!file)
+    {
+        return;
+    }
+    Settings settings;
+    const PictureSize size = m_window.size();
+    settings.window = size.width != 0 && size.height != 0 ? size : m_settings.window;
+    settings.shows_panels = m_options.hide_ui ? m_settings.shows_panels : m_panels.shows_panels;
+    settings.shows_keys = m_panels.shows_keys;
+    settings.view = m_view;
+    writeSettings(*file, settings);
+}
+
+std::optional<glm::uvec2> App::pixelUnderMouse() const
+{
+    const PictureSize size = m_window.size();
+    const PictureSize pixels = m_window.framebufferSize();
+    if (!m_mouse || !(m_mouse->x >= 0 && m_mouse->x < size.width && m_mouse->y >= 0 && m_mouse->y < size.height))
+    {
+        return std::nullopt;
+    }
+    const glm::uvec2 pixel(m_mouse->x * pixels.width / size.width, m_mouse->y * pixels.height / size.height);
+    return glm::min(pixel, glm::uvec2(pixels.width - 1, pixels.height - 1));
 }
 
 double App::aspect() const

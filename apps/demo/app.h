@@ -14,6 +14,8 @@
 #include "demo/renderer.h"
 #include "demo/resolution_ladder.h"
 #include "demo/screenshot.h"
+#include "demo/settings.h"
+#include "demo/shader_sources.h"
 #include "demo/timeline.h"
 #include "demo/ui.h"
 #include "demo/view_state.h"
@@ -63,6 +65,8 @@ private:
         double internal_scale = 1;
         std::uint64_t ray_count = 0;
         std::unique_ptr<Screenshot> screenshot;
+        std::optional<glm::uvec2> inspected; // pixel of the window
+        vk::BufferOf<gpu::PixelReport> report;
     };
 
     void frame();
@@ -73,7 +77,7 @@ private:
     void advanceTime();
     void buildPanels();
     void draw();
-    void submit(Picture& picture, std::unique_ptr<Screenshot> screenshot);
+    void submit(Picture& picture, Flight flight);
     void finishOldest();
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
@@ -86,8 +90,11 @@ private:
     void changeView(int by);
     void toggleRecording();
     void togglePath();
+    void reloadShaders();
+    void keepSettings();
     void addPathKey();
 
+    [[nodiscard]] std::optional<glm::uvec2> pixelUnderMouse() const;
     [[nodiscard]] double aspect() const;
     [[nodiscard]] double internalScale() const;
     [[nodiscard]] double worldSeconds() const;
@@ -95,6 +102,7 @@ private:
     void writeStats();
 
     const DemoOptions m_options;
+    Settings m_settings; // at the beginning
     Clock::time_point m_start;
     std::unique_ptr<cli::Output> m_screenshot_output; // of the last frame
     std::unique_ptr<cli::Output> m_stats_output;
@@ -118,11 +126,15 @@ private:
     CameraControl m_camera;
     std::array<std::optional<ViewCamera>, 9> m_bookmarks;
     bool m_path_plays = false;
-    double m_path_seconds = 0;
+    Elapsed m_path_time;
     std::vector<CameraKey> m_path_recorded;
     bool m_path_records = false;
     double m_record_seconds = 0;
 
+    ShaderSources m_shaders;
+    std::string m_shader_message; // of the compiler
+    std::optional<MouseMoveEvent> m_mouse;
+    std::optional<InspectedPixel> m_inspected;
     std::vector<ScriptedEvent> m_recorded;
     std::optional<bool> m_wanted_screenshot; // with panels, or without
     std::optional<ResolutionLadder> m_ladder;

@@ -24,7 +24,7 @@ constexpr double kStepMax = 10; // seconds
 
 constexpr const char* kFooter = R"(
 F1 lists the keys. Files dropped onto the window replace what it shows. Settings are kept in
-$XDG_CONFIG_HOME/zvo/demo.json, or ~/.config/zvo/demo.json, unless --frames is given.
+$XDG_CONFIG_HOME/zvo/demo.json, or ~/.config/zvo/demo.json, but for runs with --frames.
 
 Examples:
   zvo-demo scenes/atrium.glb --resolution 256
@@ -35,14 +35,16 @@ Examples:
 Exit codes: 0 success, 2 usage, 3 input, 4 output, 5 no usable device or no display, 6 memory, 1 anything else.)";
 
 // Seconds: "0.02" or "1/60".
-double parseStep(std::string_view option, std::string_view text)
+FixedStep parseStep(std::string_view option, std::string_view text)
 {
     const std::size_t slash = text.find('/');
-    const double step = slash == std::string_view::npos
-                            ? double{cli::parsePositive(option, text)}
-                            : double{cli::parsePositive(option, text.substr(0, slash))} /
-                                  double{cli::parsePositive(option, text.substr(slash + 1))};
-    if (step > kStepMax)
+    FixedStep step = {1, 1};
+    step.numerator = double{cli::parsePositive(option, text.substr(0, slash))};
+    if (slash != std::string_view::npos)
+    {
+        step.denominator = double{cli::parsePositive(option, text.substr(slash + 1))};
+    }
+    if (step.seconds() > kStepMax)
     {
         throw Error(ErrorCode::Usage, fmt::format("{} {}: expected at most {} seconds", option, text, kStepMax));
     }
@@ -118,6 +120,9 @@ void addWindowOptions(CLI::App& app, DemoOptions& options)
     cli::addValue(app, "--frames-in-flight", options.frames_in_flight, parseCount<1, kFramesInFlightMax>, "N",
                   "frames that are under way at once, 1 to 4 (default 2)")
         ->group(kGroup);
+    cli::addFolder(app, "--shaders", options.shaders,
+                   "sources of the shaders that F5 compiles (default: those that the program was built from)");
+    app.get_option("--shaders")->group(kGroup);
     app.add_flag("--hide-ui", options.hide_ui, "without panels; H shows them")->group(kGroup);
 }
 

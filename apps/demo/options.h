@@ -5,6 +5,7 @@
 #include "core/present.h"
 #include "core/trace.h"
 #include "core/tree_data.h"
+#include "demo/elapsed.h"
 #include "vk/swapchain.h"
 
 #include <cstdint>
@@ -22,7 +23,7 @@ struct DemoOptions
     cli::VoxelOptions voxels; // scenes: none, or what is shown first
     std::optional<TreeStructure> structure;
     cli::DeviceOptions device;
-    PictureSize size = {1280, 720};
+    std::optional<PictureSize> size; // of the window
 
     std::string camera; // as in `zvo render`
     std::optional<std::filesystem::path> camera_path;
@@ -36,13 +37,17 @@ struct DemoOptions
     std::uint32_t frames_in_flight = 2;
 
     std::optional<std::uint64_t> frame_count; // after which the program ends
-    std::optional<double> fixed_step;         // seconds that a frame takes, however long it takes
+    std::optional<FixedStep> fixed_step;
     bool hide_ui = false;
+    std::optional<std::filesystem::path> shaders; // folder of the sources that F5 compiles
     std::optional<std::filesystem::path> input_script;
     std::optional<std::filesystem::path> record_input;
     std::string screenshot; // of the last frame; empty: none
     std::string json;       // statistics; empty: none
     bool overwrite = false;
+
+    /// A run of so many frames is to be the same for everyone: settings play no part.
+    [[nodiscard]] bool usesSettings() const { return !frame_count.has_value(); }
 };
 
 /// Reads the command line: options, or text to print and nothing more (help, version). Throws Error{Usage}, one line,

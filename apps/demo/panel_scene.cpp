@@ -29,10 +29,10 @@ void motionControls(const World& world, Timeline& timeline)
     {
         timeline.step(world.stage());
     }
-    auto speed = static_cast<float>(timeline.speed);
+    auto speed = static_cast<float>(timeline.speed());
     if (ImGui::SliderFloat("speed", &speed, 0.0F, 4.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp))
     {
-        timeline.speed = double{speed};
+        timeline.setSpeed(double{speed});
     }
     auto seconds = static_cast<float>(timeline.secondsIn(world.stage()));
     if (ImGui::SliderFloat("time", &seconds, 0.0F, static_cast<float>(world.stage().seconds), "%.2f s",

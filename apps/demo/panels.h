@@ -10,6 +10,7 @@
 #include "demo/world.h"
 #include "vk/device.h"
 
+#include <optional>
 #include <string>
 
 namespace zvo::demo
@@ -38,6 +39,19 @@ void viewPanel(ViewState& view, const ViewFacts& facts);
 
 /// What is shown, and when.
 void scenePanel(const World& world, Timeline& timeline);
+
+/// A pixel that the pointer was on, and what its ray met.
+struct InspectedPixel
+{
+    glm::uvec2 place{0U}; // in the window
+    gpu::PixelReport report{};
+};
+
+/// What the pixel under the pointer shows.
+void inspectorPanel(const std::optional<InspectedPixel>& pixel, const WorldInfo& info);
+
+/// Why shaders do not compile, until the user closes it, which clears the message; nothing for no message.
+void shadersPanel(std::string& message);
 
 /// The table of keys.
 void keysPanel(bool& is_open);

@@ -28,11 +28,21 @@ void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& 
 {
     const TreeView tree = world.tree();
     const TraceCamera camera = traceCamera(picture.camera, tree.octree().grid, m_trace->height);
+    const TraceOptions options = picture.view.traceOptions();
     switch (picture.view.integrator)
     {
     case Integrator::Primary:
-        trace(graph, tree, world.beam(), camera, picture.view.traceOptions(), *m_trace);
+        trace(graph, tree, world.beam(), camera, options, *m_trace);
         break;
+    }
+    if (picture.inspected)
+    {
+        // The pixel that is shown there (scalePicture()).
+        const auto place = [](std::uint32_t at, std::uint32_t shown, std::uint32_t traced)
+        { return (2 * at + 1) * traced / (2 * shown); };
+        const glm::uvec2 pixel = {place(picture.inspected->x, picture.window.width, m_trace->width),
+                                  place(picture.inspected->y, picture.window.height, m_trace->height)};
+        inspectPixel(graph, tree, camera, options, *m_trace, pixel, *picture.report);
     }
     m_compose->fill(graph, *m_trace);
     if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
@@ -51,7 +61,7 @@ void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& 
     {
         m_compose->show(graph, *picture.target);
     }
-    if (picture.screenshot != nullptr)
+    if (picture.screenshot != nullptr || picture.inspected)
     {
         graph.releaseToHost();
     }

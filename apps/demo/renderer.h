@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace zvo::demo
 {
@@ -28,6 +29,8 @@ struct Picture
     const vk::SwapchainImage* target = nullptr;    // null: it is not shown
     vk::BufferOf<gpu::uint>* screenshot = nullptr; // gets the window's pixels; may be null
     bool screenshot_has_panels = true;
+    std::optional<glm::uvec2> inspected;              // pixel of the window
+    vk::BufferOf<gpu::PixelReport>* report = nullptr; // gets what is there
 };
 
 /// Records frames: from the world's tree to the image of the swapchain. Its buffers follow the sizes that are asked

@@ -62,15 +62,21 @@ void readViewState(const JsonCursor& object, ViewState& view)
     with(object, "shadows", [&](const JsonCursor& value) { view.shadows = value.flag(); });
     with(object, "occlusion",
          [&](const JsonCursor& value) { view.occlusion_rays = value.whole(0, kOcclusionRaysMax); });
-    with(object, "sun", [&](const JsonCursor& value) { view.to_sun = value.direction(); });
+    with(object, "sun",
+         [&](const JsonCursor& value)
+         {
+             static_cast<void>(value.direction()); // not all 0; any length
+             view.to_sun = value.vector();
+         });
     with(object, "exposure",
          [&](const JsonCursor& value) { view.exposure = static_cast<float>(value.positive(kExposureMax)); });
     with(object, "detail",
          [&](const JsonCursor& value) { view.detail_pixels = static_cast<float>(value.positive(kDetailMax)); });
     with(object, "internal_scale", [&](const JsonCursor& value) { view.internal_scale = value.positive(1); });
     with(object, "present",
-         [&](const JsonCursor& value)
-         { view.present_mode = static_cast<vk::PresentMode>(value.oneOf({"fifo", "mailbox", "immediate"})); });
+         [&](const JsonCursor& value) {
+             view.present_mode = static_cast<vk::PresentMode>(value.oneOf({"fifo", "mailbox", "immediate"}));
+         });
 }
 
 } // namespace

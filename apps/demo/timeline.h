@@ -2,6 +2,9 @@
 #pragma once
 
 #include "core/stage.h"
+#include "demo/elapsed.h"
+
+#include <optional>
 
 namespace zvo::demo
 {
@@ -10,27 +13,51 @@ namespace zvo::demo
 class Timeline
 {
 public:
-    void start(double seconds) { m_seconds = seconds; }
+    explicit Timeline(const std::optional<FixedStep>& step) : m_run(step) {}
 
-    void advance(double seconds) { m_seconds += m_plays ? speed * seconds : 0.0; }
+    /// From here on.
+    void start(double seconds)
+    {
+        m_start = seconds;
+        m_run.reset();
+    }
+
+    /// A frame more, which took this long by the clock.
+    void advance(double seconds)
+    {
+        if (m_plays)
+        {
+            m_run.add(seconds);
+        }
+    }
 
     /// Stops, and goes on by a frame of the stage.
     void step(const Stage& stage)
     {
         m_plays = false;
-        m_seconds += 1.0 / stage.frames_per_second;
+        start(this->seconds() + 1.0 / stage.frames_per_second);
     }
 
     void play(bool plays) { m_plays = plays; }
     [[nodiscard]] bool plays() const { return m_plays; }
 
-    /// From 0 to the stage's end, where everything begins anew.
-    [[nodiscard]] double secondsIn(const Stage& stage) const { return loopedTime(stage, m_seconds); }
+    /// Seconds of the scene in a second; from 0 on.
+    [[nodiscard]] double speed() const { return m_speed; }
+    void setSpeed(double speed)
+    {
+        start(seconds());
+        m_speed = speed;
+    }
 
-    double speed = 1; // seconds of the scene in a second; from 0 on
+    /// From 0 to the stage's end, where everything begins anew.
+    [[nodiscard]] double secondsIn(const Stage& stage) const { return loopedTime(stage, seconds()); }
 
 private:
-    double m_seconds = 0;
+    [[nodiscard]] double seconds() const { return m_start + m_speed * m_run.seconds(); }
+
+    double m_start = 0;
+    Elapsed m_run;
+    double m_speed = 1;
     bool m_plays = true;
 };
 

@@ -76,6 +76,9 @@ public:
     /// The frame that began last does not reach the device.
     void frameLost();
 
+    /// The kernels may have changed: what they make for tracing is made again.
+    void refresh() { m_beam_is_stale = true; }
+
     [[nodiscard]] TreeView tree() const;
     [[nodiscard]] const BeamGrid& beam() const { return m_beam; }
     [[nodiscard]] const WorldInfo& info() const { return m_info; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "export.h"
 
+#include "common/normal.h"
 #include "morton.h"
 
 #include <fmt/format.h>
@@ -112,20 +113,6 @@ void writePly(const TreeData& tree, Output& output)
                      pieces.endVoxel();
                  });
     pieces.flush();
-}
-
-glm::vec3 decodeNormal(std::uint32_t code)
-{
-    constexpr double kOne = 32767.0; // 1 as a snorm16
-    const double x = static_cast<std::int16_t>(code) / kOne;
-    const double y = static_cast<std::int16_t>(code >> 16) / kOne;
-    glm::dvec3 v(x, y, 1.0 - std::abs(x) - std::abs(y));
-    if (v.z < 0.0)
-    {
-        v.x = std::copysign(1.0 - std::abs(y), x);
-        v.y = std::copysign(1.0 - std::abs(x), y);
-    }
-    return glm::vec3(glm::normalize(v));
 }
 
 } // namespace zvo::cli

@@ -14,7 +14,4 @@ void writeMorton(const TreeData& tree, Output& output);
 /// attributes, unit normals and sRGB colours. After: G. Turk, The PLY Polygon File Format, 1994.
 void writePly(const TreeData& tree, Output& output);
 
-/// The unit vector of an octahedral code (Attribute::normal).
-glm::vec3 decodeNormal(std::uint32_t code);
-
 } // namespace zvo::cli

@@ -103,20 +103,25 @@ std::filesystem::path newFile()
 
 ZvoProcess::ZvoProcess(const std::filesystem::path& folder, std::vector<std::string> arguments,
                        const std::vector<std::string>& environment)
+    : ZvoProcess(ZVO_PROGRAM, folder, commandLine(std::move(arguments)), environment)
+{
+}
+
+ZvoProcess::ZvoProcess(const std::filesystem::path& program, const std::filesystem::path& folder,
+                       std::vector<std::string> command, const std::vector<std::string>& environment)
     : m_out(newFile()), m_err(newFile())
 {
-    std::vector<std::string> command = commandLine(std::move(arguments));
     std::vector<std::string> variables = environmentWith(environment);
     SpawnSetup setup;
     posix_spawn_file_actions_addopen(&setup.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&setup.actions, STDOUT_FILENO, m_out.c_str(), O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&setup.actions, STDERR_FILENO, m_err.c_str(), O_WRONLY, 0);
     posix_spawn_file_actions_addchdir_np(&setup.actions, folder.c_str());
-    const int failure = posix_spawn(&m_pid, ZVO_PROGRAM, &setup.actions, &setup.attributes, pointersTo(command).data(),
+    const int failure = posix_spawn(&m_pid, program.c_str(), &setup.actions, &setup.attributes, pointersTo(command).data(),
                                     pointersTo(variables).data());
     if (failure != 0)
     {
-        throw std::system_error(failure, std::generic_category(), ZVO_PROGRAM);
+        throw std::system_error(failure, std::generic_category(), program.string());
     }
 }
 

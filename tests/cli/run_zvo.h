@@ -26,6 +26,10 @@ public:
     /// process's own variables. On the software device; with validation where the tests' devices have it.
     ZvoProcess(const std::filesystem::path& folder, std::vector<std::string> arguments,
                const std::vector<std::string>& environment = {});
+
+    /// The same of any program; command: its name as it sees it, then its arguments, nothing added.
+    ZvoProcess(const std::filesystem::path& program, const std::filesystem::path& folder,
+               std::vector<std::string> command, const std::vector<std::string>& environment);
     ~ZvoProcess();
     ZvoProcess(const ZvoProcess&) = delete;
     ZvoProcess& operator=(const ZvoProcess&) = delete;

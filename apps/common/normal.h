@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace zvo::cli
+{
+
+/// The unit vector of an octahedral code (gpu::Attribute::normal).
+glm::vec3 decodeNormal(std::uint32_t code);
+
+} // namespace zvo::cli

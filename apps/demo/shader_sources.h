@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zvo::demo
+{
+
+/// A kernel that was compiled, or why it was not.
+struct CompiledShader
+{
+    std::string name;                 // "<operation>/<kernel>"
+    std::vector<std::uint32_t> words; // empty: it does not compile
+    std::string message;              // the compiler's
+};
+
+/// The folder that the kernels' sources are in, and what has changed there.
+class ShaderSources
+{
+public:
+    /// Sources that change from now on have changed.
+    explicit ShaderSources(std::filesystem::path root);
+
+    [[nodiscard]] bool exist() const;
+    [[nodiscard]] const std::filesystem::path& root() const { return m_root; }
+
+    /// Those of names whose source, or something that it includes, has changed since the last call, and those that did
+    /// not compile then, in order.
+    std::vector<std::string> takeChanged(const std::vector<std::string>& names);
+
+    /// Compiles kernels as the build does, several at a time; glslangValidator has to be in the path. Waits.
+    std::vector<CompiledShader> compile(const std::vector<std::string>& names);
+
+private:
+    std::filesystem::path m_root;
+    std::filesystem::file_time_type m_checked;
+    std::set<std::string> m_failed;
+};
+
+/// The files that a source names in its lines "#include".
+std::vector<std::string> includesOf(std::string_view source);
+
+} // namespace zvo::demo
