@@ -6,6 +6,7 @@
 #include "demo/frame_stats.h"
 #include "demo/notices.h"
 #include "demo/timeline.h"
+#include "demo/tool.h"
 #include "demo/view_state.h"
 #include "demo/world.h"
 #include "vk/device.h"
@@ -52,6 +53,16 @@ void inspectorPanel(const std::optional<InspectedPixel>& pixel, const WorldInfo&
 
 /// Why shaders do not compile, until the user closes it, which clears the message; nothing for no message.
 void shadersPanel(std::string& message);
+/// What was asked for in the tools panel.
+struct ToolsAnswer
+{
+    bool undoes = false;
+    bool redoes = false;
+    bool saves = false;
+};
+
+/// What the left button does, the brush, what can be undone.
+ToolsAnswer toolsPanel(ToolState& state, const World& world);
 
 /// The table of keys.
 void keysPanel(bool& is_open);

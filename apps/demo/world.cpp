@@ -6,6 +6,7 @@
 #include "common/session.h"
 #include "common/tree_input.h"
 #include "common/view.h"
+#include "core/flatten.h"
 #include "core/gpu_scene.h"
 #include "core/pipeline.h"
 #include "core/stage_octree.h"
@@ -14,6 +15,7 @@
 #include "zvo/error.h"
 
 #include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -29,6 +31,51 @@ constexpr int kSettleFrames = 64; // everything doubles in two of them at most
 bool isTreeFile(const std::filesystem::path& file)
 {
     return isZvoFile(file) || cli::isVoxFile(file);
+}
+
+// A pose moved by so much.
+Pose moved(Pose pose, const glm::dvec3& by)
+{
+    const glm::dmat4 move = glm::translate(glm::dmat4(1.0), by);
+    const auto place = [&](glm::mat4& matrix) { matrix = glm::mat4(move * glm::dmat4(matrix)); };
+    std::ranges::for_each(pose.transforms, place);
+    for (std::vector<glm::mat4>& joints : pose.joint_matrices)
+    {
+        std::ranges::for_each(joints, place);
+    }
+    return pose;
+}
+
+// A box around a primitive in the places that matrices put it into.
+void include(Bounds& bounds, const Bounds& primitive, const std::vector<glm::mat4>& matrices)
+{
+    for (const glm::mat4& matrix : matrices)
+    {
+        for (int corner = 0; corner < 8; ++corner)
+        {
+            const glm::vec3 at((corner & 1) != 0 ? primitive.max.x : primitive.min.x,
+                               (corner & 2) != 0 ? primitive.max.y : primitive.min.y,
+                               (corner & 4) != 0 ? primitive.max.z : primitive.min.z);
+            bounds.extend(glm::vec3(matrix * glm::vec4(at, 1.0F)));
+        }
+    }
+}
+
+// A box around a mover in a pose: what joints pull is between where each of them alone would put it.
+Bounds boundsOf(const Scene& scene, const Pose& pose)
+{
+    Bounds bounds;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    {
+        Bounds primitive;
+        for (const glm::vec3& position : scene.primitives[scene.instances[i].primitive].positions)
+        {
+            primitive.extend(position);
+        }
+        const bool has_joints = i < pose.joint_matrices.size() && !pose.joint_matrices[i].empty();
+        include(bounds, primitive, has_joints ? pose.joint_matrices[i] : std::vector{pose.transforms[i]});
+    }
+    return bounds;
 }
 
 std::string nameOf(const std::vector<std::filesystem::path>& files)
@@ -181,28 +228,27 @@ void World::build(const WorldOptions& options, const Grid& grid)
 
 TreeView World::tree() const
 {
-    if (const auto* const dynamic = std::get_if<std::unique_ptr<DynamicOctree>>(&m_tree))
+    if (canEdit())
     {
-        return (*dynamic)->tree();
+        return dynamic()->tree();
     }
     return std::visit([](const auto& fixed) { return TreeView(fixed); }, std::get<DeviceTree>(m_tree));
 }
 
 std::uint64_t World::beginFrame()
 {
-    const auto* const dynamic = std::get_if<std::unique_ptr<DynamicOctree>>(&m_tree);
-    return dynamic != nullptr ? (*dynamic)->beginFrame() : m_frame++;
+    return canEdit() ? dynamic()->beginFrame() : m_frame++;
 }
 
 // What moves, where it is at a time of the stage.
 void World::updateMovers(vk::FrameGraph& graph, double seconds)
 {
-    DynamicOctree& octree = *std::get<std::unique_ptr<DynamicOctree>>(m_tree);
+    DynamicOctree& octree = *dynamic();
     if (m_shown_seconds != seconds)
     {
         for (std::size_t i = 0; i < m_movers.size(); ++i)
         {
-            octree.place(m_movers[i], moverPose(m_stage.movers[i], seconds));
+            octree.place(m_movers[i], poseOf(i, seconds));
         }
     }
     else if (!octree.needsUpdate() && !octree.isUpdating())
@@ -215,9 +261,63 @@ void World::updateMovers(vk::FrameGraph& graph, double seconds)
     m_trouble.clear();
 }
 
+// Whether the octree took it.
+bool World::record(vk::FrameGraph& graph, const EditRequest& request)
+{
+    DynamicOctree& octree = *dynamic();
+    if (const auto* const brush = std::get_if<Brush>(&request))
+    {
+        return octree.edit(graph, *brush);
+    }
+    if (std::holds_alternative<EndStroke>(request))
+    {
+        octree.endStroke();
+    }
+    else if (std::holds_alternative<UndoStroke>(request))
+    {
+        octree.undoEdit(graph);
+    }
+    else
+    {
+        octree.redoEdit(graph);
+    }
+    return true;
+}
+
+// What brushes are to do, as far as it goes into a frame. A dab without memory is left out.
+void World::recordRequests(vk::FrameGraph& graph)
+{
+    m_beam_is_stale = m_beam_is_stale || !m_requests.empty();
+    for (std::uint32_t i = 0; i < kDabsPerFrameMax && !m_requests.empty(); ++i)
+    {
+        try
+        {
+            if (!record(graph, m_requests.front()))
+            {
+                return; // in a later frame
+            }
+            m_recorded.push_back(m_requests.front());
+        }
+        catch (const Error& error)
+        {
+            if (error.code() != ErrorCode::Memory)
+            {
+                throw;
+            }
+            cli::talk(error.what());
+        }
+        m_requests.pop_front();
+    }
+}
+
 void World::update(vk::FrameGraph& graph, double seconds)
 {
-    if (moves())
+    m_recorded.clear();
+    if (!m_requests.empty())
+    {
+        recordRequests(graph);
+    }
+    if (moves() || (canEdit() && dynamic()->needsUpdate()))
     {
         try
         {
@@ -255,7 +355,7 @@ void World::settle(double seconds)
             frameLost();
             throw;
         }
-        if (!moves() || !m_trouble.empty() || !std::get<std::unique_ptr<DynamicOctree>>(m_tree)->needsUpdate())
+        if (isSettled())
         {
             return;
         }
@@ -264,23 +364,84 @@ void World::settle(double seconds)
                 fmt::format("movers found no room in {} attempts; lower the resolution", kSettleFrames));
 }
 
+bool World::isSettled() const
+{
+    const bool is_shown = !canEdit() || !m_trouble.empty() || !dynamic()->needsUpdate();
+    return is_shown && m_requests.empty();
+}
+
 void World::frameLost()
 {
-    if (auto* const dynamic = std::get_if<std::unique_ptr<DynamicOctree>>(&m_tree))
+    if (canEdit())
     {
-        (*dynamic)->frameLost();
+        dynamic()->frameLost();
     }
+    m_requests.insert(m_requests.begin(), m_recorded.begin(), m_recorded.end());
+    m_recorded.clear();
     m_beam_is_stale = true;
+}
+
+DynamicOctree* World::dynamic() const
+{
+    const auto* const octree = std::get_if<std::unique_ptr<DynamicOctree>>(&m_tree);
+    return octree != nullptr ? octree->get() : nullptr;
+}
+
+Pose World::poseOf(std::size_t mover, double seconds) const
+{
+    Pose pose = moverPose(m_stage.movers[mover], seconds);
+    return m_offsets[mover] == glm::dvec3(0.0) ? pose : moved(std::move(pose), m_offsets[mover]);
+}
+
+std::optional<std::size_t> World::moverAt(const glm::dvec3& point) const
+{
+    const double slack = 2.0 * m_info.grid.voxel_size;
+    std::optional<std::size_t> best;
+    double best_size = 0;
+    for (std::size_t i = 0; i < m_movers.size(); ++i)
+    {
+        const Bounds bounds = boundsOf(m_stage.movers[i].scene, poseOf(i, m_shown_seconds.value_or(0.0)));
+        const bool is_inside = glm::all(glm::greaterThanEqual(point, glm::dvec3(bounds.min) - slack)) &&
+                               glm::all(glm::lessThanEqual(point, glm::dvec3(bounds.max) + slack));
+        const double size = glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min));
+        if (is_inside && (!best || size < best_size))
+        {
+            best = i;
+            best_size = size;
+        }
+    }
+    return best;
+}
+
+void World::setOffset(std::size_t mover, const glm::dvec3& offset)
+{
+    m_offsets[mover] = offset;
+    m_shown_seconds.reset();
+}
+
+TreeData World::copyTree(TreeStructure structure)
+{
+    if (!canEdit())
+    {
+        return std::visit([this](const auto& fixed) { return downloadTree(m_device, fixed); },
+                          std::get<DeviceTree>(m_tree));
+    }
+    TreeData flat = flattenTree(m_device, tree());
+    if (structure == TreeStructure::Svo || flat.nodes.empty())
+    {
+        return flat;
+    }
+    Octree octree = std::get<Octree>(uploadTree(m_device, flat));
+    return downloadTree(m_device, compress(m_device, std::move(octree)).dag);
 }
 
 void World::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)
 {
-    const auto* const dynamic = std::get_if<std::unique_ptr<DynamicOctree>>(&m_tree);
-    if (dynamic == nullptr)
+    if (!canEdit())
     {
         return;
     }
-    const std::vector<UpdateReport> reports = (*dynamic)->frameDone(frame, passes);
+    const std::vector<UpdateReport> reports = dynamic()->frameDone(frame, passes);
     if (!reports.empty())
     {
         m_info.update = reports.back();

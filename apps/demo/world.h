@@ -10,7 +10,9 @@
 #include "core/tree_view.h"
 #include "vk/headless.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -46,6 +48,19 @@ struct WorldInfo
     UpdateReport update{}; // the last one that is known
 };
 
+struct EndStroke
+{
+};
+struct UndoStroke
+{
+};
+struct RedoStroke
+{
+};
+
+/// What a brush is to do to a world: a dab of the stroke that is under way, or of a new one.
+using EditRequest = std::variant<Brush, EndStroke, UndoStroke, RedoStroke>;
+
 /// What is shown: the voxels of what stands still with what moves merged into them, in device memory, and the grid that
 /// primary rays begin with. A frame: beginFrame(), then update() into the frame's commands, then frameDone() once the
 /// device is done with it. The device must be done with all frames when a World goes.
@@ -66,6 +81,27 @@ public:
     /// not suffice for what moves: then it stays where it is, and trouble() says why. Throws what making a kernel
     /// throws: then the frame is lost, if it is not submitted.
     void update(vk::FrameGraph& graph, double seconds);
+
+    /// Whether a brush can change what stands still: not where attributes are packed.
+    [[nodiscard]] bool canEdit() const { return dynamic() != nullptr; }
+
+    /// Has something done by the next updates, in order. For worlds that can be edited.
+    void request(const EditRequest& request) { m_requests.push_back(request); }
+
+    /// What was done by brushes, and what of it can be undone; null where nothing can be edited.
+    [[nodiscard]] const Edits* edits() const { return dynamic() != nullptr ? &dynamic()->edits() : nullptr; }
+
+    /// What is shown as an octree, or a DAG, of its own, for a file; a tree that cannot be edited as it is. Waits for
+    /// the device. Throws Error{Memory}.
+    [[nodiscard]] TreeData copyTree(TreeStructure structure);
+
+    /// Which of what moves is around a point of the world, as it is shown; nothing where there is none.
+    [[nodiscard]] std::optional<std::size_t> moverAt(const glm::dvec3& point) const;
+
+    /// Puts something that moves elsewhere, beside its motion: so far, in world space, in all. 0: where the stage has
+    /// it.
+    void setOffset(std::size_t mover, const glm::dvec3& offset);
+    [[nodiscard]] const glm::dvec3& offset(std::size_t mover) const { return m_offsets[mover]; }
 
     /// The same, in a frame of its own, until it is shown, and waits: update() has nothing more to do then.
     void settle(double seconds);
@@ -99,7 +135,12 @@ private:
     static std::unique_ptr<World> ofStage(vk::HeadlessDevice& device, const WorldOptions& options);
     void keep(DeviceTree&& tree, const WorldOptions& options);
     void build(const WorldOptions& options, const Grid& grid);
+    void recordRequests(vk::FrameGraph& graph);
+    bool record(vk::FrameGraph& graph, const EditRequest& request);
     void updateMovers(vk::FrameGraph& graph, double seconds);
+    [[nodiscard]] DynamicOctree* dynamic() const;
+    [[nodiscard]] Pose poseOf(std::size_t mover, double seconds) const;
+    [[nodiscard]] bool isSettled() const;
 
     vk::HeadlessDevice& m_device;
     Stage m_stage;
@@ -108,7 +149,10 @@ private:
     bool m_beam_is_stale = true;
     std::variant<DeviceTree, std::unique_ptr<DynamicOctree>> m_tree;
     std::vector<MoverId> m_movers;         // in the order of the stage
+    std::vector<glm::dvec3> m_offsets;     // of movers
     std::optional<double> m_shown_seconds; // that the movers were placed for
+    std::deque<EditRequest> m_requests;    // to be recorded
+    std::deque<EditRequest> m_recorded;    // in the last frame
     std::uint64_t m_frame = 0;             // of worlds that nothing can be merged with
     std::string m_trouble;
     WorldInfo m_info;

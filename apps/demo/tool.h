@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/brush.h"
+
+#include <array>
+#include <cstdint>
+
+namespace zvo::demo
+{
+
+/// What the left mouse button does.
+enum class Tool
+{
+    Camera, ///< orbits
+    Brush,  ///< edits voxels
+    Move    ///< drags what moves
+};
+
+/// What the tools panel shows and changes.
+struct ToolState
+{
+    Tool tool = Tool::Camera;
+    BrushAction action = BrushAction::Carve;
+    BrushShape shape = BrushShape::Sphere;
+    int radius = 8;                                   // voxels
+    std::array<float, 3> color = {0.85F, 0.2F, 0.1F}; // sRGB, from 0 to 1
+
+    /// The dab at a voxel.
+    [[nodiscard]] Brush brushAt(const glm::ivec3& voxel) const
+    {
+        std::uint32_t packed = 0;
+        for (std::size_t i = 0; i < color.size(); ++i)
+        {
+            packed |= static_cast<std::uint32_t>(glm::clamp(color[i], 0.0F, 1.0F) * 255.0F + 0.5F) << (8 * i);
+        }
+        return {shape, action, voxel, static_cast<std::uint32_t>(radius), packed};
+    }
+};
+
+} // namespace zvo::demo
