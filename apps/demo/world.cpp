@@ -26,6 +26,11 @@ namespace zvo::demo
 namespace
 {
 
+// Parts of the time that making a world takes, more or less, when its steps begin.
+constexpr double kCopyingAt = 0.3; // after reading
+constexpr double kVoxelizingAt = 0.45;
+constexpr double kCompressingAt = 0.8;
+constexpr double kMoversAt = 0.9;
 constexpr int kSettleFrames = 64; // everything doubles in two of them at most
 
 bool isTreeFile(const std::filesystem::path& file)
@@ -92,25 +97,43 @@ World::World(vk::HeadlessDevice& device, Stage stage, const Bounds& subject, boo
 
 std::unique_ptr<World> World::load(vk::HeadlessDevice& device, const WorldOptions& options)
 {
+    return make(device, options, read(options), [](std::string_view, double) {});
+}
+
+WorldInput World::read(const WorldOptions& options)
+{
+    const std::vector<std::filesystem::path>& files = options.voxels.scenes;
+    const auto tree_file = std::ranges::find_if(files, isTreeFile);
+    if (tree_file == files.end())
+    {
+        return files.empty() ? WorldInput{} : WorldInput{cli::loadStageWithWarnings(options.voxels, true), {}};
+    }
+    if (files.size() > 1)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("{} stands alone; show one file of voxels, or scenes", tree_file->string()));
+    }
+    return cli::isVoxFile(*tree_file) ? WorldInput{} : WorldInput{{}, readZvo(*tree_file).tree};
+}
+
+std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOptions& options, WorldInput input,
+                                   const StepListener& listener)
+{
     const std::vector<std::filesystem::path>& files = options.voxels.scenes;
     std::unique_ptr<World> world;
-    if (files.empty())
+    if (input.stage)
     {
-        world.reset(new World(device, {}, {glm::vec3(0.0F), glm::vec3(1.0F)}, false));
-        world->m_tree = DeviceTree(Octree{});
+        world = ofStage(device, options, std::move(*input.stage), listener);
     }
-    else if (std::ranges::any_of(files, isTreeFile))
+    else if (!files.empty())
     {
-        if (files.size() > 1)
-        {
-            throw Error(ErrorCode::Usage, fmt::format("{} stands alone; show one file of voxels, or scenes",
-                                                      std::ranges::find_if(files, isTreeFile)->string()));
-        }
-        world = ofTree(device, options);
+        TreeData tree = input.tree ? std::move(*input.tree) : cli::loadVox(files.front(), device);
+        world = ofTree(device, options, std::move(tree), listener);
     }
     else
     {
-        world = ofStage(device, options);
+        world.reset(new World(device, {}, {glm::vec3(0.0F), glm::vec3(1.0F)}, false));
+        world->m_tree = DeviceTree(Octree{});
     }
     world->m_info.name = nameOf(files);
     world->m_info.grid = world->tree().octree().grid;
@@ -119,14 +142,14 @@ std::unique_ptr<World> World::load(vk::HeadlessDevice& device, const WorldOption
     return world;
 }
 
-std::unique_ptr<World> World::ofTree(vk::HeadlessDevice& device, const WorldOptions& options)
+std::unique_ptr<World> World::ofTree(vk::HeadlessDevice& device, const WorldOptions& options, TreeData tree,
+                                     const StepListener& listener)
 {
-    const std::filesystem::path& file = options.voxels.scenes.front();
-    const TreeData tree = cli::isVoxFile(file) ? cli::loadVox(file, device) : readZvo(file).tree;
     if (tree.voxel_count == 0)
     {
         cli::talk("warning: the file has no voxels");
     }
+    listener("copying to the device", kCopyingAt);
     const Bounds subject = cli::subjectOf(cli::boundsOf(tree), tree.grid);
     std::unique_ptr<World> world(new World(device, {}, subject, tree.structure == TreeStructure::Svdag));
     world->m_info.static_voxel_count = tree.voxel_count;
@@ -161,19 +184,19 @@ void World::keep(DeviceTree&& tree, const WorldOptions& options)
     m_tree = std::make_unique<DynamicOctree>(m_device, std::move(built), dynamic);
 }
 
-std::unique_ptr<World> World::ofStage(vk::HeadlessDevice& device, const WorldOptions& options)
+std::unique_ptr<World> World::ofStage(vk::HeadlessDevice& device, const WorldOptions& options, Stage stage,
+                                      const StepListener& listener)
 {
-    Stage stage = cli::loadStageWithWarnings(options.voxels, true);
     const Bounds bounds = stageBounds(stage);
     const Grid grid = cli::placeGrid(options.voxels, stage, bounds);
     std::unique_ptr<World> world(
         new World(device, std::move(stage), cli::subjectOf(bounds, grid), options.structure == TreeStructure::Svdag));
-    world->build(options, grid);
+    world->build(options, grid, listener);
     return world;
 }
 
 // Voxelizes what stands still, and makes it ready for what moves.
-void World::build(const WorldOptions& options, const Grid& grid)
+void World::build(const WorldOptions& options, const Grid& grid, const StepListener& listener)
 {
     const bool has_attributes = options.voxels.hasAttributes();
     const float emission_scale = brightestEmission(m_stage);
@@ -181,8 +204,10 @@ void World::build(const WorldOptions& options, const Grid& grid)
     build.coverage = options.voxels.coverage;
     build.attributes = has_attributes;
     build.keep_sums = has_attributes && m_stage.merge == MergeRule::Average && !m_stage.movers.empty();
-    BuildResult built =
-        buildOctree(m_device, uploadScene(m_device, m_stage.fixed, has_attributes, emission_scale), grid, build);
+    listener("copying to the device", kCopyingAt);
+    const GpuScene fixed_scene = uploadScene(m_device, m_stage.fixed, has_attributes, emission_scale);
+    listener("voxelizing", kVoxelizingAt);
+    BuildResult built = buildOctree(m_device, fixed_scene, grid, build);
     m_info.static_triangle_count = m_stage.fixed.triangleCount();
     m_stage.fixed.primitives.clear(); // the cameras stay
     m_stage.fixed.instances.clear();
@@ -200,6 +225,7 @@ void World::build(const WorldOptions& options, const Grid& grid)
     std::optional<Svdag> dag;
     if (options.structure == TreeStructure::Svdag)
     {
+        listener("compressing", kCompressingAt);
         CompressResult compressed = compress(m_device, std::move(built.octree));
         m_info.static_node_count = compressed.dag.tree.node_count;
         m_info.geometry_bytes = compressed.dag.geometryBytes();
@@ -216,6 +242,7 @@ void World::build(const WorldOptions& options, const Grid& grid)
     built.sums = std::move(sums);
     StaticTree fixed = dag ? StaticTree(*std::move(dag), std::move(built.sums)) : StaticTree(std::move(built));
     auto octree = std::make_unique<DynamicOctree>(m_device, std::move(fixed), dynamic);
+    listener("copying what moves", kMoversAt);
     for (const Mover& mover : m_stage.movers)
     {
         m_info.moving_triangle_count += mover.scene.triangleCount();

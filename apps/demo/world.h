@@ -13,10 +13,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -61,6 +63,16 @@ struct RedoStroke
 /// What a brush is to do to a world: a dab of the stroke that is under way, or of a new one.
 using EditRequest = std::variant<Brush, EndStroke, UndoStroke, RedoStroke>;
 
+/// What files hold, before the device has any of it. A .vox file is read when the world is made.
+struct WorldInput
+{
+    std::optional<Stage> stage;
+    std::optional<TreeData> tree;
+};
+
+/// Is told what is being done, and how much of everything is done before that: 0 to 1.
+using StepListener = std::function<void(std::string_view step, double done)>;
+
 /// What is shown: the voxels of what stands still with what moves merged into them, in device memory, and the grid that
 /// primary rays begin with. A frame: beginFrame(), then update() into the frame's commands, then frameDone() once the
 /// device is done with it. The device must be done with all frames when a World goes.
@@ -70,6 +82,11 @@ public:
     /// Loads what options name, as `zvo render` does, .vox files, too; tells of what was left out. Waits. Throws what
     /// `zvo render` throws: Error{Input}, Error{Usage} and Error{Memory}. Other worlds stay as they are.
     static std::unique_ptr<World> load(vk::HeadlessDevice& device, const WorldOptions& options);
+
+    /// The same in two steps: read() needs no device, and may be called on any thread.
+    static WorldInput read(const WorldOptions& options);
+    static std::unique_ptr<World> make(vk::HeadlessDevice& device, const WorldOptions& options, WorldInput input,
+                                       const StepListener& listener);
 
     World(const World&) = delete;
     World& operator=(const World&) = delete;
@@ -131,10 +148,12 @@ public:
 private:
     World(vk::HeadlessDevice& device, Stage stage, const Bounds& subject, bool has_lists);
 
-    static std::unique_ptr<World> ofTree(vk::HeadlessDevice& device, const WorldOptions& options);
-    static std::unique_ptr<World> ofStage(vk::HeadlessDevice& device, const WorldOptions& options);
+    static std::unique_ptr<World> ofTree(vk::HeadlessDevice& device, const WorldOptions& options, TreeData tree,
+                                         const StepListener& listener);
+    static std::unique_ptr<World> ofStage(vk::HeadlessDevice& device, const WorldOptions& options, Stage stage,
+                                          const StepListener& listener);
     void keep(DeviceTree&& tree, const WorldOptions& options);
-    void build(const WorldOptions& options, const Grid& grid);
+    void build(const WorldOptions& options, const Grid& grid, const StepListener& listener);
     void recordRequests(vk::FrameGraph& graph);
     bool record(vk::FrameGraph& graph, const EditRequest& request);
     void updateMovers(vk::FrameGraph& graph, double seconds);
