@@ -68,6 +68,17 @@ WorldOptions worldOptions(const DemoOptions& options)
     return {options.voxels, options.structure, options.frames_in_flight};
 }
 
+// A window of panels in the upper left or right corner. ImGui::End() ends it, whether or not it is open.
+bool beginPanels(const char* title, bool is_right)
+{
+    constexpr float kMargin = 10;
+    const float width = ImGui::GetMainViewport()->WorkSize.x;
+    ImGui::SetNextWindowPos({is_right ? width - kMargin : kMargin, kMargin}, ImGuiCond_Always,
+                            {is_right ? 1.0F : 0.0F, 0.0F});
+    ImGui::SetNextWindowBgAlpha(0.85F);
+    return ImGui::Begin(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+}
+
 CameraKey keyOf(const ViewCamera& camera, double seconds, const glm::dvec3& target)
 {
     return {seconds, camera.position, target, glm::degrees(camera.vertical_fov)};
@@ -85,8 +96,8 @@ App::App(const DemoOptions& options, Clock::time_point start)
       m_swapchain(m_device, [this](VkInstance instance) { return m_window.makeSurface(instance); },
                   {options.present_mode.value_or(m_settings.view.present_mode), options.frames_in_flight}),
       m_compose_pass(m_device.device()), m_ui(m_device, m_compose_pass, m_window, options.frames_in_flight),
-      m_world(World::load(m_device, worldOptions(options))), m_renderer(m_device, m_compose_pass),
-      m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
+      m_world_options(worldOptions(options)), m_world(World::load(m_device, m_world_options)),
+      m_renderer(m_device, m_compose_pass), m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
       m_camera(cli::chooseCamera(options.camera, m_world->stage(), m_world->subject(), aspect()), m_world->subject()),
       m_path_time(options.fixed_step), m_shaders(options.shaders.value_or(ZVO_SHADERS_DIR)), m_frame_start(Clock::now())
 {
@@ -105,12 +116,18 @@ App::App(const DemoOptions& options, Clock::time_point start)
     {
         m_ladder.emplace(kCpuLadderStep);
     }
-    cli::listenToTalk([this](std::string_view text) { m_notices.add(text); });
+    cli::listenToTalk(
+        [this](std::string_view text)
+        {
+            const std::lock_guard lock(m_told_mutex);
+            m_told.emplace_back(text);
+        });
     m_window.setTitle(m_world->info().name.empty() ? kTitle : fmt::format("{} - {}", m_world->info().name, kTitle));
 }
 
 App::~App()
 {
+    m_loading.reset(); // its thread tells things
     cli::listenToTalk(nullptr);
 }
 
@@ -118,10 +135,10 @@ void App::run()
 {
     while (!m_quits)
     {
-        frame();
-        ++m_frame;
-        m_quits = m_quits || (m_options.frame_count && m_frame >= *m_options.frame_count);
+        continueLoading();
+        tick();
     }
+    m_loading.reset();
     finishAll();
     if (m_screenshot_output != nullptr)
     {
@@ -135,6 +152,13 @@ void App::run()
     writeStats();
     keepSettings();
     cli::checkValidation(m_device);
+}
+
+void App::tick()
+{
+    frame();
+    ++m_frame;
+    m_quits = m_quits || (m_options.frame_count && m_frame >= *m_options.frame_count);
 }
 
 void App::frame()
@@ -204,7 +228,7 @@ void App::apply(const InputEvent& event)
     }
     if (const auto* const drop = std::get_if<DropEvent>(&event))
     {
-        load(drop->files);
+        loadFiles(drop->files);
         return;
     }
     if (std::holds_alternative<CloseEvent>(event))
@@ -212,7 +236,9 @@ void App::apply(const InputEvent& event)
         m_quits = true;
         return;
     }
-    m_camera.handle(event, false, static_cast<double>(m_window.size().height));
+    const PictureSize size = m_window.size();
+    m_camera.handle(event, m_editor.hasButton(), static_cast<double>(size.height));
+    m_editor.handle(event, m_camera.camera(), {size.width, size.height}, *m_world);
     if (const auto* const key = std::get_if<KeyEvent>(&event))
     {
         onKey(*key);
@@ -286,6 +312,29 @@ void App::perform(const KeyBinding& binding, Key key)
     case Action::ScreenshotOfPicture:
         m_wanted_screenshot = false;
         break;
+    case Action::UseBrush:
+    case Action::UseHand:
+    case Action::UseCamera:
+    case Action::NextBrush:
+    case Action::SmallerBrush:
+    case Action::LargerBrush:
+        m_editor.perform(binding.action);
+        break;
+    case Action::TakeColor:
+        if (m_inspected)
+        {
+            m_editor.takeColor(m_inspected->report);
+        }
+        break;
+    case Action::Undo:
+        request(UndoStroke{});
+        break;
+    case Action::Redo:
+        request(RedoStroke{});
+        break;
+    case Action::Save:
+        save();
+        break;
     case Action::Quit:
         m_quits = true;
         break;
@@ -296,6 +345,7 @@ void App::perform(const KeyBinding& binding, Key key)
 
 void App::advanceTime()
 {
+    takeTold();
     m_notices.advance(m_step);
     m_camera.advance(m_step);
     if (m_frame != 0) // the first frame shows the beginning
@@ -333,15 +383,19 @@ void App::buildPanels()
                    {
                        return;
                    }
-                   ImGui::SetNextWindowPos({10, 10}, ImGuiCond_FirstUseEver);
-                   ImGui::SetNextWindowBgAlpha(0.85F);
-                   if (ImGui::Begin("zvo", nullptr, ImGuiWindowFlags_AlwaysAutoResize))
+                   if (beginPanels("zvo", false))
                    {
                        scenePanel(*m_world, m_timeline);
+                       buildPanel();
+                       toolsPanel();
                        viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed()});
-                       inspectorPanel(m_inspected, m_world->info());
-                       performancePanel(m_stats, m_device.device().memory(), m_world->info());
                        ImGui::TextUnformatted("F1: keys");
+                   }
+                   ImGui::End();
+                   if (beginPanels("measurements", true))
+                   {
+                       performancePanel(m_stats, m_device.device().memory(), m_world->info());
+                       inspectorPanel(m_inspected, m_world->info());
                    }
                    ImGui::End();
                    shadersPanel(m_shader_message);
@@ -394,14 +448,15 @@ void App::draw()
         picture.screenshot = &flight.screenshot->pixels();
         picture.screenshot_has_panels = flight.screenshot->hasPanels();
     }
-    flight.inspected = m_panels.shows_panels ? pixelUnderMouse() : std::nullopt;
+    flight.look = m_editor.look();
+    flight.inspected = m_panels.shows_panels || m_editor.wantsPixel() ? pixelUnderMouse() : std::nullopt;
     if (flight.inspected)
     {
         flight.report = {m_device.device(), "inspected pixel", 1, vk::MemoryKind::Readback};
         picture.inspected = flight.inspected;
         picture.report = &flight.report;
     }
-    submit(picture, std::move(flight));
+    submit(picture, flight);
     if (target)
     {
         m_swapchain.present(*target);
@@ -409,7 +464,7 @@ void App::draw()
     ++m_drawn_count;
 }
 
-void App::submit(Picture& picture, Flight flight)
+void App::submit(Picture& picture, Flight& flight)
 {
     flight.frame = m_drawn_count;
     flight.internal_scale = internalScale();
@@ -455,6 +510,7 @@ void App::finishOldest()
     if (flight.inspected)
     {
         m_inspected = {*flight.inspected, *flight.report.mappedData()};
+        m_editor.found(flight.look, m_inspected->report, *m_world);
     }
     if (m_ladder && flight.internal_scale == m_ladder->scale())
     {
@@ -476,37 +532,6 @@ void App::finishAll()
     {
         finishOldest();
     }
-}
-
-void App::load(const std::vector<std::filesystem::path>& files)
-{
-    WorldOptions options = worldOptions(m_options);
-    options.voxels.scenes = files;
-    if (files.empty())
-    {
-        return;
-    }
-    finishAll(); // loading uses the device, too
-    try
-    {
-        show(World::load(m_device, options));
-    }
-    catch (const Error& error)
-    {
-        cli::talk(fmt::format("error: {}", error.what()));
-    }
-    m_frame_start = Clock::now();
-}
-
-void App::show(std::unique_ptr<World> world)
-{
-    m_world = std::move(world);
-    m_bookmarks = {};
-    m_path_plays = false;
-    m_timeline.start(0);
-    m_camera.show(cli::chooseCamera("", m_world->stage(), m_world->subject(), aspect()));
-    m_camera.setSubject(m_world->subject());
-    m_window.setTitle(fmt::format("{} - {}", m_world->info().name, kTitle));
 }
 
 void App::frameScene()

@@ -5,9 +5,11 @@
 #include "core/camera_path.h"
 #include "demo/camera_control.h"
 #include "demo/compose.h"
+#include "demo/editor.h"
 #include "demo/frame_stats.h"
 #include "demo/input_script.h"
 #include "demo/keys.h"
+#include "demo/loading.h"
 #include "demo/notices.h"
 #include "demo/options.h"
 #include "demo/panels.h"
@@ -29,6 +31,7 @@
 #include <deque>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,9 +69,11 @@ private:
         std::uint64_t ray_count = 0;
         std::unique_ptr<Screenshot> screenshot;
         std::optional<glm::uvec2> inspected; // pixel of the window
+        std::uint64_t look = 0;              // number of that, for the editor
         vk::BufferOf<gpu::PixelReport> report;
     };
 
+    void tick();
     void frame();
     void takeInput();
     void apply(const InputEvent& event);
@@ -76,14 +81,21 @@ private:
     void perform(const KeyBinding& binding, Key key);
     void advanceTime();
     void buildPanels();
+    void buildPanel();
+    void toolsPanel();
     void draw();
-    void submit(Picture& picture, Flight flight);
+    void submit(Picture& picture, Flight& flight);
     void finishOldest();
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
 
-    void load(const std::vector<std::filesystem::path>& files);
-    void show(std::unique_ptr<World> world);
+    void loadFiles(const std::vector<std::filesystem::path>& files);
+    void beginLoading(WorldOptions options);
+    void continueLoading();
+    void loadAtOnce(const WorldOptions& options);
+    void show(std::unique_ptr<World> world, const WorldOptions& options);
+    void request(const EditRequest& request);
+    void save();
     void frameScene();
     void copyCamera();
     void pasteCamera();
@@ -99,6 +111,7 @@ private:
     [[nodiscard]] double internalScale() const;
     [[nodiscard]] double worldSeconds() const;
     void note(const std::string& text);
+    void takeTold();
     void writeStats();
 
     const DemoOptions m_options;
@@ -115,13 +128,19 @@ private:
     vk::Swapchain m_swapchain;
     ComposePass m_compose_pass;
     Ui m_ui;
+    WorldOptions m_world_options; // of m_world
     std::unique_ptr<World> m_world;
+    std::unique_ptr<Loading> m_loading;       // null: nothing is being loaded
+    std::optional<WorldOptions> m_loads_next; // when what is being loaded has been cancelled
     Renderer m_renderer;
     std::deque<Flight> m_flights;
 
     ViewState m_view;
+    Editor m_editor;
     PanelState m_panels;
     Notices m_notices;
+    std::mutex m_told_mutex;
+    std::vector<std::string> m_told; // by any thread, to be noticed
     Timeline m_timeline;
     CameraControl m_camera;
     std::array<std::optional<ViewCamera>, 9> m_bookmarks;

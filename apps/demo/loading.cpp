@@ -30,6 +30,10 @@ std::unique_ptr<World> Loading::finish(vk::HeadlessDevice& device, double interv
                                        const std::function<void()>& frame)
 {
     WorldInput input = m_input.get();
+    if (m_is_cancelled)
+    {
+        return nullptr;
+    }
     const auto pause = [&]
     {
         frame();

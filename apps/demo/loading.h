@@ -27,7 +27,7 @@ public:
 
     [[nodiscard]] const WorldOptions& options() const { return m_options; }
 
-    /// Whether everything is read, so that finish() can go on.
+    /// Whether everything is read, so that finish() can go on; what is being read cannot be stopped.
     [[nodiscard]] bool isRead() const;
 
     /// Makes the world; frame is called again and again meanwhile, about every interval_ms, and draws what was shown

@@ -47,9 +47,10 @@ void performancePanel(const FrameStats& stats, const vk::MemoryAllocator& memory
     tell(fmt::format("{:.1f} frames/s, {:.1f} ms (95 %: {:.1f} ms)", stats.framesPerSecond(), stats.frameMs().mean(),
                      stats.frameMs().p95()));
     tell(fmt::format("{:.1f} Mrays/s primary", stats.megaraysPerSecond()));
-    tell(fmt::format("memory {:.1f} MiB: geometry {:.1f}, attributes {:.1f}, held {:.1f}",
-                     static_cast<double>(memory.usedBytes()) / kMiB, static_cast<double>(info.geometry_bytes) / kMiB,
-                     static_cast<double>(info.attribute_bytes) / kMiB, static_cast<double>(memory.heldBytes()) / kMiB));
+    tell(fmt::format("memory {:.1f} MiB, {:.1f} held: geometry {:.1f},\nattributes {:.1f}",
+                     static_cast<double>(memory.usedBytes()) / kMiB, static_cast<double>(memory.heldBytes()) / kMiB,
+                     static_cast<double>(info.geometry_bytes) / kMiB,
+                     static_cast<double>(info.attribute_bytes) / kMiB));
     if (ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
     {
         ImGui::TableSetupColumn("pass");

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "demo/frame_stats.h"
+#include "demo/loading.h"
 #include "demo/notices.h"
 #include "demo/timeline.h"
 #include "demo/tool.h"
@@ -41,6 +42,28 @@ void viewPanel(ViewState& view, const ViewFacts& facts);
 /// What is shown, and when.
 void scenePanel(const World& world, Timeline& timeline);
 
+/// What was asked for in the build panel.
+struct BuildAnswer
+{
+    std::optional<WorldOptions> rebuild; // with other options
+    bool cancels = false;
+};
+
+/// Resolution, coverage and structure of what is shown, where they can be chosen; what is being made in the background.
+/// loading: null for nothing.
+BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Loading* loading);
+
+/// What was asked for in the tools panel.
+struct ToolsAnswer
+{
+    bool undoes = false;
+    bool redoes = false;
+    bool saves = false;
+};
+
+/// What the left button does, the brush, what can be undone.
+ToolsAnswer toolsPanel(ToolState& state, const World& world);
+
 /// A pixel that the pointer was on, and what its ray met.
 struct InspectedPixel
 {
@@ -53,16 +76,6 @@ void inspectorPanel(const std::optional<InspectedPixel>& pixel, const WorldInfo&
 
 /// Why shaders do not compile, until the user closes it, which clears the message; nothing for no message.
 void shadersPanel(std::string& message);
-/// What was asked for in the tools panel.
-struct ToolsAnswer
-{
-    bool undoes = false;
-    bool redoes = false;
-    bool saves = false;
-};
-
-/// What the left button does, the brush, what can be undone.
-ToolsAnswer toolsPanel(ToolState& state, const World& world);
 
 /// The table of keys.
 void keysPanel(bool& is_open);

@@ -142,6 +142,9 @@ public:
 
     [[nodiscard]] bool moves() const { return !m_movers.empty(); }
 
+    /// Whether voxels were made of triangles, which another resolution needs.
+    [[nodiscard]] bool isVoxelized() const { return m_info.build_ms > 0; }
+
     /// Why something does not move as it should; empty: nothing is wrong.
     [[nodiscard]] const std::string& trouble() const { return m_trouble; }
 

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// App: which world is shown, and what becomes of it.
+#include "demo/app.h"
+
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/view.h"
+#include "core/zvo_file.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+#include <span>
+#include <utility>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+constexpr double kLoadingPieceMs = 30; // of work on a world between two frames of another one
+constexpr int kSavedMost = 1000;       // files of one name
+
+// A file of that name in the working folder that is not there yet.
+std::string freeName(const std::string& stem)
+{
+    for (int i = 1; i < kSavedMost; ++i)
+    {
+        const std::string name = i == 1 ? stem + ".zvo" : fmt::format("{}-{}.zvo", stem, i);
+        if (!std::filesystem::exists(name))
+        {
+            return name;
+        }
+    }
+    throw Error(ErrorCode::Output, fmt::format("there are {} files like {}.zvo already", kSavedMost, stem));
+}
+
+void tellError(const std::exception& error)
+{
+    cli::talk(fmt::format("error: {}", error.what()));
+}
+
+} // namespace
+
+void App::loadFiles(const std::vector<std::filesystem::path>& files)
+{
+    if (files.empty())
+    {
+        return;
+    }
+    WorldOptions options = m_world_options;
+    options.voxels.scenes = files;
+    options.voxels.time.reset(); // of what was named on the command line, like the grid's place
+    options.voxels.bounds.reset();
+    options.voxels.grid_place.reset();
+    beginLoading(std::move(options));
+}
+
+// In the background; with fixed steps at once, as then every frame shows the same on every run.
+void App::beginLoading(WorldOptions options)
+{
+    if (m_options.fixed_step)
+    {
+        loadAtOnce(options);
+    }
+    else if (m_loading != nullptr)
+    {
+        m_loading->cancel();
+        m_loads_next = std::move(options);
+    }
+    else
+    {
+        m_loading = std::make_unique<Loading>(std::move(options));
+    }
+}
+
+void App::loadAtOnce(const WorldOptions& options)
+{
+    finishAll(); // loading uses the device, too
+    try
+    {
+        show(World::load(m_device, options), options);
+    }
+    catch (const Error& error)
+    {
+        tellError(error);
+    }
+    m_frame_start = Clock::now();
+}
+
+void App::continueLoading()
+{
+    if (m_loading == nullptr || !m_loading->isRead())
+    {
+        return;
+    }
+    try
+    {
+        const auto frame = [this]
+        {
+            tick();
+            if (m_quits)
+            {
+                m_loading->cancel();
+            }
+        };
+        std::unique_ptr<World> world = m_loading->finish(m_device, kLoadingPieceMs, frame);
+        if (world != nullptr)
+        {
+            finishAll();
+            show(std::move(world), m_loading->options());
+        }
+    }
+    catch (const Error& error)
+    {
+        tellError(error);
+    }
+    m_loading.reset();
+    if (m_loads_next)
+    {
+        m_loading = std::make_unique<Loading>(*std::exchange(m_loads_next, std::nullopt));
+    }
+}
+
+// The camera stays where it is if only the voxels are others.
+void App::show(std::unique_ptr<World> world, const WorldOptions& options)
+{
+    const bool is_same = options.voxels.scenes == m_world_options.voxels.scenes;
+    m_world = std::move(world);
+    m_world_options = options;
+    m_editor.release();
+    m_inspected.reset();
+    m_camera.setSubject(m_world->subject());
+    if (is_same)
+    {
+        return;
+    }
+    m_bookmarks = {};
+    m_path_plays = false;
+    m_timeline.start(0);
+    m_camera.show(cli::chooseCamera("", m_world->stage(), m_world->subject(), aspect()));
+    m_window.setTitle(fmt::format("{} - {}", m_world->info().name, "zvo"));
+}
+
+void App::request(const EditRequest& request)
+{
+    if (m_world->canEdit())
+    {
+        m_world->request(request);
+    }
+}
+
+// What is shown, as a file.
+void App::save()
+{
+    finishAll();
+    try
+    {
+        const std::string stem = std::filesystem::path(m_world->info().name).stem().string();
+        const std::string name = freeName((stem.empty() ? "zvo" : stem) + "-edited");
+        m_world->settle(worldSeconds());
+        cli::Output output(name, false);
+        writeZvo(m_world->copyTree(m_world->info().structure),
+                 [&output](std::span<const std::byte> bytes) { output.write(bytes); });
+        output.finish();
+        note("saved " + name);
+    }
+    catch (const Error& error)
+    {
+        tellError(error);
+    }
+    m_frame_start = Clock::now();
+}
+
+void App::takeTold()
+{
+    const std::lock_guard lock(m_told_mutex);
+    for (const std::string& text : std::exchange(m_told, {}))
+    {
+        m_notices.add(text);
+    }
+}
+
+void App::buildPanel()
+{
+    BuildAnswer answer = demo::buildPanel(m_world_options, *m_world, m_loading.get());
+    if (answer.cancels)
+    {
+        m_loading->cancel();
+    }
+    if (answer.rebuild)
+    {
+        beginLoading(std::move(*answer.rebuild));
+    }
+}
+
+void App::toolsPanel()
+{
+    const ToolsAnswer answer = demo::toolsPanel(m_editor.state, *m_world);
+    if (answer.undoes)
+    {
+        request(UndoStroke{});
+    }
+    if (answer.redoes)
+    {
+        request(RedoStroke{});
+    }
+    if (answer.saves)
+    {
+        save();
+    }
+}
+
+} // namespace zvo::demo

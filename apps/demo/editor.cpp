@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "demo/editor.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace zvo::demo
+{
+
+void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm::dvec2& size, World& world)
+{
+    m_camera = camera;
+    m_size = size;
+    if (const auto* const move = std::get_if<MouseMoveEvent>(&event))
+    {
+        m_pointer = {move->x, move->y};
+        m_stroke.move();
+        drag(world);
+    }
+    const auto* const button = std::get_if<MouseButtonEvent>(&event);
+    if (button == nullptr || button->button != MouseButton::Left)
+    {
+        return;
+    }
+    if (!button->pressed)
+    {
+        m_stroke.release();
+        m_drag.reset();
+    }
+    else if (hasButton() && !button->modifiers.alt && world.canEdit())
+    {
+        m_stroke.press();
+    }
+}
+
+void Editor::perform(Action action)
+{
+    const auto choose = [this](Tool tool) { state.tool = state.tool == tool ? Tool::Camera : tool; };
+    switch (action)
+    {
+    case Action::UseBrush:
+        choose(Tool::Brush);
+        break;
+    case Action::UseHand:
+        choose(Tool::Move);
+        break;
+    case Action::UseCamera:
+        state.tool = Tool::Camera;
+        break;
+    case Action::NextBrush:
+        state.action = static_cast<BrushAction>((static_cast<std::uint32_t>(state.action) + 1) % 3);
+        break;
+    case Action::SmallerBrush:
+        state.radius = std::max(state.radius - 1, 0);
+        break;
+    case Action::LargerBrush:
+        state.radius = std::min(state.radius + 1, static_cast<int>(gpu::kBrushRadiusMax));
+        break;
+    default:
+        break;
+    }
+}
+
+void Editor::found(std::uint64_t look, const gpu::PixelReport& report, World& world)
+{
+    const Grid& grid = world.info().grid;
+    const bool has_voxel = report.hit != 0 && report.level == grid.nodeLevels();
+    if (m_stroke.found(look, has_voxel))
+    {
+        const glm::ivec3 voxel(report.cell);
+        if (state.tool == Tool::Brush)
+        {
+            world.request(state.brushAt(voxel));
+        }
+        else if (state.tool == Tool::Move && !m_drag)
+        {
+            const glm::dvec3 point =
+                glm::dvec3(grid.origin) + (glm::dvec3(voxel) + 0.5) * static_cast<double>(grid.voxel_size);
+            if (const std::optional<std::size_t> mover = world.moverAt(point))
+            {
+                m_drag = {*mover, point, world.offset(*mover)};
+            }
+        }
+    }
+    if (m_stroke.takeEnd() && state.tool == Tool::Brush)
+    {
+        world.request(EndStroke{});
+    }
+}
+
+// Along the plane that faces the camera, with the grabbed point under the pointer.
+void Editor::drag(World& world)
+{
+    if (m_drag)
+    {
+        const glm::dvec3 point = onPlane(pointerRay(m_camera, m_pointer, m_size), m_camera, m_drag->grabbed);
+        world.setOffset(m_drag->mover, m_drag->offset + point - m_drag->grabbed);
+    }
+}
+
+void Editor::release()
+{
+    m_stroke = {};
+    m_drag.reset();
+}
+
+void Editor::takeColor(const gpu::PixelReport& report)
+{
+    if (report.hit == 0)
+    {
+        return;
+    }
+    for (std::size_t i = 0; i < state.color.size(); ++i)
+    {
+        state.color[i] = static_cast<float>(report.look.color >> (8 * i) & 255U) / 255.0F;
+    }
+}
+
+} // namespace zvo::demo

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "demo/input_event.h"
+#include "demo/keys.h"
+#include "demo/panels.h"
+#include "demo/pointer_ray.h"
+#include "demo/stroke.h"
+#include "demo/tool.h"
+#include "demo/world.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace zvo::demo
+{
+
+/// The tools under the left mouse button: the brush, and the hand that drags what moves. What is under the pointer they
+/// learn some frames after it was there; strokes are in the order of events all the same.
+class Editor
+{
+public:
+    ToolState state;
+
+    /// Whether the left button belongs to a tool.
+    [[nodiscard]] bool hasButton() const { return state.tool != Tool::Camera; }
+
+    /// Takes an event of the mouse. camera, size: of the window, in its units.
+    void handle(const InputEvent& event, const ViewCamera& camera, const glm::dvec2& size, World& world);
+
+    /// Does what a key of the tools asks for.
+    void perform(Action action);
+
+    /// Whether a tool waits for what is under the pointer; number of the look that the next frame takes for it.
+    [[nodiscard]] bool wantsPixel() const { return m_stroke.isActive(); }
+    [[nodiscard]] std::uint64_t look() const { return m_stroke.look(); }
+
+    /// What a look has found.
+    void found(std::uint64_t look, const gpu::PixelReport& report, World& world);
+
+    /// Lets go of everything: the world is another one.
+    void release();
+
+    /// The colour of a pixel becomes the brush's.
+    void takeColor(const gpu::PixelReport& report);
+
+private:
+    struct Drag
+    {
+        std::size_t mover;
+        glm::dvec3 grabbed; // point in the world
+        glm::dvec3 offset;  // of the mover then
+    };
+
+    void drag(World& world);
+
+    Stroke m_stroke;
+    std::optional<Drag> m_drag;
+    ViewCamera m_camera;
+    glm::dvec2 m_size{1.0};
+    glm::dvec2 m_pointer{0.0};
+};
+
+} // namespace zvo::demo

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "demo/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <array>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kDepthMin = 5;
+constexpr std::uint32_t kDepthMax = 12;
+constexpr std::array<const char*, 2> kStructureNames = {"octree", "DAG"};
+constexpr std::array<const char*, 2> kCoverageNames = {"thin", "conservative"};
+
+bool chooseResolution(WorldOptions& options, std::uint32_t depth)
+{
+    bool is_chosen = false;
+    if (ImGui::BeginCombo("voxels an edge", fmt::format("{}", 1U << depth).c_str()))
+    {
+        for (std::uint32_t choice = kDepthMin; choice <= kDepthMax; ++choice)
+        {
+            if (ImGui::Selectable(fmt::format("{}", 1U << choice).c_str(), choice == depth) && choice != depth)
+            {
+                options.voxels.depth = choice;
+                is_chosen = true;
+            }
+        }
+        ImGui::EndCombo();
+    }
+    return is_chosen;
+}
+
+template <std::size_t count>
+bool chooseOne(const char* label, const std::array<const char*, count>& names, std::size_t& current)
+{
+    auto index = static_cast<int>(current);
+    const bool is_chosen = ImGui::Combo(label, &index, names.data(), static_cast<int>(count)) &&
+                           static_cast<std::size_t>(index) != current;
+    current = static_cast<std::size_t>(index);
+    return is_chosen;
+}
+
+} // namespace
+
+BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Loading* loading)
+{
+    BuildAnswer answer;
+    if (loading != nullptr)
+    {
+        ImGui::ProgressBar(static_cast<float>(loading->done()), {ImGui::GetFontSize() * 16, 0},
+                           loading->step().c_str());
+        ImGui::SameLine();
+        answer.cancels = ImGui::Button("cancel");
+        return answer;
+    }
+    if (!world.isVoxelized() || !ImGui::CollapsingHeader("Build"))
+    {
+        return answer;
+    }
+    WorldOptions wanted = options;
+    bool is_chosen = chooseResolution(wanted, world.info().grid.depth);
+    std::size_t coverage = options.voxels.coverage == Coverage::Thin ? 0 : 1;
+    if (chooseOne("coverage", kCoverageNames, coverage))
+    {
+        wanted.voxels.coverage = coverage == 0 ? Coverage::Thin : Coverage::Conservative;
+        is_chosen = true;
+    }
+    std::size_t structure = world.info().structure == TreeStructure::Svo ? 0 : 1;
+    if (chooseOne("structure", kStructureNames, structure))
+    {
+        wanted.structure = structure == 0 ? TreeStructure::Svo : TreeStructure::Svdag;
+        is_chosen = true;
+    }
+    if (is_chosen)
+    {
+        answer.rebuild = std::move(wanted);
+    }
+    return answer;
+}
+
+} // namespace zvo::demo
