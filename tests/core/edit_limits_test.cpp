@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
+// memory than was asked for.
+#include "core/dynamic_octree.h"
+#include "core/gltf_loader.h"
+#include "core/kernels.h"
+#include "core/svdag.h"
+#include "support/device.h"
+#include "support/pictures.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+constexpr std::uint32_t kDepth = 9;
+constexpr std::uint32_t kStrokes = 1000;
+constexpr std::uint32_t kStrokesPerFrame = 20;
+constexpr std::uint32_t kWidth = 160;
+constexpr std::uint32_t kHeight = 96;
+constexpr std::uint64_t kMiB = 1U << 20;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+// The atrium, with strokes around voxels of it.
+class World
+{
+public:
+    World(bool compressed, const EditBounds& bounds, std::size_t center_count)
+    {
+        const Scene scene = loadGltf(test::ownScene("atrium.glb"));
+        const Grid grid = Grid::around(scene.bounds(), kDepth);
+        BuildOptions build;
+        build.keep_sums = true;
+        const float emission_scale = brightestEmission(scene);
+        BuildResult built = buildOctree(device(), uploadScene(device(), scene, true, emission_scale), grid, build);
+        const std::vector<std::uint64_t> codes = voxelCodes(device(), built.octree);
+        for (std::size_t i = 0; i < center_count; ++i)
+        {
+            m_centers.push_back(codes[i * codes.size() / center_count]);
+        }
+        DynamicOptions options;
+        options.emission_scale = emission_scale;
+        options.edits = bounds;
+        StaticTree fixed = compressed
+                               ? StaticTree(compress(device(), std::move(built.octree)).dag, std::move(built.sums))
+                               : StaticTree(std::move(built));
+        m_octree = std::make_unique<DynamicOctree>(device(), std::move(fixed), options);
+        const glm::dvec3 center = glm::dvec3(scene.bounds().min + scene.bounds().max) / 2.0;
+        const glm::dvec3 size = scene.bounds().max - scene.bounds().min;
+        m_camera =
+            traceCamera(ViewCamera::lookAt(center + size * glm::dvec3(0.3, 0.1, 0.05), center, 1.2), grid, kHeight);
+    }
+
+    DynamicOctree& octree() { return *m_octree; }
+
+    void strokes(std::uint32_t count)
+    {
+        for (std::uint32_t done = 0, attempt = 0; done < count; ++attempt)
+        {
+            ASSERT_LT(attempt, 3 * count);
+            frame(
+                [&](vk::FrameGraph& graph)
+                {
+                    bool has_room = true;
+                    for (std::uint32_t i = 0; i < kStrokesPerFrame && done < count && has_room; ++i)
+                    {
+                        has_room = m_octree->edit(graph, brush(m_stroke_count));
+                        m_octree->endStroke();
+                        done += has_room ? 1 : 0;
+                        m_stroke_count += has_room ? 1 : 0;
+                    }
+                });
+        }
+    }
+
+    void move(bool undo, std::size_t count)
+    {
+        for (std::size_t done = 0; done < count;)
+        {
+            frame(
+                [&](vk::FrameGraph& graph)
+                {
+                    for (std::uint32_t i = 0; i < kStrokesPerFrame && done < count; ++i, ++done)
+                    {
+                        ASSERT_TRUE(undo ? m_octree->undoEdit(graph) : m_octree->redoEdit(graph));
+                    }
+                });
+        }
+    }
+
+    std::vector<gpu::uint> picture()
+    {
+        return test::takePicture(device(), m_octree->tree(), m_camera, kWidth, kHeight, {}).image;
+    }
+
+    // Nodes and lists, and attributes; without the slot of the root that is shown.
+    std::vector<gpu::uint> staticWords()
+    {
+        std::vector<gpu::uint> words;
+        const auto add = [&](const auto& values)
+        {
+            const auto* begin = reinterpret_cast<const gpu::uint*>(values.data());
+            words.insert(words.end(), begin, begin + std::as_bytes(std::span(values)).size() / sizeof(gpu::uint));
+        };
+        const Octree& octree = m_octree->tree().octree();
+        const std::uint32_t root = m_octree->staticRoot();
+        const Svdag* dag = m_octree->tree().svdag();
+        add(device().download(octree.nodes, 1, root));
+        add(device().download(octree.node_attributes, 1, dag != nullptr ? dag->octree_node_count : root));
+        add(device().download(octree.voxel_attributes, 0, octree.voxel_count));
+        return words;
+    }
+
+private:
+    // Around a voxel of the scene; of radius 4, now and then of 8.
+    [[nodiscard]] Brush brush(std::uint32_t number) const
+    {
+        std::mt19937 random(number);
+        const std::uint64_t code = m_centers[random() % m_centers.size()];
+        Brush brush;
+        brush.action = static_cast<BrushAction>(number % 3);
+        brush.shape = number % 5 == 0 ? BrushShape::Box : BrushShape::Sphere;
+        brush.center = gpu::ivec3(mortonCell(code));
+        brush.radius = number % 10 == 0 ? 8 : 4;
+        brush.color = random() % (1U << 24);
+        return brush;
+    }
+
+    static gpu::uvec3 mortonCell(std::uint64_t code)
+    {
+        gpu::uvec3 cell(0);
+        for (std::uint32_t bit = 0; bit < kDepth; ++bit)
+        {
+            cell |= gpu::uvec3(code >> (3 * bit) & 1U, code >> (3 * bit + 1) & 1U, code >> (3 * bit + 2) & 1U) << bit;
+        }
+        return cell;
+    }
+
+    template <typename Record> void frame(const Record& record)
+    {
+        const std::uint64_t frame = m_octree->beginFrame();
+        device().run(record);
+        m_octree->frameDone(frame);
+    }
+
+    std::vector<std::uint64_t> m_centers; // of brushes
+    std::unique_ptr<DynamicOctree> m_octree;
+    TraceCamera m_camera;
+    std::uint32_t m_stroke_count = 0;
+};
+
+class EditLimits : public testing::TestWithParam<bool>
+{
+};
+
+TEST_P(EditLimits, AThousandStrokesAreUndoneAndRedone)
+{
+    constexpr std::uint64_t kBytesMax = 64 * kMiB;
+    vk::MemoryAllocator& memory = device().device().memory();
+    World world(GetParam(), {kStrokes, kBytesMax}, kStrokes);
+    const std::uint64_t used_before = memory.usedBytes();
+    const std::vector<gpu::uint> words = world.staticWords();
+    const std::vector<gpu::uint> first = world.picture();
+    memory.resetPeak();
+
+    world.strokes(kStrokes);
+    EXPECT_EQ(world.octree().edits().undoCount(), kStrokes);
+    EXPECT_LE(world.octree().edits().heldBytes(), kBytesMax);
+    const std::vector<gpu::uint> last = world.picture();
+    EXPECT_NE(last, first);
+    const std::uint64_t used = memory.usedBytes();
+
+    world.move(true, kStrokes);
+    EXPECT_EQ(world.octree().edits().undoCount(), 0U);
+    EXPECT_EQ(world.picture(), first);
+    EXPECT_EQ(world.staticWords(), words);
+    world.move(false, kStrokes);
+    EXPECT_EQ(world.octree().edits().redoCount(), 0U);
+    EXPECT_EQ(world.picture(), last);
+    EXPECT_EQ(world.staticWords(), words);
+    // A region to move to beside the one that is held, and half as much again. Where buffers grow, the old ones as
+    // well, until the frame is done.
+    EXPECT_LE(used, used_before + 3 * world.octree().edits().heldBytes());
+    EXPECT_LE(memory.peakBytes(), 2 * used);
+    EXPECT_LE(memory.usedBytes(), used) << "to show other steps takes no memory";
+}
+
+// What is shown stays, however little of its history does.
+TEST_P(EditLimits, WithLittleRoomStepsAreDroppedAndMemoryStaysBounded)
+{
+    constexpr std::uint64_t kBytesMax = 2 * kMiB;
+    vk::MemoryAllocator& memory = device().device().memory();
+    World world(GetParam(), {kStrokes, kBytesMax}, 12);
+    const std::vector<gpu::uint> words = world.staticWords();
+    world.strokes(200);
+    const std::uint64_t used = memory.usedBytes();
+    memory.resetPeak();
+    const Edits& edits = world.octree().edits();
+    for (std::uint32_t i = 0; i < 8; ++i)
+    {
+        world.strokes(100);
+        EXPECT_LE(edits.heldBytes(), kBytesMax);
+    }
+    EXPECT_LE(memory.usedBytes(), used);
+    EXPECT_LE(memory.peakBytes(), used + kBytesMax) << "but for what a compaction works in";
+    EXPECT_LT(edits.undoCount(), kStrokes);
+    EXPECT_GT(edits.undoCount(), 10U);
+    const std::vector<gpu::uint> last = world.picture();
+    const std::size_t undo_count = edits.undoCount();
+    world.move(true, undo_count);
+    world.move(false, undo_count);
+    EXPECT_EQ(world.picture(), last);
+    EXPECT_EQ(world.staticWords(), words);
+}
+
+INSTANTIATE_TEST_SUITE_P(Trees, EditLimits, testing::Bool(),
+                         [](const auto& which) { return which.param ? "Dag" : "Octree"; });
+
+} // namespace
+} // namespace zvo
