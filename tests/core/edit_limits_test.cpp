@@ -5,6 +5,7 @@
 #include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/svdag.h"
+#include "core/tree_build.h"
 #include "support/device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
@@ -134,20 +135,10 @@ private:
         Brush brush;
         brush.action = static_cast<BrushAction>(number % 3);
         brush.shape = number % 5 == 0 ? BrushShape::Box : BrushShape::Sphere;
-        brush.center = gpu::ivec3(mortonCell(code));
+        brush.center = gpu::ivec3(cellOfCode(code));
         brush.radius = number % 10 == 0 ? 8 : 4;
         brush.color = random() % (1U << 24);
         return brush;
-    }
-
-    static gpu::uvec3 mortonCell(std::uint64_t code)
-    {
-        gpu::uvec3 cell(0);
-        for (std::uint32_t bit = 0; bit < kDepth; ++bit)
-        {
-            cell |= gpu::uvec3(code >> (3 * bit) & 1U, code >> (3 * bit + 1) & 1U, code >> (3 * bit + 2) & 1U) << bit;
-        }
-        return cell;
     }
 
     template <typename Record> void frame(const Record& record)
@@ -214,6 +205,7 @@ TEST_P(EditLimits, WithLittleRoomStepsAreDroppedAndMemoryStaysBounded)
     {
         world.strokes(100);
         EXPECT_LE(edits.heldBytes(), kBytesMax);
+        EXPECT_LE(edits.shownBytes(), edits.heldBytes());
     }
     EXPECT_LE(memory.usedBytes(), used);
     EXPECT_LE(memory.peakBytes(), used + kBytesMax) << "but for what a compaction works in";
