@@ -3,6 +3,7 @@
 
 #include "bench_balance.h"
 #include "bench_dynamic.h"
+#include "bench_edit.h"
 #include "bench_runs.h"
 #include "bench_scenes.h"
 #include "bench_table.h"
@@ -178,6 +179,11 @@ void bench(const BenchOptions& options)
     if (options.dynamic)
     {
         benchDynamic(options);
+        return;
+    }
+    if (options.edit)
+    {
+        benchEdit(options);
         return;
     }
     if (options.balance)

@@ -92,12 +92,14 @@ Embree, the same rays are also traced by Embree on all processors, through the s
 Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
 --balance: each row is voxelization and octree construction alone; ratios of them follow the table.
 --dynamic: the scenes are scene files (.scene.json), what they name lies beside them or in the folder of --scenes.
+--edit: N strokes for each radius and action, each undone and redone; then what a stroke takes after 10, 100 and 1000.
 
 Examples:
   zvo bench scenes/knot.glb --resolutions 256 --runs 3
   zvo bench --scenes ../models --json bench.json --passes
   zvo bench --balance scenes/knot.glb scenes/atrium.glb
-  zvo bench --dynamic scenes/atrium_knot.scene.json)";
+  zvo bench --dynamic scenes/atrium_knot.scene.json
+  zvo bench --edit scenes/atrium.glb --structure svdag)";
 
 CLI::App* addRender(CLI::App& app, RenderOptions& options)
 {
@@ -235,7 +237,8 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
     addFolder(*bench, "--scenes", options.scene_folder,
               "where the usual scenes are (default scenes), or what scene files name");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
-             "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048)");
+             "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048, "
+             "with --dynamic and --edit 512)");
     addValue(
         *bench, "--runs", options.run_count,
         [](std::string_view option, std::string_view text)
@@ -259,8 +262,14 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--up")
         ->excludes("--scale");
     addValue(*bench, "--structure", options.structure, parseStructure, "svo|svdag",
-             "with --dynamic, what stands still is an octree or a DAG (default svo)")
-        ->needs("--dynamic");
+             "with --dynamic and --edit, what stands still, or is edited, is an octree or a DAG (default svo)");
+    bench
+        ->add_flag("--edit", options.edit,
+                   "measure instead strokes of a brush: dabs, undo and redo, by radius and by number of strokes")
+        ->excludes("--balance")
+        ->excludes("--dynamic")
+        ->excludes("--passes")
+        ->excludes("--camera");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");
@@ -311,7 +320,7 @@ Command parseCommandLine(int argc, const char* const* argv)
     const CLI::App* const validate_app = addValidate(app, validate);
     const CLI::App* const convert_app = addConvert(app, convert);
     const CLI::App* const info_app = addInfo(app, info);
-    addBench(app, bench);
+    const CLI::App* const bench_app = addBench(app, bench);
     try
     {
         app.parse(argc, argv);
@@ -345,6 +354,10 @@ Command parseCommandLine(int argc, const char* const* argv)
     if (bench.dynamic && bench.scenes.empty())
     {
         throw usageError(app, "--dynamic needs a scene file (.scene.json) or another scene in which something moves");
+    }
+    if (bench_app->count("--structure") != 0 && !bench.dynamic && !bench.edit)
+    {
+        throw usageError(app, "--structure needs --dynamic or --edit");
     }
     for (const VoxelOptions* options : {&render.voxels, &voxelize.voxels, &build.voxels})
     {

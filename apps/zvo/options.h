@@ -85,7 +85,7 @@ struct BenchOptions
     std::vector<std::filesystem::path> scenes;         // empty: the usual ones in scene_folder
     std::optional<std::filesystem::path> scene_folder; // not given: scenes
     LoadOptions load;
-    std::optional<std::vector<std::uint32_t>> depths; // not given: 8, 9, 10, or with balance 9, 10, 11
+    std::optional<std::vector<std::uint32_t>> depths; // not given: 8, 9, 10, with balance 9, 10, 11, with edit 9
     std::uint32_t run_count = 5;
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
@@ -93,7 +93,8 @@ struct BenchOptions
     bool passes = false;
     bool balance = false; // balance of load on generated scenes, and on scenes if any were named
     bool dynamic = false; // scenes in which something moves: update against rebuild
-    TreeStructure structure = TreeStructure::Svo; // of what stands still; with dynamic
+    bool edit = false;    // strokes of a brush
+    TreeStructure structure = TreeStructure::Svo; // of what stands still or is edited; with dynamic or edit
     DeviceOptions device;
     OutputOptions output; // path: unused
 };

@@ -56,6 +56,12 @@ std::uint64_t Edits::heldBytes() const
     return m_now.region ? m_overlays.arena().bytes(*m_now.region) : 0;
 }
 
+std::uint64_t Edits::shownBytes() const
+{
+    const EditTop& top = m_now.history.top(m_now.history.place());
+    return m_now.region ? m_overlays.arena().bytes(regionOf(top.nodes, top.voxels)) : 0;
+}
+
 std::uint32_t Edits::voxelCount() const
 {
     return m_now.region ? m_now.history.top(m_now.history.place()).voxel_count : m_overlays.octree().voxel_count;

@@ -53,6 +53,9 @@ public:
     /// Bytes of device memory that edits have.
     [[nodiscard]] std::uint64_t heldBytes() const;
 
+    /// Those below the top of what is shown: at most, until the frame is done that made it.
+    [[nodiscard]] std::uint64_t shownBytes() const;
+
     /// Voxels of what is shown, without movers. Of a dab, it is known when its frame is done.
     [[nodiscard]] std::uint32_t voxelCount() const;
 

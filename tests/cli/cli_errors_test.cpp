@@ -43,6 +43,7 @@ const std::vector<ErrorCase>& errorCases()
          {"500", "power of two"},
          {}},
         {"ResolutionTooHigh", 2, {"bench", "cube.glb", "--resolutions", "64,262144"}, {"262144", "131072"}, {}},
+        {"EditAndBalance", 2, {"bench", "--edit", "--balance"}, {"--edit", "--balance"}, {}},
         {"BalanceOfPasses", 2, {"bench", "--balance", "--passes"}, {"--balance", "--passes"}, {}},
         {"FlagTwice",
          2,

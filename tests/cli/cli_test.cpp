@@ -440,6 +440,46 @@ TEST_F(CliRun, BenchOfBalanceNeedsNoAttributesAndNoFiles)
     EXPECT_TRUE(report["ratios"][0]["attributes"].is_null());
 }
 
+TEST_F(CliRun, BenchOfEditTellsStrokesByRadiusActionAndNumber)
+{
+    const Outcome outcome = run({"bench", "--edit", "cube.glb", "--resolutions", "32", "--runs", "2", "--structure",
+                                 "svdag", "--json", "edit.json"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    EXPECT_TRUE(contains(outcome.out, "| compactions |"));
+    const json report = json::parse(file("edit.json"));
+    expectFields(report,
+                 {"schema string", "device.name string", "coverage string", "attributes string", "runs number"});
+    EXPECT_EQ(report["schema"], "zvo.bench_edit/1");
+    EXPECT_EQ(report["structure"], "svdag");
+    ASSERT_EQ(report["rows"].size(), 1U);
+    const json& row = report["rows"][0];
+    EXPECT_EQ(row["resolution"], 32);
+    EXPECT_EQ(row["voxels"], build(m_grid).octree.voxel_count);
+    std::map<std::string, int> actions;
+    for (const json& stroke : row["strokes"])
+    {
+        expectFields(stroke, {"radius number", "dab_ms.median number", "dab_ms.p95 number", "undo_ms.median number",
+                              "redo_ms.median number", "bytes number"});
+        EXPECT_GE(stroke["dab_ms"]["p95"], stroke["dab_ms"]["median"]);
+        EXPECT_GT(stroke["undo_ms"]["median"], 0);
+        EXPECT_GT(stroke["dab_ms"]["median"], stroke["redo_ms"]["median"]);
+        EXPECT_GT(stroke["bytes"], 0) << "a voxel of the cube is under each brush";
+        ++actions[stroke["action"]];
+    }
+    EXPECT_EQ(actions, (std::map<std::string, int>{{"carve", 4}, {"fill", 4}, {"paint", 4}}));
+    ASSERT_EQ(row["history"].size(), 3U);
+    EXPECT_EQ(row["history"][2]["strokes"], 1000);
+    for (const json& history : row["history"])
+    {
+        expectFields(history, {"strokes number", "dab_ms.median number", "dab_ms.p95 number", "undo_ms.p95 number",
+                               "redo_ms.p95 number", "held_bytes number"});
+        EXPECT_GT(history["held_bytes"], 0);
+        EXPECT_LE(history["held_bytes"], 256 << 20);
+        EXPECT_EQ(history["compactions"] == 0, history["compaction_ms"] == 0.0);
+    }
+    EXPECT_GT(row["history"][2]["compactions"], 0);
+}
+
 TEST_F(CliRun, CloseCameraHitsMore)
 {
     run({"bench", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "auto", "--json", "auto.json"});

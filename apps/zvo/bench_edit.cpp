@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: MIT
+#include "bench_edit.h"
+
+#include "bench_runs.h"
+#include "bench_scenes.h"
+#include "core/dynamic_octree.h"
+#include "core/gpu_scene.h"
+#include "core/kernels.h"
+#include "core/svdag.h"
+#include "morton.h"
+#include "output.h"
+#include "progress.h"
+#include "report.h"
+#include "session.h"
+#include "table.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t kDepth = 9;
+constexpr std::array<std::uint32_t, 4> kRadii = {4, 8, 16, 32};
+constexpr std::array<const char*, 3> kActionNames = {"carve", "fill", "paint"};
+constexpr std::array<std::uint32_t, 3> kStrokeCounts = {10, 100, 1000};
+constexpr std::uint32_t kStrokesMeasured = 10; // the last ones of each of these
+constexpr std::uint32_t kHistoryRadius = 8;
+constexpr std::uint32_t kAttemptsMax = 64;
+constexpr EditBounds kBounds = {kStrokeCounts.back(), 256U << 20};
+
+// Of some times, in milliseconds.
+struct Times
+{
+    double median = 0;
+    double p95 = 0; // 95 of 100 are not above
+
+    /// values: at least one.
+    static Times of(std::vector<double> values)
+    {
+        std::ranges::sort(values);
+        return {Spread::of(values).median, values[(95 * values.size() + 99) / 100 - 1]};
+    }
+};
+
+std::string timesText(const Times& times)
+{
+    return fmt::format("{:.3f} / {:.3f}", times.median, times.p95);
+}
+
+Json timesJson(const Times& times)
+{
+    return {{"median", times.median}, {"p95", times.p95}};
+}
+
+// A radius and an action, each time from the unedited tree on.
+struct StrokeRow
+{
+    std::uint32_t radius = 0;
+    std::string action;
+    Times dab_ms;
+    Times undo_ms;
+    Times redo_ms;
+    std::uint64_t bytes = 0; // median
+};
+
+// Strokes of all actions, one after the other.
+struct HistoryRow
+{
+    std::uint32_t stroke_count = 0;
+    Times dab_ms;
+    Times undo_ms;
+    Times redo_ms;
+    std::uint64_t held_bytes = 0;
+    std::uint32_t compaction_count = 0;
+    double compaction_ms = 0; // of the last one
+};
+
+struct EditRow
+{
+    std::string scene;
+    std::uint32_t resolution = 0;
+    std::uint64_t voxels = 0;
+    std::vector<StrokeRow> strokes;
+    std::vector<HistoryRow> history;
+};
+
+// Rows of tables: a scene's beside one of its own.
+template <typename Row> using InScene = std::pair<const EditRow*, const Row*>;
+
+const Columns<InScene<StrokeRow>>& strokeColumns()
+{
+    using Row = InScene<StrokeRow>;
+    static const Columns<Row> all = {
+        {"scene", 12, [](const Row& row) { return row.first->scene; }},
+        {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.first->resolution); }},
+        {"voxels", 9, [](const Row& row) { return fmt::format("{}", row.first->voxels); }},
+        {"radius", 6, [](const Row& row) { return fmt::format("{}", row.second->radius); }},
+        {"action", 6, [](const Row& row) { return row.second->action; }},
+        {"dab ms", 17, [](const Row& row) { return timesText(row.second->dab_ms); }},
+        {"undo ms", 13, [](const Row& row) { return timesText(row.second->undo_ms); }},
+        {"redo ms", 13, [](const Row& row) { return timesText(row.second->redo_ms); }},
+        {"bytes", 9, [](const Row& row) { return fmt::format("{}", row.second->bytes); }},
+    };
+    return all;
+}
+
+const Columns<InScene<HistoryRow>>& historyColumns()
+{
+    using Row = InScene<HistoryRow>;
+    static const Columns<Row> all = {
+        {"scene", 12, [](const Row& row) { return row.first->scene; }},
+        {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.first->resolution); }},
+        {"strokes", 7, [](const Row& row) { return fmt::format("{}", row.second->stroke_count); }},
+        {"dab ms", 17, [](const Row& row) { return timesText(row.second->dab_ms); }},
+        {"undo ms", 13, [](const Row& row) { return timesText(row.second->undo_ms); }},
+        {"redo ms", 13, [](const Row& row) { return timesText(row.second->redo_ms); }},
+        {"held bytes", 10, [](const Row& row) { return fmt::format("{}", row.second->held_bytes); }},
+        {"compactions", 11, [](const Row& row) { return fmt::format("{}", row.second->compaction_count); }},
+        {"last, ms", 8, [](const Row& row) { return fmt::format("{:.3f}", row.second->compaction_ms); }},
+    };
+    return all;
+}
+
+Json rowJson(const EditRow& row)
+{
+    Json json;
+    json["scene"] = row.scene;
+    json["resolution"] = row.resolution;
+    json["voxels"] = row.voxels;
+    json["strokes"] = Json::array();
+    for (const StrokeRow& stroke : row.strokes)
+    {
+        json["strokes"].push_back({{"radius", stroke.radius},
+                                   {"action", stroke.action},
+                                   {"dab_ms", timesJson(stroke.dab_ms)},
+                                   {"undo_ms", timesJson(stroke.undo_ms)},
+                                   {"redo_ms", timesJson(stroke.redo_ms)},
+                                   {"bytes", stroke.bytes}});
+    }
+    json["history"] = Json::array();
+    for (const HistoryRow& history : row.history)
+    {
+        json["history"].push_back({{"strokes", history.stroke_count},
+                                   {"dab_ms", timesJson(history.dab_ms)},
+                                   {"undo_ms", timesJson(history.undo_ms)},
+                                   {"redo_ms", timesJson(history.redo_ms)},
+                                   {"held_bytes", history.held_bytes},
+                                   {"compactions", history.compaction_count},
+                                   {"compaction_ms", history.compaction_ms}});
+    }
+    return json;
+}
+
+// Whether a pass moves what edits have.
+bool compacts(const std::string& pass)
+{
+    constexpr std::string_view kParts[] = {"edit/mark",     "edit/live_sums", "edit/voxel_bits",       "octree/scan",
+                                           "edit/renumber", "edit/move_",     "update/emission_places"};
+    return std::ranges::any_of(kParts, [&](std::string_view part) { return pass.find(part) != std::string::npos; });
+}
+
+// Whether a pass belongs to a dab, or shows what it has made; others copy to larger buffers.
+bool dabs(const std::string& pass)
+{
+    return !compacts(pass) && (pass.find("edit/") != std::string::npos || pass == "update/show");
+}
+
+// A tree under a brush.
+class Canvas
+{
+public:
+    Canvas(vk::HeadlessDevice& device, const BenchOptions& options, const GpuScene& scene, const Grid& grid)
+        : m_device(device)
+    {
+        BuildOptions build;
+        build.coverage = options.coverage;
+        build.attributes = options.attributes;
+        BuildResult built = buildOctree(device, scene, grid, build);
+        if (built.octree.voxel_count == 0)
+        {
+            throw Error(ErrorCode::Input, "there are no voxels to edit");
+        }
+        m_codes = voxelCodes(device, built.octree);
+        DynamicOptions dynamic;
+        dynamic.merge = MergeRule::DynamicWins; // nothing moves: no sums are needed
+        dynamic.attributes = options.attributes;
+        dynamic.emission_scale = built.octree.emission.count() != 0 ? built.octree.emission_scale : 0;
+        dynamic.edits = kBounds;
+        StaticTree fixed = options.structure == TreeStructure::Svdag
+                               ? StaticTree(compress(device, std::move(built.octree)).dag, {})
+                               : StaticTree(std::move(built));
+        m_octree = std::make_unique<DynamicOctree>(device, std::move(fixed), dynamic);
+    }
+
+    // A stroke of one dab at a random voxel of the scene. Returns its time.
+    double stroke(BrushAction action, std::uint32_t radius)
+    {
+        const std::uint64_t code = m_codes[m_random() % m_codes.size()];
+        const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(cellOf(code)), radius,
+                             static_cast<std::uint32_t>(m_random() & 0xFFFFFFU)};
+        bool is_done = false;
+        std::vector<vk::PassTime> passes;
+        for (std::uint32_t attempt = 0; !is_done; ++attempt)
+        {
+            if (attempt == kAttemptsMax)
+            {
+                throw Error(ErrorCode::Other, "a stroke found no room");
+            }
+            passes = frame([&](vk::FrameGraph& graph) { is_done = m_octree->edit(graph, brush); });
+        }
+        m_octree->endStroke();
+        return sumIf(passes, dabs);
+    }
+
+    double undo()
+    {
+        return sumMs(frame([&](vk::FrameGraph& graph) { m_octree->undoEdit(graph); }));
+    }
+
+    double redo()
+    {
+        return sumMs(frame([&](vk::FrameGraph& graph) { m_octree->redoEdit(graph); }));
+    }
+
+    [[nodiscard]] const Edits& edits() const { return m_octree->edits(); }
+    [[nodiscard]] std::uint64_t voxelCount() const { return m_codes.size(); }
+    [[nodiscard]] std::uint32_t compactionCount() const { return m_compaction_count; }
+    [[nodiscard]] double compactionMs() const { return m_compaction_ms; }
+
+private:
+    static double sumIf(const std::vector<vk::PassTime>& passes, bool (*counts)(const std::string&))
+    {
+        double ms = 0;
+        for (const vk::PassTime& pass : passes)
+        {
+            ms += counts(pass.name) ? pass.ms : 0.0;
+        }
+        return ms;
+    }
+
+    template <typename Record> std::vector<vk::PassTime> frame(const Record& record)
+    {
+        const std::uint64_t frame = m_octree->beginFrame();
+        std::vector<vk::PassTime> passes = m_device.run(record);
+        m_octree->frameDone(frame, passes);
+        if (std::ranges::any_of(passes, [](const vk::PassTime& pass) { return pass.name == "edit/move_states"; }))
+        {
+            ++m_compaction_count;
+            m_compaction_ms = sumIf(passes, compacts);
+        }
+        return passes;
+    }
+
+    vk::HeadlessDevice& m_device;
+    std::vector<std::uint64_t> m_codes;
+    std::unique_ptr<DynamicOctree> m_octree;
+    std::mt19937 m_random{1};
+    std::uint32_t m_compaction_count = 0;
+    double m_compaction_ms = 0;
+};
+
+// Strokes of one kind, each of which is undone.
+StrokeRow measureStrokes(Canvas& canvas, std::uint32_t radius, std::uint32_t action, std::uint32_t run_count)
+{
+    std::vector<double> dab_ms;
+    std::vector<double> undo_ms;
+    std::vector<double> redo_ms;
+    std::vector<std::uint64_t> bytes;
+    for (std::uint32_t run = 0; run <= run_count; ++run)
+    {
+        const double ms = canvas.stroke(static_cast<BrushAction>(action), radius);
+        const std::uint64_t top = canvas.edits().shownBytes();
+        const double first_undo_ms = canvas.undo();
+        if (run != 0) // the first one makes room
+        {
+            dab_ms.push_back(ms);
+            undo_ms.push_back(first_undo_ms);
+            bytes.push_back(top - canvas.edits().shownBytes());
+            redo_ms.push_back(canvas.redo());
+            canvas.undo();
+        }
+    }
+    std::ranges::sort(bytes);
+    return {radius,
+            kActionNames.at(action),
+            Times::of(dab_ms),
+            Times::of(undo_ms),
+            Times::of(redo_ms),
+            bytes[bytes.size() / 2]};
+}
+
+// Times of the last strokes of so many.
+std::vector<HistoryRow> measureHistory(Canvas& canvas, Progress& progress)
+{
+    std::vector<HistoryRow> rows;
+    std::vector<double> dab_ms;
+    for (const std::uint32_t count : kStrokeCounts)
+    {
+        progress.step(fmt::format("{} strokes", count));
+        while (dab_ms.size() < count)
+        {
+            const auto action = static_cast<BrushAction>(dab_ms.size() % kActionNames.size());
+            dab_ms.push_back(canvas.stroke(action, kHistoryRadius));
+        }
+        HistoryRow row;
+        row.stroke_count = count;
+        row.dab_ms = Times::of({dab_ms.end() - kStrokesMeasured, dab_ms.end()});
+        std::vector<double> undo_ms;
+        std::vector<double> redo_ms;
+        for (std::uint32_t i = 0; i < kStrokesMeasured; ++i)
+        {
+            undo_ms.push_back(canvas.undo());
+        }
+        for (std::uint32_t i = 0; i < kStrokesMeasured; ++i)
+        {
+            redo_ms.push_back(canvas.redo());
+        }
+        row.undo_ms = Times::of(undo_ms);
+        row.redo_ms = Times::of(redo_ms);
+        row.held_bytes = canvas.edits().heldBytes();
+        row.compaction_count = canvas.compactionCount();
+        row.compaction_ms = canvas.compactionMs();
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const std::string& name, const Scene& scene,
+                const GpuScene& gpu_scene, std::uint32_t depth, Progress& progress)
+{
+    const Grid grid = Grid::around(scene.bounds(), depth);
+    EditRow row;
+    row.scene = name;
+    row.resolution = grid.resolution();
+    {
+        Canvas canvas(device, options, gpu_scene, grid);
+        row.voxels = canvas.voxelCount();
+        for (const std::uint32_t radius : kRadii)
+        {
+            progress.step(fmt::format("{} at {}: radius {}", name, row.resolution, radius));
+            for (std::uint32_t action = 0; action < kActionNames.size(); ++action)
+            {
+                row.strokes.push_back(measureStrokes(canvas, radius, action, options.run_count));
+            }
+        }
+    }
+    Canvas canvas(device, options, gpu_scene, grid);
+    row.history = measureHistory(canvas, progress);
+    return row;
+}
+
+std::string tableHead(const vk::DeviceReport& device, const BenchOptions& options)
+{
+    return fmt::format(
+        "zvo {} on {} ({}, {}). Strokes of a sphere on an {}: GPU milliseconds, median / 95 of 100, of {} "
+        "strokes from the unedited scene on, and of the last {} of many of radius {}.\n",
+        ZVO_VERSION, device.name, device.type, device.driver,
+        options.structure == TreeStructure::Svdag ? "octree's DAG" : "octree", options.run_count, kStrokesMeasured,
+        kHistoryRadius);
+}
+
+std::string tables(const std::vector<EditRow>& rows)
+{
+    std::string text = fmt::format("\n{}", columnNames(strokeColumns()));
+    for (const EditRow& row : rows)
+    {
+        for (const StrokeRow& stroke : row.strokes)
+        {
+            text += columnValues(strokeColumns(), {&row, &stroke});
+        }
+    }
+    text += fmt::format("\n{}", columnNames(historyColumns()));
+    for (const EditRow& row : rows)
+    {
+        for (const HistoryRow& history : row.history)
+        {
+            text += columnValues(historyColumns(), {&row, &history});
+        }
+    }
+    return text;
+}
+
+Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<EditRow>& rows)
+{
+    Json json;
+    json["schema"] = "zvo.bench_edit/1";
+    json["zvo"] = ZVO_VERSION;
+    json["device"] = deviceJson(device);
+    json["coverage"] = coverageName(options.coverage);
+    json["attributes"] = options.attributes ? "full" : "none";
+    json["structure"] = structureName(options.structure);
+    json["runs"] = options.run_count;
+    json["rows"] = Json::array();
+    for (const EditRow& row : rows)
+    {
+        json["rows"].push_back(rowJson(row));
+    }
+    return json;
+}
+
+} // namespace
+
+void benchEdit(const BenchOptions& options)
+{
+    const std::vector<fs::path> paths = benchScenes(options);
+    const std::vector<std::uint32_t> depths = options.depths.value_or(std::vector{kDepth});
+    std::optional<Output> report = openReport(options.output);
+    vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
+    std::vector<EditRow> rows;
+    Progress progress(paths.size() * depths.size() * (kRadii.size() + kStrokeCounts.size()));
+    for (const fs::path& path : paths)
+    {
+        const Scene scene = loadWithWarnings(std::span(&path, 1), options.load);
+        const GpuScene gpu_scene = uploadScene(device, scene, options.attributes);
+        for (const std::uint32_t depth : depths)
+        {
+            rows.push_back(measure(device, options, path.stem().string(), scene, gpu_scene, depth, progress));
+        }
+    }
+    clearProgressBar();
+    if (options.output.json != "-")
+    {
+        Output table("-", true);
+        table.write(tableHead(device.device().report(), options) + tables(rows));
+    }
+    checkValidation(device);
+    if (report)
+    {
+        report->write(jsonText(reportJson(device.device().report(), options, rows)));
+        report->finish();
+    }
+}
+
+} // namespace zvo::cli
