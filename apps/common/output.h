@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/atomic_file.h"
 #include "common/scene_options.h"
+#include "core/atomic_file.h"
 
 #include <cstddef>
 #include <memory>

@@ -2,9 +2,9 @@
 // The numbers of a run as JSON. The names of the fields are an interface: they stay.
 #pragma once
 
+#include "common/scene_options.h"
 #include "core/merge_rule.h"
 #include "core/pipeline.h"
-#include "common/scene_options.h"
 #include "vk/device.h"
 
 #include <nlohmann/json.hpp>

@@ -2,11 +2,11 @@
 // What the commands have in common.
 #pragma once
 
+#include "common/scene_options.h"
 #include "core/grid.h"
 #include "core/pipeline.h"
 #include "core/scene.h"
 #include "core/stage.h"
-#include "common/scene_options.h"
 #include "vk/headless.h"
 
 #include <cstdint>

@@ -452,9 +452,10 @@ void App::draw()
     flight.inspected = m_panels.shows_panels || m_editor.wantsPixel() ? pixelUnderMouse() : std::nullopt;
     if (flight.inspected)
     {
-        flight.report = {m_device.device(), "inspected pixel", 1, vk::MemoryKind::Readback};
+        flight.report = std::make_unique<vk::BufferOf<gpu::PixelReport>>(m_device.device(), "inspected pixel", 1,
+                                                                         vk::MemoryKind::Readback);
         picture.inspected = flight.inspected;
-        picture.report = &flight.report;
+        picture.report = flight.report.get();
     }
     submit(picture, flight);
     if (target)
@@ -509,7 +510,7 @@ void App::finishOldest()
     }
     if (flight.inspected)
     {
-        m_inspected = {*flight.inspected, *flight.report.mappedData()};
+        m_inspected = {*flight.inspected, *flight.report->mappedData()};
         m_editor.found(flight.look, m_inspected->report, *m_world);
     }
     if (m_ladder && flight.internal_scale == m_ladder->scale())

@@ -70,7 +70,7 @@ private:
         std::unique_ptr<Screenshot> screenshot;
         std::optional<glm::uvec2> inspected; // pixel of the window
         std::uint64_t look = 0;              // number of that, for the editor
-        vk::BufferOf<gpu::PixelReport> report;
+        std::unique_ptr<vk::BufferOf<gpu::PixelReport>> report;
     };
 
     void tick();

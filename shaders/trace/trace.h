@@ -296,8 +296,9 @@ struct ShadeParams // push constants of trace/shade
     vec3 forward;
     vec3 step_x;
     vec3 step_y;
-    // Towards it, as long as it is strong; kViewDepth: x is the depth that is white, y the one that is dark; kViewOrigin:
-    // the bits of x are the index of the first voxel that is not static, those of y of the first such node.
+    // Towards it, as long as it is strong; kViewDepth: x is the depth that is white, y the one that is dark;
+    // kViewOrigin: the bits of x are the index of the first voxel that is not static, those of y of the first such
+    // node.
     vec3 sun;
     uint width;
     uint height;

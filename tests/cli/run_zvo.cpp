@@ -117,8 +117,8 @@ ZvoProcess::ZvoProcess(const std::filesystem::path& program, const std::filesyst
     posix_spawn_file_actions_addopen(&setup.actions, STDOUT_FILENO, m_out.c_str(), O_WRONLY, 0);
     posix_spawn_file_actions_addopen(&setup.actions, STDERR_FILENO, m_err.c_str(), O_WRONLY, 0);
     posix_spawn_file_actions_addchdir_np(&setup.actions, folder.c_str());
-    const int failure = posix_spawn(&m_pid, program.c_str(), &setup.actions, &setup.attributes, pointersTo(command).data(),
-                                    pointersTo(variables).data());
+    const int failure = posix_spawn(&m_pid, program.c_str(), &setup.actions, &setup.attributes,
+                                    pointersTo(command).data(), pointersTo(variables).data());
     if (failure != 0)
     {
         throw std::system_error(failure, std::generic_category(), program.string());

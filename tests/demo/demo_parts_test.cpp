@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: MIT
+// Parts of the demo window that need no window: keys, settings, statistics, time, resolution, shaders' sources.
+#include "demo/elapsed.h"
+#include "demo/frame_stats.h"
+#include "demo/keys.h"
+#include "demo/notices.h"
+#include "demo/resolution_ladder.h"
+#include "demo/settings.h"
+#include "demo/shader_sources.h"
+#include "demo/timeline.h"
+#include "support/temp_dir.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace zvo::demo
+{
+namespace
+{
+
+std::string contentOf(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST(Keys, TheReadmeHasTheTableOfTheProgram)
+{
+    const std::string readme = contentOf(ZVO_SOURCE_DIR "/README.md");
+    EXPECT_NE(readme.find("\n" + keyTableText() + "\n"), std::string::npos) << "it should have\n" << keyTableText();
+}
+
+TEST(Keys, NoKeyDoesTwoThings)
+{
+    std::set<std::tuple<Key, bool, bool>> keys;
+    std::set<Action> actions;
+    for (const KeyBinding& binding : kKeyBindings)
+    {
+        EXPECT_FALSE(binding.what.empty());
+        if (binding.action == Action::None)
+        {
+            continue;
+        }
+        EXPECT_TRUE(actions.insert(binding.action).second) << binding.what;
+        for (int key = static_cast<int>(binding.key); key <= static_cast<int>(binding.last_key); ++key)
+        {
+            EXPECT_TRUE(keys.insert({static_cast<Key>(key), binding.shift, binding.control}).second) << binding.keys;
+        }
+    }
+    for (const Key key : {Key::W, Key::A, Key::S, Key::D, Key::E, Key::Q})
+    {
+        EXPECT_FALSE(keys.contains({key, false, false})) << "the camera has it";
+    }
+}
+
+TEST(Keys, PressesFindTheirRow)
+{
+    const auto actionOf = [](Key key, Modifiers modifiers, bool pressed = true)
+    {
+        const KeyBinding* const binding = bindingOf({key, pressed, modifiers});
+        return binding != nullptr ? binding->action : Action::None;
+    };
+    EXPECT_EQ(actionOf(Key::F12, {}), Action::Screenshot);
+    EXPECT_EQ(actionOf(Key::F12, {true, false, false}), Action::ScreenshotOfPicture);
+    EXPECT_EQ(actionOf(Key::F12, {}, false), Action::None);
+    EXPECT_EQ(actionOf(Key::V, {false, true, false}), Action::PasteCamera);
+    EXPECT_EQ(actionOf(Key::V, {false, false, true}), Action::None);
+    EXPECT_EQ(actionOf(Key::Digit1, {}), Action::RecallBookmark);
+    EXPECT_EQ(actionOf(Key::Digit9, {false, true, false}), Action::StoreBookmark);
+    EXPECT_EQ(actionOf(Key::Digit0, {}), Action::None);
+    EXPECT_EQ(actionOf(Key::W, {}), Action::None);
+}
+
+Settings otherSettings()
+{
+    Settings settings;
+    settings.window = {801, 603};
+    settings.shows_panels = false;
+    settings.shows_keys = true;
+    settings.view.view = View::Bricks;
+    settings.view.shadows = false;
+    settings.view.occlusion_rays = 7;
+    settings.view.to_sun = {0.1, 1.0 / 3.0, -2};
+    settings.view.exposure = 1.3F;
+    settings.view.detail_pixels = 2.6F;
+    settings.view.internal_scale = 0.375;
+    settings.view.present_mode = vk::PresentMode::Mailbox;
+    return settings;
+}
+
+TEST(Settings, WhatIsWrittenIsRead)
+{
+    for (const Settings& settings : {Settings{}, otherSettings()})
+    {
+        EXPECT_EQ(parseSettings(settingsText(settings), "s.json"), settings);
+    }
+    EXPECT_EQ(parseSettings(R"({"schema": "zvo.demo_settings/1"})", "s.json"), Settings{});
+}
+
+TEST(Settings, AreWrittenToAFolderThatIsMade)
+{
+    const test::TempDir folder;
+    const std::filesystem::path file = folder.path() / "a" / "b" / "demo.json";
+    EXPECT_EQ(readSettings(file), Settings{});
+    writeSettings(file, otherSettings());
+    EXPECT_EQ(readSettings(file), otherSettings());
+    writeSettings(file, Settings{});
+    EXPECT_EQ(readSettings(file), Settings{});
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}), 1) << "nothing beside it";
+}
+
+TEST(Settings, ADamagedFileIsNotUsed)
+{
+    const test::TempDir folder;
+    const std::string good = settingsText(otherSettings());
+    const std::vector<std::string> bad = {"",
+                                          "{",
+                                          good.substr(0, good.size() / 2),
+                                          R"({"schema": "other"})",
+                                          R"({"schema": "zvo.demo_settings/1", "window": {"width": 0, "height": 5}})",
+                                          R"({"schema": "zvo.demo_settings/1", "view": {"view": "smell"}})",
+                                          R"({"schema": "zvo.demo_settings/1", "view": {"sun": [0, 0, 0]}})",
+                                          R"({"schema": "zvo.demo_settings/1", "view": {"exposure": -1}})",
+                                          R"({"schema": "zvo.demo_settings/1", "more": 1})"};
+    for (const std::string& text : bad)
+    {
+        EXPECT_THROW(parseSettings(text, "s.json"), Error) << text;
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(readSettings(folder.write("demo.json", text)), Settings{}) << text;
+        const std::string told = testing::internal::GetCapturedStderr();
+        EXPECT_NE(told.find("warning: settings are not used"), std::string::npos) << told;
+        EXPECT_EQ(std::ranges::count(told, '\n'), 1) << told;
+    }
+}
+
+TEST(Settings, APlaceThatCannotBeWrittenToIsTold)
+{
+    testing::internal::CaptureStderr();
+    writeSettings("/proc/nowhere/demo.json", Settings{});
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("warning: settings are not kept"), std::string::npos);
+}
+
+TEST(History, TellsMeanAndTheValueThat95OfAHundredDoNotExceed)
+{
+    History history;
+    EXPECT_EQ(history.mean(), 0);
+    EXPECT_EQ(history.p95(), 0);
+    history.add(3);
+    EXPECT_EQ(history.p95(), 3);
+    History hundred;
+    for (int i = 100; i >= 1; --i)
+    {
+        hundred.add(i);
+    }
+    EXPECT_EQ(hundred.mean(), 50.5);
+    EXPECT_EQ(hundred.p95(), 95);
+    EXPECT_EQ(hundred.last(), 1);
+    for (int i = 0; i < 1000; ++i)
+    {
+        hundred.add(i);
+    }
+    EXPECT_EQ(hundred.values().size(), History::kLength);
+    EXPECT_EQ(hundred.values().front(), 1000 - static_cast<int>(History::kLength)) << "the oldest went";
+}
+
+TEST(FrameStats, PassesOfTheSameNameCountTogetherAndMissingOnesAsNothing)
+{
+    FrameStats stats;
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 1}, {"a", 2}, {"a", 3}, {"trace/primary", 4}}, 10'000);
+    stats.addPasses(std::vector<vk::PassTime>{{"b", 6}, {"a", 1}}, 10'000);
+    EXPECT_EQ(stats.names(), (std::vector<std::string>{"trace/beam", "a", "trace/primary", "b"}));
+    EXPECT_EQ(stats.pass("a").values(), (std::vector<float>{5, 1}));
+    EXPECT_EQ(stats.pass("trace/beam").values(), (std::vector<float>{1, 0}));
+    EXPECT_EQ(stats.pass("b").values(), (std::vector<float>{6}));
+    EXPECT_EQ(stats.gpuMs().values(), (std::vector<float>{10, 7}));
+    EXPECT_DOUBLE_EQ(stats.megaraysPerSecond(), 2.0) << "10,000 rays in 5 ms";
+    stats.addFrame(20);
+    stats.addFrame(30);
+    EXPECT_DOUBLE_EQ(stats.framesPerSecond(), 40);
+}
+
+TEST(ResolutionLadder, GoesDownWhereFramesTakeTooLongAndNoFurtherThanTheLastStep)
+{
+    ResolutionLadder ladder(0);
+    EXPECT_EQ(ladder.scale(), 1.0);
+    ladder.add(200);
+    EXPECT_EQ(ladder.scale(), 1.0) << "one long frame is an accident";
+    ladder.add(10);
+    ladder.add(200);
+    EXPECT_EQ(ladder.scale(), 1.0);
+    ladder.add(200);
+    EXPECT_EQ(ladder.scale(), 0.75);
+    for (int i = 0; i < 100; ++i)
+    {
+        ladder.add(200);
+    }
+    EXPECT_EQ(ladder.scale(), ResolutionLadder::kScales.back());
+}
+
+TEST(ResolutionLadder, GoesUpWhereTheNextStepFitsAndStaysThere)
+{
+    // A device on which a frame of the whole window takes 300 ms, and nothing else does.
+    const auto timeAt = [](double scale) { return 300 * scale * scale; };
+    for (const std::size_t first : {std::size_t{0}, ResolutionLadder::kScales.size() - 1})
+    {
+        ResolutionLadder ladder(first);
+        std::set<double> late;
+        for (int i = 0; i < 1000; ++i)
+        {
+            ladder.add(timeAt(ladder.scale()));
+            if (i >= 200)
+            {
+                late.insert(ladder.scale());
+            }
+        }
+        EXPECT_EQ(late.size(), 1U) << "it does not go up and down";
+        EXPECT_LE(timeAt(*late.begin()), ResolutionLadder::kTooLongMs);
+        EXPECT_GE(*late.begin(), 0.375);
+    }
+}
+
+TEST(ResolutionLadder, SizesHaveAPixelAtLeast)
+{
+    EXPECT_EQ(scaledSize({1280, 720}, 0.5), (PictureSize{640, 360}));
+    EXPECT_EQ(scaledSize({1281, 3}, 0.125), (PictureSize{160, 1}));
+    EXPECT_EQ(scaledSize({1, 1}, 0.125), (PictureSize{1, 1}));
+    EXPECT_EQ(scaledSize({7, 9}, 1.0), (PictureSize{7, 9}));
+}
+
+TEST(Elapsed, FixedStepsAreWhatMultiplyingSays)
+{
+    Elapsed thirtieths{FixedStep{1, 30}};
+    for (int i = 1; i <= 1000; ++i)
+    {
+        thirtieths.add(99.0);
+        ASSERT_EQ(thirtieths.seconds(), i / 30.0);
+    }
+    Elapsed clock{std::nullopt};
+    clock.add(0.25);
+    clock.add(0.5);
+    EXPECT_EQ(clock.seconds(), 0.75);
+}
+
+TEST(Timeline, StopsStepsAndLoops)
+{
+    Stage stage;
+    stage.seconds = 2;
+    stage.frames_per_second = 10;
+    Timeline timeline{FixedStep{1, 10}};
+    timeline.start(0.5);
+    for (int i = 0; i < 4; ++i)
+    {
+        timeline.advance(99);
+    }
+    EXPECT_DOUBLE_EQ(timeline.secondsIn(stage), 0.9);
+    timeline.step(stage);
+    timeline.advance(99);
+    EXPECT_DOUBLE_EQ(timeline.secondsIn(stage), 1.0) << "it stands still";
+    timeline.play(true);
+    timeline.setSpeed(3);
+    timeline.advance(99);
+    EXPECT_DOUBLE_EQ(timeline.secondsIn(stage), 1.3);
+    timeline.advance(99);
+    timeline.advance(99);
+    timeline.advance(99);
+    EXPECT_NEAR(timeline.secondsIn(stage), 0.2, 1e-12);
+}
+
+TEST(Notices, GoAfterAWhileAndAreNotManyAtOnce)
+{
+    Notices notices;
+    for (int i = 0; i < 20; ++i)
+    {
+        notices.add(std::to_string(i));
+    }
+    ASSERT_EQ(notices.all().size(), Notices::kMost);
+    EXPECT_EQ(notices.all().back().text, "19");
+    notices.advance(Notices::kSeconds - 1);
+    notices.add("late");
+    notices.advance(1.5);
+    ASSERT_EQ(notices.all().size(), 1U);
+    EXPECT_EQ(notices.all().front().text, "late");
+}
+
+TEST(ShaderSources, IncludesAreFound)
+{
+    EXPECT_EQ(includesOf("#version 460\n  #include \"a/b.h\"\n// #include \"no\"\n#include <no>\n#include \"c.glsl\""),
+              (std::vector<std::string>{"a/b.h", "c.glsl"}));
+    EXPECT_TRUE(includesOf("#include \"open\n").empty());
+}
+
+/// A folder of two kernels, one of which includes a file that includes another one.
+class SourceFolder
+{
+public:
+    SourceFolder()
+    {
+        write("op/a.comp", "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"lib/x.glsl\"\n"
+                           "layout(local_size_x = 1) in;\nvoid main() { twice(1); }\n");
+        write("op/b.comp", "#version 460\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+        write("lib/x.glsl", "#include \"lib/y.glsl\"\nint twice(int n) { return kTwo * n; }\n");
+        write("lib/y.glsl", "const int kTwo = 2;\n");
+    }
+
+    void write(const std::string& file, const std::string& text)
+    {
+        const std::filesystem::path path = m_folder.path() / file;
+        std::filesystem::create_directories(path.parent_path());
+        std::ofstream(path) << text;
+        std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    }
+
+    /// As if it was written after everything else.
+    void change(const std::string& file, const std::string& text)
+    {
+        write(file, text);
+        std::filesystem::last_write_time(m_folder.path() / file, std::filesystem::file_time_type::clock::now());
+    }
+
+    [[nodiscard]] const std::filesystem::path& path() const { return m_folder.path(); }
+
+private:
+    test::TempDir m_folder;
+};
+
+const std::vector<std::string> kNames = {"op/a", "op/b", "op/missing"};
+using Names = std::vector<std::string>;
+
+TEST(ShaderSources, ChangesAreThoseOfIncludedFilesToo)
+{
+    SourceFolder folder;
+    ShaderSources sources(folder.path());
+    EXPECT_TRUE(sources.exist());
+    EXPECT_EQ(sources.takeChanged(kNames), Names{});
+    folder.change("op/b.comp", "#version 460\n");
+    EXPECT_EQ(sources.takeChanged(kNames), Names{"op/b"});
+    EXPECT_EQ(sources.takeChanged(kNames), Names{}) << "once";
+    folder.change("lib/y.glsl", "#include \"lib/x.glsl\"\nconst int kTwo = 3;\n"); // in a circle
+    EXPECT_EQ(sources.takeChanged(kNames), Names{"op/a"});
+    EXPECT_FALSE(ShaderSources("/nowhere/shaders").exist());
+}
+
+TEST(ShaderSources, CompilesOrTellsWhatTheCompilerSays)
+{
+    SourceFolder folder;
+    ShaderSources sources(folder.path());
+    const std::vector<CompiledShader> good = sources.compile({"op/a", "op/b"});
+    ASSERT_EQ(good.size(), 2U);
+    for (const CompiledShader& shader : good)
+    {
+        ASSERT_FALSE(shader.words.empty()) << shader.message;
+        EXPECT_EQ(shader.words.front(), 0x07230203U) << "SPIR-V begins with it";
+    }
+    folder.change("op/b.comp", "#version 460\nlayout(local_size_x = 1) in;\nvoid main() { nonsense; }\n");
+    EXPECT_EQ(sources.takeChanged(kNames), Names{"op/b"});
+    const std::vector<CompiledShader> bad = sources.compile({"op/a", "op/b"});
+    EXPECT_FALSE(bad[0].words.empty());
+    EXPECT_TRUE(bad[1].words.empty());
+    EXPECT_NE(bad[1].message.find("b.comp:3: 'nonsense'"), std::string::npos) << bad[1].message;
+    EXPECT_EQ(sources.takeChanged(kNames), Names{"op/b"}) << "what does not compile is tried again";
+    folder.write("op/b.comp", "#version 460\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+    EXPECT_FALSE(sources.compile({"op/b"})[0].words.empty());
+    EXPECT_EQ(sources.takeChanged(kNames), Names{});
+}
+
+} // namespace
+} // namespace zvo::demo

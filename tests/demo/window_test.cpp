@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: MIT
+// The demo window, run as a user would, under an X server of its own: what it shows is what `zvo render` shows,
+// whatever happens to the window, and the validation layers have nothing to say.
+#include "cli/cli_scene.h"
+#include "cli/run_zvo.h"
+#include "common/view.h"
+#include "core/image_io.h"
+#include "demo/input_script.h"
+#include "demo/xvfb.h"
+#include "support/device.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace zvo::test
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+using demo::Key;
+using demo::KeyEvent;
+using demo::Modifiers;
+using demo::MouseButton;
+using demo::MouseButtonEvent;
+using demo::MouseMoveEvent;
+using demo::ScriptedEvent;
+
+const std::vector<std::string> kCamera = {"--camera", "3,2.5,4,0.5,0.5,0.5,40"};
+const std::vector<std::string> kSize = {"--size", "240x150"};
+
+std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b)
+{
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+/// What a key does, pressed before a frame and let go before the next one.
+std::vector<ScriptedEvent> stroke(std::uint64_t frame, Key key, Modifiers modifiers = {})
+{
+    return {{frame, KeyEvent{key, true, modifiers}}, {frame + 1, KeyEvent{key, false, modifiers}}};
+}
+
+/// A script in the order of its frames.
+class Script
+{
+public:
+    Script& add(std::vector<ScriptedEvent> events)
+    {
+        m_events.insert(m_events.end(), events.begin(), events.end());
+        return *this;
+    }
+    Script& add(std::uint64_t frame, demo::InputEvent event) { return add({{frame, std::move(event)}}); }
+
+    [[nodiscard]] std::string text() const
+    {
+        std::vector<ScriptedEvent> sorted = m_events;
+        std::ranges::stable_sort(sorted, {}, &ScriptedEvent::frame);
+        return inputScriptText(sorted);
+    }
+
+private:
+    std::vector<ScriptedEvent> m_events;
+};
+
+/// A folder with cube.glb, slab.glb, broken.glb and moving.scene.json, and a display to show them on.
+class DemoWindow : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        if (m_server.display().empty())
+        {
+            GTEST_SKIP() << "no Xvfb: install the package xvfb";
+        }
+        m_dir.write("cube.glb", colouredCube().glb());
+        GltfBuilder slab = colouredCube();
+        slab.document["nodes"][0]["scale"] = {0.25, 0.5, 1.5};
+        m_dir.write("slab.glb", slab.glb());
+        const std::vector<std::uint8_t> whole = colouredCube().glb();
+        m_dir.write("broken.glb", std::span(whole).first(whole.size() / 2));
+        m_dir.write("moving.scene.json", std::string_view(R"({"seconds": 2, "frames_per_second": 10,
+            "grid": {"depth": 6, "bounds": {"min": [-1.625, -1, -1], "max": [2.375, 3, 3]}},
+            "objects": [{"file": "cube.glb"},
+                        {"file": "slab.glb", "motion": {"line": {"from": [-2, 0, 0], "to": [2, 0, 0]}}}]})"));
+    }
+
+    Outcome runDemo(std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), "zvo-demo");
+        if (std::ranges::find(arguments, "--device") == arguments.end())
+        {
+            arguments.insert(arguments.end(), {"--device", "cpu"});
+        }
+        if (deviceOptions().validation)
+        {
+            arguments.emplace_back("--validation");
+        }
+        return ZvoProcess(ZVO_DEMO_PROGRAM, m_dir.path(), arguments,
+                          {"DISPLAY=" + m_server.display(),
+                           "WAYLAND_DISPLAY=", "XDG_CONFIG_HOME=" + (m_dir.path() / "config").string()})
+            .wait();
+    }
+
+    /// Runs it to its end, which is good and silent.
+    void show(const std::vector<std::string>& arguments)
+    {
+        const Outcome outcome = runDemo(arguments);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+    }
+
+    std::string render(const std::vector<std::string>& arguments)
+    {
+        const Outcome outcome = runZvo(m_dir.path(), std::vector<std::string>{"render"} + arguments +
+                                                         std::vector<std::string>{"-o", "rendered.png", "-f"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return file("rendered.png");
+    }
+
+    [[nodiscard]] std::string file(const std::string& name) const { return contentOf(m_dir.path() / name); }
+    [[nodiscard]] bool has(const std::string& name) const { return fs::exists(m_dir.path() / name); }
+
+    /// Pixels of a picture, with its size in front.
+    [[nodiscard]] Image picture(const std::string& name) const
+    {
+        const std::string png = file(name);
+        return decodeImage({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}, name, name);
+    }
+
+    Xvfb m_server;
+    TempDir m_dir;
+};
+
+// Frames one after the other, each at its own time, without panels.
+const std::vector<std::string> kSteady = {"--fixed-step", "1/10", "--hide-ui"};
+const std::vector<std::string> kCube = {"cube.glb", "--resolution", "64"};
+
+TEST_F(DemoWindow, EveryViewIsThePictureOfZvoRender)
+{
+    for (const cli::NamedView& view : cli::allViews())
+    {
+        SCOPED_TRACE(view.name);
+        const std::vector<std::string> common =
+            kCube + kCamera + kSize + std::vector<std::string>{"--view", std::string(view.name)};
+        show(common + kSteady + std::vector<std::string>{"--frames", "2", "--screenshot", "shown.png", "-f"});
+        EXPECT_EQ(file("shown.png"), render(common));
+    }
+}
+
+TEST_F(DemoWindow, OtherPicturesAreThoseOfZvoRenderToo)
+{
+    const std::vector<std::vector<std::string>> kOptions = {
+        {"--structure", "svdag", "--occlusion", "4"},
+        {"--exposure", "0.5", "--sun", "1,1,0.2", "--detail", "3"},
+        {"--attributes", "none", "--coverage", "conservative"},
+        {}, // with the scene's own camera
+    };
+    for (const std::vector<std::string>& options : kOptions)
+    {
+        SCOPED_TRACE(testing::PrintToString(options));
+        const std::vector<std::string> common = kCube + kSize + (options.empty() ? options : kCamera + options);
+        show(common + kSteady + std::vector<std::string>{"--frames", "1", "--screenshot", "shown.png", "-f"});
+        EXPECT_EQ(file("shown.png"), render(common));
+    }
+    ASSERT_EQ(runZvo(m_dir.path(), {"build", "cube.glb", "-o", "cube.zvo", "--resolution", "64", "--attributes",
+                                    "block", "--device", "cpu"})
+                  .exit_code,
+              0);
+    const std::vector<std::string> tree = std::vector<std::string>{"cube.zvo"} + kSize;
+    show(tree + kSteady + std::vector<std::string>{"--frames", "1", "--screenshot", "shown.png", "-f"});
+    EXPECT_EQ(file("shown.png"), render(tree));
+}
+
+TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
+{
+    show(kCube + kCamera + kSteady +
+         std::vector<std::string>{"--size", "240x150", "--internal-scale", "0.5", "--frames", "1", "--screenshot",
+                                  "shown.png"});
+    const Image shown = picture("shown.png");
+    render(kCube + kCamera + std::vector<std::string>{"--size", "120x75"});
+    const Image traced = picture("rendered.png");
+    ASSERT_EQ(shown.width, 240U);
+    ASSERT_EQ(shown.height, 150U);
+    for (std::uint32_t y = 0; y < 150; ++y)
+    {
+        for (std::uint32_t x = 0; x < 240; ++x)
+        {
+            for (std::uint32_t channel = 0; channel < 4; ++channel)
+            {
+                ASSERT_EQ(shown.rgba[4 * (y * 240 + x) + channel], traced.rgba[4 * (y / 2 * 120 + x / 2) + channel]);
+            }
+        }
+    }
+}
+
+TEST_F(DemoWindow, FliesAlongAPathAndThroughTheTimesOfAMovingSceneAsZvoRenderDoes)
+{
+    m_dir.write("path.json", std::string_view(R"({"schema": "zvo.camera_path/1", "keys": [
+        {"time": 0, "eye": [3, 2, 6], "target": [0.5, 0.5, 0.5]},
+        {"time": 0.5, "eye": [0, 3, 7], "target": [0.5, 1, 0.5], "fov": 60},
+        {"time": 1.5, "eye": [-4, 1, 5], "target": [0.5, 0.5, 0.5]}]})"));
+    for (const char* structure : {"svo", "svdag"})
+    {
+        const std::vector<std::string> common =
+            std::vector<std::string>{"moving.scene.json", "--camera-path", "path.json", "--structure", structure} +
+            kSize;
+        ASSERT_EQ(runZvo(m_dir.path(), std::vector<std::string>{"render"} + common +
+                                           std::vector<std::string>{"-o", "frame_##.png", "--frames", "0..9", "-f"})
+                      .exit_code,
+                  0);
+        std::set<std::string> pictures;
+        for (const int frame : {0, 3, 9})
+        {
+            show(common + kSteady +
+                 std::vector<std::string>{"--frames", std::to_string(frame + 1), "--screenshot", "shown.png", "-f"});
+            EXPECT_EQ(file("shown.png"), file("frame_0" + std::to_string(frame) + ".png")) << frame;
+            pictures.insert(file("shown.png"));
+        }
+        EXPECT_EQ(pictures.size(), 3U);
+    }
+}
+
+TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
+{
+    Script script;
+    const Modifiers control = {false, true, false};
+    script.add(stroke(1, Key::Digit1, control)).add(stroke(1, Key::F12)); // a bookmark, and zvo-0001.png
+    script.add(2, MouseMoveEvent{100, 70}).add(2, MouseButtonEvent{MouseButton::Right, true, {}});
+    script.add(stroke(3, Key::W)).add(3, MouseMoveEvent{130, 60}).add(3, demo::WheelEvent{0, 1});
+    script.add(5, MouseButtonEvent{MouseButton::Right, false, {}}).add(stroke(5, Key::D, {true, false, false}));
+    script.add(stroke(7, Key::F12)); // zvo-0002.png, elsewhere
+    script.add(8, demo::ResizeEvent{333, 201}).add(stroke(9, Key::F12));
+    script.add(10, demo::ResizeEvent{0, 0}).add(stroke(11, Key::V)).add(stroke(13, Key::V, {true, false, false}));
+    script.add(16, demo::ResizeEvent{64, 480}).add(18, demo::MinimiseEvent{true}).add(20, demo::MinimiseEvent{false});
+    script.add(22, demo::ResizeEvent{240, 150});
+    script.add(stroke(23, Key::Digit1)).add(stroke(25, Key::F12)); // zvo-0004.png
+    script.add(stroke(27, Key::F))
+        .add(stroke(28, Key::C, control))
+        .add(stroke(29, Key::W))
+        .add(stroke(31, Key::V, control));
+    m_dir.write("script.json", script.text());
+    show(kCube + kCamera + kSize + kSteady +
+         std::vector<std::string>{"--frames", "36", "--input-script", "script.json", "--json", "stats.json",
+                                  "--record-input", "again.json", "--frames-in-flight", "3"});
+    EXPECT_EQ(file("again.json"), file("script.json"));
+    EXPECT_EQ(file("zvo-0001.png"), render(kCube + kCamera + kSize));
+    EXPECT_NE(file("zvo-0002.png"), file("zvo-0001.png"));
+    EXPECT_EQ(picture("zvo-0003.png").width, 333U);
+    EXPECT_EQ(picture("zvo-0003.png").height, 201U);
+    EXPECT_EQ(file("zvo-0004.png"), file("zvo-0001.png"));
+    const json stats = json::parse(file("stats.json"));
+    EXPECT_EQ(stats["frames"], 36);
+    EXPECT_EQ(stats["frames_drawn"], 36 - 6 - 2) << "none without an extent or while it was minimised";
+    EXPECT_GE(stats["swapchains"], 4);
+}
+
+TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
+{
+    Script script;
+    script.add(stroke(1, Key::F1)).add(stroke(3, Key::F1));
+    for (std::uint64_t i = 0; i < cli::allViews().size(); ++i)
+    {
+        script.add(stroke(5 + 2 * i, Key::V))
+            .add(5 + 2 * i, MouseMoveEvent{300.0 + 10.0 * static_cast<double>(i), 200});
+    }
+    // Clicks into the panels: headers close and open.
+    for (std::uint64_t i = 0; i < 10; ++i)
+    {
+        const double y = 20.0 + 25.0 * static_cast<double>(i);
+        script.add(30 + 3 * i, MouseMoveEvent{60, y});
+        script.add(31 + 3 * i, MouseButtonEvent{MouseButton::Left, true, {}});
+        script.add(32 + 3 * i, MouseButtonEvent{MouseButton::Left, false, {}});
+    }
+    script.add(stroke(65, Key::H))
+        .add(stroke(67, Key::H))
+        .add(stroke(68, Key::F12))
+        .add(stroke(68, Key::F12, {true, false, false}));
+    script.add(stroke(71, Key::F12, {true, false, false}));
+    m_dir.write("script.json", script.text());
+    show(std::vector<std::string>{"moving.scene.json", "--size", "500x400", "--frames", "76", "--input-script",
+                                  "script.json", "--json", "stats.json", "--screenshot", "last.png"});
+    const json stats = json::parse(file("stats.json"));
+    EXPECT_EQ(stats["schema"], "zvo.demo/1");
+    EXPECT_EQ(stats["frames_drawn"], 76);
+    EXPECT_GT(stats["first_frame_ms"], 0);
+    EXPECT_GT(stats["frame"]["mean_ms"], 0);
+    EXPECT_GE(stats["frame"]["p95_ms"], 0);
+    EXPECT_GT(stats["mrays_per_second"], 0);
+    EXPECT_EQ(stats["scene"]["movers"], 1);
+    EXPECT_GT(stats["bytes"]["peak"], 0);
+    std::set<std::string> passes;
+    for (const json& pass : stats["passes"])
+    {
+        passes.insert(pass["name"]);
+    }
+    for (const char* pass : {"trace/primary", "trace/inspect", "trace/beam_mark", "update/merge", "present/scale",
+                             "present/compose", "present/panels", "present/show"})
+    {
+        EXPECT_TRUE(passes.contains(pass)) << pass;
+    }
+    EXPECT_NE(file("last.png"), file("zvo-0002.png")) << "with and without panels";
+}
+
+// The reason that a program gives, without its name.
+std::string reasonOf(const std::string& err)
+{
+    const std::size_t at = err.find(": error: ");
+    return at == std::string::npos ? "" : err.substr(at);
+}
+
+TEST_F(DemoWindow, GoodFilesThatAreDroppedAreShownAndBadOnesAreNot)
+{
+    m_dir.write("text.glb", std::string_view("this is no scene"));
+    Script script;
+    script.add(1, demo::DropEvent{{"broken.glb"}}).add(stroke(2, Key::F12));
+    script.add(4, demo::DropEvent{{"missing.obj"}}).add(4, demo::DropEvent{{"text.glb"}}).add(stroke(5, Key::F12));
+    script.add(7, demo::DropEvent{{"slab.glb"}}).add(stroke(8, Key::F12));
+    script.add(10, demo::DropEvent{{"moving.scene.json"}}).add(12, demo::DropEvent{{"cube.glb", "slab.glb"}});
+    m_dir.write("script.json", script.text());
+    const Outcome outcome = runDemo(
+        kCube + kSize + kSteady +
+        std::vector<std::string>{"--frames", "15", "--input-script", "script.json", "--screenshot", "last.png"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::string expected;
+    for (const char* name : {"broken.glb", "missing.obj", "text.glb"})
+    {
+        const Outcome theirs = runZvo(m_dir.path(), {"render", name, "-o", "never.png"});
+        EXPECT_EQ(theirs.exit_code, 3);
+        expected += "zvo-demo" + reasonOf(theirs.err);
+    }
+    EXPECT_EQ(outcome.err, expected) << "a line for each of them, and nothing else";
+    EXPECT_EQ(file("zvo-0001.png"), render(kCube + kSize));
+    EXPECT_EQ(file("zvo-0002.png"), file("zvo-0001.png"));
+    EXPECT_EQ(file("zvo-0003.png"), render(std::vector<std::string>{"slab.glb", "--resolution", "64"} + kSize));
+    EXPECT_EQ(file("last.png"), render(std::vector<std::string>{"cube.glb", "slab.glb", "--resolution", "64"} + kSize));
+}
+
+// A copy of the project's shaders in which one was changed a moment from now, so that every F5 takes it for changed.
+class ChangedShaders
+{
+public:
+    ChangedShaders(const TempDir& folder, const std::string& name, const std::string& from, const std::string& to)
+        : m_path(folder.path() / "shaders")
+    {
+        fs::copy(ZVO_SOURCE_DIR "/shaders", m_path, fs::copy_options::recursive);
+        const fs::path file = m_path / name;
+        std::string text = contentOf(file);
+        const std::size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << name << " has changed, too";
+        text.replace(at, from.size(), to);
+        folder.write("shaders/" + name, text);
+        for (const auto& entry : fs::recursive_directory_iterator(m_path))
+        {
+            fs::last_write_time(entry.path(), fs::file_time_type::clock::now() - std::chrono::hours(1));
+        }
+        fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::hours(1));
+    }
+
+private:
+    fs::path m_path;
+};
+
+constexpr const char* kPixelLine = "color = encodeSrgb(surface.albedo);";
+
+TEST_F(DemoWindow, AShaderWithAnErrorLeavesTheOldOneAndSaysWhy)
+{
+    const ChangedShaders shaders(m_dir, "trace/shade.comp", kPixelLine, "color = nonsense;");
+    Script script;
+    script.add(stroke(1, Key::F12)).add(stroke(3, Key::F5)).add(stroke(5, Key::F12));
+    m_dir.write("script.json", script.text());
+    const Outcome outcome = runDemo(kCube + kCamera + kSize + kSteady +
+                                    std::vector<std::string>{"--view", "albedo", "--frames", "8", "--shaders",
+                                                             "shaders", "--input-script", "script.json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("'nonsense' : undeclared identifier"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("shade.comp"), std::string::npos) << outcome.err;
+    EXPECT_EQ(file("zvo-0002.png"), file("zvo-0001.png"));
+}
+
+TEST_F(DemoWindow, AShaderThatWasChangedShowsAtOnce)
+{
+    const ChangedShaders shaders(m_dir, "trace/shade.comp", kPixelLine, "color = vec3(1.0, 0.0, 1.0);");
+    Script script;
+    script.add(stroke(1, Key::F12)).add(stroke(3, Key::F5)).add(stroke(5, Key::F12));
+    m_dir.write("script.json", script.text());
+    show(kCube + kCamera + kSize + kSteady +
+         std::vector<std::string>{"--view", "albedo", "--frames", "8", "--shaders", "shaders", "--input-script",
+                                  "script.json"});
+    const Image before = picture("zvo-0001.png");
+    const Image after = picture("zvo-0002.png");
+    int changed = 0;
+    for (std::size_t i = 0; i < before.rgba.size(); i += 4)
+    {
+        const bool hit = before.rgba[i] + before.rgba[i + 1] + before.rgba[i + 2] != 0;
+        changed += hit ? 1 : 0;
+        ASSERT_EQ(after.rgba[i], hit ? 255 : 0);
+        ASSERT_EQ(after.rgba[i + 1], 0);
+        ASSERT_EQ(after.rgba[i + 2], hit ? 255 : 0);
+    }
+    EXPECT_GT(changed, 1000);
+}
+
+TEST_F(DemoWindow, SettingsAreKeptButForRunsOfSoManyFrames)
+{
+    Script script;
+    script.add(stroke(1, Key::V)).add(stroke(2, Key::F1)).add(stroke(4, Key::Q, {false, true, false}));
+    m_dir.write("script.json", script.text());
+    const std::vector<std::string> play = {"--input-script", "script.json"};
+    show(kCube + kSize + play + std::vector<std::string>{"--frames", "3"});
+    EXPECT_FALSE(has("config/zvo/demo.json"));
+    show(kCube + kSize + play);
+    const json kept = json::parse(file("config/zvo/demo.json"));
+    EXPECT_EQ(kept["window"]["width"], 240);
+    EXPECT_EQ(kept["view"]["view"], "albedo");
+    EXPECT_EQ(kept["keys"], true);
+    show(kCube + play); // in a window of that size, from that view to the next
+    EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["window"]["width"], 240);
+    EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["view"]["view"], "normal");
+    m_dir.write("config/zvo/demo.json", std::string_view("{\"schema\": 7"));
+    const Outcome outcome = runDemo(kCube + kSize + play);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("zvo-demo: warning: settings are not used"), std::string::npos) << outcome.err;
+    EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["view"]["view"], "albedo");
+}
+
+TEST_F(DemoWindow, WithoutASceneItWaitsForOne)
+{
+    Script script;
+    script.add(3, demo::DropEvent{{"cube.glb"}}).add(stroke(1, Key::F12));
+    m_dir.write("script.json", script.text());
+    show(kSize + kSteady +
+         std::vector<std::string>{"--resolution", "64", "--frames", "6", "--input-script", "script.json",
+                                  "--screenshot", "last.png"});
+    EXPECT_NE(file("zvo-0001.png"), file("last.png"));
+    EXPECT_EQ(file("last.png"), render(kCube + kSize));
+}
+
+TEST_F(DemoWindow, ErrorsAreThoseOfTheCommandLine)
+{
+    const auto expectError = [&](const std::vector<std::string>& arguments, int code, const std::string& part)
+    {
+        const Outcome outcome = runDemo(arguments);
+        EXPECT_EQ(outcome.exit_code, code) << outcome.err;
+        EXPECT_TRUE(outcome.err.starts_with("zvo-demo: error: ")) << outcome.err;
+        EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+        EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    };
+    expectError({"--nonsense"}, 2, "zvo-demo --help");
+    expectError({"cube.glb", "--view", "smell"}, 2, "--view smell");
+    expectError({"cube.glb", "--internal-scale", "2"}, 2, "at most 1");
+    expectError({"cube.glb", "--screenshot", "a.png"}, 2, "--frames");
+    expectError({"broken.glb"}, 3, "broken.glb");
+    expectError({"cube.glb", "--input-script", "missing.json"}, 3, "missing.json");
+    expectError({"cube.glb", "--frames", "1", "--screenshot", "nowhere/a.png"}, 4, "nowhere");
+    expectError({"cube.glb", "--frames", "1", "--json", "cube.glb"}, 4, "cube.glb");
+    expectError({"cube.glb", "--device", "no such device"}, 5, "no such device");
+    expectError({"cube.glb", "--memory-limit", "1M"}, 6, "--memory-limit");
+}
+
+TEST(DemoWithoutADisplay, PointsToZvoRender)
+{
+    const TempDir dir;
+    const Outcome outcome =
+        ZvoProcess(ZVO_DEMO_PROGRAM, dir.path(), {"zvo-demo"}, {"DISPLAY=", "WAYLAND_DISPLAY="}).wait();
+    EXPECT_EQ(outcome.exit_code, 5);
+    EXPECT_TRUE(outcome.err.starts_with("zvo-demo: error: there is no display")) << outcome.err;
+    EXPECT_NE(outcome.err.find("zvo render"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    const Outcome help = ZvoProcess(ZVO_DEMO_PROGRAM, dir.path(), {"zvo-demo", "--help"}, {"DISPLAY="}).wait();
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.out.find("--camera-path"), std::string::npos);
+}
+
+} // namespace
+} // namespace zvo::test
