@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The demo window, run as a user would, under an X server of its own: what it shows is what `zvo render` shows,
 // whatever happens to the window, and the validation layers have nothing to say.
-#include "cli/cli_scene.h"
-#include "cli/run_zvo.h"
 #include "common/view.h"
-#include "core/image_io.h"
-#include "demo/input_script.h"
-#include "demo/xvfb.h"
-#include "support/device.h"
-#include "support/temp_dir.h"
-
-#include <gtest/gtest.h>
+#include "demo/demo_window.h"
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,125 +14,6 @@ namespace zvo::test
 {
 namespace
 {
-
-namespace fs = std::filesystem;
-using demo::Key;
-using demo::KeyEvent;
-using demo::Modifiers;
-using demo::MouseButton;
-using demo::MouseButtonEvent;
-using demo::MouseMoveEvent;
-using demo::ScriptedEvent;
-
-const std::vector<std::string> kCamera = {"--camera", "3,2.5,4,0.5,0.5,0.5,40"};
-const std::vector<std::string> kSize = {"--size", "240x150"};
-
-std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b)
-{
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
-/// What a key does, pressed before a frame and let go before the next one.
-std::vector<ScriptedEvent> stroke(std::uint64_t frame, Key key, Modifiers modifiers = {})
-{
-    return {{frame, KeyEvent{key, true, modifiers}}, {frame + 1, KeyEvent{key, false, modifiers}}};
-}
-
-/// A script in the order of its frames.
-class Script
-{
-public:
-    Script& add(std::vector<ScriptedEvent> events)
-    {
-        m_events.insert(m_events.end(), events.begin(), events.end());
-        return *this;
-    }
-    Script& add(std::uint64_t frame, demo::InputEvent event) { return add({{frame, std::move(event)}}); }
-
-    [[nodiscard]] std::string text() const
-    {
-        std::vector<ScriptedEvent> sorted = m_events;
-        std::ranges::stable_sort(sorted, {}, &ScriptedEvent::frame);
-        return inputScriptText(sorted);
-    }
-
-private:
-    std::vector<ScriptedEvent> m_events;
-};
-
-/// A folder with cube.glb, slab.glb, broken.glb and moving.scene.json, and a display to show them on.
-class DemoWindow : public testing::Test
-{
-protected:
-    void SetUp() override
-    {
-        if (m_server.display().empty())
-        {
-            GTEST_SKIP() << "no Xvfb: install the package xvfb";
-        }
-        m_dir.write("cube.glb", colouredCube().glb());
-        GltfBuilder slab = colouredCube();
-        slab.document["nodes"][0]["scale"] = {0.25, 0.5, 1.5};
-        m_dir.write("slab.glb", slab.glb());
-        const std::vector<std::uint8_t> whole = colouredCube().glb();
-        m_dir.write("broken.glb", std::span(whole).first(whole.size() / 2));
-        m_dir.write("moving.scene.json", std::string_view(R"({"seconds": 2, "frames_per_second": 10,
-            "grid": {"depth": 6, "bounds": {"min": [-1.625, -1, -1], "max": [2.375, 3, 3]}},
-            "objects": [{"file": "cube.glb"},
-                        {"file": "slab.glb", "motion": {"line": {"from": [-2, 0, 0], "to": [2, 0, 0]}}}]})"));
-    }
-
-    Outcome runDemo(std::vector<std::string> arguments)
-    {
-        arguments.insert(arguments.begin(), "zvo-demo");
-        if (std::ranges::find(arguments, "--device") == arguments.end())
-        {
-            arguments.insert(arguments.end(), {"--device", "cpu"});
-        }
-        if (deviceOptions().validation)
-        {
-            arguments.emplace_back("--validation");
-        }
-        return ZvoProcess(ZVO_DEMO_PROGRAM, m_dir.path(), arguments,
-                          {"DISPLAY=" + m_server.display(),
-                           "WAYLAND_DISPLAY=", "XDG_CONFIG_HOME=" + (m_dir.path() / "config").string()})
-            .wait();
-    }
-
-    /// Runs it to its end, which is good and silent.
-    void show(const std::vector<std::string>& arguments)
-    {
-        const Outcome outcome = runDemo(arguments);
-        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-        EXPECT_EQ(outcome.err, "");
-    }
-
-    std::string render(const std::vector<std::string>& arguments)
-    {
-        const Outcome outcome = runZvo(m_dir.path(), std::vector<std::string>{"render"} + arguments +
-                                                         std::vector<std::string>{"-o", "rendered.png", "-f"});
-        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        return file("rendered.png");
-    }
-
-    [[nodiscard]] std::string file(const std::string& name) const { return contentOf(m_dir.path() / name); }
-    [[nodiscard]] bool has(const std::string& name) const { return fs::exists(m_dir.path() / name); }
-
-    /// Pixels of a picture, with its size in front.
-    [[nodiscard]] Image picture(const std::string& name) const
-    {
-        const std::string png = file(name);
-        return decodeImage({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}, name, name);
-    }
-
-    Xvfb m_server;
-    TempDir m_dir;
-};
-
-// Frames one after the other, each at its own time, without panels.
-const std::vector<std::string> kSteady = {"--fixed-step", "1/10", "--hide-ui"};
-const std::vector<std::string> kCube = {"cube.glb", "--resolution", "64"};
 
 TEST_F(DemoWindow, EveryViewIsThePictureOfZvoRender)
 {
@@ -232,20 +104,20 @@ TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
 {
     Script script;
     const Modifiers control = {false, true, false};
-    script.add(stroke(1, Key::Digit1, control)).add(stroke(1, Key::F12)); // a bookmark, and zvo-0001.png
+    script.add(keyStroke(1, Key::Digit1, control)).add(keyStroke(1, Key::F12)); // a bookmark, and zvo-0001.png
     script.add(2, MouseMoveEvent{100, 70}).add(2, MouseButtonEvent{MouseButton::Right, true, {}});
-    script.add(stroke(3, Key::W)).add(3, MouseMoveEvent{130, 60}).add(3, demo::WheelEvent{0, 1});
-    script.add(5, MouseButtonEvent{MouseButton::Right, false, {}}).add(stroke(5, Key::D, {true, false, false}));
-    script.add(stroke(7, Key::F12)); // zvo-0002.png, elsewhere
-    script.add(8, demo::ResizeEvent{333, 201}).add(stroke(9, Key::F12));
-    script.add(10, demo::ResizeEvent{0, 0}).add(stroke(11, Key::V)).add(stroke(13, Key::V, {true, false, false}));
+    script.add(keyStroke(3, Key::W)).add(3, MouseMoveEvent{130, 60}).add(3, demo::WheelEvent{0, 1});
+    script.add(5, MouseButtonEvent{MouseButton::Right, false, {}}).add(keyStroke(5, Key::D, {true, false, false}));
+    script.add(keyStroke(7, Key::F12)); // zvo-0002.png, elsewhere
+    script.add(8, demo::ResizeEvent{333, 201}).add(keyStroke(9, Key::F12));
+    script.add(10, demo::ResizeEvent{0, 0}).add(keyStroke(11, Key::V)).add(keyStroke(13, Key::V, {true, false, false}));
     script.add(16, demo::ResizeEvent{64, 480}).add(18, demo::MinimiseEvent{true}).add(20, demo::MinimiseEvent{false});
     script.add(22, demo::ResizeEvent{240, 150});
-    script.add(stroke(23, Key::Digit1)).add(stroke(25, Key::F12)); // zvo-0004.png
-    script.add(stroke(27, Key::F))
-        .add(stroke(28, Key::C, control))
-        .add(stroke(29, Key::W))
-        .add(stroke(31, Key::V, control));
+    script.add(keyStroke(23, Key::Digit1)).add(keyStroke(25, Key::F12)); // zvo-0004.png
+    script.add(keyStroke(27, Key::F))
+        .add(keyStroke(28, Key::C, control))
+        .add(keyStroke(29, Key::W))
+        .add(keyStroke(31, Key::V, control));
     m_dir.write("script.json", script.text());
     show(kCube + kCamera + kSize + kSteady +
          std::vector<std::string>{"--frames", "36", "--input-script", "script.json", "--json", "stats.json",
@@ -265,10 +137,10 @@ TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
 TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
 {
     Script script;
-    script.add(stroke(1, Key::F1)).add(stroke(3, Key::F1));
+    script.add(keyStroke(1, Key::F1)).add(keyStroke(3, Key::F1));
     for (std::uint64_t i = 0; i < cli::allViews().size(); ++i)
     {
-        script.add(stroke(5 + 2 * i, Key::V))
+        script.add(keyStroke(5 + 2 * i, Key::V))
             .add(5 + 2 * i, MouseMoveEvent{300.0 + 10.0 * static_cast<double>(i), 200});
     }
     // Clicks into the panels: headers close and open.
@@ -279,11 +151,11 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
         script.add(31 + 3 * i, MouseButtonEvent{MouseButton::Left, true, {}});
         script.add(32 + 3 * i, MouseButtonEvent{MouseButton::Left, false, {}});
     }
-    script.add(stroke(65, Key::H))
-        .add(stroke(67, Key::H))
-        .add(stroke(68, Key::F12))
-        .add(stroke(68, Key::F12, {true, false, false}));
-    script.add(stroke(71, Key::F12, {true, false, false}));
+    script.add(keyStroke(65, Key::H))
+        .add(keyStroke(67, Key::H))
+        .add(keyStroke(68, Key::F12))
+        .add(keyStroke(68, Key::F12, {true, false, false}));
+    script.add(keyStroke(71, Key::F12, {true, false, false}));
     m_dir.write("script.json", script.text());
     show(std::vector<std::string>{"moving.scene.json", "--size", "500x400", "--frames", "76", "--input-script",
                                   "script.json", "--json", "stats.json", "--screenshot", "last.png"});
@@ -320,9 +192,9 @@ TEST_F(DemoWindow, GoodFilesThatAreDroppedAreShownAndBadOnesAreNot)
 {
     m_dir.write("text.glb", std::string_view("this is no scene"));
     Script script;
-    script.add(1, demo::DropEvent{{"broken.glb"}}).add(stroke(2, Key::F12));
-    script.add(4, demo::DropEvent{{"missing.obj"}}).add(4, demo::DropEvent{{"text.glb"}}).add(stroke(5, Key::F12));
-    script.add(7, demo::DropEvent{{"slab.glb"}}).add(stroke(8, Key::F12));
+    script.add(1, demo::DropEvent{{"broken.glb"}}).add(keyStroke(2, Key::F12));
+    script.add(4, demo::DropEvent{{"missing.obj"}}).add(4, demo::DropEvent{{"text.glb"}}).add(keyStroke(5, Key::F12));
+    script.add(7, demo::DropEvent{{"slab.glb"}}).add(keyStroke(8, Key::F12));
     script.add(10, demo::DropEvent{{"moving.scene.json"}}).add(12, demo::DropEvent{{"cube.glb", "slab.glb"}});
     m_dir.write("script.json", script.text());
     const Outcome outcome = runDemo(
@@ -374,7 +246,7 @@ TEST_F(DemoWindow, AShaderWithAnErrorLeavesTheOldOneAndSaysWhy)
 {
     const ChangedShaders shaders(m_dir, "trace/shade.comp", kPixelLine, "color = nonsense;");
     Script script;
-    script.add(stroke(1, Key::F12)).add(stroke(3, Key::F5)).add(stroke(5, Key::F12));
+    script.add(keyStroke(1, Key::F12)).add(keyStroke(3, Key::F5)).add(keyStroke(5, Key::F12));
     m_dir.write("script.json", script.text());
     const Outcome outcome = runDemo(kCube + kCamera + kSize + kSteady +
                                     std::vector<std::string>{"--view", "albedo", "--frames", "8", "--shaders",
@@ -389,7 +261,7 @@ TEST_F(DemoWindow, AShaderThatWasChangedShowsAtOnce)
 {
     const ChangedShaders shaders(m_dir, "trace/shade.comp", kPixelLine, "color = vec3(1.0, 0.0, 1.0);");
     Script script;
-    script.add(stroke(1, Key::F12)).add(stroke(3, Key::F5)).add(stroke(5, Key::F12));
+    script.add(keyStroke(1, Key::F12)).add(keyStroke(3, Key::F5)).add(keyStroke(5, Key::F12));
     m_dir.write("script.json", script.text());
     show(kCube + kCamera + kSize + kSteady +
          std::vector<std::string>{"--view", "albedo", "--frames", "8", "--shaders", "shaders", "--input-script",
@@ -411,7 +283,7 @@ TEST_F(DemoWindow, AShaderThatWasChangedShowsAtOnce)
 TEST_F(DemoWindow, SettingsAreKeptButForRunsOfSoManyFrames)
 {
     Script script;
-    script.add(stroke(1, Key::V)).add(stroke(2, Key::F1)).add(stroke(4, Key::Q, {false, true, false}));
+    script.add(keyStroke(1, Key::V)).add(keyStroke(2, Key::F1)).add(keyStroke(4, Key::Q, {false, true, false}));
     m_dir.write("script.json", script.text());
     const std::vector<std::string> play = {"--input-script", "script.json"};
     show(kCube + kSize + play + std::vector<std::string>{"--frames", "3"});
@@ -434,7 +306,7 @@ TEST_F(DemoWindow, SettingsAreKeptButForRunsOfSoManyFrames)
 TEST_F(DemoWindow, WithoutASceneItWaitsForOne)
 {
     Script script;
-    script.add(3, demo::DropEvent{{"cube.glb"}}).add(stroke(1, Key::F12));
+    script.add(3, demo::DropEvent{{"cube.glb"}}).add(keyStroke(1, Key::F12));
     m_dir.write("script.json", script.text());
     show(kSize + kSteady +
          std::vector<std::string>{"--resolution", "64", "--frames", "6", "--input-script", "script.json",

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Brush and hand in the demo window: what they do can be undone to the first picture, and what was saved is what was
+// shown.
+#include "demo/demo_window.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace zvo::test
+{
+namespace
+{
+
+constexpr Modifiers kControl = {false, true, false};
+constexpr Modifiers kControlShift = {true, true, false};
+
+/// The left button goes down at the first point, moves on by one point a frame, and goes up. Returns the frame behind.
+std::uint64_t drag(Script& script, std::uint64_t frame, const std::vector<MouseMoveEvent>& points)
+{
+    script.add(frame, points.front()).add(frame, MouseButtonEvent{MouseButton::Left, true, {}});
+    for (std::size_t i = 1; i < points.size(); ++i)
+    {
+        script.add(++frame, points[i]);
+    }
+    script.add(++frame, MouseButtonEvent{MouseButton::Left, false, {}});
+    return frame + 2; // what was under the pointer last is known a frame later
+}
+
+class DemoEditing : public DemoWindow
+{
+protected:
+    void play(const Script& script, std::uint64_t frames, const std::vector<std::string>& arguments)
+    {
+        m_dir.write("script.json", script.text());
+        show(arguments + kSize + kSteady +
+             std::vector<std::string>{"--frames", std::to_string(frames), "--input-script", "script.json"});
+    }
+};
+
+// The cube fills the middle of the picture.
+const std::vector<MouseMoveEvent> kAcross = {{110, 70}, {118, 72}, {126, 76}};
+
+TEST_F(DemoEditing, CarvesFillsAndPaintsAndUndoesToTheFirstPicture)
+{
+    for (const char* structure : {"svo", "svdag"})
+    {
+        SCOPED_TRACE(structure);
+        Script script;
+        script.add(keyStroke(1, Key::F12)).add(keyStroke(2, Key::B));
+        std::uint64_t frame = 4;
+        for (int action = 0; action < 3; ++action) // carve, fill, paint
+        {
+            frame = drag(script, frame, kAcross);
+            script.add(keyStroke(frame, Key::F12)).add(keyStroke(frame + 1, Key::N));
+            frame += 3;
+        }
+        script.add(keyStroke(frame, Key::S, kControl));
+        for (int i = 0; i < 4; ++i) // one more than there are strokes
+        {
+            frame += 2;
+            script.add(keyStroke(frame, Key::Z, kControl)).add(keyStroke(frame, Key::F12));
+        }
+        for (int i = 0; i < 3; ++i)
+        {
+            frame += 2;
+            script.add(keyStroke(frame, Key::Z, kControlShift));
+        }
+        script.add(keyStroke(frame + 1, Key::F12));
+        play(script, frame + 4, kCube + kCamera + std::vector<std::string>{"--structure", structure});
+
+        const auto shot = [&](int number) { return file("zvo-000" + std::to_string(number) + ".png"); };
+        EXPECT_EQ(shot(1), render(kCube + kCamera + kSize));
+        EXPECT_EQ((std::set{shot(1), shot(2), shot(3), shot(4)}).size(), 4U) << "each stroke shows";
+        EXPECT_EQ(shot(5), shot(3));
+        EXPECT_EQ(shot(6), shot(2));
+        EXPECT_EQ(shot(7), shot(1)) << "undone to the start, bit for bit";
+        EXPECT_EQ(shot(8), shot(1)) << "nothing is left to undo";
+        EXPECT_EQ(shot(9), shot(4)) << "and done again";
+        EXPECT_EQ(render(std::vector<std::string>{"cube-edited.zvo"} + kCamera + kSize), shot(4));
+        const Outcome told = runZvo(m_dir.path(), {"inspect", "cube-edited.zvo", "--json", "-"});
+        EXPECT_EQ(json::parse(told.out)["structure"], structure);
+        for (int number = 1; number <= 9; ++number)
+        {
+            fs::remove(m_dir.path() / ("zvo-000" + std::to_string(number) + ".png"));
+        }
+        fs::remove(m_dir.path() / "cube-edited.zvo");
+    }
+}
+
+TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
+{
+    const std::vector<std::string> stage = {"moving.scene.json", "--camera", "3,2.5,4,0.5,0.5,0.5,40"};
+    Script script;
+    script.add(keyStroke(1, Key::Space)); // stop
+    script.add(keyStroke(2, Key::F12)).add(keyStroke(3, Key::B));
+    const std::uint64_t frame = drag(script, 5, kAcross);
+    script.add(keyStroke(frame, Key::F12)).add(keyStroke(frame + 1, Key::Space)).add(keyStroke(frame + 6, Key::Space));
+    script.add(keyStroke(frame + 8, Key::F12)); // elsewhere, carved
+    script.add(keyStroke(frame + 10, Key::Z, kControl)).add(keyStroke(frame + 12, Key::F12));
+    play(script, frame + 15, stage);
+    const auto shot = [&](int number) { return file("zvo-000" + std::to_string(number) + ".png"); };
+    EXPECT_EQ((std::set{shot(1), shot(2), shot(3), shot(4)}).size(), 4U);
+    EXPECT_EQ(picture("zvo-0004.png").width, 240U);
+}
+
+TEST_F(DemoEditing, TheHandDragsWhatMovesAndNothingElse)
+{
+    const std::vector<std::string> stage = {"moving.scene.json", "--camera", "0,1,8,0,1,0,40", "--time", "0.5"};
+    const auto lastAfter = [&](const std::vector<MouseMoveEvent>& points)
+    {
+        Script script;
+        script.add(keyStroke(1, Key::Space)).add(keyStroke(2, Key::M));
+        const std::uint64_t frame = drag(script, 4, points);
+        script.add(keyStroke(frame, Key::F12));
+        play(script, frame + 3, stage);
+        const std::string shot = file("zvo-0001.png");
+        fs::remove(m_dir.path() / "zvo-0001.png");
+        return shot;
+    };
+    const std::string before = lastAfter({{5, 5}, {40, 40}}); // the sky cannot be dragged
+    std::set<std::string> pictures;
+    for (int x = 20; x < 230; x += 20) // somewhere here is the slab that moves
+    {
+        pictures.insert(lastAfter({{static_cast<double>(x), 75}, {static_cast<double>(x), 60}}));
+    }
+    EXPECT_TRUE(pictures.contains(before)) << "the cube, and nothing, cannot be dragged";
+    EXPECT_GE(pictures.size(), 2U) << "the slab can";
+}
+
+} // namespace
+} // namespace zvo::test
