@@ -11,21 +11,35 @@ layout(push_constant, scalar) uniform Push
     ScaleParams params;
 };
 
-// In integers, so that all devices show the same.
-uint nearest(uint place, uint to_size, uint from_size)
+// The pixel of a line of from_size in which the centre of one of to_size lies: (2 place + 1) from_size / (2 to_size),
+// rounded down, and what is left of the division. In integers, so that all devices show the same.
+uvec2 nearest(uint place, uint to_size, uint from_size)
 {
-    return (2u * place + 1u) * from_size / (2u * to_size);
+    uint product = (2u * place + 1u) * from_size;
+    uint quotient = product / (2u * to_size);
+    return uvec2(quotient, product - quotient * 2u * to_size);
 }
 
 void main()
 {
-    uint column = threadIndex() % params.to_size.x;
-    uint first = threadIndex() / params.to_size.x * kScaleRows;
+    uint width = params.to_size.x;
+    uint thread_row = threadIndex() / width;
+    uint column = threadIndex() - thread_row * width;
+    uint first = thread_row * kScaleRows;
     uint last = min(first + kScaleRows, params.to_size.y);
-    uint from_column = nearest(column, params.to_size.x, params.from_size.x);
+    uint from_column = nearest(column, width, params.from_size.x).x;
+
+    // Row by row by additions: divisions are dear.
+    uint divisor = 2u * params.to_size.y;
+    uint step_quotient = 2u * params.from_size.y / divisor;
+    uint step_rest = 2u * params.from_size.y - step_quotient * divisor;
+    uvec2 row = nearest(first, params.to_size.y, params.from_size.y);
     for (uint y = first; y < last; ++y)
     {
-        uint from_row = nearest(y, params.to_size.y, params.from_size.y);
-        params.to.data[y * params.to_size.x + column] = params.from.data[from_row * params.from_size.x + from_column];
+        params.to.data[y * width + column] = params.from.data[row.x * params.from_size.x + from_column];
+        row += uvec2(step_quotient, step_rest);
+        bool carry = row.y >= divisor;
+        row.x += carry ? 1u : 0u;
+        row.y -= carry ? divisor : 0u;
     }
 }
