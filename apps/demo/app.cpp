@@ -222,7 +222,8 @@ void App::apply(const InputEvent& event)
     {
         m_mouse = *move;
     }
-    if (m_panels.shows_panels && m_ui.handle(event))
+    const bool is_the_panels = m_ui.handle(event); // which also see what happens while they are hidden
+    if (m_panels.shows_panels && is_the_panels)
     {
         return;
     }
@@ -394,7 +395,7 @@ void App::buildPanels()
                    ImGui::End();
                    if (beginPanels("measurements", true))
                    {
-                       performancePanel(m_stats, m_device.device().memory(), m_world->info());
+                       performancePanel(m_stats, memoryUse());
                        inspectorPanel(m_inspected, m_world->info());
                    }
                    ImGui::End();
@@ -429,20 +430,21 @@ void App::draw()
         finishAll();
         m_world->settle(worldSeconds());
     }
-    const std::optional<vk::SwapchainImage> target = m_swapchain.acquire({size.width, size.height}, m_drawn_count);
-    std::unique_ptr<Screenshot> screenshot = takeScreenshot(size);
     Picture picture;
     picture.camera = m_camera.camera();
     picture.view = m_view;
     picture.window = size;
     picture.internal = scaledSize(size, internalScale());
-    picture.target = target ? &*target : nullptr;
+    if (!prepare(picture))
+    {
+        return;
+    }
     if (m_panels.shows_panels)
     {
         picture.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
     }
     Flight flight;
-    flight.screenshot = std::move(screenshot);
+    flight.screenshot = takeScreenshot(size);
     if (flight.screenshot != nullptr)
     {
         picture.screenshot = &flight.screenshot->pixels();
@@ -457,6 +459,9 @@ void App::draw()
         picture.inspected = flight.inspected;
         picture.report = flight.report.get();
     }
+    // Nothing that may fail comes between an image and the submission that waits for it.
+    const std::optional<vk::SwapchainImage> target = m_swapchain.acquire({size.width, size.height}, m_drawn_count);
+    picture.target = target ? &*target : nullptr;
     submit(picture, flight);
     if (target)
     {
@@ -465,11 +470,33 @@ void App::draw()
     ++m_drawn_count;
 }
 
+// Makes buffers for the picture. Without them it is not drawn; that there is no memory for the first one is an error.
+bool App::prepare(const Picture& picture)
+{
+    try
+    {
+        m_renderer.begin(m_drawn_count, picture, vk::encodesSrgb(m_swapchain.format()));
+        m_lacks_memory = false;
+        return true;
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory || m_drawn_count == 0)
+        {
+            throw;
+        }
+        if (!std::exchange(m_lacks_memory, true))
+        {
+            cli::talk(fmt::format("error: {}", error.what()));
+        }
+        return false;
+    }
+}
+
 void App::submit(Picture& picture, Flight& flight)
 {
     flight.frame = m_drawn_count;
     flight.internal_scale = internalScale();
-    m_renderer.begin(m_drawn_count, picture, vk::encodesSrgb(m_swapchain.format()));
     flight.ray_count = m_renderer.rayCount();
     flight.world_frame = m_world->beginFrame();
     vk::SubmitSync sync;
@@ -703,6 +730,14 @@ double App::worldSeconds() const
     return m_timeline.secondsIn(m_world->stage());
 }
 
+MemoryUse App::memoryUse()
+{
+    const vk::MemoryAllocator& memory = m_device.device().memory();
+    const WorldInfo& info = m_world->info();
+    return {info.geometry_bytes, info.attribute_bytes, m_renderer.pictureBytes(), memory.usedBytes(),
+            memory.heldBytes()};
+}
+
 void App::note(const std::string& text)
 {
     m_notices.add(text);
@@ -744,12 +779,13 @@ void App::writeStats()
                      {"voxels", info.static_voxel_count},
                      {"nodes", info.static_node_count},
                      {"movers", info.mover_count}};
-    const vk::MemoryAllocator& memory = m_device.device().memory();
-    json["bytes"] = {{"geometry", info.geometry_bytes},
-                     {"attributes", info.attribute_bytes},
-                     {"used", memory.usedBytes()},
-                     {"peak", memory.peakBytes()},
-                     {"held", memory.heldBytes()}};
+    const MemoryUse memory = memoryUse();
+    json["bytes"] = {{"geometry", memory.geometry},
+                     {"attributes", memory.attributes},
+                     {"pictures", memory.pictures},
+                     {"used", memory.used},
+                     {"peak", m_device.device().memory().peakBytes()},
+                     {"held", memory.held}};
     m_stats_output->write(cli::jsonText(json));
     m_stats_output->finish();
 }

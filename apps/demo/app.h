@@ -84,6 +84,7 @@ private:
     void buildPanel();
     void toolsPanel();
     void draw();
+    bool prepare(const Picture& picture);
     void submit(Picture& picture, Flight& flight);
     void finishOldest();
     void finishAll();
@@ -110,6 +111,7 @@ private:
     [[nodiscard]] double aspect() const;
     [[nodiscard]] double internalScale() const;
     [[nodiscard]] double worldSeconds() const;
+    MemoryUse memoryUse();
     void note(const std::string& text);
     void takeTold();
     void writeStats();
@@ -163,6 +165,7 @@ private:
     Clock::time_point m_frame_start;
     double m_step = 0; // seconds of this frame
     std::optional<double> m_first_frame_ms;
+    bool m_lacks_memory = false; // for a picture of the window's size
     bool m_quits = false;
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cfloat>
 
 namespace zvo::demo
@@ -38,7 +39,7 @@ void passRow(const std::string& name, const History& history)
 
 } // namespace
 
-void performancePanel(const FrameStats& stats, const vk::MemoryAllocator& memory, const WorldInfo& info)
+void performancePanel(const FrameStats& stats, const MemoryUse& memory)
 {
     if (!ImGui::CollapsingHeader("Performance", ImGuiTreeNodeFlags_DefaultOpen))
     {
@@ -47,10 +48,11 @@ void performancePanel(const FrameStats& stats, const vk::MemoryAllocator& memory
     tell(fmt::format("{:.1f} frames/s, {:.1f} ms (95 %: {:.1f} ms)", stats.framesPerSecond(), stats.frameMs().mean(),
                      stats.frameMs().p95()));
     tell(fmt::format("{:.1f} Mrays/s primary", stats.megaraysPerSecond()));
-    tell(fmt::format("memory {:.1f} MiB, {:.1f} held: geometry {:.1f},\nattributes {:.1f}",
-                     static_cast<double>(memory.usedBytes()) / kMiB, static_cast<double>(memory.heldBytes()) / kMiB,
-                     static_cast<double>(info.geometry_bytes) / kMiB,
-                     static_cast<double>(info.attribute_bytes) / kMiB));
+    const auto mib = [](std::uint64_t bytes) { return static_cast<double>(bytes) / kMiB; };
+    tell(fmt::format("memory, MiB: {:.1f} used, {:.1f} held", mib(memory.used), mib(memory.held)));
+    const std::uint64_t known = memory.geometry + memory.attributes + memory.pictures;
+    tell(fmt::format("  geometry {:.1f}, attributes {:.1f}, pictures {:.1f}, other {:.1f}", mib(memory.geometry),
+                     mib(memory.attributes), mib(memory.pictures), mib(memory.used - std::min(known, memory.used))));
     if (ImGui::BeginTable("passes", 4, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit))
     {
         ImGui::TableSetupColumn("pass");

@@ -33,8 +33,18 @@ struct ViewFacts
     double camera_speed = 1; // world units a second
 };
 
-/// Frames a second, Mrays/s, and the device's time by pass.
-void performancePanel(const FrameStats& stats, const vk::MemoryAllocator& memory, const WorldInfo& info);
+/// Device memory by what it is for, in bytes.
+struct MemoryUse
+{
+    std::uint64_t geometry = 0;   // of what stands still
+    std::uint64_t attributes = 0; // likewise
+    std::uint64_t pictures = 0;
+    std::uint64_t used = 0; // these, and all else: what moves, overlays, the beam grid
+    std::uint64_t held = 0; // of the driver
+};
+
+/// Frames a second, Mrays/s, memory, and the device's time by pass.
+void performancePanel(const FrameStats& stats, const MemoryUse& memory);
 
 /// View, light, detail, resolution.
 void viewPanel(ViewState& view, const ViewFacts& facts);

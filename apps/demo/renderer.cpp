@@ -24,6 +24,16 @@ void Renderer::begin(std::uint64_t frame, const Picture& picture, bool encodes_s
     }
 }
 
+std::uint64_t Renderer::pictureBytes() const
+{
+    if (m_trace == nullptr || m_compose == nullptr)
+    {
+        return 0;
+    }
+    return m_trace->starts.bytes() + m_trace->live.bytes() + m_trace->hits.bytes() + m_trace->light.bytes() +
+           m_trace->image.bytes() + m_compose->bytes();
+}
+
 void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& picture)
 {
     const TreeView tree = world.tree();

@@ -50,6 +50,9 @@ public:
     /// The device is done with that frame and all before it.
     void frameDone(std::uint64_t frame) { m_retired.frameDone(frame); }
 
+    /// Device memory of the picture on its way.
+    [[nodiscard]] std::uint64_t pictureBytes() const;
+
     /// Primary rays of a frame.
     [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(*m_trace); }
 

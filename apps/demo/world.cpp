@@ -368,6 +368,10 @@ void World::update(vk::FrameGraph& graph, double seconds)
 
 void World::settle(double seconds)
 {
+    if (!moves() && !m_beam_is_stale)
+    {
+        return;
+    }
     for (int i = 0; i < kSettleFrames; ++i)
     {
         const std::uint64_t frame = beginFrame();

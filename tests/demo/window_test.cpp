@@ -114,13 +114,12 @@ TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
     script.add(16, demo::ResizeEvent{64, 480}).add(18, demo::MinimiseEvent{true}).add(20, demo::MinimiseEvent{false});
     script.add(22, demo::ResizeEvent{240, 150});
     script.add(keyStroke(23, Key::Digit1)).add(keyStroke(25, Key::F12)); // zvo-0004.png
-    script.add(keyStroke(27, Key::F))
-        .add(keyStroke(28, Key::C, control))
-        .add(keyStroke(29, Key::W))
-        .add(keyStroke(31, Key::V, control));
+    script.add(keyStroke(27, Key::F)).add(keyStroke(28, Key::C, control)).add(keyStroke(29, Key::V, control));
+    script.add(keyStroke(30, Key::F12)).add(keyStroke(31, Key::W)).add(keyStroke(33, Key::F12)); // zvo-0005.png, zvo-0006.png
+    script.add(keyStroke(34, Key::V, control)).add(keyStroke(35, Key::F12));                  // zvo-0007.png
     m_dir.write("script.json", script.text());
     show(kCube + kCamera + kSize + kSteady +
-         std::vector<std::string>{"--frames", "36", "--input-script", "script.json", "--json", "stats.json",
+         std::vector<std::string>{"--frames", "38", "--input-script", "script.json", "--json", "stats.json",
                                   "--record-input", "again.json", "--frames-in-flight", "3"});
     EXPECT_EQ(file("again.json"), file("script.json"));
     EXPECT_EQ(file("zvo-0001.png"), render(kCube + kCamera + kSize));
@@ -128,9 +127,11 @@ TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
     EXPECT_EQ(picture("zvo-0003.png").width, 333U);
     EXPECT_EQ(picture("zvo-0003.png").height, 201U);
     EXPECT_EQ(file("zvo-0004.png"), file("zvo-0001.png"));
+    EXPECT_NE(file("zvo-0006.png"), file("zvo-0005.png"));
+    EXPECT_EQ(file("zvo-0007.png"), file("zvo-0005.png")) << "the camera that was copied";
     const json stats = json::parse(file("stats.json"));
-    EXPECT_EQ(stats["frames"], 36);
-    EXPECT_EQ(stats["frames_drawn"], 36 - 6 - 2) << "none without an extent or while it was minimised";
+    EXPECT_EQ(stats["frames"], 38);
+    EXPECT_EQ(stats["frames_drawn"], 38 - 6 - 2) << "none without an extent or while it was minimised";
     EXPECT_GE(stats["swapchains"], 4);
 }
 
