@@ -49,6 +49,13 @@ TEST_F(DemoWindow, OtherPicturesAreThoseOfZvoRenderToo)
     const std::vector<std::string> tree = std::vector<std::string>{"cube.zvo"} + kSize;
     show(tree + kSteady + std::vector<std::string>{"--frames", "1", "--screenshot", "shown.png", "-f"});
     EXPECT_EQ(file("shown.png"), render(tree));
+    for (const auto& [from, to] : {std::pair("cube.zvo", "cube.vox"), {"cube.vox", "other.zvo"}})
+    {
+        ASSERT_EQ(runZvo(m_dir.path(), {"convert", from, "-o", to, "--device", "cpu"}).exit_code, 0);
+    }
+    show(std::vector<std::string>{"cube.vox"} + kSize + kSteady +
+         std::vector<std::string>{"--frames", "1", "--screenshot", "shown.png", "-f"});
+    EXPECT_EQ(file("shown.png"), render(std::vector<std::string>{"other.zvo"} + kSize));
 }
 
 TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
