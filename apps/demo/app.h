@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/atomic_file.h"
-#include "core/camera_path.h"
 #include "demo/camera_control.h"
+#include "demo/camera_flight.h"
 #include "demo/compose.h"
 #include "demo/editor.h"
 #include "demo/frame_stats.h"
@@ -85,7 +84,7 @@ private:
     void toolsPanel();
     void draw();
     bool prepare(const Picture& picture);
-    void submit(Picture& picture, Flight& flight);
+    void submit(Picture& picture, Flight flight);
     void finishOldest();
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
@@ -97,15 +96,15 @@ private:
     void show(std::unique_ptr<World> world, const WorldOptions& options);
     void request(const EditRequest& request);
     void save();
+    void showTitle();
     void frameScene();
     void copyCamera();
     void pasteCamera();
     void changeView(int by);
     void toggleRecording();
     void togglePath();
-    void reloadShaders();
+    void reloadChangedShaders();
     void keepSettings();
-    void addPathKey();
 
     [[nodiscard]] std::optional<glm::uvec2> pixelUnderMouse() const;
     [[nodiscard]] double aspect() const;
@@ -123,7 +122,6 @@ private:
     std::unique_ptr<cli::Output> m_stats_output;
     std::unique_ptr<cli::Output> m_record_output;
     std::optional<InputReplay> m_replay;
-    std::optional<CameraPath> m_path;
 
     Window m_window;
     vk::HeadlessDevice m_device;
@@ -146,12 +144,7 @@ private:
     Timeline m_timeline;
     CameraControl m_camera;
     std::array<std::optional<ViewCamera>, 9> m_bookmarks;
-    bool m_path_plays = false;
-    Elapsed m_path_time;
-    std::vector<CameraKey> m_path_recorded;
-    bool m_path_records = false;
-    double m_record_seconds = 0;
-
+    CameraFlight m_flight;
     ShaderSources m_shaders;
     std::string m_shader_message; // of the compiler
     std::optional<MouseMoveEvent> m_mouse;

@@ -139,10 +139,10 @@ void App::show(std::unique_ptr<World> world, const WorldOptions& options)
         return;
     }
     m_bookmarks = {};
-    m_path_plays = false;
+    m_flight.stop();
     m_timeline.start(0);
     m_camera.show(cli::chooseCamera("", m_world->stage(), m_world->subject(), aspect()));
-    m_window.setTitle(fmt::format("{} - {}", m_world->info().name, "zvo"));
+    showTitle();
 }
 
 void App::request(const EditRequest& request)

@@ -3,6 +3,7 @@
 #include "demo/camera_control.h"
 
 #include "common/view.h"
+#include "demo/camera_flight.h"
 
 #include <gtest/gtest.h>
 
@@ -205,6 +206,52 @@ TEST(CameraText, OtherTextsAreNoCameras)
     {
         EXPECT_FALSE(cameraOfText(text)) << text;
     }
+}
+
+TEST(CameraFlight, FliesFromTheBeginningAndEndsWithThePath)
+{
+    const CameraPath path({{0, {0, 0, 5}, {0, 0, 0}, 50}, {0.3, {3, 0, 5}, {0, 0, 0}, 50}});
+    for (const bool stays : {false, true})
+    {
+        CameraControl camera = control();
+        CameraFlight flight{FixedStep{1, 10}};
+        EXPECT_FALSE(flight.toggle()) << "there is no path";
+        flight.fly(path, stays);
+        for (int frame = 0; frame <= 3; ++frame)
+        {
+            flight.advance(99, frame == 0, camera);
+            EXPECT_EQ(camera.camera().position, path.at(frame / 10.0).position);
+        }
+        EXPECT_EQ(flight.flies(), stays);
+        EXPECT_EQ(flight.toggle(), true);
+        EXPECT_EQ(flight.flies(), !stays);
+    }
+}
+
+TEST(CameraFlight, RecordsAKeyEveryQuarterOfASecond)
+{
+    CameraControl camera = control();
+    CameraFlight flight{FixedStep{1, 16}};
+    EXPECT_FALSE(flight.toggleRecording());
+    camera.setSpeed(1);
+    press(camera, Key::D, true);
+    for (int frame = 0; frame < 17; ++frame)
+    {
+        flight.advance(99, false, camera);
+        camera.advance(1.0 / 16);
+    }
+    const std::optional<CameraPath> path = flight.toggleRecording();
+    ASSERT_TRUE(path);
+    ASSERT_EQ(path->keys().size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i)
+    {
+        EXPECT_EQ(path->keys()[i].seconds, 0.25 * static_cast<double>(i));
+        expectNear(path->keys()[i].eye, {0.25 * static_cast<double>(i), 0, 5});
+        EXPECT_NEAR(path->keys()[i].fov_degrees, glm::degrees(0.8), 1e-9);
+    }
+    EXPECT_TRUE(flight.toggle()) << "what was recorded can be flown";
+    EXPECT_FALSE(flight.toggleRecording());
+    EXPECT_FALSE(flight.toggleRecording()) << "nothing was recorded";
 }
 
 } // namespace

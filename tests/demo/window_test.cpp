@@ -122,8 +122,10 @@ TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
     script.add(22, demo::ResizeEvent{240, 150});
     script.add(keyStroke(23, Key::Digit1)).add(keyStroke(25, Key::F12)); // zvo-0004.png
     script.add(keyStroke(27, Key::F)).add(keyStroke(28, Key::C, control)).add(keyStroke(29, Key::V, control));
-    script.add(keyStroke(30, Key::F12)).add(keyStroke(31, Key::W)).add(keyStroke(33, Key::F12)); // zvo-0005.png, zvo-0006.png
-    script.add(keyStroke(34, Key::V, control)).add(keyStroke(35, Key::F12));                  // zvo-0007.png
+    script.add(keyStroke(30, Key::F12))
+        .add(keyStroke(31, Key::W))
+        .add(keyStroke(33, Key::F12));                                       // zvo-0005.png, zvo-0006.png
+    script.add(keyStroke(34, Key::V, control)).add(keyStroke(35, Key::F12)); // zvo-0007.png
     m_dir.write("script.json", script.text());
     show(kCube + kCamera + kSize + kSteady +
          std::vector<std::string>{"--frames", "38", "--input-script", "script.json", "--json", "stats.json",
@@ -164,6 +166,11 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
         .add(keyStroke(68, Key::F12))
         .add(keyStroke(68, Key::F12, {true, false, false}));
     script.add(keyStroke(71, Key::F12, {true, false, false}));
+    script.add(keyStroke(40, Key::R))
+        .add(keyStroke(60, Key::R))
+        .add(keyStroke(62, Key::P))
+        .add(keyStroke(63, Key::Space));
+    script.add(keyStroke(64, Key::Period));
     m_dir.write("script.json", script.text());
     show(std::vector<std::string>{"moving.scene.json", "--size", "500x400", "--frames", "76", "--input-script",
                                   "script.json", "--json", "stats.json", "--screenshot", "last.png"});
@@ -187,6 +194,9 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
         EXPECT_TRUE(passes.contains(pass)) << pass;
     }
     EXPECT_NE(file("last.png"), file("zvo-0002.png")) << "with and without panels";
+    EXPECT_EQ(
+        render(std::vector<std::string>{"cube.glb", "--resolution", "32", "--camera-path", "zvo-path.json"}).empty(),
+        false);
 }
 
 // The reason that a program gives, without its name.

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// App: what keys do.
+#include "demo/app.h"
+
+#include "common/progress.h"
+#include "common/view.h"
+#include "core/atomic_file.h"
+#include "demo/reload_shaders.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+constexpr const char* kPathFile = "zvo-path.json"; // in the working folder
+
+} // namespace
+
+void App::onKey(const KeyEvent& event)
+{
+    if (const KeyBinding* const binding = bindingOf(event))
+    {
+        perform(*binding, event.key);
+    }
+}
+
+void App::perform(const KeyBinding& binding, Key key)
+{
+    const auto number = static_cast<std::size_t>(key) - static_cast<std::size_t>(binding.key); // in a range
+    switch (binding.action)
+    {
+    case Action::ShowKeys:
+        m_panels.shows_keys = !m_panels.shows_keys;
+        break;
+    case Action::ShowPanels:
+        m_panels.shows_panels = !m_panels.shows_panels;
+        break;
+    case Action::NextView:
+        changeView(1);
+        break;
+    case Action::PreviousView:
+        changeView(-1);
+        break;
+    case Action::FrameScene:
+        frameScene();
+        break;
+    case Action::CopyCamera:
+        copyCamera();
+        break;
+    case Action::PasteCamera:
+        pasteCamera();
+        break;
+    case Action::StoreBookmark:
+        m_bookmarks[number] = m_camera.camera();
+        note(fmt::format("bookmark {}", number + 1));
+        break;
+    case Action::RecallBookmark:
+        if (m_bookmarks[number])
+        {
+            m_camera.show(*m_bookmarks[number]);
+            m_flight.stop();
+        }
+        break;
+    case Action::RecordPath:
+        toggleRecording();
+        break;
+    case Action::PlayPath:
+        togglePath();
+        break;
+    case Action::PlayScene:
+        m_timeline.play(!m_timeline.plays());
+        break;
+    case Action::StepScene:
+        m_timeline.step(m_world->stage());
+        break;
+    case Action::ReloadShaders:
+        reloadChangedShaders();
+        break;
+    case Action::Screenshot:
+        m_wanted_screenshot = true;
+        break;
+    case Action::ScreenshotOfPicture:
+        m_wanted_screenshot = false;
+        break;
+    case Action::UseBrush:
+    case Action::UseHand:
+    case Action::UseCamera:
+    case Action::NextBrush:
+    case Action::SmallerBrush:
+    case Action::LargerBrush:
+        m_editor.perform(binding.action);
+        break;
+    case Action::TakeColor:
+        if (m_inspected)
+        {
+            m_editor.takeColor(m_inspected->report);
+        }
+        break;
+    case Action::Undo:
+        request(UndoStroke{});
+        break;
+    case Action::Redo:
+        request(RedoStroke{});
+        break;
+    case Action::Save:
+        save();
+        break;
+    case Action::Quit:
+        m_quits = true;
+        break;
+    case Action::None:
+        break;
+    }
+}
+
+void App::frameScene()
+{
+    m_flight.stop();
+    m_camera.show(ViewCamera::framing(m_world->subject(), aspect()));
+    m_camera.setSubject(m_world->subject());
+}
+
+void App::copyCamera()
+{
+    const double distance = glm::length(m_camera.pivot() - m_camera.camera().position);
+    const std::optional<std::string> text = cameraText(m_camera.camera(), distance);
+    if (text)
+    {
+        m_window.setClipboard(*text);
+    }
+    note(text ? "camera " + *text : "this camera cannot be written as eye, target and field of view");
+}
+
+void App::pasteCamera()
+{
+    const std::optional<ViewCamera> camera = cameraOfText(m_window.clipboard());
+    if (!camera)
+    {
+        note("the clipboard holds no camera: ex,ey,ez,tx,ty,tz or ex,ey,ez,tx,ty,tz,fov");
+        return;
+    }
+    m_flight.stop();
+    m_camera.show(*camera);
+}
+
+void App::changeView(int by)
+{
+    const auto views = cli::allViews();
+    const auto current = std::ranges::find(views, m_view.view, &cli::NamedView::view) - views.begin();
+    const auto count = static_cast<std::ptrdiff_t>(views.size());
+    m_view.view = views[static_cast<std::size_t>((current + by + count) % count)].view;
+}
+
+void App::toggleRecording()
+{
+    const std::optional<CameraPath> path = m_flight.toggleRecording();
+    if (m_flight.records())
+    {
+        note("recording a camera path; R ends it");
+        return;
+    }
+    if (!path)
+    {
+        return;
+    }
+    const std::string text = cameraPathText(*path);
+    try
+    {
+        writeFileAtomically(kPathFile, std::as_bytes(std::span(text)), Overwrite::Allow);
+        note(fmt::format("camera path {}, {:.1f} s; P plays it", kPathFile, path->seconds()));
+    }
+    catch (const Error& error)
+    {
+        cli::talk(fmt::format("error: {}", error.what()));
+    }
+}
+
+void App::togglePath()
+{
+    if (!m_flight.toggle())
+    {
+        note("there is no camera path; R records one, --camera-path names one");
+    }
+}
+
+void App::reloadChangedShaders()
+{
+    if (!m_shaders.exist())
+    {
+        note(fmt::format("the shaders' sources are not here: {} is not a folder", m_shaders.root().string()));
+        return;
+    }
+    finishAll();
+    const ReloadedShaders result = reloadShaders(m_device.device().kernels(), m_shaders);
+    m_world->refresh();
+    m_shader_message = result.message;
+    if (!result.message.empty())
+    {
+        cli::talk(fmt::format("error: shaders: {}", result.message));
+    }
+    note(result.count != 0 ? fmt::format("{} {} compiled", result.count, result.count == 1 ? "shader" : "shaders")
+         : result.message.empty() ? "no shader has changed"
+                                  : "the old shaders go on");
+    m_frame_start = Clock::now();
+}
+
+} // namespace zvo::demo

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// App: frames on their way through the device, and what is learnt from them.
+#include "demo/app.h"
+
+#include "common/progress.h"
+#include "common/report.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+namespace zvo::demo
+{
+
+namespace
+{
+
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+} // namespace
+
+std::unique_ptr<Screenshot> App::takeScreenshot(PictureSize size)
+{
+    const bool is_last = m_options.frame_count && m_frame + 1 == *m_options.frame_count;
+    if (is_last && m_screenshot_output != nullptr)
+    {
+        return std::make_unique<Screenshot>(m_device.device(), size, std::move(m_screenshot_output), true);
+    }
+    const std::optional<bool> wanted = std::exchange(m_wanted_screenshot, std::nullopt);
+    return wanted ? std::make_unique<Screenshot>(m_device.device(), size, nullptr, *wanted) : nullptr;
+}
+
+void App::draw()
+{
+    const PictureSize size = m_window.framebufferSize();
+    if (size.width == 0 || size.height == 0)
+    {
+        return;
+    }
+    if (m_options.fixed_step)
+    {
+        // What this frame shows does not depend on which frames the device is done with.
+        finishAll();
+        m_world->settle(worldSeconds());
+    }
+    Picture picture;
+    picture.camera = m_camera.camera();
+    picture.view = m_view;
+    picture.window = size;
+    picture.internal = scaledSize(size, internalScale());
+    if (!prepare(picture))
+    {
+        return;
+    }
+    if (m_panels.shows_panels)
+    {
+        picture.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
+    }
+    Flight flight;
+    flight.screenshot = takeScreenshot(size);
+    if (flight.screenshot != nullptr)
+    {
+        picture.screenshot = &flight.screenshot->pixels();
+        picture.screenshot_has_panels = flight.screenshot->hasPanels();
+    }
+    flight.look = m_editor.look();
+    flight.inspected = m_panels.shows_panels || m_editor.wantsPixel() ? pixelUnderMouse() : std::nullopt;
+    if (flight.inspected)
+    {
+        flight.report = std::make_unique<vk::BufferOf<gpu::PixelReport>>(m_device.device(), "inspected pixel", 1,
+                                                                         vk::MemoryKind::Readback);
+        picture.inspected = flight.inspected;
+        picture.report = flight.report.get();
+    }
+    // Nothing that may fail comes between an image and the submission that waits for it.
+    const std::optional<vk::SwapchainImage> target = m_swapchain.acquire({size.width, size.height}, m_drawn_count);
+    picture.target = target ? &*target : nullptr;
+    submit(picture, std::move(flight));
+    if (target)
+    {
+        m_swapchain.present(*target);
+    }
+    ++m_drawn_count;
+}
+
+// Makes buffers for the picture. Without them it is not drawn; that there is no memory for the first one is an error.
+bool App::prepare(const Picture& picture)
+{
+    try
+    {
+        m_renderer.begin(m_drawn_count, picture, vk::encodesSrgb(m_swapchain.format()));
+        m_lacks_memory = false;
+        return true;
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory || m_drawn_count == 0)
+        {
+            throw;
+        }
+        if (!std::exchange(m_lacks_memory, true))
+        {
+            cli::talk(fmt::format("error: {}", error.what()));
+        }
+        return false;
+    }
+}
+
+void App::submit(Picture& picture, Flight flight)
+{
+    flight.frame = m_drawn_count;
+    flight.internal_scale = internalScale();
+    flight.ray_count = m_renderer.rayCount();
+    flight.world_frame = m_world->beginFrame();
+    vk::SubmitSync sync;
+    if (picture.target != nullptr)
+    {
+        sync = {picture.target->available, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, picture.target->presentable};
+    }
+    try
+    {
+        flight.submission = m_device.submit(
+            [&](vk::FrameGraph& graph)
+            {
+                m_world->update(graph, worldSeconds());
+                m_renderer.record(graph, *m_world, picture);
+            },
+            sync);
+    }
+    catch (...)
+    {
+        m_world->frameLost();
+        throw;
+    }
+    m_flights.push_back(std::move(flight));
+}
+
+void App::finishOldest()
+{
+    Flight flight = std::move(m_flights.front());
+    m_flights.pop_front();
+    const std::vector<vk::PassTime> passes = flight.submission.wait();
+    m_world->frameDone(flight.world_frame, passes);
+    m_renderer.frameDone(flight.frame);
+    m_swapchain.frameDone(flight.frame);
+    m_stats.addPasses(passes, flight.ray_count);
+    if (!m_first_frame_ms)
+    {
+        m_first_frame_ms = Milliseconds(Clock::now() - m_start).count();
+    }
+    if (flight.inspected)
+    {
+        m_inspected = {*flight.inspected, *flight.report->mappedData()};
+        m_editor.found(flight.look, m_inspected->report, *m_world);
+    }
+    if (m_ladder && flight.internal_scale == m_ladder->scale())
+    {
+        m_ladder->add(m_stats.gpuMs().last());
+    }
+    if (flight.screenshot != nullptr)
+    {
+        const std::string name = flight.screenshot->write();
+        if (!name.empty())
+        {
+            note("screenshot " + name);
+        }
+    }
+}
+
+void App::finishAll()
+{
+    while (!m_flights.empty())
+    {
+        finishOldest();
+    }
+}
+
+MemoryUse App::memoryUse()
+{
+    const vk::MemoryAllocator& memory = m_device.device().memory();
+    const WorldInfo& info = m_world->info();
+    return {info.geometry_bytes, info.attribute_bytes, m_renderer.pictureBytes(), memory.usedBytes(),
+            memory.heldBytes()};
+}
+
+void App::writeStats()
+{
+    if (m_stats_output == nullptr)
+    {
+        return;
+    }
+    cli::Json json;
+    json["schema"] = "zvo.demo/1";
+    json["zvo"] = ZVO_VERSION;
+    json["device"] = cli::deviceJson(m_device.device().report());
+    json["frames"] = m_frame;
+    json["frames_drawn"] = m_drawn_count;
+    json["first_frame_ms"] = m_first_frame_ms ? cli::Json(*m_first_frame_ms) : cli::Json(nullptr);
+    const auto timesOf = [](const History& history) {
+        return cli::Json{{"mean_ms", history.mean()}, {"p95_ms", history.p95()}};
+    };
+    json["frame"] = timesOf(m_stats.frameMs());
+    json["gpu"] = timesOf(m_stats.gpuMs());
+    json["mrays_per_second"] = m_stats.megaraysPerSecond();
+    json["internal_scale"] = internalScale();
+    json["swapchains"] = m_swapchain.generation();
+    json["passes"] = cli::Json::array();
+    for (const std::string& name : m_stats.names())
+    {
+        cli::Json pass = {{"name", name}};
+        pass.update(timesOf(m_stats.pass(name)));
+        json["passes"].push_back(std::move(pass));
+    }
+    const WorldInfo& info = m_world->info();
+    json["scene"] = {{"name", info.name},
+                     {"seconds", worldSeconds()},
+                     {"structure", structureName(info.structure)},
+                     {"resolution", info.grid.resolution()},
+                     {"voxels", info.static_voxel_count},
+                     {"nodes", info.static_node_count},
+                     {"movers", info.mover_count}};
+    const MemoryUse memory = memoryUse();
+    json["bytes"] = {{"geometry", memory.geometry},
+                     {"attributes", memory.attributes},
+                     {"pictures", memory.pictures},
+                     {"used", memory.used},
+                     {"peak", m_device.device().memory().peakBytes()},
+                     {"held", memory.held}};
+    m_stats_output->write(cli::jsonText(json));
+    m_stats_output->finish();
+}
+
+} // namespace zvo::demo
