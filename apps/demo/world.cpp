@@ -249,6 +249,7 @@ void World::build(const WorldOptions& options, const Grid& grid, const StepListe
         m_movers.push_back(
             octree->add(uploadMover(m_device, mover.scene, has_attributes, emission_scale), moverPose(mover, 0.0)));
     }
+    m_offsets.resize(m_movers.size());
     m_info.mover_count = m_movers.size();
     m_tree = std::move(octree);
 }
