@@ -29,6 +29,7 @@
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -123,12 +124,13 @@ private:
     std::unique_ptr<cli::Output> m_record_output;
     std::optional<InputReplay> m_replay;
 
+    WorldOptions m_world_options;          // of m_world
+    std::future<WorldInput> m_first_input; // is read while the window opens
     Window m_window;
     vk::HeadlessDevice m_device;
     vk::Swapchain m_swapchain;
     ComposePass m_compose_pass;
     Ui m_ui;
-    WorldOptions m_world_options; // of m_world
     std::unique_ptr<World> m_world;
     std::unique_ptr<Loading> m_loading;       // null: nothing is being loaded
     std::optional<WorldOptions> m_loads_next; // when what is being loaded has been cancelled

@@ -16,7 +16,37 @@ bool isPrimary(const std::string& pass)
     return pass == "trace/beam" || pass == "trace/primary" || pass == "trace/primary_ranks" || pass == "trace/ranks";
 }
 
+// Adds a frame to histories; what it does not have took nothing.
+void addFrameTo(std::map<std::string, History>& histories, std::vector<std::string>& names,
+                const std::map<std::string, double>& times, const std::vector<std::string>& in_order)
+{
+    for (const std::string& name : in_order)
+    {
+        if (histories.try_emplace(name).second)
+        {
+            names.push_back(name);
+        }
+    }
+    for (auto& [name, history] : histories)
+    {
+        const auto found = times.find(name);
+        history.add(found != times.end() ? found->second : 0.0);
+    }
+}
+
 } // namespace
+
+std::string operationOf(std::string_view pass)
+{
+    const std::size_t slash = pass.rfind('/');
+    if (slash == std::string_view::npos)
+    {
+        return "other";
+    }
+    const std::size_t space = pass.rfind(' ', slash);
+    const std::size_t first = space == std::string_view::npos ? 0 : space + 1;
+    return std::string(pass.substr(first, slash - first));
+}
 
 void History::add(double value)
 {
@@ -48,6 +78,9 @@ double History::p95() const
 void FrameStats::addPasses(std::span<const vk::PassTime> passes, std::uint64_t ray_count)
 {
     std::map<std::string, double> times;
+    std::map<std::string, double> operation_times;
+    std::vector<std::string> names;
+    std::vector<std::string> operations;
     double all_ms = 0;
     double primary_ms = 0;
     for (const vk::PassTime& pass : passes)
@@ -55,16 +88,12 @@ void FrameStats::addPasses(std::span<const vk::PassTime> passes, std::uint64_t r
         times[pass.name] += pass.ms;
         all_ms += pass.ms;
         primary_ms += isPrimary(pass.name) ? pass.ms : 0.0;
-        if (m_passes.try_emplace(pass.name).second)
-        {
-            m_names.push_back(pass.name);
-        }
+        names.push_back(pass.name);
+        operations.push_back(operationOf(pass.name));
+        operation_times[operations.back()] += pass.ms;
     }
-    for (auto& [name, history] : m_passes)
-    {
-        const auto found = times.find(name);
-        history.add(found != times.end() ? found->second : 0.0);
-    }
+    addFrameTo(m_passes, m_names, times, names);
+    addFrameTo(m_operations, m_operation_names, operation_times, operations);
     m_gpu_ms.add(all_ms);
     if (primary_ms > 0)
     {

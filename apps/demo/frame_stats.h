@@ -8,6 +8,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace zvo::demo
@@ -51,6 +52,10 @@ public:
     [[nodiscard]] const std::vector<std::string>& names() const { return m_names; }
     [[nodiscard]] const History& pass(const std::string& name) const { return m_passes.at(name); }
 
+    /// Passes of an operation together, and the operations in the order in which they first occurred.
+    [[nodiscard]] const std::vector<std::string>& operations() const { return m_operation_names; }
+    [[nodiscard]] const History& operation(const std::string& name) const { return m_operations.at(name); }
+
     /// Frames a second, by the clock, on average.
     [[nodiscard]] double framesPerSecond() const;
 
@@ -63,6 +68,12 @@ private:
     History m_megarays;
     std::vector<std::string> m_names;
     std::map<std::string, History> m_passes;
+    std::vector<std::string> m_operation_names;
+    std::map<std::string, History> m_operations;
 };
+
+/// The operation that a pass belongs to, by its name: "trace" of "trace/primary" and of "fill trace/args"; "other"
+/// where the name does not tell.
+std::string operationOf(std::string_view pass);
 
 } // namespace zvo::demo

@@ -20,12 +20,13 @@ void tell(const std::string& text)
     ImGui::TextUnformatted(text.c_str());
 }
 
-// A row of the table of passes, and the curve of its last frames.
-void passRow(const std::string& name, const History& history)
+// A row of the table: of an operation, which opens to its passes, or of a pass. Whether it is open.
+bool timeRow(const std::string& name, const History& history, bool is_operation)
 {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    tell(name);
+    const ImGuiTreeNodeFlags leaf = ImGuiTreeNodeFlags_Leaf | ImGuiTreeNodeFlags_NoTreePushOnOpen;
+    const bool is_open = ImGui::TreeNodeEx(name.c_str(), is_operation ? ImGuiTreeNodeFlags_None : leaf);
     ImGui::TableNextColumn();
     tell(fmt::format("{:.2f}", history.mean()));
     ImGui::TableNextColumn();
@@ -35,6 +36,19 @@ void passRow(const std::string& name, const History& history)
     ImGui::PlotLines("##curve", history.values().data(), static_cast<int>(history.values().size()), 0, nullptr, 0.0F,
                      FLT_MAX, {ImGui::GetFontSize() * 6, ImGui::GetTextLineHeight()});
     ImGui::PopID();
+    return is_open && is_operation;
+}
+
+// The passes of an operation.
+void passRows(const FrameStats& stats, const std::string& operation)
+{
+    for (const std::string& name : stats.names())
+    {
+        if (operationOf(name) == operation)
+        {
+            timeRow(name, stats.pass(name), false);
+        }
+    }
 }
 
 } // namespace
@@ -60,10 +74,14 @@ void performancePanel(const FrameStats& stats, const MemoryUse& memory)
         ImGui::TableSetupColumn("95 %");
         ImGui::TableSetupColumn("last frames");
         ImGui::TableHeadersRow();
-        passRow("device, all", stats.gpuMs());
-        for (const std::string& name : stats.names())
+        timeRow("device, all", stats.gpuMs(), false);
+        for (const std::string& operation : stats.operations())
         {
-            passRow(name, stats.pass(name));
+            if (timeRow(operation, stats.operation(operation), true))
+            {
+                passRows(stats, operation);
+                ImGui::TreePop();
+            }
         }
         ImGui::EndTable();
     }

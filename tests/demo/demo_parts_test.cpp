@@ -171,6 +171,20 @@ TEST(History, TellsMeanAndTheValueThat95OfAHundredDoNotExceed)
     EXPECT_EQ(hundred.values().front(), 1000 - static_cast<int>(History::kLength)) << "the oldest went";
 }
 
+TEST(FrameStats, PassesOfAnOperationAreAddedUp)
+{
+    EXPECT_EQ(operationOf("trace/primary"), "trace");
+    EXPECT_EQ(operationOf("fill update/bricks"), "update");
+    EXPECT_EQ(operationOf("copy edit/states to edit/reports"), "edit");
+    EXPECT_EQ(operationOf("fill image"), "other");
+    FrameStats stats;
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 1.0}, {"edit/find", 0.5}, {"trace/shade", 2.0}}, 100);
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 5.0}}, 100);
+    EXPECT_EQ(stats.operations(), (std::vector<std::string>{"trace", "edit"}));
+    EXPECT_EQ(stats.operation("trace").values(), (std::vector<float>{3.0F, 5.0F}));
+    EXPECT_EQ(stats.operation("edit").values(), (std::vector<float>{0.5F, 0.0F}));
+}
+
 TEST(FrameStats, PassesOfTheSameNameCountTogetherAndMissingOnesAsNothing)
 {
     FrameStats stats;
