@@ -123,8 +123,11 @@ void App::run()
 {
     while (!m_quits)
     {
-        continueLoading();
-        tick();
+        continueLoading(); // draws frames, too
+        if (!m_quits)
+        {
+            tick();
+        }
     }
     m_loading.reset();
     finishAll();
