@@ -62,15 +62,16 @@ private:
     // A frame that the device works on.
     struct Flight
     {
-        vk::Submission submission;
         std::uint64_t frame = 0;       // this program's number
         std::uint64_t world_frame = 0; // the world's number
         double internal_scale = 1;
         std::uint64_t ray_count = 0;
         std::unique_ptr<Screenshot> screenshot;
+        bool is_last_picture = false;        // the screenshot is the one that the command line asks for
         std::optional<glm::uvec2> inspected; // pixel of the window
         std::uint64_t look = 0;              // number of that, for the editor
         std::unique_ptr<vk::BufferOf<gpu::PixelReport>> report;
+        vk::Submission submission; // goes first, and waits: the device writes to the others
     };
 
     void tick();
@@ -87,6 +88,7 @@ private:
     bool prepare(const Picture& picture);
     void submit(Picture& picture, Flight flight);
     void finishOldest();
+    void keep(const Flight& flight);
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
 
@@ -96,6 +98,7 @@ private:
     void loadAtOnce(const WorldOptions& options);
     void show(std::unique_ptr<World> world, const WorldOptions& options);
     void request(const EditRequest& request);
+    bool isMakingAWorld();
     void save();
     void showTitle();
     void frameScene();

@@ -193,6 +193,10 @@ void App::togglePath()
 
 void App::reloadChangedShaders()
 {
+    if (isMakingAWorld())
+    {
+        return;
+    }
     if (!m_shaders.exist())
     {
         note(fmt::format("the shaders' sources are not here: {} is not a folder", m_shaders.root().string()));

@@ -59,7 +59,9 @@ void App::draw()
         picture.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
     }
     Flight flight;
+    flight.is_last_picture = m_screenshot_output != nullptr;
     flight.screenshot = takeScreenshot(size);
+    flight.is_last_picture = flight.is_last_picture && m_screenshot_output == nullptr;
     if (flight.screenshot != nullptr)
     {
         picture.screenshot = &flight.screenshot->pixels();
@@ -67,6 +69,10 @@ void App::draw()
     }
     flight.look = m_editor.look();
     flight.inspected = m_panels.shows_panels || m_editor.wantsPixel() ? pixelUnderMouse() : std::nullopt;
+    if (m_editor.wantsPixel() && !flight.inspected) // the pointer has left the picture
+    {
+        m_editor.found(m_editor.look(), gpu::PixelReport{}, *m_world);
+    }
     if (flight.inspected)
     {
         flight.report = std::make_unique<vk::BufferOf<gpu::PixelReport>>(m_device.device(), "inspected pixel", 1,
@@ -161,11 +167,28 @@ void App::finishOldest()
     }
     if (flight.screenshot != nullptr)
     {
+        keep(flight);
+    }
+}
+
+// Writes a screenshot. That one fails which a key asked for is no reason to end.
+void App::keep(const Flight& flight)
+{
+    try
+    {
         const std::string name = flight.screenshot->write();
         if (!name.empty())
         {
             note("screenshot " + name);
         }
+    }
+    catch (const Error& error)
+    {
+        if (flight.is_last_picture)
+        {
+            throw;
+        }
+        cli::talk(fmt::format("error: {}", error.what()));
     }
 }
 

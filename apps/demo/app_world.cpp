@@ -30,7 +30,8 @@ std::string freeName(const std::string& stem)
     for (int i = 1; i < kSavedMost; ++i)
     {
         const std::string name = i == 1 ? stem + ".zvo" : fmt::format("{}-{}.zvo", stem, i);
-        if (!std::filesystem::exists(name))
+        std::error_code ignored;
+        if (!std::filesystem::exists(name, ignored))
         {
             return name;
         }
@@ -84,7 +85,7 @@ void App::loadAtOnce(const WorldOptions& options)
     {
         show(World::load(m_device, options), options);
     }
-    catch (const Error& error)
+    catch (const std::exception& error)
     {
         tellError(error);
     }
@@ -97,16 +98,25 @@ void App::continueLoading()
     {
         return;
     }
-    try
+    std::exception_ptr failure; // of a frame, not of what is being made
+    const auto frame = [&]
     {
-        const auto frame = [this]
+        try
         {
             tick();
-            if (m_quits)
-            {
-                m_loading->cancel();
-            }
-        };
+        }
+        catch (...)
+        {
+            failure = std::current_exception();
+        }
+        if (m_quits || failure)
+        {
+            m_loads_next.reset();
+            m_loading->cancel();
+        }
+    };
+    try
+    {
         std::unique_ptr<World> world = m_loading->finish(m_device, kLoadingPieceMs, frame);
         if (world != nullptr)
         {
@@ -114,11 +124,15 @@ void App::continueLoading()
             show(std::move(world), m_loading->options());
         }
     }
-    catch (const Error& error)
+    catch (const std::exception& error)
     {
         tellError(error);
     }
     m_loading.reset();
+    if (failure)
+    {
+        std::rethrow_exception(failure);
+    }
     if (m_loads_next)
     {
         m_loading = std::make_unique<Loading>(*std::exchange(m_loads_next, std::nullopt));
@@ -149,13 +163,27 @@ void App::request(const EditRequest& request)
 {
     if (m_world->canEdit())
     {
-        m_world->request(request);
+        m_editor.request(request, *m_world);
     }
+}
+
+// Whether the device is at work on a world, in which nothing but frames may come between.
+bool App::isMakingAWorld()
+{
+    if (m_loading != nullptr)
+    {
+        note("not before the new scene is there");
+    }
+    return m_loading != nullptr;
 }
 
 // What is shown, as a file.
 void App::save()
 {
+    if (isMakingAWorld())
+    {
+        return;
+    }
     finishAll();
     try
     {
@@ -168,7 +196,7 @@ void App::save()
         output.finish();
         note("saved " + name);
     }
-    catch (const Error& error)
+    catch (const std::exception& error)
     {
         tellError(error);
     }
@@ -189,6 +217,7 @@ void App::buildPanel()
     BuildAnswer answer = demo::buildPanel(m_world_options, *m_world, m_loading.get());
     if (answer.cancels)
     {
+        m_loads_next.reset();
         m_loading->cancel();
     }
     if (answer.rebuild)

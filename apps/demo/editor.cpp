@@ -2,6 +2,7 @@
 #include "demo/editor.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 namespace zvo::demo
@@ -29,6 +30,11 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
     }
     else if (hasButton() && !button->modifiers.alt && world.canEdit())
     {
+        if (!m_stroke.isActive())
+        {
+            m_used = state;
+            m_has_grabbed = false;
+        }
         m_stroke.press();
     }
 }
@@ -63,28 +69,62 @@ void Editor::perform(Action action)
 
 void Editor::found(std::uint64_t look, const gpu::PixelReport& report, World& world)
 {
-    const Grid& grid = world.info().grid;
-    const bool has_voxel = report.hit != 0 && report.level == grid.nodeLevels();
+    const bool has_voxel = report.hit != 0 && report.level == world.info().grid.nodeLevels();
     if (m_stroke.found(look, has_voxel))
     {
         const glm::ivec3 voxel(report.cell);
-        if (state.tool == Tool::Brush)
+        if (m_used.tool == Tool::Brush)
         {
-            world.request(state.brushAt(voxel));
+            world.request(m_used.brushAt(voxel));
         }
-        else if (state.tool == Tool::Move && !m_drag)
+        else if (m_stroke.isDown())
         {
-            const glm::dvec3 point =
-                glm::dvec3(grid.origin) + (glm::dvec3(voxel) + 0.5) * static_cast<double>(grid.voxel_size);
-            if (const std::optional<std::size_t> mover = world.moverAt(point))
-            {
-                m_drag = {*mover, point, world.offset(*mover)};
-            }
+            grab(voxel, world);
         }
     }
-    if (m_stroke.takeEnd() && state.tool == Tool::Brush)
+    if (m_stroke.takeEnd())
+    {
+        finishStroke(world);
+    }
+}
+
+// What the hand takes is decided by where it went down.
+void Editor::grab(const glm::ivec3& voxel, World& world)
+{
+    if (std::exchange(m_has_grabbed, true))
+    {
+        return;
+    }
+    const Grid& grid = world.info().grid;
+    const glm::dvec3 point = glm::dvec3(grid.origin) + (glm::dvec3(voxel) + 0.5) * static_cast<double>(grid.voxel_size);
+    if (const std::optional<std::size_t> mover = world.moverAt(point))
+    {
+        m_drag = {*mover, point, world.offset(*mover)};
+    }
+}
+
+void Editor::finishStroke(World& world)
+{
+    m_drag.reset();
+    if (m_used.tool == Tool::Brush)
     {
         world.request(EndStroke{});
+    }
+    for (const EditRequest& request : std::exchange(m_behind, {}))
+    {
+        world.request(request);
+    }
+}
+
+void Editor::request(const EditRequest& request, World& world)
+{
+    if (m_stroke.isActive())
+    {
+        m_behind.push_back(request);
+    }
+    else
+    {
+        world.request(request);
     }
 }
 
@@ -101,6 +141,7 @@ void Editor::drag(World& world)
 void Editor::release()
 {
     m_stroke = {};
+    m_behind.clear();
     m_drag.reset();
 }
 

@@ -11,12 +11,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace zvo::demo
 {
 
 /// The tools under the left mouse button: the brush, and the hand that drags what moves. What is under the pointer they
-/// learn some frames after it was there; strokes are in the order of events all the same.
+/// learn some frames after it was there; strokes, and what is asked for between them, are in the order of events all
+/// the same.
 class Editor
 {
 public:
@@ -38,6 +40,9 @@ public:
     /// What a look has found.
     void found(std::uint64_t look, const gpu::PixelReport& report, World& world);
 
+    /// Has an edit done behind the stroke that is under way.
+    void request(const EditRequest& request, World& world);
+
     /// Lets go of everything: the world is another one.
     void release();
 
@@ -52,9 +57,14 @@ private:
         glm::dvec3 offset;  // of the mover then
     };
 
+    void grab(const glm::ivec3& voxel, World& world);
     void drag(World& world);
+    void finishStroke(World& world);
 
     Stroke m_stroke;
+    ToolState m_used;                  // for the stroke that is under way, whatever is chosen since it began
+    bool m_has_grabbed = false;        // in the stroke, maybe nothing
+    std::vector<EditRequest> m_behind; // the stroke
     std::optional<Drag> m_drag;
     ViewCamera m_camera;
     glm::dvec2 m_size{1.0};

@@ -52,7 +52,7 @@ inline constexpr std::size_t kMouseButtonCount = 3;
 struct KeyEvent
 {
     Key key = Key::Escape;
-    bool pressed = false; // or released; held keys repeat presses
+    bool pressed = false; // or released
     Modifiers modifiers = {};
 
     bool operator==(const KeyEvent&) const = default;

@@ -29,14 +29,22 @@ bool Loading::isRead() const
 std::unique_ptr<World> Loading::finish(vk::HeadlessDevice& device, double interval_ms,
                                        const std::function<void()>& frame)
 {
-    WorldInput input = m_input.get();
     if (m_is_cancelled)
     {
+        m_input.wait();
         return nullptr;
     }
+    WorldInput input = m_input.get();
+    using Clock = std::chrono::steady_clock;
+    const std::chrono::duration<double, std::milli> interval(interval_ms);
+    Clock::time_point last_frame = Clock::now();
     const auto pause = [&]
     {
-        frame();
+        if (Clock::now() - last_frame >= interval) // transfers pause, too
+        {
+            frame();
+            last_frame = Clock::now();
+        }
         if (m_is_cancelled)
         {
             throw Cancelled();

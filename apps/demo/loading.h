@@ -35,7 +35,6 @@ public:
     std::unique_ptr<World> finish(vk::HeadlessDevice& device, double interval_ms, const std::function<void()>& frame);
 
     void cancel() { m_is_cancelled = true; }
-    [[nodiscard]] bool isCancelled() const { return m_is_cancelled; }
 
     /// What is being done, and how much of everything is done: 0 to 1.
     [[nodiscard]] const std::string& step() const { return m_step; }

@@ -55,7 +55,8 @@ ToolsAnswer toolsPanel(ToolState& state, const World& world)
     const Edits* const edits = world.edits();
     if (edits == nullptr)
     {
-        ImGui::TextUnformatted("packed attributes: nothing can be edited");
+        ImGui::TextUnformatted(world.info().name.empty() ? "nothing to edit"
+                                                         : "packed attributes: nothing can be edited");
         return answer;
     }
     if (state.tool == Tool::Brush)

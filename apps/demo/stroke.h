@@ -13,7 +13,7 @@ namespace zvo::demo
 class Stroke
 {
 public:
-    /// The button went down, or up.
+    /// The button went down, or up. Presses go on with a stroke whose voxels are waited for.
     void press();
     void release() { m_is_down = false; }
 
@@ -22,6 +22,8 @@ public:
 
     /// Number of a look at what is under the pointer now.
     [[nodiscard]] std::uint64_t look() const { return m_look; }
+
+    [[nodiscard]] bool isDown() const { return m_is_down; }
 
     /// Whether voxels are waited for.
     [[nodiscard]] bool isActive() const { return m_is_stroke; }

@@ -10,6 +10,7 @@
 #include <backends/imgui_impl_vulkan.h>
 
 #include <algorithm>
+#include <span>
 #include <variant>
 
 namespace zvo::demo
@@ -37,6 +38,7 @@ int indexOf(Key key)
 struct Feed
 {
     ImGuiIO& io;
+    std::span<Ui::Button> buttons;
 
     bool operator()(const KeyEvent& event) const
     {
@@ -58,7 +60,7 @@ struct Feed
     }
     bool operator()(const MouseButtonEvent& event) const
     {
-        io.MouseDown[static_cast<int>(event.button)] = event.pressed;
+        buttons[static_cast<std::size_t>(event.button)].take(event.pressed);
         return event.pressed && io.WantCaptureMouse;
     }
     bool operator()(const WheelEvent& event) const
@@ -175,7 +177,7 @@ void Ui::setUpKeys()
 
 bool Ui::handle(const InputEvent& event)
 {
-    return std::visit(Feed{ImGui::GetIO()}, event);
+    return std::visit(Feed{ImGui::GetIO(), m_buttons}, event);
 }
 
 void Ui::build(PictureSize window, PictureSize framebuffer, double seconds, const std::function<void()>& panels)
@@ -187,6 +189,10 @@ void Ui::build(PictureSize window, PictureSize framebuffer, double seconds, cons
     {
         io.DisplayFramebufferScale = {static_cast<float>(framebuffer.width) / static_cast<float>(window.width),
                                       static_cast<float>(framebuffer.height) / static_cast<float>(window.height)};
+    }
+    for (std::size_t i = 0; i < m_buttons.size(); ++i)
+    {
+        io.MouseDown[i] = m_buttons[i].forFrame();
     }
     io.DeltaTime = static_cast<float>(std::max(seconds, kShortest));
     ImGui_ImplVulkan_NewFrame();

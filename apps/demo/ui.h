@@ -6,8 +6,10 @@
 #include "demo/input_event.h"
 #include "vk/headless.h"
 
+#include <array>
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace zvo::demo
 {
@@ -19,6 +21,22 @@ class Window;
 class Ui
 {
 public:
+    /// A mouse button as Dear ImGui is to see it: down for a frame at least, however short a click was.
+    class Button
+    {
+    public:
+        void take(bool pressed)
+        {
+            m_is_down = pressed;
+            m_was_pressed = m_was_pressed || pressed;
+        }
+        bool forFrame() { return std::exchange(m_was_pressed, false) || m_is_down; }
+
+    private:
+        bool m_is_down = false;
+        bool m_was_pressed = false; // since the last frame
+    };
+
     /// frames_in_flight: that are drawn before the device is done with the first. Waits for the device.
     Ui(vk::HeadlessDevice& device, const ComposePass& pass, Window& window, std::uint32_t frames_in_flight);
 
@@ -44,6 +62,7 @@ private:
     Window& m_window;
     VkDescriptorPool m_descriptors = VK_NULL_HANDLE;
     float m_scale;
+    std::array<Button, kMouseButtonCount> m_buttons;
     std::string m_clipboard; // that Dear ImGui was given last
 };
 

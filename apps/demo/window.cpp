@@ -85,7 +85,8 @@ void installCallbacks(GLFWwindow* window)
     glfwSetKeyCallback(window,
                        [](GLFWwindow* w, int code, int, int action, int modifiers)
                        {
-                           if (const std::optional<Key> key = keyOfGlfw(code))
+                           const std::optional<Key> key = keyOfGlfw(code);
+                           if (key && action != GLFW_REPEAT) // Dear ImGui repeats by itself
                            {
                                windowOf(w).note(KeyEvent{*key, action != GLFW_RELEASE, modifiersOf(modifiers)});
                            }

@@ -369,7 +369,7 @@ void World::update(vk::FrameGraph& graph, double seconds)
 
 void World::settle(double seconds)
 {
-    if (!moves() && !m_beam_is_stale)
+    if (!moves() && !m_beam_is_stale && isSettled())
     {
         return;
     }
@@ -393,7 +393,7 @@ void World::settle(double seconds)
         }
     }
     throw Error(ErrorCode::Memory,
-                fmt::format("movers found no room in {} attempts; lower the resolution", kSettleFrames));
+                fmt::format("movers and strokes found no room in {} attempts; lower the resolution", kSettleFrames));
 }
 
 bool World::isSettled() const

@@ -30,7 +30,7 @@ struct EditTop
 
 /// The strokes of a brush that can be undone and redone: a line of steps with a cursor, each a place of edits
 /// (shaders/edit/edit.h). Host logic only, a value: a copy is what it was. A stroke is one step, however many dabs it
-/// has. Everything but push() at its bound takes constant time.
+/// has. undo(), redo() and what tells of a place take constant time, everything else at most as long as the line.
 ///
 /// What a place is made of stands below its top, and reaches down into what earlier steps have. So tops grow along the
 /// line, and a dab may write above the top of the place that it begins at: what is there belongs to steps that the push

@@ -231,8 +231,10 @@ struct HeadlessDevice::Impl
           logical(instance, chosen, options, choosesSubgroupSize(options, chosen)),
           cache(logical.fn(), chosen.physical_device, logical.handle(), options.pipeline_cache_path),
           device(handles(options), kernels), commands(device, logical.queue()), timers(device, options.timer_capacity),
-          readback(device, "slice readback", sizeof(gpu::DispatchArgs), MemoryKind::Readback), planner(options.slices),
-          timer_capacity(options.timer_capacity), flights_max(std::max(options.submissions_in_flight, 1U))
+          readback(device, "slice readback", sizeof(gpu::DispatchArgs), MemoryKind::Readback),
+          pause_readback(device, "slice readback of pauses", sizeof(gpu::DispatchArgs), MemoryKind::Readback),
+          planner(options.slices), timer_capacity(options.timer_capacity),
+          flights_max(std::max(options.submissions_in_flight, 1U))
     {
         device.setName(VK_OBJECT_TYPE_QUEUE, reinterpret_cast<std::uint64_t>(logical.queue()), "headless queue");
     }
@@ -266,7 +268,9 @@ struct HeadlessDevice::Impl
         if (pause)
         {
             const std::function<void()> call = std::exchange(pause, nullptr);
+            is_pausing = true;
             call();
+            is_pausing = false;
             pause = call;
         }
     }
@@ -290,9 +294,11 @@ struct HeadlessDevice::Impl
     Device device;
     CommandContext commands;
     TimerPool timers;
-    Buffer readback; // arguments of an indirect dispatch
+    Buffer readback;       // arguments of an indirect dispatch
+    Buffer pause_readback; // likewise, of what a pause runs
     SlicePlanner planner;
     std::function<void()> pause;        // between submissions; empty: none
+    bool is_pausing = false;            // pause is being called
     std::uint32_t submission_count = 0; // of the last run
     std::uint32_t timer_capacity;
     std::size_t flights_max;
@@ -324,8 +330,8 @@ VkQueue HeadlessDevice::queue()
 
 std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>& record)
 {
-    RunSlicer slicer(m_impl->commands, m_impl->planner, m_impl->timers, m_impl->readback,
-                     [this] { m_impl->pauseHere(); });
+    Buffer& readback = m_impl->is_pausing ? m_impl->pause_readback : m_impl->readback;
+    RunSlicer slicer(m_impl->commands, m_impl->planner, m_impl->timers, readback, [this] { m_impl->pauseHere(); });
     FrameGraph graph(m_impl->device, slicer.begin(), &m_impl->timers, &slicer);
     record(graph);
     slicer.submit();
@@ -351,6 +357,7 @@ void HeadlessDevice::withPauses(const std::function<void()>& pause, double submi
     }
     catch (...)
     {
+        m_impl->is_pausing = false;
         m_impl->pause = nullptr;
         m_impl->planner.aimAt(usual_ms);
         throw;

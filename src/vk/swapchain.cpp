@@ -272,17 +272,17 @@ VkResult Swapchain::make(VkExtent2D framebuffer)
                                                    "choose another one with --device",
                                                    device.report().name));
     }
+    const VkExtent2D extent = extentFor(capabilities, framebuffer);
+    if (extent.width == 0 || extent.height == 0)
+    {
+        return VK_ERROR_OUT_OF_DATE_KHR;
+    }
     // The old one is retired whether or not there is a new one.
     VkSwapchainKHR old = VK_NULL_HANDLE;
     if (m_chain != nullptr)
     {
         old = m_chain->handle;
         m_retired.keep(std::move(m_chain));
-    }
-    const VkExtent2D extent = extentFor(capabilities, framebuffer);
-    if (extent.width == 0 || extent.height == 0)
-    {
-        return VK_ERROR_OUT_OF_DATE_KHR;
     }
     VkSwapchainCreateInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
