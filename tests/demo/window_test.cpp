@@ -233,6 +233,40 @@ TEST_F(DemoWindow, GoodFilesThatAreDroppedAreShownAndBadOnesAreNot)
     EXPECT_EQ(file("last.png"), render(std::vector<std::string>{"cube.glb", "slab.glb", "--resolution", "64"} + kSize));
 }
 
+// In time with the clock, scenes are made while the old one is shown: whichever was dropped last is shown in the end.
+TEST_F(DemoWindow, ScenesAreMadeInTheBackground)
+{
+    Script script;
+    script.add(2, demo::DropEvent{{"broken.glb"}}).add(4, demo::DropEvent{{"slab.glb"}});
+    script.add(5, demo::DropEvent{{"moving.scene.json"}}).add(6, demo::DropEvent{{"slab.glb"}});
+    script.add(6, demo::ResizeEvent{300, 200}).add(keyStroke(7, Key::S, {false, true, false})); // not now
+    m_dir.write("script.json", script.text());
+    const Outcome outcome =
+        runDemo(kCube + kSize +
+                std::vector<std::string>{"--frames", "150", "--hide-ui", "--internal-scale", "1", "--input-script",
+                                         "script.json", "--screenshot", "last.png", "--json", "stats.json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("broken.glb"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_EQ(json::parse(file("stats.json"))["scene"]["name"], "slab.glb");
+    EXPECT_EQ(json::parse(file("stats.json"))["frames"], 150);
+    EXPECT_EQ(file("last.png"),
+              render(std::vector<std::string>{"slab.glb", "--resolution", "64", "--size", "300x200"}));
+}
+
+// It quits while something is made, and is not held up by what was to come after it.
+TEST_F(DemoWindow, QuitsWhileAWorldIsMade)
+{
+    for (const std::uint64_t quit : {3U, 4U, 6U})
+    {
+        Script script;
+        script.add(2, demo::DropEvent{{"moving.scene.json"}}).add(3, demo::DropEvent{{"slab.glb"}});
+        script.add(quit, demo::CloseEvent{});
+        m_dir.write("script.json", script.text());
+        show(kCube + kSize + std::vector<std::string>{"--hide-ui", "--input-script", "script.json"});
+    }
+}
+
 // A copy of the project's shaders in which one was changed a moment from now, so that every F5 takes it for changed.
 class ChangedShaders
 {

@@ -154,6 +154,21 @@ TEST(Headless, PausesBetweenSubmissionsCanSubmit)
     }
 }
 
+TEST(Headless, PausesCanRun)
+{
+    int pauses = 0;
+    vk::BufferOf<gpu::uint> made;
+    device().withPauses(
+        [&]
+        {
+            ++pauses;
+            EXPECT_EQ(device().download(iota(device(), 300)), counting(300));
+        },
+        1e-3, [&] { made = iota(device(), 1 << 15); });
+    EXPECT_GE(pauses, 2);
+    EXPECT_EQ(device().download(made), counting(1 << 15));
+}
+
 TEST(Headless, APauseEndsTheWorkByThrowing)
 {
     for (const int last : {1, 2})
