@@ -462,7 +462,7 @@ TEST_F(CliRun, BenchOfEditTellsStrokesByRadiusActionAndNumber)
                               "redo_ms.median number", "bytes number"});
         EXPECT_GE(stroke["dab_ms"]["p95"], stroke["dab_ms"]["median"]);
         EXPECT_GT(stroke["undo_ms"]["median"], 0);
-        EXPECT_GT(stroke["dab_ms"]["median"], stroke["redo_ms"]["median"]);
+        EXPECT_GT(stroke["redo_ms"]["median"], 0);
         EXPECT_GT(stroke["bytes"], 0) << "a voxel of the cube is under each brush";
         ++actions[stroke["action"]];
     }
