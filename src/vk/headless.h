@@ -72,8 +72,8 @@ public:
     [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync = {});
 
     /// Calls work, in which run(), uploads and downloads call pause between their submissions; those of run() aim at
-    /// submission_ms meanwhile. So a window stays alive while something long is made: pause may submit() and run(). It must
-    /// not touch what work is making, nor replace kernels, and ends it by throwing. Throws what work throws.
+    /// submission_ms meanwhile. So a window stays alive while something long is made: pause may submit() and run(). It
+    /// must not touch what work is making, nor replace kernels, and ends it by throwing. Throws what work throws.
     void withPauses(const std::function<void()>& pause, double submission_ms, const std::function<void()>& work);
 
     /// Submissions of the last run().
