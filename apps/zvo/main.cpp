@@ -3,7 +3,7 @@
 #include "bench.h"
 #include "build.h"
 #include "common/output.h"
-#include "common/progress.h"
+#include "common/run_program.h"
 #include "common/signals.h"
 #include "convert.h"
 #include "info.h"
@@ -11,12 +11,9 @@
 #include "options.h"
 #include "render.h"
 #include "voxelize.h"
-#include "zvo/error.h"
 
-#include <fmt/format.h>
-
-#include <exception>
-#include <new>
+#include <string>
+#include <variant>
 
 namespace zvo::cli
 {
@@ -37,33 +34,6 @@ struct Run
     void operator()(const BenchOptions& options) const { bench(options); }
 };
 
-int fail(ErrorCode code, std::string_view what)
-{
-    talk(fmt::format("error: {}", what));
-    return static_cast<int>(code);
-}
-
-int run(int argc, const char* const* argv)
-{
-    try
-    {
-        std::visit(Run{}, parseCommandLine(argc, argv));
-        return 0;
-    }
-    catch (const Error& error)
-    {
-        return fail(error.code(), error.what());
-    }
-    catch (const std::bad_alloc&)
-    {
-        return fail(ErrorCode::Memory, "the host's memory does not suffice; lower the resolution");
-    }
-    catch (const std::exception& error)
-    {
-        return fail(ErrorCode::Other, error.what());
-    }
-}
-
 } // namespace
 
 } // namespace zvo::cli
@@ -71,5 +41,5 @@ int run(int argc, const char* const* argv)
 int main(int argc, char** argv)
 {
     zvo::cli::installSignalHandlers();
-    return zvo::cli::run(argc, argv);
+    return zvo::cli::runProgram([&] { std::visit(zvo::cli::Run{}, zvo::cli::parseCommandLine(argc, argv)); });
 }
