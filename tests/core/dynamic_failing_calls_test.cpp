@@ -3,6 +3,7 @@
 // octree goes on.
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
+#include "support/ballast.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"
 #include "support/mover_scenery.h"
@@ -132,26 +133,6 @@ private:
         std::vector<Cell> cells;
     };
 
-    // Takes what is free of the memory that is allocated: for anything more, more will have to be.
-    std::vector<vk::Buffer> ballast()
-    {
-        constexpr std::uint64_t kBlockBytes = vk::MemoryAllocator::kLimitedBlockBytes;
-        const vk::MemoryAllocator& memory = m_device.device().memory();
-        std::vector<vk::Buffer> pieces;
-        const auto add = [&](std::uint64_t bytes) { pieces.emplace_back(m_device.device(), "ballast", bytes); };
-        for (std::uint64_t bytes = kBlockBytes / 2; bytes >= 128; bytes /= 8)
-        {
-            for (const std::uint64_t held = memory.heldBytes(); memory.heldBytes() == held;)
-            {
-                add(bytes);
-            }
-            pieces.pop_back();
-            add(kBlockBytes / 2); // of the block that has just been allocated
-            add(kBlockBytes / 2);
-        }
-        return pieces;
-    }
-
     std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->tree().octree()); }
 
     void expectCells(const std::vector<Cell>& expected)
@@ -169,7 +150,7 @@ private:
     // Whether call succeeds, of which one Vulkan call fails.
     bool succeeds(std::uint64_t number, const std::function<void()>& call)
     {
-        const std::vector<vk::Buffer> full = ballast();
+        const std::vector<vk::Buffer> full = test::freeMemoryTaken(m_device);
         m_fail(number);
         bool result = true;
         try

@@ -137,26 +137,6 @@ public:
     }
 
 private:
-    // Takes what is free of the memory that is allocated: for anything more, more will have to be.
-    std::vector<vk::Buffer> ballast()
-    {
-        constexpr std::uint64_t kBlockBytes = vk::MemoryAllocator::kLimitedBlockBytes;
-        const vk::MemoryAllocator& memory = m_device.device().memory();
-        std::vector<vk::Buffer> pieces;
-        const auto add_piece = [&](std::uint64_t bytes) { pieces.emplace_back(m_device.device(), "ballast", bytes); };
-        for (std::uint64_t bytes = kBlockBytes / 2; bytes >= 128; bytes /= 8)
-        {
-            for (const std::uint64_t held = memory.heldBytes(); memory.heldBytes() == held;)
-            {
-                add_piece(bytes);
-            }
-            pieces.pop_back();
-            add_piece(kBlockBytes / 2); // of the block that has just been allocated
-            add_piece(kBlockBytes / 2);
-        }
-        return pieces;
-    }
-
     std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->tree()); }
 
     void expectCells(const std::vector<Cell>& expected)
@@ -203,7 +183,7 @@ private:
         std::vector<std::vector<Cell>> seen; // once a frame has run that was lost
         for (std::uint64_t number = 0;; ++number)
         {
-            const std::vector<vk::Buffer> full = ballast();
+            const std::vector<vk::Buffer> full = test::freeMemoryTaken(m_device);
             const std::size_t undo_count = m_octree->edits().undoCount();
             const std::uint64_t frame = m_octree->beginFrame();
             bool is_lost = false;

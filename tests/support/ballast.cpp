@@ -27,4 +27,23 @@ std::vector<vk::BufferOf<std::uint32_t>> ballast(vk::HeadlessDevice& device, std
     return pieces;
 }
 
+std::vector<vk::Buffer> freeMemoryTaken(vk::HeadlessDevice& device)
+{
+    constexpr std::uint64_t kBlockBytes = vk::MemoryAllocator::kLimitedBlockBytes;
+    const vk::MemoryAllocator& memory = device.device().memory();
+    std::vector<vk::Buffer> pieces;
+    const auto add = [&](std::uint64_t bytes) { pieces.emplace_back(device.device(), "ballast", bytes); };
+    for (std::uint64_t bytes = kBlockBytes / 2; bytes >= 128; bytes /= 8)
+    {
+        for (const std::uint64_t held = memory.heldBytes(); memory.heldBytes() == held;)
+        {
+            add(bytes);
+        }
+        pieces.pop_back();
+        add(kBlockBytes / 2); // of the block that has just been allocated
+        add(kBlockBytes / 2);
+    }
+    return pieces;
+}
+
 } // namespace zvo::test

@@ -17,4 +17,8 @@ constexpr std::uint64_t kBallastPieceBytes = 4096; // of the smallest pieces, th
 /// the last pieces, which are not taken.
 std::vector<vk::BufferOf<std::uint32_t>> ballast(vk::HeadlessDevice& device, std::size_t pieces_left);
 
+/// Takes what is free of the memory that is allocated, of a device with a limit: for anything more, more will have to
+/// be.
+std::vector<vk::Buffer> freeMemoryTaken(vk::HeadlessDevice& device);
+
 } // namespace zvo::test
