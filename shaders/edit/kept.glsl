@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Counts of what is kept, by blocks of kScanBlock elements: nodes, or words of voxels.
-#include "edit/edit.h"
+#include "edit/compact.h"
 #include "lib/dispatch.glsl"
 #define SCAN_GROUP kScanGroup
 #include "lib/scan.glsl"

@@ -3,7 +3,7 @@
 // Marks what the kept nodes of a level are made of: their children, or the voxels of leaves, as far as these stand in
 // the region.
 #extension GL_GOOGLE_include_directive : require
-#include "edit/edit.h"
+#include "edit/compact.h"
 #include "lib/dispatch.glsl"
 
 layout(constant_id = 0) const bool kLeaves = false;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Copies what the kept voxels emit to the new region.
 #extension GL_GOOGLE_include_directive : require
-#include "edit/edit.h"
+#include "edit/compact.h"
 #include "lib/dispatch.glsl"
 #include "lib/emission.glsl"
 

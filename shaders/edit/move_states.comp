@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // How far up the copies of places reach in the new region.
 #extension GL_GOOGLE_include_directive : require
-#include "edit/edit.h"
+#include "edit/compact.h"
 #include "lib/dispatch.glsl"
 
 layout(local_size_x = kNodesGroup) in;

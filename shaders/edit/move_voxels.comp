@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Copies the attributes of the kept voxels to the new region.
 #extension GL_GOOGLE_include_directive : require
-#include "edit/edit.h"
+#include "edit/compact.h"
 #include "lib/dispatch.glsl"
 
 layout(constant_id = 0) const bool kEmits = false;

@@ -3,6 +3,7 @@
 
 #include "core/divide_up.h"
 #include "core/svdag.h"
+#include "edit/compact.h"
 #include "octree/octree.h"
 #include "update/update.h"
 #include "zvo/error.h"

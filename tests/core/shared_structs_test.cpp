@@ -3,6 +3,7 @@
 #include "attributes/attributes.h"
 #include "core/kernels.h"
 #include "deform/deform.h"
+#include "edit/compact.h"
 #include "edit/edit.h"
 #include "octree/octree.h"
 #include "present/present.h"

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// What the kernels that compact edits (edit/edit.h) share with the host.
+//
+// What places that are kept are made of moves to another region, the rest is forgotten. Nodes and voxels
+// keep their order, so that children stay together and states stay in the order of dabs.
+#ifndef ZVO_SHADERS_EDIT_COMPACT_H
+#define ZVO_SHADERS_EDIT_COMPACT_H
+
+#include "edit/edit.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kMarkPlace = ~0u; // root of a place that is not used: kept where it is, whatever it is
+
+struct EditMarkParams // push constants of edit/mark: one thread a node of the region
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_PTR(uint) marks;      // [node_count] of the region: 1 + the node's level, kMarkPlace, or 0
+    GPU_PTR(uint) voxel_bits; // [ceil(voxel_count / 32)] of the region: kept
+    uint first_node;          // of the region
+    uint node_count;
+    uint first_voxel;
+    uint voxel_count;
+    uint level; // the nodes that mark their children, or voxels
+};
+
+struct EditSumParams // push constants of edit/live_sums and edit/renumber: a workgroup for each kScanBlock elements
+{
+    GPU_CONST_PTR(uint) marks; // or words of voxel_bits: kVoxels
+    GPU_PTR(uint) partials;    // of each workgroup; for edit/renumber, those before it
+    GPU_PTR(uint) numbers;     // [element_count] what is kept before an element
+    uint element_count;
+};
+
+struct EditMoveParams // push constants of edit/move_nodes and edit/move_voxels: one thread a node, or voxel, of the
+                      // region
+{
+    GPU_PTR(Node) nodes;
+    GPU_PTR(Attribute) node_attributes; // or null
+    GPU_PTR(BeforeChild) ranks;         // kRanks only
+    GPU_PTR(Attribute) attributes;      // or null
+    GPU_PTR(uvec2) emission_words;      // of the new region cleared; or null
+    GPU_CONST_PTR(uint) marks;
+    GPU_CONST_PTR(uint) numbers; // of nodes
+    GPU_CONST_PTR(uint) voxel_bits;
+    GPU_CONST_PTR(uint) voxel_numbers; // of words of voxel_bits
+    uint first_node;                   // of the old region
+    uint node_count;
+    uint first_voxel;
+    uint voxel_count;
+    uint new_first_node;
+    uint new_first_voxel;
+    uint level_count;
+    uint attribute_offset;
+};
+
+struct EditMoveEmissionParams // push constants of edit/move_emission: one thread a voxel of the old region
+{
+    GPU_CONST_PTR(uint) voxel_bits;
+    GPU_CONST_PTR(uint) voxel_numbers;
+    GPU_CONST_PTR(uvec2) emission_words;
+    GPU_PTR(uint) emission;
+    uint first_voxel; // of the old region
+    uint voxel_count;
+    uint new_first_voxel;
+};
+
+struct EditMoveStatesParams // push constants of edit/move_states: one thread a place
+{
+    GPU_CONST_PTR(EditState) states;
+    GPU_PTR(EditState) new_states;
+    GPU_CONST_PTR(uint) marks;
+    GPU_CONST_PTR(uint) numbers;
+    GPU_CONST_PTR(uint) voxel_bits; // or null
+    GPU_CONST_PTR(uint) voxel_numbers;
+    uint place_count;
+    uint first_node; // of the old region
+    uint node_count;
+    uint first_voxel;
+    uint voxel_count;
+    uint new_first_node;
+    uint new_first_voxel;
+};
+
+GPU_NAMESPACE_END
+
+#endif
