@@ -23,12 +23,12 @@ function(zvo_embed_kernels target root function_name)
             # The SPIR-V first: that is the file which the depfile names.
             OUTPUT ${out_dir}/${name}.spv ${out_dir}/${name}.cpp
             DEPFILE ${out_dir}/${name}.d
-            COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${CMAKE_SOURCE_DIR}/shaders -S comp
+            COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders -S comp
                     --depfile ${out_dir}/${name}.d -o ${out_dir}/${name}.spv ${root}/${kernel}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${out_dir}/${name}.spv
             COMMAND ${CMAKE_COMMAND} -DINPUT=${out_dir}/${name}.spv -DOUTPUT=${out_dir}/${name}.cpp -DSYMBOL=${symbol}
-                    -P ${CMAKE_SOURCE_DIR}/cmake/EmbedSpirv.cmake
-            DEPENDS ${root}/${kernel} ${CMAKE_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+                    -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+            DEPENDS ${root}/${kernel} ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
             COMMENT "kernel ${name}"
             VERBATIM)
         list(APPEND embedded ${out_dir}/${name}.cpp)

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "core/coverage.h"
-#include "core/load_scene.h"
 #include "core/scene.h"
 #include "core/tree_data.h"
+#include "io/load_scene.h"
 
 #include <cstdint>
 #include <optional>

@@ -4,8 +4,8 @@
 
 #include "core/attribute_form.h"
 #include "core/coverage.h"
-#include "core/load_scene.h"
 #include "core/scene.h"
+#include "io/load_scene.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include "core/grid.h"
 #include "core/pipeline.h"
 #include "core/scene.h"
-#include "core/stage.h"
+#include "io/stage.h"
 #include "vk/headless.h"
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 #include "core/octree_build.h"
 #include "core/read_file.h"
 #include "core/tree_build.h"
-#include "core/vox_file.h"
+#include "io/vox_file.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/camera.h"
-#include "core/stage.h"
 #include "core/trace.h"
+#include "io/stage.h"
 
 #include <span>
 #include <string>

@@ -4,8 +4,8 @@
 
 #include "common/progress.h"
 #include "common/view.h"
-#include "core/atomic_file.h"
 #include "demo/reload_shaders.h"
+#include "io/atomic_file.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/camera_path.h"
 #include "demo/camera_control.h"
 #include "demo/elapsed.h"
+#include "io/camera_path.h"
 
 #include <optional>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "demo/input_script.h"
 
-#include "core/json_cursor.h"
 #include "core/read_file.h"
+#include "io/json_cursor.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "demo/screenshot.h"
 
-#include "core/atomic_file.h"
-#include "core/image_io.h"
+#include "io/atomic_file.h"
+#include "io/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -4,10 +4,10 @@
 #include "common/environment.h"
 #include "common/progress.h"
 #include "common/view.h"
-#include "core/atomic_file.h"
-#include "core/image_io.h"
-#include "core/json_cursor.h"
 #include "core/read_file.h"
+#include "io/atomic_file.h"
+#include "io/image_io.h"
+#include "io/json_cursor.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

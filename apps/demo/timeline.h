@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/stage.h"
 #include "demo/elapsed.h"
+#include "io/stage.h"
 
 #include <optional>
 

@@ -9,9 +9,9 @@
 #include "core/flatten.h"
 #include "core/gpu_scene.h"
 #include "core/pipeline.h"
-#include "core/stage_octree.h"
 #include "core/svdag.h"
 #include "core/zvo_file.h"
+#include "io/stage_octree.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

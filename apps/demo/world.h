@@ -4,10 +4,10 @@
 #include "common/scene_options.h"
 #include "core/camera.h"
 #include "core/dynamic_octree.h"
-#include "core/stage.h"
 #include "core/trace.h"
 #include "core/tree_data.h"
 #include "core/tree_view.h"
+#include "io/stage.h"
 #include "vk/headless.h"
 
 #include <cstddef>

@@ -9,8 +9,8 @@
 #include "common/session.h"
 #include "common/view.h"
 #include "core/kernels.h"
-#include "core/stage_octree.h"
 #include "core/trace.h"
+#include "io/stage_octree.h"
 #include "table.h"
 
 #include <fmt/format.h>

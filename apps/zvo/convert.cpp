@@ -5,14 +5,14 @@
 #include "common/progress.h"
 #include "common/session.h"
 #include "common/tree_input.h"
-#include "core/glb_write.h"
 #include "core/input_error.h"
 #include "core/kernels.h"
-#include "core/nvdb_write.h"
 #include "core/svdag.h"
-#include "core/vox_file.h"
 #include "core/zvo_file.h"
 #include "export.h"
+#include "io/glb_write.h"
+#include "io/nvdb_write.h"
+#include "io/vox_file.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -5,9 +5,9 @@
 #include "common/report.h"
 #include "core/input_error.h"
 #include "core/read_file.h"
-#include "core/sha256.h"
 #include "core/tree_stats.h"
 #include "core/zvo_file.h"
+#include "io/sha256.h"
 
 #include <fmt/format.h>
 

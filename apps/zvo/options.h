@@ -3,10 +3,10 @@
 
 #include "common/scene_options.h"
 #include "core/coverage.h"
-#include "core/load_scene.h"
 #include "core/scene.h"
 #include "core/trace.h"
 #include "core/tree_data.h"
+#include "io/load_scene.h"
 
 #include <cstdint>
 #include <filesystem>

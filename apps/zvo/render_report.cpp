@@ -4,6 +4,7 @@
 #include "common/progress.h"
 #include "common/session.h"
 #include "core/zvo_file.h"
+#include "io/octree_sha256.h"
 
 #include <fmt/format.h>
 

@@ -4,10 +4,10 @@
 
 #include "common/report.h"
 #include "core/pipeline.h"
-#include "core/stage.h"
-#include "core/stage_octree.h"
 #include "core/svdag.h"
 #include "core/tree_data.h"
+#include "io/stage.h"
+#include "io/stage_octree.h"
 #include "options.h"
 #include "renderer.h"
 #include "vk/headless.h"

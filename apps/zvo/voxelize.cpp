@@ -9,6 +9,7 @@
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "export.h"
+#include "io/octree_sha256.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

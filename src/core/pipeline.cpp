@@ -3,7 +3,6 @@
 
 #include "core/divide_up.h"
 #include "core/octree_build.h"
-#include "core/sha256.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -279,17 +278,6 @@ void makeNodeAttributes(vk::HeadlessDevice& device, const GpuScene& scene, Build
     append(result.passes, device.run([&](vk::FrameGraph& graph) { averageNodes(graph, scene, octree); }));
 }
 
-template <typename T> void hashBuffer(vk::HeadlessDevice& device, Sha256& sha, const vk::BufferOf<T>& buffer)
-{
-    constexpr std::uint64_t kPieceBytes = 64ULL << 20;
-    constexpr std::uint64_t kPiece = kPieceBytes / sizeof(T);
-    for (std::uint64_t first = 0; first < buffer.count(); first += kPiece)
-    {
-        const std::vector<T> piece = device.download(buffer, first, std::min(kPiece, buffer.count() - first));
-        sha.update(std::as_bytes(std::span(piece)));
-    }
-}
-
 } // namespace
 
 double operationMs(std::span<const vk::PassTime> passes, std::string_view operation)
@@ -347,31 +335,6 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, co
         makeNodeAttributes(device, scene.uploaded(), result);
     }
     return result;
-}
-
-std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree)
-{
-    Sha256 sha;
-    struct Header // 8 words without padding
-    {
-        glm::vec3 origin;
-        float voxel_size;
-        std::uint32_t depth;
-        std::uint32_t node_count;
-        std::uint32_t voxel_count;
-        float emission_scale;
-    };
-    const Header header = {octree.grid.origin, octree.grid.voxel_size, octree.grid.depth,
-                           octree.node_count,  octree.voxel_count,     octree.emission_scale};
-    sha.update(std::as_bytes(std::span(&header, 1)));
-    hashBuffer(device, sha, octree.nodes);
-    hashBuffer(device, sha, octree.voxel_attributes);
-    hashBuffer(device, sha, octree.node_attributes);
-    hashBuffer(device, sha, octree.packed.voxels);
-    hashBuffer(device, sha, octree.packed.nodes);
-    hashBuffer(device, sha, octree.emission_words);
-    hashBuffer(device, sha, octree.emission);
-    return sha.hexDigest();
 }
 
 std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& octree)

@@ -54,10 +54,6 @@ struct BuildResult
 BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
                         const BuildOptions& options);
 
-/// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have
-/// equal sums whatever made them.
-std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree);
-
 /// The Morton codes of all voxels, ascending: voxel_count of them.
 std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& octree);
 

@@ -2,11 +2,12 @@
 // What the program gives when all goes well: files, reports, tables.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
-#include "core/gltf_loader.h"
-#include "core/image_io.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"
+#include "io/gltf_loader.h"
+#include "io/image_io.h"
+#include "io/octree_sha256.h"
 #include "support/device.h"
 #include "support/temp_dir.h"
 

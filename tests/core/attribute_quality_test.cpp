@@ -2,9 +2,9 @@
 // What packed attributes lose on whole scenes: colours in dB, normals in degrees, pictures in dB. The disabled test
 // makes the tables of docs/attributes.md.
 #include "core/attribute_pack.h"
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "io/gltf_loader.h"
 #include "support/device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Colours, normals and emission of voxels and inner nodes.
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/texture_pool.h"
+#include "io/gltf_loader.h"
+#include "io/octree_sha256.h"
 #include "oracle/attributes.h"
 #include "support/device.h"
 #include "support/octree_access.h"

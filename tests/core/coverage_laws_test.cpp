@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Laws of the device's voxel sets (docs/voxelization.md, "Laws").
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
+#include "io/gltf_loader.h"
+#include "io/octree_sha256.h"
 #include "oracle/snap.h"
 #include "support/device.h"
 #include "support/lattice_sets.h"

@@ -2,10 +2,10 @@
 // A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
 // memory than was asked for.
 #include "core/dynamic_octree.h"
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/svdag.h"
 #include "core/tree_build.h"
+#include "io/gltf_loader.h"
 #include "support/device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Meshes of voxels, taken apart without the loader: each face between a voxel and an empty cell once, and no other.
-#include "core/glb_write.h"
+#include "io/glb_write.h"
 
-#include "core/gltf_loader.h"
 #include "core/tree_build.h"
+#include "io/gltf_loader.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Files that somebody made to do harm: nothing leaves the document's folder, unfolds without end or runs out of stack.
 // gltf_errors_test.cpp has the mistakes that happen.
-#include "core/gltf_document.h"
-#include "core/gltf_loader.h"
-#include "core/image_io.h"
 #include "core/read_file.h"
 #include "core/scene_size.h"
 #include "gltf_builder.h"
+#include "io/gltf_document.h"
+#include "io/gltf_loader.h"
+#include "io/image_io.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

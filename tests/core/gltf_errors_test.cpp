@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Every way in which a file can be broken has an error that says what, where and what to do.
-#include "core/gltf_loader.h"
+#include "io/gltf_loader.h"
 
-#include "core/image_io.h"
 #include "gltf_builder.h"
+#include "io/image_io.h"
 
 #include <functional>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/gltf_loader.h"
+#include "io/gltf_loader.h"
 
-#include "core/load_scene.h"
 #include "gltf_builder.h"
+#include "io/load_scene.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/gltf_loader.h"
+#include "io/gltf_loader.h"
 
-#include "core/image_io.h"
 #include "gltf_builder.h"
+#include "io/image_io.h"
 
 #include <gtest/gtest.h>
 #include <numbers>

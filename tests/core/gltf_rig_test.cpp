@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Nodes, skins, morph targets and animations as they are loaded; gltf_rig_errors_test.cpp has what is wrong with them.
-#include "core/gltf_loader.h"
+#include "io/gltf_loader.h"
 
-#include "core/load_scene.h"
 #include "gltf_builder.h"
+#include "io/load_scene.h"
 #include "rig_documents.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/gltf_uri.h"
+#include "io/gltf_uri.h"
 
-#include "core/image_io.h"
 #include "gltf_builder.h"
+#include "io/image_io.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Images that would harm their decoder are refused before it sees them.
-#include "core/image_check.h"
+#include "io/image_check.h"
 
-#include "core/gltf_uri.h"
-#include "core/image_io.h"
 #include "gltf_builder.h"
+#include "io/gltf_uri.h"
+#include "io/image_io.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

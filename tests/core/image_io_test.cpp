@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/image_io.h"
+#include "io/image_io.h"
 
-#include "core/gltf_uri.h"
 #include "gltf_builder.h"
+#include "io/gltf_uri.h"
 #include "zvo/error.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/mesh_import.h"
+#include "io/mesh_import.h"
 
-#include "core/image_io.h"
-#include "core/load_scene.h"
 #include "gltf_builder.h"
+#include "io/image_io.h"
+#include "io/load_scene.h"
 #include "support/mesh_files.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/quantize.h"
+#include "io/quantize.h"
 
 #include <gtest/gtest.h>
 

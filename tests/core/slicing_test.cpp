@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Work that is split over many submissions gives the same bytes.
 #include "core/camera.h"
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/trace.h"
+#include "io/gltf_loader.h"
+#include "io/octree_sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"

@@ -2,8 +2,8 @@
 // What tests of stages share.
 #pragma once
 
-#include "core/stage.h"
 #include "gltf_builder.h"
+#include "io/stage.h"
 #include "support/scenes.h"
 
 #include <filesystem>

@@ -4,8 +4,8 @@
 // (scripts/check-dynamic).
 #include "core/camera.h"
 #include "core/kernels.h"
-#include "core/stage_octree.h"
 #include "core/trace.h"
+#include "io/stage_octree.h"
 #include "support/device.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"

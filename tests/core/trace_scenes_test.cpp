@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays through the octrees of whole scenes against the reference, bit for bit.
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "io/gltf_loader.h"
 #include "support/device.h"
 #include "support/param_names.h"
 #include "support/scenes.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A DAG looks like the octree that it was made from.
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/trace.h"
+#include "io/gltf_loader.h"
 #include "oracle/morton.h"
 #include "support/dags.h"
 #include "support/device.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MagicaVoxel's files: made here chunk by chunk as the format's author documents it, and read back.
-#include "core/vox_file.h"
+#include "io/vox_file.h"
 
 #include "core/tree_build.h"
 #include "core/tree_check.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The voxels of the device against the exact oracle, bit for bit.
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
+#include "io/gltf_loader.h"
+#include "io/octree_sha256.h"
 #include "oracle/voxelizer.h"
 #include "support/device.h"
 #include "support/param_names.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Single bytes of a file that change: noticed by a checksum; where that was made to fit, refused or a sound tree.
 #include "core/attribute_pack.h"
-#include "core/gltf_loader.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"
 #include "core/zvo_file.h"
+#include "io/gltf_loader.h"
 #include "support/dags.h"
 #include "support/device.h"
 #include "support/scenes.h"

@@ -3,9 +3,9 @@
 #include "core/attribute_pack.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
-#include "core/sha256.h"
 #include "core/tiled_build.h"
 #include "core/zvo_file.h"
+#include "io/sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 

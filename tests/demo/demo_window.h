@@ -4,9 +4,9 @@
 
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
-#include "core/image_io.h"
 #include "demo/input_script.h"
 #include "demo/xvfb.h"
+#include "io/image_io.h"
 #include "support/device.h"
 #include "support/temp_dir.h"
 

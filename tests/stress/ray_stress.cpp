@@ -5,8 +5,8 @@
 //   zvo_ray_stress [--rays N] [--seed S]    N random rays, N aimed ones, N / 4 out of closed shells
 #include "core/kernels.h"
 #include "core/pipeline.h"
-#include "core/sha256.h"
 #include "core/trace.h"
+#include "io/sha256.h"
 #include "stress/ray_judge.h"
 #include "stress/stress_rays.h"
 #include "support/device.h"

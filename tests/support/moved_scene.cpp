@@ -4,6 +4,7 @@
 #include "core/kernels.h"
 #include "core/octree_build.h"
 #include "core/pipeline.h"
+#include "io/octree_sha256.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 

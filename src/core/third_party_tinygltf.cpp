@@ -1,5 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include <fstream> // tinygltf's writers use it even without a file system
-
-#define TINYGLTF_IMPLEMENTATION
-#include "core/third_party_tinygltf.h"

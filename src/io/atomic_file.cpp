@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "io/atomic_file.h"
+
+#include "zvo/error.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <string>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace zvo
+{
+
+namespace
+{
+
+/// One temporary file for a signal handler to remove. The path is written while the state is Filling and read while it
+/// is Pending.
+struct PendingFile
+{
+    enum State : int
+    {
+        Free,
+        Filling,
+        Pending
+    };
+
+    std::atomic<int> state{Free};
+    std::array<char, PATH_MAX> path{};
+};
+static_assert(std::atomic<int>::is_always_lock_free); // or a signal handler could not use it
+
+constexpr int kPendingFileCapacity =
+    16; // files written at the same time; more are written, but not removed on a signal
+std::array<PendingFile, kPendingFileCapacity> g_pending_files;
+
+/// The slot taken, or -1 when there is none or the path is too long for it.
+int addPendingFile(const std::string& path)
+{
+    if (path.size() >= PATH_MAX)
+    {
+        return -1;
+    }
+    for (int slot = 0; slot < kPendingFileCapacity; ++slot)
+    {
+        PendingFile& file = g_pending_files[slot];
+        int expected = PendingFile::Free;
+        if (file.state.compare_exchange_strong(expected, PendingFile::Filling))
+        {
+            std::memcpy(file.path.data(), path.c_str(), path.size() + 1);
+            file.state = PendingFile::Pending;
+            return slot;
+        }
+    }
+    return -1;
+}
+
+void dropPendingFile(int slot)
+{
+    if (slot >= 0)
+    {
+        g_pending_files[slot].state = PendingFile::Free;
+    }
+}
+
+Error writeError(const std::filesystem::path& target, int code)
+{
+    return {ErrorCode::Output, fmt::format("cannot write {}: {}; choose another place or make room", target.string(),
+                                           std::generic_category().message(code))};
+}
+
+Error existsError(const std::filesystem::path& target)
+{
+    return {ErrorCode::Output, fmt::format("{} exists already; use -f to overwrite it", target.string())};
+}
+
+/// Unlike any other file's of this process, and hidden; short, as the target's name may have the longest length.
+std::filesystem::path temporaryBeside(const std::filesystem::path& target)
+{
+    static std::atomic<unsigned> next{0};
+    return target.parent_path() / fmt::format(".zvo-{}-{}.tmp", ::getpid(), next++);
+}
+
+/// Renames without replacing, where the file system can; otherwise after looking.
+int renameIfAbsent(const char* from, const char* to)
+{
+    if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0)
+    {
+        return 0;
+    }
+    if (errno != EINVAL && errno != ENOSYS)
+    {
+        return errno;
+    }
+    if (::access(to, F_OK) == 0)
+    {
+        return EEXIST;
+    }
+    return ::rename(from, to) == 0 ? 0 : errno;
+}
+
+/// Brings the directory's entry to disk. Not every file system can; the file itself is there already.
+void syncDirectory(const std::filesystem::path& directory)
+{
+    const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor >= 0)
+    {
+        static_cast<void>(::fsync(descriptor));
+        ::close(descriptor);
+    }
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& target, Overwrite overwrite) : m_overwrite(overwrite)
+{
+    struct stat existing = {};
+    const bool exists = ::stat(target.c_str(), &existing) == 0;
+    if (exists && !S_ISREG(existing.st_mode))
+    {
+        m_target = target;
+        m_descriptor = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+        if (m_descriptor < 0)
+        {
+            throw writeError(target, errno);
+        }
+        return;
+    }
+    // Absolute, so that a later change of the working directory does not matter; real, so that a link stays a link.
+    std::error_code failure;
+    m_target = std::filesystem::weakly_canonical(std::filesystem::absolute(target, failure), failure);
+    if (failure)
+    {
+        throw writeError(target, failure.value());
+    }
+    if (exists && overwrite == Overwrite::Refuse)
+    {
+        throw existsError(m_target);
+    }
+    m_temporary = temporaryBeside(m_target);
+    m_pending_slot = addPendingFile(m_temporary.string());
+    constexpr mode_t kReadWriteForAll = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH; // less the umask
+    m_descriptor = ::open(m_temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kReadWriteForAll);
+    if (m_descriptor < 0)
+    {
+        const int code = errno;
+        dropPendingFile(m_pending_slot);
+        throw writeError(m_target, code);
+    }
+    if (exists)
+    {
+        static_cast<void>(::fchmod(m_descriptor, existing.st_mode & ~static_cast<mode_t>(S_IFMT)));
+    }
+}
+
+AtomicFile::~AtomicFile()
+{
+    close();
+    if (!m_temporary.empty())
+    {
+        ::unlink(m_temporary.c_str());
+        dropPendingFile(m_pending_slot);
+    }
+}
+
+void AtomicFile::close()
+{
+    if (m_descriptor >= 0)
+    {
+        ::close(m_descriptor);
+        m_descriptor = -1;
+    }
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes)
+{
+    while (!bytes.empty())
+    {
+        const ssize_t written = ::write(m_descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno != EINTR)
+        {
+            throw writeError(m_target, errno);
+        }
+        bytes = bytes.subspan(written < 0 ? 0 : static_cast<std::size_t>(written));
+    }
+}
+
+void AtomicFile::commit()
+{
+    if (m_temporary.empty())
+    {
+        close();
+        return;
+    }
+    if (::fsync(m_descriptor) != 0)
+    {
+        throw writeError(m_target, errno);
+    }
+    close();
+    const bool replace = m_overwrite == Overwrite::Allow;
+    const int code = replace ? (::rename(m_temporary.c_str(), m_target.c_str()) == 0 ? 0 : errno)
+                             : renameIfAbsent(m_temporary.c_str(), m_target.c_str());
+    if (code != 0)
+    {
+        throw code == EEXIST && !replace ? existsError(m_target) : writeError(m_target, code);
+    }
+    dropPendingFile(m_pending_slot);
+    m_temporary.clear();
+    syncDirectory(m_target.parent_path());
+}
+
+void writeFileAtomically(const std::filesystem::path& target, std::span<const std::byte> bytes, Overwrite overwrite)
+{
+    AtomicFile file(target, overwrite);
+    file.write(bytes);
+    file.commit();
+}
+
+void removePendingFiles() noexcept
+{
+    for (PendingFile& file : g_pending_files)
+    {
+        if (file.state == PendingFile::Pending)
+        {
+            ::unlink(file.path.data());
+        }
+    }
+}
+
+} // namespace zvo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "io/folder_bounds.h"
+
+#include <algorithm>
+#include <system_error>
+
+namespace zvo
+{
+
+bool liesBelow(const std::filesystem::path& folder, const std::filesystem::path& file)
+{
+    std::error_code failure;
+    const std::filesystem::path real_folder = std::filesystem::weakly_canonical(folder, failure);
+    if (failure)
+    {
+        return false;
+    }
+    const std::filesystem::path real_file = std::filesystem::weakly_canonical(file, failure);
+    if (failure)
+    {
+        return false;
+    }
+    return std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end()).first ==
+           real_folder.end();
+}
+
+} // namespace zvo

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "io/glb_write.h"
+
+#include "core/tree_build.h"
+#include "io/srgb.h"
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
+
+constexpr std::uint32_t kColorMask = 0xffffffU;
+constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without attributes
+constexpr std::uint64_t kVerticesOfQuad = 4;
+constexpr std::uint64_t kIndicesOfQuad = 6;
+
+// One side of voxels: axis is what it looks along, upper whether towards higher coordinates. u and v are the next axes.
+struct Side
+{
+    int axis;
+    bool upper;
+
+    [[nodiscard]] int u() const { return (axis + 1) % 3; }
+    [[nodiscard]] int v() const { return (axis + 2) % 3; }
+};
+
+// A rectangle of faces of one colour: in the plane before or behind a layer of cells.
+struct Quad
+{
+    Side side;
+    std::uint32_t layer;
+    std::uint32_t u;
+    std::uint32_t v;
+    std::uint32_t width; // along u
+    std::uint32_t height;
+    std::uint32_t color;
+};
+
+// A face of one voxel, in the order of layers, rows and columns.
+struct Face
+{
+    std::uint64_t key;
+    std::uint32_t color;
+
+    static constexpr std::uint32_t kBits = 20;
+
+    static std::uint64_t keyOf(std::uint32_t layer, std::uint32_t v, std::uint32_t u)
+    {
+        return std::uint64_t{layer} << (2 * kBits) | std::uint64_t{v} << kBits | u;
+    }
+    [[nodiscard]] std::uint32_t layer() const { return static_cast<std::uint32_t>(key >> (2 * kBits)); }
+    [[nodiscard]] std::uint32_t v() const { return static_cast<std::uint32_t>(key >> kBits) & ((1U << kBits) - 1); }
+    [[nodiscard]] std::uint32_t u() const { return static_cast<std::uint32_t>(key) & ((1U << kBits) - 1); }
+};
+
+std::vector<Face> facesOf(const TreeData& tree, const Side& side)
+{
+    std::vector<Face> faces;
+    std::size_t voxel = 0;
+    forEachVoxel(tree,
+                 [&](std::uint64_t code)
+                 {
+                     const glm::ivec3 cell(cellOfCode(code));
+                     glm::ivec3 neighbour = cell;
+                     neighbour[side.axis] += side.upper ? 1 : -1;
+                     if (!hasVoxel(tree, neighbour))
+                     {
+                         const std::uint32_t color =
+                             tree.hasAttributes() ? tree.voxelAttribute(voxel).color & kColorMask : kPlainColor;
+                         faces.push_back({Face::keyOf(static_cast<std::uint32_t>(cell[side.axis]),
+                                                      static_cast<std::uint32_t>(cell[side.v()]),
+                                                      static_cast<std::uint32_t>(cell[side.u()])),
+                                          color});
+                     }
+                     ++voxel;
+                 });
+    std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+    return faces;
+}
+
+// Faces to rows, and rows to rectangles with equal ones of the row before.
+void addQuads(const std::vector<Face>& faces, const Side& side, std::vector<Quad>& quads)
+{
+    std::vector<std::size_t> open;      // quads that end in the row before, by u
+    std::vector<std::size_t> next_open; // in this one
+    std::size_t candidate = 0;          // in open
+    std::uint64_t current = UINT64_MAX; // layer and row
+    for (std::size_t i = 0; i < faces.size();)
+    {
+        const Face& first = faces[i];
+        const std::uint64_t here = first.key >> Face::kBits;
+        if (here != current)
+        {
+            const bool continues = current != UINT64_MAX && here == current + 1 && first.v() != 0;
+            open = continues ? std::move(next_open) : std::vector<std::size_t>();
+            next_open.clear();
+            candidate = 0;
+            current = here;
+        }
+        std::uint32_t width = 1;
+        for (++i; i < faces.size() && faces[i].key == first.key + width && faces[i].color == first.color; ++i)
+        {
+            ++width;
+        }
+        while (candidate < open.size() && quads[open[candidate]].u < first.u())
+        {
+            ++candidate;
+        }
+        const bool grows = candidate < open.size() && quads[open[candidate]].u == first.u() &&
+                           quads[open[candidate]].width == width && quads[open[candidate]].color == first.color;
+        if (grows)
+        {
+            ++quads[open[candidate]].height;
+            next_open.push_back(open[candidate]);
+        }
+        else
+        {
+            next_open.push_back(quads.size());
+            quads.push_back({side, first.layer(), first.u(), first.v(), width, 1, first.color});
+        }
+    }
+}
+
+// Corners against the clock, seen from outside.
+std::array<glm::vec3, kVerticesOfQuad> cornersOf(const Quad& quad)
+{
+    std::array<glm::vec3, kVerticesOfQuad> corners{};
+    constexpr std::array<std::pair<std::uint32_t, std::uint32_t>, kVerticesOfQuad> kSteps = {
+        {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+        const auto [du, dv] = kSteps[quad.side.upper ? i : corners.size() - 1 - i];
+        corners[i][quad.side.axis] = static_cast<float>(quad.layer + (quad.side.upper ? 1 : 0));
+        corners[i][quad.side.u()] = static_cast<float>(quad.u + du * quad.width);
+        corners[i][quad.side.v()] = static_cast<float>(quad.v + dv * quad.height);
+    }
+    return corners;
+}
+
+// Linear 16-bit fractions, and an alpha of 1.
+std::array<std::uint16_t, 4> linearColor(std::uint32_t color)
+{
+    constexpr double kOne = 65535.0;
+    std::array<std::uint16_t, 4> linear{};
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+        const double encoded = (color >> (8 * channel) & 255U) / 255.0;
+        linear[channel] = static_cast<std::uint16_t>(std::lround(srgbToLinear(encoded) * kOne));
+    }
+    linear[3] = UINT16_MAX;
+    return linear;
+}
+
+// Hands on what was collected, in pieces.
+class Pieces
+{
+public:
+    explicit Pieces(const std::function<void(std::span<const std::byte>)>& write) : m_write(write) {}
+
+    template <typename T> void add(const T& value)
+    {
+        const auto bytes = std::as_bytes(std::span(&value, 1));
+        m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
+        if (m_bytes.size() >= kPieceBytes)
+        {
+            flush();
+        }
+    }
+
+    void addText(const std::string& text)
+    {
+        const auto bytes = std::as_bytes(std::span(text));
+        m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
+    }
+
+    void flush()
+    {
+        m_write(m_bytes);
+        m_bytes.clear();
+    }
+
+private:
+    static constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+
+    const std::function<void(std::span<const std::byte>)>& m_write;
+    std::vector<std::byte> m_bytes;
+};
+
+std::string documentOf(const TreeData& tree, std::uint64_t quad_count, const CellBox& box)
+{
+    const std::uint64_t vertex_count = quad_count * kVerticesOfQuad;
+    const std::uint64_t index_count = quad_count * kIndicesOfQuad;
+    const std::uint64_t position_bytes = vertex_count * sizeof(glm::vec3);
+    const std::uint64_t color_bytes = vertex_count * 4 * sizeof(std::uint16_t);
+    const std::uint64_t index_bytes = index_count * sizeof(std::uint32_t);
+    const Grid& grid = tree.grid;
+    std::string json = R"({"asset":{"version":"2.0","generator":"zvo"},"scene":0,"scenes":[{"nodes":[0]}],)";
+    json += fmt::format(R"("nodes":[{{"name":"voxels","translation":[{},{},{}],"scale":[{},{},{}]{}}}])", grid.origin.x,
+                        grid.origin.y, grid.origin.z, grid.voxel_size, grid.voxel_size, grid.voxel_size,
+                        quad_count == 0 ? "" : R"(,"mesh":0)");
+    if (quad_count != 0)
+    {
+        json += R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"indices":2,"material":0}]}],)"
+                R"("materials":[{"pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":1}}],)";
+        json += fmt::format(
+            R"("accessors":[{{"bufferView":0,"componentType":5126,"type":"VEC3","count":{},"min":[{},{},{}],)"
+            R"("max":[{},{},{}]}},{{"bufferView":1,"componentType":5123,"normalized":true,"type":"VEC4","count":{}}},)"
+            R"({{"bufferView":2,"componentType":5125,"type":"SCALAR","count":{}}}],)",
+            vertex_count, box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z, vertex_count, index_count);
+        json += fmt::format(R"("bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":{},"target":34962}},)"
+                            R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":34962}},)"
+                            R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":34963}}],)",
+                            position_bytes, position_bytes, color_bytes, position_bytes + color_bytes, index_bytes);
+        json += fmt::format(R"("buffers":[{{"byteLength":{}}}])", position_bytes + color_bytes + index_bytes);
+    }
+    json += "}";
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    return json;
+}
+
+} // namespace
+
+void writeGlb(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+{
+    std::vector<Quad> quads;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        for (const bool upper : {false, true})
+        {
+            const Side side = {axis, upper};
+            addQuads(facesOf(tree, side), side, quads);
+        }
+    }
+    constexpr std::uint64_t kQuadBytes =
+        kVerticesOfQuad * (sizeof(glm::vec3) + 4 * sizeof(std::uint16_t)) + kIndicesOfQuad * sizeof(std::uint32_t);
+    const std::uint64_t binary_bytes = quads.size() * kQuadBytes;
+    const std::string json = documentOf(tree, quads.size(), voxelBox(tree).value_or(CellBox{}));
+    const std::uint64_t file_bytes = 12 + 8 + json.size() + (quads.empty() ? 0 : 8 + binary_bytes);
+    if (file_bytes > UINT32_MAX)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} rectangles make {} bytes, more than a .glb file can hold "
+                                                  "(4 GiB); take a lower resolution",
+                                                  quads.size(), file_bytes));
+    }
+    Pieces pieces(write);
+    pieces.addText("glTF");
+    pieces.add(std::uint32_t{2});
+    pieces.add(static_cast<std::uint32_t>(file_bytes));
+    pieces.add(static_cast<std::uint32_t>(json.size()));
+    pieces.addText("JSON");
+    pieces.addText(json);
+    if (!quads.empty())
+    {
+        pieces.add(static_cast<std::uint32_t>(binary_bytes));
+        pieces.addText(std::string("BIN\0", 4));
+        for (const Quad& quad : quads)
+        {
+            pieces.add(cornersOf(quad));
+        }
+        for (const Quad& quad : quads)
+        {
+            const std::array<std::uint16_t, 4> color = linearColor(quad.color);
+            pieces.add(std::array{color, color, color, color});
+        }
+        for (std::uint32_t i = 0; i < quads.size(); ++i)
+        {
+            const std::uint32_t first = i * kVerticesOfQuad;
+            pieces.add(
+                std::array<std::uint32_t, kIndicesOfQuad>{first, first + 1, first + 2, first, first + 2, first + 3});
+        }
+    }
+    pieces.flush();
+}
+
+} // namespace zvo

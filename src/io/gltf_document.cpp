@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_document.h"
+
+#include "core/input_error.h"
+#include "core/read_file.h"
+#include "core/scene_size.h"
+#include "io/folder_bounds.h"
+#include "io/gltf_container.h"
+#include "io/gltf_meshopt.h"
+#include "io/gltf_schema.h"
+#include "io/gltf_uri.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+using nlohmann::json;
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::uint64_t kUnpackedFreeBytes = std::uint64_t{1} << 30U;
+constexpr std::uint64_t kUnpackedBytesPerByte = 128; // twice what a vertex codec reaches on equal vertices
+
+/// The parts of the document that tinygltf sees. Buffers and images, whose sizes and files it does not check well
+/// enough, are read here, and animations, of which it refuses some that may be there; extras are not needed.
+constexpr std::array kModelParts = {
+    "asset",     "extensionsUsed", "extensionsRequired", "scene",       "scenes",   "nodes",  "meshes",
+    "accessors", "materials",      "textures",           "bufferViews", "samplers", "cameras"};
+
+/// Extensions whose effect is loaded.
+constexpr std::array<std::string_view, 7> kSupportedExtensions = {"EXT_meshopt_compression",
+                                                                  "EXT_texture_webp",
+                                                                  "KHR_draco_mesh_compression",
+                                                                  "KHR_materials_emissive_strength",
+                                                                  "KHR_materials_pbrSpecularGlossiness",
+                                                                  "KHR_mesh_quantization",
+                                                                  "KHR_texture_transform"};
+
+/// Extensions without which the same surfaces have the same base colour and emission: how they scatter light, lights
+/// beside the surfaces, alternatives that nobody chose, data about the file.
+constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
+    "KHR_animation_pointer",      "KHR_lights_punctual",      "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",    "KHR_materials_dispersion", "KHR_materials_ior",
+    "KHR_materials_iridescence",  "KHR_materials_sheen",      "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",      "KHR_materials_variants",
+    "KHR_materials_volume",       "KHR_xmp_json_ld"};
+
+template <typename List, typename Item> bool contains(const List& list, const Item& item)
+{
+    return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+void checkVersion(const json& document, const std::filesystem::path& path)
+{
+    const json* asset = document.is_object() && document.contains("asset") ? &document["asset"] : nullptr;
+    if (asset == nullptr || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
+    {
+        throw gltfError(path, "not a glTF file: asset.version is missing; check that it is glTF 2.0 (.gltf or .glb)");
+    }
+    const auto minimum = asset->find("minVersion");
+    const bool has_minimum = minimum != asset->end() && minimum->is_string();
+    const auto version = (has_minimum ? *minimum : (*asset)["version"]).get<std::string>();
+    if (has_minimum ? version != "2.0" : !version.starts_with("2."))
+    {
+        throw gltfError(path, fmt::format("glTF version {} is not supported; export it as glTF 2.0", version));
+    }
+}
+
+void checkExtensions(const json& document, const std::filesystem::path& path)
+{
+    for (const json& item : gltfItems(document, "extensionsRequired"))
+    {
+        const auto name = item.get<std::string>();
+        if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name))
+        {
+            throw gltfError(path,
+                            fmt::format("requires the extension {}, which is not supported; export it without", name));
+        }
+    }
+}
+
+/// Takes the indices out of all primitives, in their order: tinygltf refuses a document with indices whose accessor has
+/// no buffer view, as sparse and packed ones may.
+std::vector<int> takeIndices(json& document)
+{
+    std::vector<int> taken;
+    json none = json::array();
+    for (json& mesh : document.contains("meshes") ? document["meshes"] : none)
+    {
+        for (json& primitive : mesh["primitives"])
+        {
+            taken.push_back(primitive.value("indices", -1));
+            primitive.erase("indices");
+        }
+    }
+    return taken;
+}
+
+/// Puts them back. False where tinygltf has left out a primitive.
+bool putIndices(tinygltf::Model& model, const std::vector<int>& taken)
+{
+    std::size_t next = 0;
+    for (tinygltf::Mesh& mesh : model.meshes)
+    {
+        for (tinygltf::Primitive& primitive : mesh.primitives)
+        {
+            primitive.indices = next < taken.size() ? taken[next] : -1;
+            ++next;
+        }
+    }
+    return next == taken.size();
+}
+
+tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
+{
+    const std::vector<int> indices = takeIndices(document);
+    json parts = json::object();
+    for (const char* part : kModelParts)
+    {
+        if (document.contains(part))
+        {
+            parts[part] = std::move(document[part]);
+        }
+    }
+    const std::string text = parts.dump();
+    if (text.size() > std::numeric_limits<unsigned int>::max())
+    {
+        throw gltfError(path, "more than 4 GiB of JSON; export it as smaller files");
+    }
+    tinygltf::Model model;
+    std::string failure;
+    std::string warning;
+    const bool parsed = tinygltf::TinyGLTF().LoadASCIIFromString(&model, &failure, &warning, text.c_str(),
+                                                                 static_cast<unsigned int>(text.size()), "");
+    if (!parsed || !failure.empty() || !putIndices(model, indices))
+    {
+        throw gltfError(path, fmt::format("{}; {}", failure.empty() ? "not valid glTF" : failure, kExportAgain));
+    }
+    return model;
+}
+
+void loadBuffers(GltfDocument& document, const json& root, Bytes bin)
+{
+    std::map<std::string, Bytes> files; // by path: many buffers may lie in one file
+    const json& buffers = gltfItems(root, "buffers");
+    for (std::size_t i = 0; i < buffers.size(); ++i)
+    {
+        if (isMeshoptFallback(root, i))
+        {
+            document.buffers.emplace_back();
+            continue;
+        }
+        const std::string where = fmt::format("buffers[{}]", i);
+        const auto wanted = buffers[i]["byteLength"].get<std::uint64_t>();
+        const auto uri = buffers[i].find("uri");
+        Bytes bytes = bin;
+        if (uri != buffers[i].end())
+        {
+            const auto text = uri->get<std::string>();
+            const std::string key = isDataUri(text) ? text : std::filesystem::path(text).lexically_normal().string();
+            const auto [file, is_new] = files.emplace(key, Bytes());
+            if (is_new)
+            {
+                document.storage.push_back(document.readUri(text, where + ".uri"));
+                file->second = document.storage.back();
+            }
+            bytes = file->second;
+        }
+        else if (i > 0 || bin.empty())
+        {
+            throw document.error(
+                fmt::format("{} has neither a URI nor a binary chunk in the file; {}", where, kExportAgain));
+        }
+        if (bytes.size() < wanted)
+        {
+            throw document.error(
+                fmt::format("{} needs {} bytes, but its data has {}; {}", where, wanted, bytes.size(), kCutShort));
+        }
+        document.buffers.push_back(bytes.first(wanted));
+    }
+}
+
+std::vector<GltfImageSource> listImages(const json& images)
+{
+    std::vector<GltfImageSource> sources;
+    for (const json& image : images)
+    {
+        sources.push_back(
+            {image.value("name", std::string()), image.value("uri", std::string()), image.value("bufferView", -1)});
+    }
+    return sources;
+}
+
+} // namespace
+
+Error gltfError(const std::filesystem::path& path, std::string_view text)
+{
+    return inputError(path, text);
+}
+
+Bytes GltfDocument::bufferView(int index) const
+{
+    const auto unpacked = unpacked_views.find(index);
+    if (unpacked != unpacked_views.end())
+    {
+        return unpacked->second;
+    }
+    const tinygltf::BufferView& view = model.bufferViews[index];
+    const Bytes buffer = buffers[view.buffer];
+    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
+    {
+        throw error(fmt::format("bufferViews[{}] takes {} bytes at {} of buffers[{}], which has {}; {}", index,
+                                view.byteLength, view.byteOffset, view.buffer, buffer.size(), kExportAgain));
+    }
+    return buffer.subspan(view.byteOffset, view.byteLength);
+}
+
+void GltfDocument::countUnpacked(std::uint64_t bytes, const std::string& where) const
+{
+    std::uint64_t limit = kUnpackedFreeBytes;
+    for (const Bytes buffer : buffers)
+    {
+        limit += std::uint64_t{buffer.size()} * kUnpackedBytesPerByte;
+    }
+    limit = std::min(limit, sceneBytesMax());
+    if (bytes > limit - std::min(unpacked_bytes, limit))
+    {
+        throw error(fmt::format("{} needs {} bytes and makes the file unpack to more than {}, out of proportion to its "
+                                "size or to this machine; export it again, without compression if it is right",
+                                where, bytes, limit));
+    }
+    unpacked_bytes += bytes;
+}
+
+std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const std::string& where) const
+{
+    if (isDataUri(uri))
+    {
+        if (auto bytes = decodeDataUri(uri))
+        {
+            return *std::move(bytes);
+        }
+        throw error(fmt::format("{} is not a valid data URI; {}", where, kExportAgain));
+    }
+    if (isRemoteUri(uri))
+    {
+        throw error(fmt::format("{} is {}: only files beside the document and data URIs are read; download it and name "
+                                "the file",
+                                where, uri));
+    }
+    const std::string decoded = decodePercent(uri);
+    if (decoded.find('\0') != std::string::npos)
+    {
+        throw error(fmt::format("{} has a zero byte in it; {}", where, kExportAgain));
+    }
+    // Some exporters write names as they are, without percent-encoding.
+    std::error_code unreadable;
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    const bool as_written =
+        !std::filesystem::exists(folder / decoded, unreadable) && std::filesystem::exists(folder / uri, unreadable);
+    const std::filesystem::path file = folder / (as_written ? uri : decoded);
+    if (!liesBelow(folder, file))
+    {
+        throw error(fmt::format("{} is {}, which leaves the document's folder; only files in it and below are read; "
+                                "put the file there and name it",
+                                where, uri));
+    }
+    if (std::filesystem::is_fifo(file, unreadable) || std::filesystem::is_socket(file, unreadable))
+    {
+        throw error(fmt::format("{} is {}, which is not a file; name one", where, uri));
+    }
+    try
+    {
+        return readFile(file);
+    }
+    catch (const Error& failure)
+    {
+        throw error(fmt::format("{}: {}", where, failure.what()));
+    }
+}
+
+bool GltfDocument::uses(std::string_view extension) const
+{
+    return contains(model.extensionsUsed, extension) || contains(model.extensionsRequired, extension);
+}
+
+void GltfWarnings::add(const std::string& kind, const std::string& where)
+{
+    const auto [entry, is_new] = m_by_kind.emplace(kind, m_entries.size());
+    if (is_new)
+    {
+        m_entries.push_back({kind, where, 0});
+    }
+    ++m_entries[entry->second].count;
+}
+
+std::vector<std::string> GltfWarnings::lines(const std::filesystem::path& path) const
+{
+    std::vector<std::string> lines;
+    for (const Entry& entry : m_entries)
+    {
+        const std::string more = entry.count > 1 ? fmt::format(" and {} more", entry.count - 1) : "";
+        lines.emplace_back(gltfError(path, fmt::format("{} ({}{})", entry.kind, entry.where, more)).what());
+    }
+    return lines;
+}
+
+GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content)
+{
+    GltfDocument document;
+    document.path = path;
+    document.storage.push_back(std::move(content));
+    const GltfContainer container = openGltfContainer(document.storage.front(), path);
+    json root = parseGltfJson(container.json, path);
+    checkVersion(root, path);
+    checkGltfSchema(root, path);
+    checkExtensions(root, path);
+    loadBuffers(document, root, container.bin);
+    unpackMeshoptViews(root, document);
+    document.images = listImages(gltfItems(root, "images"));
+    document.skins = listGltfSkins(root);
+    document.animations = listGltfAnimations(root, path);
+    document.model = parseModel(root, path);
+    return document;
+}
+
+} // namespace zvo

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// What the glTF loader's parts share; gltf_loader.h is its face.
+#pragma once
+
+#include "core/input_error.h"
+#include "io/gltf_rig_source.h"
+#include "io/third_party_tinygltf.h"
+#include "zvo/error.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zvo
+{
+
+/// Error{Input}: path and text, on one line (inputError).
+Error gltfError(const std::filesystem::path& path, std::string_view text);
+
+/// An image as the document names it: in a file or data URI, or in a buffer view.
+struct GltfImageSource
+{
+    std::string name;
+    std::string uri;
+    int buffer_view = -1;
+};
+
+/// A parsed glTF 2.0 file: types and indices are checked, contents of accessors and images are not yet.
+struct GltfDocument
+{
+    std::filesystem::path path;
+    tinygltf::Model model; // without buffers, images, skins and animations, which are below
+    std::vector<GltfImageSource> images;
+    std::vector<GltfSkinSource> skins;
+    std::vector<GltfAnimationSource> animations;
+    std::vector<std::span<const std::uint8_t>> buffers;      // [buffers], byteLength bytes each
+    std::vector<std::vector<std::uint8_t>> storage;          // what the buffers lie in
+    std::map<int, std::vector<std::uint8_t>> unpacked_views; // what packed buffer views hold
+    mutable std::uint64_t unpacked_bytes = 0;                // countUnpacked() so far
+
+    /// The bytes of a buffer view, unpacked. Throws Error{Input} where it leaves its buffer.
+    [[nodiscard]] std::span<const std::uint8_t> bufferView(int index) const;
+
+    /// The bytes behind a URI: data, or a file in the document's folder or below. where: the property, for the
+    /// Error{Input}.
+    [[nodiscard]] std::vector<std::uint8_t> readUri(const std::string& uri, const std::string& where) const;
+
+    /// Counts bytes that are made out of fewer in the file, on the way to the scene: what decoders allocate, unpacked
+    /// views, zeros that the file leaves out. checkGltfSize() bounds the scene by the counts that accessors announce;
+    /// these come on top, and packed data announces counts of its own. Throws Error{Input} where all of them together
+    /// are out of proportion to the file, or more than sceneBytesMax().
+    void countUnpacked(std::uint64_t bytes, const std::string& where) const;
+
+    [[nodiscard]] Error error(std::string_view text) const { return gltfError(path, text); }
+    [[nodiscard]] bool uses(std::string_view extension) const;
+};
+
+/// What is left out of a scene, each kind once with the first place and the number of places.
+class GltfWarnings
+{
+public:
+    void add(const std::string& kind, const std::string& where);
+
+    /// One line for each kind, in the order in which they came up, beginning with the path.
+    [[nodiscard]] std::vector<std::string> lines(const std::filesystem::path& path) const;
+
+private:
+    struct Entry
+    {
+        std::string kind;
+        std::string where;
+        std::size_t count = 0;
+    };
+
+    std::vector<Entry> m_entries;
+    std::map<std::string, std::size_t> m_by_kind; // index into m_entries
+};
+
+/// Parses a .gltf or .glb file, told apart by their content, and reads all its buffers. content: that of path, beside
+/// which other files lie. Throws Error{Input}.
+GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content);
+
+} // namespace zvo

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+#include "io/gltf_document.h"
+#include "io/gltf_materials.h"
+
+#include <optional>
+
+namespace zvo
+{
+
+/// The triangles of meshes[mesh].primitives[primitive], without its material: lists as they are; strips and fans
+/// unrolled with their winding, less the triangles that use a vertex twice, which only join parts. Nothing, with a
+/// warning, for points, lines and what has no positions. Throws Error{Input} for contents that break the specification.
+std::optional<Primitive> loadGltfPrimitive(const GltfDocument& document, int mesh, int primitive,
+                                           const std::optional<GltfUvSource>& uvs, GltfWarnings& warnings);
+
+} // namespace zvo

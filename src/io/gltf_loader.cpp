@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_loader.h"
+
+#include "core/read_file.h"
+#include "io/gltf_document.h"
+#include "io/gltf_geometry.h"
+#include "io/gltf_materials.h"
+#include "io/gltf_nodes.h"
+#include "io/gltf_rig.h"
+#include "io/gltf_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+class SceneLoader
+{
+public:
+    explicit SceneLoader(const GltfDocument& document) : m_document(document) {}
+
+    Scene load()
+    {
+        const std::vector<GltfPlacedNode> nodes = placeGltfNodes(m_document);
+        checkGltfSize(m_document, nodes);
+        GltfRig rig(m_document, nodes, m_scene, m_warnings);
+        for (std::uint32_t i = 0; i < nodes.size(); ++i)
+        {
+            const GltfPlacedNode& placed = nodes[i];
+            const tinygltf::Node& node = m_document.model.nodes[placed.node];
+            const std::string where = fmt::format("nodes[{}]", placed.node);
+            if (node.mesh >= 0)
+            {
+                Instance instance;
+                instance.transform = toSinglePrecision(m_document, placed);
+                instance.node = i;
+                instance.skin = node.skin >= 0 ? rig.skin(node.skin) : kNone;
+                addInstances(node.mesh, instance, where);
+            }
+            if (node.camera >= 0)
+            {
+                addCamera(node, toSinglePrecision(m_document, placed));
+            }
+            if (node.extensions.contains("EXT_mesh_gpu_instancing"))
+            {
+                m_warnings.add("instances of EXT_mesh_gpu_instancing left out, the mesh is there once", where);
+            }
+        }
+        rig.addAnimations();
+        m_scene.warnings = m_warnings.lines(m_document.path);
+        m_scene.rest_warnings = m_rest_warnings.lines(m_document.path);
+        return std::move(m_scene);
+    }
+
+private:
+    /// Instances of all primitives of mesh. common: what they share; where: the node.
+    void addInstances(int mesh, const Instance& common, const std::string& where)
+    {
+        auto known = m_mesh_primitives.find(mesh);
+        if (known == m_mesh_primitives.end())
+        {
+            known = m_mesh_primitives.emplace(mesh, addPrimitives(mesh)).first;
+        }
+        const std::vector<float>& weights = m_scene.nodes[common.node].morph_weights;
+        const bool has_weights =
+            std::any_of(weights.begin(), weights.end(), [](float weight) { return weight != 0.0F; });
+        bool is_skinned = false;
+        bool is_morphed = false;
+        for (const std::uint32_t index : known->second)
+        {
+            Instance instance = common;
+            instance.primitive = index;
+            instance.skin = fits(common.skin, index, where) ? common.skin : kNone;
+            is_skinned = is_skinned || instance.skin != kNone;
+            is_morphed = is_morphed || (has_weights && !m_scene.primitives[index].morph_targets.empty());
+            m_scene.instances.push_back(instance);
+        }
+        if (is_skinned)
+        {
+            m_rest_warnings.add("skins are not applied, the mesh stands as it was modelled", where);
+        }
+        if (is_morphed)
+        {
+            m_rest_warnings.add("morph targets are not applied, the mesh stands as it was modelled", where);
+        }
+    }
+
+    /// Whether a primitive of the scene can hang on a skin.
+    bool fits(std::uint32_t skin, std::uint32_t primitive, const std::string& where)
+    {
+        if (skin == kNone)
+        {
+            return false;
+        }
+        if (m_joint_counts[primitive] == 0)
+        {
+            m_warnings.add("mesh without joints is not moved by its skin", where);
+            return false;
+        }
+        if (m_joint_counts[primitive] > m_scene.skins[skin].joints.size())
+        {
+            m_warnings.add("mesh whose vertices name joints that its skin does not have is not moved by it", where);
+            return false;
+        }
+        return true;
+    }
+
+    /// Indices into Scene::primitives.
+    std::vector<std::uint32_t> addPrimitives(int mesh)
+    {
+        const std::vector<tinygltf::Primitive>& sources = m_document.model.meshes[mesh].primitives;
+        std::vector<std::uint32_t> added;
+        for (int i = 0; i < static_cast<int>(sources.size()); ++i)
+        {
+            const bool has_triangles = sources[i].mode >= TINYGLTF_MODE_TRIANGLES;
+            const GltfMaterial material = has_triangles ? m_materials.get(sources[i].material) : GltfMaterial{};
+            std::optional<Primitive> primitive = loadGltfPrimitive(m_document, mesh, i, material.uvs, m_warnings);
+            if (primitive)
+            {
+                primitive->material = material.index;
+                m_joint_counts.push_back(jointCount(*primitive));
+                added.push_back(static_cast<std::uint32_t>(m_scene.primitives.size()));
+                m_scene.primitives.push_back(*std::move(primitive));
+            }
+        }
+        return added;
+    }
+
+    /// The joints that a skin must have: one more than the largest index.
+    static std::size_t jointCount(const Primitive& primitive)
+    {
+        std::size_t count = 0;
+        for (const glm::u16vec4& joints : primitive.joints)
+        {
+            count = std::max(count, std::size_t{1} + std::max({joints.x, joints.y, joints.z, joints.w}));
+        }
+        return count;
+    }
+
+    void addCamera(const tinygltf::Node& node, const glm::mat4& to_world)
+    {
+        const tinygltf::Camera& source = m_document.model.cameras[node.camera];
+        const std::string where = fmt::format("cameras[{}]", node.camera);
+        Camera camera;
+        camera.name = source.name.empty() ? node.name : source.name;
+        camera.transform = to_world;
+        camera.orthographic = source.type == "orthographic";
+        if (camera.orthographic)
+        {
+            // A negative magnification mirrors the picture, which no exporter means.
+            camera.half_height = static_cast<float>(std::abs(source.orthographic.ymag));
+        }
+        else
+        {
+            camera.vertical_fov = static_cast<float>(source.perspective.yfov);
+        }
+        const bool valid = camera.orthographic
+                               ? camera.half_height > 0.0F && std::isfinite(camera.half_height)
+                               : camera.vertical_fov > 0.0F && camera.vertical_fov < std::numbers::pi_v<float>;
+        if (!valid)
+        {
+            m_warnings.add("camera left out, as its field of view is not possible", where);
+            return;
+        }
+        m_scene.cameras.push_back(camera);
+    }
+
+    const GltfDocument& m_document;
+    Scene m_scene;
+    GltfWarnings m_warnings;
+    GltfWarnings m_rest_warnings;
+    GltfMaterials m_materials{m_document, m_scene, m_warnings};
+    std::map<int, std::vector<std::uint32_t>> m_mesh_primitives;
+    std::vector<std::size_t> m_joint_counts; // [primitives of the scene]
+};
+
+} // namespace
+
+Scene loadGltf(const std::filesystem::path& path)
+{
+    return loadGltf(path, readFile(path));
+}
+
+Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content)
+{
+    const GltfDocument document = openGltf(path, std::move(content));
+    return SceneLoader(document).load();
+}
+
+} // namespace zvo

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+#include "io/gltf_document.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace zvo
+{
+
+/// Which texture coordinates a material takes, and the affine map that KHR_texture_transform sends them through:
+/// u * along_u + v * along_v + offset.
+struct GltfUvSource
+{
+    int set = 0; // TEXCOORD_<set>
+    glm::dvec2 along_u{1.0, 0.0};
+    glm::dvec2 along_v{0.0, 1.0};
+    glm::dvec2 offset{0.0};
+
+    bool operator==(const GltfUvSource&) const = default;
+};
+
+/// A material in the scene.
+struct GltfMaterial
+{
+    std::uint32_t index = 0;         // into Scene::materials
+    std::optional<GltfUvSource> uvs; // where it has a texture
+};
+
+/// Puts a document's materials into a scene when they are first asked for, with their textures and decoded images. All
+/// must outlive it.
+class GltfMaterials
+{
+public:
+    GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings);
+
+    /// The material of that index in the document; -1: the default one. Throws Error{Input}.
+    const GltfMaterial& get(int material);
+
+private:
+    GltfMaterial load(int material);
+    std::optional<std::uint32_t> texture(int texture, const std::string& where);
+    std::uint32_t image(int image);
+
+    const GltfDocument& m_document;
+    Scene& m_scene;
+    GltfWarnings& m_warnings;
+    std::map<int, GltfMaterial> m_materials;
+    std::map<int, std::uint32_t> m_textures; // indices into Scene::textures
+    std::map<int, std::uint32_t> m_images;   // indices into Scene::images
+    std::uint64_t m_image_bytes_left;        // of images that are not decoded yet
+};
+
+} // namespace zvo

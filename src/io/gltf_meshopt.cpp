@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_meshopt.h"
+
+#include "io/gltf_schema.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <meshoptimizer.h>
+#include <nlohmann/json.hpp>
+
+namespace zvo
+{
+
+namespace
+{
+
+using nlohmann::json;
+
+constexpr std::uint64_t kVertexStrideMax = 256;
+// The vertex codec spends at least two bits on 16 equal bytes: no data unpacks to more. The index codecs check that
+// they have at least a byte a triangle or index themselves, before they write.
+constexpr std::uint64_t kVertexBytesPerByteMax = 64;
+
+struct PackedView
+{
+    std::span<const std::uint8_t> data;
+    std::uint64_t count = 0;
+    std::uint64_t stride_bytes = 0;
+    std::string mode;
+    std::string filter;
+    std::string where; // "bufferViews[2].extensions.EXT_meshopt_compression"
+};
+
+/// The extension of a view or buffer, null where it has none.
+const json* extensionOf(const json& item)
+{
+    const auto extensions = item.find("extensions");
+    if (extensions == item.end())
+    {
+        return nullptr;
+    }
+    const auto extension = extensions->find(kMeshoptExtension);
+    return extension != extensions->end() ? &*extension : nullptr;
+}
+
+void require(bool condition, const GltfDocument& document, const PackedView& view, std::string_view problem)
+{
+    if (!condition)
+    {
+        throw document.error(fmt::format("{} {}; {}", view.where, problem, kExportAgain));
+    }
+}
+
+/// What the extension asks of sizes, so that the decoders can rely on it.
+void checkSizes(const GltfDocument& document, const PackedView& view, std::uint64_t unpacked_bytes)
+{
+    const std::uint64_t stride = view.stride_bytes;
+    require(view.count <= std::numeric_limits<std::uint32_t>::max() && stride > 0 && stride <= kVertexStrideMax,
+            document, view, fmt::format("has {} elements of {} bytes, which no view has", view.count, stride));
+    require(unpacked_bytes == view.count * stride, document, view,
+            fmt::format("has {} elements of {} bytes, its view {} bytes", view.count, stride, unpacked_bytes));
+    if (view.mode == "ATTRIBUTES")
+    {
+        require(stride % 4 == 0, document, view, fmt::format("has byteStride {}, not a multiple of 4", stride));
+        require(unpacked_bytes / kVertexBytesPerByteMax <= view.data.size(), document, view,
+                fmt::format("has {} bytes for {}, too few for any data", view.data.size(), unpacked_bytes));
+    }
+    else
+    {
+        require(view.mode == "TRIANGLES" || view.mode == "INDICES", document, view,
+                fmt::format("has the mode {}, not ATTRIBUTES, TRIANGLES or INDICES", view.mode));
+        require(stride == 2 || stride == 4, document, view, fmt::format("has indices of {} bytes", stride));
+        require(view.mode == "INDICES" || view.count % 3 == 0, document, view,
+                fmt::format("has {} indices, not whole triangles", view.count));
+        require(view.count / 3 <= view.data.size(), document, view,
+                fmt::format("has {} bytes for {} indices, too few for any data", view.data.size(), view.count));
+    }
+    const bool filter_fits =
+        view.filter == "NONE" ||
+        (view.mode == "ATTRIBUTES" && ((view.filter == "OCTAHEDRAL" && (stride == 4 || stride == 8)) ||
+                                       (view.filter == "QUATERNION" && stride == 8) || view.filter == "EXPONENTIAL"));
+    require(filter_fits, document, view,
+            fmt::format("has the filter {}, which does not go with {} of {} bytes", view.filter, view.mode, stride));
+}
+
+/// False where data is malformed.
+bool decode(const PackedView& view, std::vector<std::uint8_t>& unpacked)
+{
+    const auto count = static_cast<std::size_t>(view.count);
+    const auto stride = static_cast<std::size_t>(view.stride_bytes);
+    if (view.mode == "TRIANGLES")
+    {
+        return meshopt_decodeIndexBuffer(unpacked.data(), count, stride, view.data.data(), view.data.size()) == 0;
+    }
+    if (view.mode == "INDICES")
+    {
+        return meshopt_decodeIndexSequence(unpacked.data(), count, stride, view.data.data(), view.data.size()) == 0;
+    }
+    if (meshopt_decodeVertexBuffer(unpacked.data(), count, stride, view.data.data(), view.data.size()) != 0)
+    {
+        return false;
+    }
+    if (view.filter == "OCTAHEDRAL")
+    {
+        meshopt_decodeFilterOct(unpacked.data(), count, stride);
+    }
+    else if (view.filter == "QUATERNION")
+    {
+        meshopt_decodeFilterQuat(unpacked.data(), count, stride);
+    }
+    else if (view.filter == "EXPONENTIAL")
+    {
+        meshopt_decodeFilterExp(unpacked.data(), count, stride);
+    }
+    return true;
+}
+
+std::vector<std::uint8_t> unpack(const json& source, const json& extension, const std::string& where,
+                                 const GltfDocument& document)
+{
+    PackedView view;
+    view.where = where;
+    view.count = extension["count"].get<std::uint64_t>();
+    view.stride_bytes = extension["byteStride"].get<std::uint64_t>();
+    view.mode = extension["mode"].get<std::string>();
+    view.filter = extension.value("filter", std::string("NONE"));
+    const auto buffer_index = extension["buffer"].get<std::size_t>();
+    const auto offset = extension.value("byteOffset", std::uint64_t{0});
+    const auto length = extension["byteLength"].get<std::uint64_t>();
+    const std::span<const std::uint8_t> buffer = document.buffers[buffer_index];
+    require(
+        offset <= buffer.size() && length <= buffer.size() - offset, document, view,
+        fmt::format("takes {} bytes at {} of buffers[{}], which has {}", length, offset, buffer_index, buffer.size()));
+    view.data = buffer.subspan(offset, length);
+    const auto unpacked_bytes = source["byteLength"].get<std::uint64_t>();
+    checkSizes(document, view, unpacked_bytes);
+    document.countUnpacked(unpacked_bytes, where);
+    std::vector<std::uint8_t> unpacked(unpacked_bytes);
+    require(decode(view, unpacked), document, view, "does not decode");
+    return unpacked;
+}
+
+} // namespace
+
+bool isMeshoptFallback(const json& root, std::size_t buffer)
+{
+    const json& source = gltfItems(root, "buffers")[buffer];
+    const json* extension = extensionOf(source);
+    if (extension == nullptr || !extension->value("fallback", false))
+    {
+        return false;
+    }
+    const json& views = gltfItems(root, "bufferViews");
+    return !source.contains("uri") ||
+           std::all_of(views.begin(), views.end(),
+                       [buffer](const json& view)
+                       { return extensionOf(view) != nullptr || view["buffer"].get<std::size_t>() != buffer; });
+}
+
+void unpackMeshoptViews(const json& root, GltfDocument& document)
+{
+    const json& views = gltfItems(root, "bufferViews");
+    for (std::size_t i = 0; i < views.size(); ++i)
+    {
+        if (const json* extension = extensionOf(views[i]))
+        {
+            const std::string where = fmt::format("bufferViews[{}].extensions.{}", i, kMeshoptExtension);
+            document.unpacked_views.emplace(static_cast<int>(i), unpack(views[i], *extension, where, document));
+        }
+    }
+}
+
+} // namespace zvo

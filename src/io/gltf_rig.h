@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene.h"
+#include "io/gltf_document.h"
+#include "io/gltf_nodes.h"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// Morph targets of a mesh: the most that one of its primitives has.
+std::size_t gltfTargetCount(const tinygltf::Mesh& mesh);
+
+/// Puts the placed nodes of a document into a scene, Scene::nodes[i] being nodes[i], and what moves them: skins when
+/// they are first asked for, and animations. What cannot be used is left out with a warning. All must outlive it.
+class GltfRig
+{
+public:
+    GltfRig(const GltfDocument& document, std::span<const GltfPlacedNode> nodes, Scene& scene, GltfWarnings& warnings);
+
+    /// Index into Scene::skins of the document's skin; kNone where it cannot be used. Throws Error{Input}.
+    std::uint32_t skin(int skin);
+
+    /// All channels that move nodes of the scene. Throws Error{Input} for data that leaves its buffer.
+    void addAnimations();
+
+private:
+    void addNode(const GltfPlacedNode& placed);
+    std::uint32_t loadSkin(int skin);
+    std::vector<glm::mat4> readInverseBind(const GltfSkinSource& source, const std::string& where);
+    std::vector<Channel> readChannels(const GltfAnimationSource& source, const std::string& where);
+
+    const GltfDocument& m_document;
+    Scene& m_scene;
+    GltfWarnings& m_warnings;
+    std::vector<std::uint32_t> m_nodes;   // [nodes of the document] indices into Scene::nodes, or kNone
+    std::map<int, std::uint32_t> m_skins; // indices into Scene::skins, or kNone
+};
+
+} // namespace zvo

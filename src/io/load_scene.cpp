@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "io/load_scene.h"
+
+#include "core/animation.h"
+#include "core/input_error.h"
+#include "core/read_file.h"
+#include "core/zvo_file.h"
+#include "io/gltf_loader.h"
+#include "io/mesh_import.h"
+#include "io/stl_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+enum class FileFormat
+{
+    Gltf,
+    Obj,
+    Ply,
+    Stl
+};
+
+std::string lowerExtension(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return extension;
+}
+
+bool hasObjVertices(std::string_view content)
+{
+    return content.starts_with("v ") || content.find("\nv ") != std::string_view::npos;
+}
+
+std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const std::string& extension)
+{
+    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (content.starts_with("glTF") || extension == ".gltf" || extension == ".glb")
+    {
+        return FileFormat::Gltf;
+    }
+    if (content.starts_with("ply\n") || content.starts_with("ply\r") || extension == ".ply")
+    {
+        return FileFormat::Ply;
+    }
+    if (extension == ".obj")
+    {
+        return FileFormat::Obj;
+    }
+    if (extension == ".stl" || isBinaryStl(bytes) || content.starts_with("solid "))
+    {
+        return FileFormat::Stl;
+    }
+    const std::size_t first = content.find_first_not_of(" \t\r\n");
+    if (first != std::string_view::npos && content[first] == '{')
+    {
+        return FileFormat::Gltf;
+    }
+    return hasObjVertices(content) ? std::optional(FileFormat::Obj) : std::nullopt;
+}
+
+Scene loadFile(const std::filesystem::path& path)
+{
+    if (isStageFile(path))
+    {
+        throw inputError(path, "a scene file, which cannot be part of another scene; name the files in it");
+    }
+    if (isZvoFile(path))
+    {
+        throw inputError(path, "a .zvo file holds voxels and no triangles; zvo render and zvo convert take it");
+    }
+    std::vector<std::uint8_t> bytes = readFile(path);
+    const std::optional<FileFormat> format = formatOf(bytes, lowerExtension(path));
+    if (!format)
+    {
+        throw inputError(path,
+                         "neither glTF 2.0 nor OBJ, PLY or STL; export it as one of them, or name it .gltf, .glb, "
+                         ".obj, .ply or .stl");
+    }
+    switch (*format)
+    {
+    case FileFormat::Obj:
+        return importMesh(path, bytes, MeshFormat::Obj);
+    case FileFormat::Ply:
+        return importMesh(path, bytes, MeshFormat::Ply);
+    case FileFormat::Stl:
+        return importMesh(path, bytes, MeshFormat::Stl);
+    default:
+        return loadGltf(path, std::move(bytes));
+    }
+}
+
+/// Puts a node with that transform above all others.
+void placeNodes(Scene& scene, const glm::mat4& to_world)
+{
+    Scene placed;
+    placed.nodes.emplace_back().matrix = to_world;
+    placed.append(std::move(scene));
+    for (std::size_t i = 1; i < placed.nodes.size(); ++i)
+    {
+        std::uint32_t& parent = placed.nodes[i].parent;
+        parent = parent == kNone ? 0 : parent;
+    }
+    scene = std::move(placed);
+}
+
+} // namespace
+
+bool isStageFile(const std::filesystem::path& path)
+{
+    return lowerExtension(path) == ".json" && lowerExtension(path.stem()) == ".scene";
+}
+
+glm::mat3 rotationToY(UpAxis up)
+{
+    const auto columns = [](const glm::vec3& x, const glm::vec3& y, const glm::vec3& z)
+    { return glm::mat3(x, y, z); }; // where x, y and z of the file go
+    switch (up)
+    {
+    case UpAxis::X:
+        return columns({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
+    case UpAxis::Z:
+        return columns({1, 0, 0}, {0, 0, -1}, {0, 1, 0});
+    case UpAxis::MinusX:
+        return columns({0, -1, 0}, {1, 0, 0}, {0, 0, 1});
+    case UpAxis::MinusY:
+        return columns({1, 0, 0}, {0, -1, 0}, {0, 0, -1});
+    case UpAxis::MinusZ:
+        return columns({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+    default:
+        return glm::mat3(1.0F);
+    }
+}
+
+Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options)
+{
+    Scene scene;
+    for (const std::filesystem::path& path : paths)
+    {
+        Scene loaded = loadFile(path);
+        if (!options.every_animation)
+        {
+            keepAnimation(loaded);
+        }
+        scene.append(std::move(loaded));
+    }
+    place(scene, options);
+    return scene;
+}
+
+void place(Scene& scene, const LoadOptions& options)
+{
+    if (options.up == UpAxis::Y && options.scale == 1.0F)
+    {
+        return;
+    }
+    const glm::mat4 rotation(rotationToY(options.up));
+    glm::mat4 to_world = options.scale * rotation;
+    to_world[3][3] = 1.0F;
+    const auto checkFinite = [&](const glm::mat4& transform)
+    {
+        for (int i = 0; i < 16; ++i)
+        {
+            if (!std::isfinite(transform[i / 4][i % 4]))
+            {
+                throw Error(ErrorCode::Usage,
+                            fmt::format("scaled by {} the scene is larger than single precision holds; scale it less",
+                                        options.scale));
+            }
+        }
+    };
+    for (Instance& instance : scene.instances)
+    {
+        instance.transform = to_world * instance.transform;
+        checkFinite(instance.transform);
+    }
+    if (!scene.nodes.empty())
+    {
+        placeNodes(scene, to_world);
+    }
+    for (Camera& camera : scene.cameras)
+    {
+        camera.transform = rotation * camera.transform;
+        camera.transform[3] = glm::vec4(options.scale * glm::vec3(camera.transform[3]), 1.0F);
+        camera.half_height *= options.scale;
+        checkFinite(camera.transform);
+    }
+}
+
+} // namespace zvo

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "io/mesh_import.h"
+
+#include "core/input_error.h"
+#include "core/scene_size.h"
+#include "io/obj_file.h"
+#include "io/ply_file.h"
+#include "io/stl_file.h"
+
+#include <string>
+
+namespace zvo
+{
+
+Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshFormat format)
+{
+    if (format == MeshFormat::Obj)
+    {
+        return readObj(path, bytes);
+    }
+    std::string note;
+    Scene scene;
+    scene.primitives.push_back(format == MeshFormat::Ply ? readPly(path, bytes, note) : readStl(path, bytes));
+    const Primitive& primitive = scene.primitives.front();
+    checkSceneSize(path, {.instance_count = 1,
+                          .triangle_count = static_cast<double>(primitive.triangles.size()),
+                          .vertex_count = static_cast<double>(primitive.positions.size())});
+    scene.materials.emplace_back().name = "default";
+    scene.instances.emplace_back();
+    if (!note.empty())
+    {
+        scene.warnings.emplace_back(inputError(path, note).what());
+    }
+    return scene;
+}
+
+} // namespace zvo

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "io/nvdb_write.h"
+
+#include "core/tree_build.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+#include <nanovdb/util/GridBuilder.h>
+#include <nanovdb/util/IO.h>
+
+#include <cstdint>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without attributes
+
+nanovdb::Rgba8 rgbaOf(std::uint32_t color)
+{
+    return {static_cast<std::uint8_t>(color), static_cast<std::uint8_t>(color >> 8),
+            static_cast<std::uint8_t>(color >> 16)};
+}
+
+using Builder = nanovdb::GridBuilder<nanovdb::Rgba8>;
+
+// The finished grid. Throws std::bad_alloc where memory does not suffice.
+nanovdb::GridHandle<> handleOf(Builder& builder, const Grid& grid)
+{
+    const glm::dvec3 centre = glm::dvec3(grid.origin) + 0.5 * double{grid.voxel_size};
+    try
+    {
+        return builder.getHandle(double{grid.voxel_size}, {centre.x, centre.y, centre.z}, "zvo");
+    }
+    catch (const std::runtime_error&) // of its buffer or its thread: of a grid like ours there is no other reason
+    {
+        throw std::bad_alloc();
+    }
+}
+
+nanovdb::GridHandle<> gridOf(const TreeData& tree)
+{
+    Builder builder(nanovdb::Rgba8(std::uint8_t{0}), nanovdb::GridClass::VoxelVolume);
+    auto values = builder.getAccessor();
+    std::uint64_t voxel = 0;
+    forEachVoxel(tree,
+                 [&](std::uint64_t code)
+                 {
+                     const glm::ivec3 cell(cellOfCode(code));
+                     const std::uint32_t color = tree.hasAttributes() ? tree.voxelAttribute(voxel).color : kPlainColor;
+                     values.setValue({cell.x, cell.y, cell.z}, rgbaOf(color));
+                     ++voxel;
+                 });
+    return handleOf(builder, tree.grid);
+}
+
+// What stands before the grid. The library's own way of writing files needs one that it can go back in.
+std::string headOf(const nanovdb::GridHandle<>& grid)
+{
+    nanovdb::io::Segment segment;
+    segment.add(grid);
+    segment.meta.front().fileSize = grid.size();
+    std::ostringstream head;
+    segment.write(head);
+    return head.str();
+}
+
+nanovdb::GridHandle<> gridInMemory(const TreeData& tree)
+{
+    try
+    {
+        return gridOf(tree);
+    }
+    catch (const std::bad_alloc&)
+    {
+        throw Error(ErrorCode::Memory,
+                    fmt::format("the host's memory does not suffice for the NanoVDB grid of {} voxels, which takes "
+                                "about 4 KiB for each block of 8^3 cells with voxels: lower the resolution",
+                                tree.voxel_count));
+    }
+}
+
+} // namespace
+
+void writeNvdb(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+{
+    const nanovdb::GridHandle<> grid = gridInMemory(tree);
+    const std::string head = headOf(grid);
+    write(std::as_bytes(std::span(head)));
+    write({reinterpret_cast<const std::byte*>(grid.data()), grid.size()});
+}
+
+} // namespace zvo

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+#include "io/obj_file.h"
+
+#include "core/input_error.h"
+#include "core/read_file.h"
+#include "core/scene_size.h"
+#include "io/image_io.h"
+#include "io/obj_assimp_files.h"
+#include "io/srgb.h"
+
+#include <algorithm>
+#include <assimp/BaseImporter.h>
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+/// Takes all other formats out of an importer: what a file is has been decided.
+void keepObj(Assimp::Importer& importer)
+{
+    for (std::size_t i = importer.GetImporterCount(); i > 0; --i)
+    {
+        if (importer.GetImporterInfo(i - 1)->mFileExtensions != std::string_view("obj"))
+        {
+            Assimp::BaseImporter* other = importer.GetImporter(i - 1);
+            importer.UnregisterLoader(other);
+            delete other; // it is the caller's now
+        }
+    }
+}
+
+WrapMode toWrapMode(int mode)
+{
+    return mode == aiTextureMapMode_Clamp    ? WrapMode::ClampToEdge
+           : mode == aiTextureMapMode_Mirror ? WrapMode::MirroredRepeat
+                                             : WrapMode::Repeat;
+}
+
+/// Makes a Scene of what assimp has read, every count and index checked.
+class ObjReader
+{
+public:
+    ObjReader(const std::filesystem::path& path, const aiScene& source, bool with_materials)
+        : m_path(path), m_source(source), m_with_materials(with_materials)
+    {
+    }
+
+    Scene read()
+    {
+        checkSize();
+        for (unsigned int i = 0; i < m_source.mNumMeshes; ++i)
+        {
+            const aiMesh* mesh = m_source.mMeshes[i];
+            if (mesh == nullptr || mesh->mVertices == nullptr || (mesh->mNumFaces > 0 && mesh->mFaces == nullptr))
+            {
+                continue;
+            }
+            Primitive primitive;
+            primitive.triangles = readTriangles(*mesh);
+            if (primitive.triangles.empty())
+            {
+                continue;
+            }
+            readVertices(*mesh, primitive);
+            primitive.material = material(mesh->mMaterialIndex);
+            m_scene.instances.push_back({static_cast<std::uint32_t>(m_scene.primitives.size()), glm::mat4(1.0F)});
+            m_scene.primitives.push_back(std::move(primitive));
+        }
+        return std::move(m_scene);
+    }
+
+    /// Once for each kind.
+    void warn(const std::string& kind)
+    {
+        const std::string line = inputError(m_path, kind).what();
+        if (std::find(m_scene.warnings.begin(), m_scene.warnings.end(), line) == m_scene.warnings.end())
+        {
+            m_scene.warnings.push_back(line);
+        }
+    }
+
+private:
+    /// Adds up what read() will make, before it makes anything.
+    void checkSize() const
+    {
+        SceneSize size;
+        for (unsigned int i = 0; i < m_source.mNumMeshes; ++i)
+        {
+            if (const aiMesh* mesh = m_source.mMeshes[i])
+            {
+                const std::size_t vertex_bytes = sizeof(glm::vec3) +
+                                                 (mesh->mNormals != nullptr ? sizeof(glm::vec3) : 0) +
+                                                 (mesh->mTextureCoords[0] != nullptr ? sizeof(glm::vec2) : 0) +
+                                                 (mesh->mColors[0] != nullptr ? sizeof(glm::vec4) : 0);
+                ++size.instance_count;
+                size.triangle_count += mesh->mNumFaces;
+                size.vertex_count = std::max(size.vertex_count, static_cast<double>(mesh->mNumVertices));
+                size.bytes += static_cast<double>(mesh->mNumVertices * vertex_bytes +
+                                                  std::size_t{mesh->mNumFaces} * sizeof(glm::uvec3));
+            }
+        }
+        checkSceneSize(m_path, size);
+    }
+
+    std::vector<glm::uvec3> readTriangles(const aiMesh& mesh)
+    {
+        std::vector<glm::uvec3> triangles;
+        triangles.reserve(mesh.mNumFaces);
+        for (unsigned int i = 0; i < mesh.mNumFaces; ++i)
+        {
+            const aiFace& face = mesh.mFaces[i];
+            if (face.mNumIndices != 3 || face.mIndices == nullptr)
+            {
+                warn("points and lines left out, only triangles become voxels");
+                continue;
+            }
+            const glm::uvec3 triangle(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
+            if (std::max({triangle.x, triangle.y, triangle.z}) >= mesh.mNumVertices)
+            {
+                throw inputError(m_path, fmt::format("face {} has vertex {}, but there are {}; {}", i,
+                                                     std::max({triangle.x, triangle.y, triangle.z}), mesh.mNumVertices,
+                                                     kExportAgain));
+            }
+            triangles.push_back(triangle);
+        }
+        return triangles;
+    }
+
+    void readVertices(const aiMesh& mesh, Primitive& primitive) const
+    {
+        primitive.positions.reserve(mesh.mNumVertices);
+        for (unsigned int i = 0; i < mesh.mNumVertices; ++i)
+        {
+            const aiVector3D& position = mesh.mVertices[i];
+            primitive.positions.emplace_back(position.x, position.y, position.z);
+        }
+        for (unsigned int i = 0; mesh.mNormals != nullptr && i < mesh.mNumVertices; ++i)
+        {
+            const glm::dvec3 normal(mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z);
+            const double length = std::sqrt(glm::dot(normal, normal));
+            primitive.normals.push_back(length > 0.0 && std::isfinite(length) ? glm::vec3(normal / length)
+                                                                              : glm::vec3(0.0F));
+        }
+        for (unsigned int i = 0; mesh.mTextureCoords[0] != nullptr && i < mesh.mNumVertices; ++i)
+        {
+            // v points up in these formats.
+            primitive.uvs.emplace_back(mesh.mTextureCoords[0][i].x, 1.0F - mesh.mTextureCoords[0][i].y);
+        }
+        for (unsigned int i = 0; mesh.mColors[0] != nullptr && i < mesh.mNumVertices; ++i)
+        {
+            const aiColor4D& color = mesh.mColors[0][i];
+            primitive.colors.emplace_back(srgbToLinear(color.r), srgbToLinear(color.g), srgbToLinear(color.b),
+                                          std::clamp(color.a, 0.0F, 1.0F));
+        }
+    }
+
+    /// Index into Scene::materials.
+    std::uint32_t material(unsigned int index)
+    {
+        const bool is_default = !m_with_materials || index >= m_source.mNumMaterials ||
+                                m_source.mMaterials[index] == nullptr ||
+                                m_source.mMaterials[index]->GetName() == aiString(AI_DEFAULT_MATERIAL_NAME);
+        const auto [known, is_new] = m_materials.emplace(is_default ? std::nullopt : std::optional(index), 0U);
+        if (is_new)
+        {
+            known->second = static_cast<std::uint32_t>(m_scene.materials.size());
+            Material loaded;
+            loaded.name = "default";
+            m_scene.materials.push_back(is_default ? loaded : readMaterial(*m_source.mMaterials[index]));
+        }
+        return known->second;
+    }
+
+    Material readMaterial(const aiMaterial& source)
+    {
+        Material material;
+        material.name = source.GetName().C_Str();
+        aiColor3D diffuse(1.0F, 1.0F, 1.0F);
+        aiColor3D emission(0.0F, 0.0F, 0.0F);
+        float opacity = 1.0F;
+        source.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+        source.Get(AI_MATKEY_COLOR_EMISSIVE, emission);
+        source.Get(AI_MATKEY_OPACITY, opacity);
+        material.base_color = {factor(diffuse.r), factor(diffuse.g), factor(diffuse.b),
+                               std::min(factor(opacity), 1.0F)};
+        material.emission = {factor(emission.r), factor(emission.g), factor(emission.b)};
+        material.alpha_mode = material.base_color.a < 1.0F ? AlphaMode::Blend : AlphaMode::Opaque;
+        material.base_color_texture = texture(source, aiTextureType_DIFFUSE);
+        if (material.base_color_texture && glm::vec3(material.base_color) == glm::vec3(0.0F))
+        {
+            material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a); // exporters mean the texture
+        }
+        if (material.emission != glm::vec3(0.0F))
+        {
+            material.emission_texture = texture(source, aiTextureType_EMISSIVE);
+        }
+        const std::string cut_out = texturePath(source, aiTextureType_OPACITY);
+        if (!cut_out.empty() && cut_out == texturePath(source, aiTextureType_DIFFUSE))
+        {
+            material.alpha_mode = AlphaMode::Mask; // by the colour texture's own alpha
+        }
+        else if (!cut_out.empty())
+        {
+            warn("textures of transparency (map_d) left out; put them into the alpha of the colour textures");
+        }
+        return material;
+    }
+
+    float factor(float value) const
+    {
+        if (!(value >= 0.0F) || !std::isfinite(value))
+        {
+            throw inputError(m_path, fmt::format("a material has the factor {}, not in the range from 0 to 3.4e38; {}",
+                                                 value, kExportAgain));
+        }
+        return value;
+    }
+
+    static std::string texturePath(const aiMaterial& source, aiTextureType type)
+    {
+        aiString path;
+        return source.GetTexture(type, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
+    }
+
+    std::optional<std::uint32_t> texture(const aiMaterial& source, aiTextureType type)
+    {
+        const std::string name = texturePath(source, type);
+        const std::optional<std::uint32_t> image = name.empty() ? std::nullopt : readImage(name);
+        if (!image)
+        {
+            return std::nullopt;
+        }
+        int wrap_u = aiTextureMapMode_Wrap;
+        int wrap_v = aiTextureMapMode_Wrap;
+        source.Get(AI_MATKEY_MAPPINGMODE_U(type, 0), wrap_u);
+        source.Get(AI_MATKEY_MAPPINGMODE_V(type, 0), wrap_v);
+        m_scene.textures.push_back({*image, toWrapMode(wrap_u), toWrapMode(wrap_v)});
+        return static_cast<std::uint32_t>(m_scene.textures.size() - 1);
+    }
+
+    /// Index into Scene::images; nothing, with a warning, for what cannot be used.
+    std::optional<std::uint32_t> readImage(const std::string& name)
+    {
+        const auto [known, is_new] = m_images.emplace(name, std::nullopt);
+        if (!is_new)
+        {
+            return known->second;
+        }
+        const std::optional<std::filesystem::path> file = fileBeside(m_path, name);
+        if (!file)
+        {
+            warn(fmt::format("texture {} left out, as it leaves the file's folder", name));
+            return std::nullopt;
+        }
+        if (!isFile(*file))
+        {
+            warn(fmt::format("texture {} left out, as there is no such file", name));
+            return std::nullopt;
+        }
+        try
+        {
+            m_scene.images.push_back(decodeImage(readFile(*file), name, name, m_image_bytes_left));
+            m_image_bytes_left -= m_scene.images.back().rgba.size();
+        }
+        catch (const Error& failure)
+        {
+            warn(fmt::format("texture left out: {}", failure.what()));
+            return std::nullopt;
+        }
+        known->second = static_cast<std::uint32_t>(m_scene.images.size() - 1);
+        return known->second;
+    }
+
+    const std::filesystem::path& m_path;
+    const aiScene& m_source;
+    bool m_with_materials;
+    std::uint64_t m_image_bytes_left = sceneBytesMax();
+    Scene m_scene;
+    std::map<std::optional<unsigned int>, std::uint32_t> m_materials;
+    std::map<std::string, std::optional<std::uint32_t>> m_images;
+};
+
+} // namespace
+
+Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+{
+    const std::string name = path.stem().string() + ".obj";
+    Assimp::Importer importer;
+    keepObj(importer);
+    auto* files = new SceneFiles(path, bytes, name); // the importer's from now on
+    importer.SetIOHandler(files);
+    const aiScene* source = importer.ReadFile(name, aiProcess_Triangulate);
+    if (!files->outside().empty())
+    {
+        throw inputError(path, fmt::format("the material file {} leaves the folder; only files in it and below are "
+                                           "read; put it there and name it",
+                                           files->outside().front()));
+    }
+    if (source == nullptr)
+    {
+        throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", importer.GetErrorString(), kExportAgain));
+    }
+    const std::optional<std::string> missing = files->missing();
+    ObjReader reader(path, *source, !missing);
+    if (missing)
+    {
+        reader.warn(fmt::format("colours left out, as there is no material file {}", *missing));
+    }
+    return reader.read();
+}
+
+} // namespace zvo

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/octree.h"
+#include "vk/headless.h"
+
+#include <string>
+
+namespace zvo
+{
+
+/// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have
+/// equal sums whatever made them.
+std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree);
+
+} // namespace zvo

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "io/scene_part.h"
+
+#include <cassert>
+#include <cstddef>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+/// Items of a list that are in use, and their numbers among those.
+class Used
+{
+public:
+    explicit Used(std::size_t count) : m_numbers(count, kNone) {}
+
+    /// The item's number among those in use, which it is from now on.
+    std::uint32_t number(std::uint32_t index)
+    {
+        std::uint32_t& number = m_numbers[index];
+        if (number == kNone)
+        {
+            number = static_cast<std::uint32_t>(m_indices.size());
+            m_indices.push_back(index);
+        }
+        return number;
+    }
+
+    /// In order of their numbers.
+    [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return m_indices; }
+
+private:
+    std::vector<std::uint32_t> m_numbers;
+    std::vector<std::uint32_t> m_indices;
+};
+
+} // namespace
+
+Scene partOf(const Scene& scene, const std::vector<bool>& keep)
+{
+    assert(keep.size() == scene.instances.size());
+    Scene part;
+    Used primitives(scene.primitives.size());
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    {
+        if (keep[i])
+        {
+            Instance instance = scene.instances[i];
+            instance.primitive = primitives.number(instance.primitive);
+            part.instances.push_back(instance);
+        }
+    }
+    Used materials(scene.materials.size());
+    for (const std::uint32_t index : primitives.indices())
+    {
+        Primitive primitive = scene.primitives[index];
+        primitive.material = materials.number(primitive.material);
+        part.primitives.push_back(std::move(primitive));
+    }
+    Used textures(scene.textures.size());
+    for (const std::uint32_t index : materials.indices())
+    {
+        Material material = scene.materials[index];
+        for (std::optional<std::uint32_t>* texture : {&material.base_color_texture, &material.emission_texture})
+        {
+            *texture = *texture ? std::optional(textures.number(**texture)) : std::nullopt;
+        }
+        part.materials.push_back(std::move(material));
+    }
+    Used images(scene.images.size());
+    for (const std::uint32_t index : textures.indices())
+    {
+        Texture texture = scene.textures[index];
+        texture.image = images.number(texture.image);
+        part.textures.push_back(texture);
+    }
+    for (const std::uint32_t index : images.indices())
+    {
+        part.images.push_back(scene.images[index]);
+    }
+    part.cameras = scene.cameras;
+    part.nodes = scene.nodes;
+    part.skins = scene.skins;
+    part.animations = scene.animations;
+    part.warnings = scene.warnings;
+    part.rest_warnings = scene.rest_warnings;
+    return part;
+}
+
+Scene atRest(Scene scene)
+{
+    scene.nodes.clear();
+    scene.skins.clear();
+    scene.animations.clear();
+    for (Primitive& primitive : scene.primitives)
+    {
+        primitive.joints.clear();
+        primitive.weights.clear();
+        primitive.morph_targets.clear();
+    }
+    for (Instance& instance : scene.instances)
+    {
+        instance.node = kNone;
+        instance.skin = kNone;
+    }
+    return scene;
+}
+
+} // namespace zvo

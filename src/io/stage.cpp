@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "io/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::size_t kSweepSteps = 64;
+constexpr double kSamplesMin = 64.0; // of an animation
+constexpr double kSamplesMax = 256.0;
+constexpr double kFrameCountTolerance = 1e-9; // relative
+constexpr double kRoundingMargin = 1e-6;      // of the largest coordinate: a few units in the last place
+
+bool isFinite(const glm::vec3& point)
+{
+    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+/// The finite positions of a scene, those that a triangle uses.
+class Points
+{
+public:
+    explicit Points(const Scene& scene) : m_scene(scene), m_used(scene.primitives.size())
+    {
+        for (std::size_t i = 0; i < scene.primitives.size(); ++i)
+        {
+            const Primitive& primitive = scene.primitives[i];
+            std::vector<bool> is_used(primitive.positions.size(), false);
+            for (const glm::uvec3& triangle : primitive.triangles)
+            {
+                for (const std::uint32_t vertex : {triangle.x, triangle.y, triangle.z})
+                {
+                    if (!is_used[vertex])
+                    {
+                        is_used[vertex] = true;
+                        m_used[i].push_back(primitive.positions[vertex]);
+                    }
+                }
+            }
+        }
+    }
+
+    template <typename See> void forEach(const glm::dmat4& place, const See& see) const
+    {
+        for (const Instance& instance : m_scene.instances)
+        {
+            const glm::mat4 transform(place * glm::dmat4(instance.transform));
+            for (const glm::vec3& position : m_used[instance.primitive])
+            {
+                const glm::vec3 point = transformPoint(transform, position);
+                if (isFinite(point))
+                {
+                    see(point);
+                }
+            }
+        }
+    }
+
+private:
+    const Scene& m_scene;
+    std::vector<std::vector<glm::vec3>> m_used; // of each primitive
+};
+
+void extend(Bounds& bounds, const Bounds& other)
+{
+    bounds.min = glm::min(bounds.min, other.min);
+    bounds.max = glm::max(bounds.max, other.max);
+}
+
+/// Of a scene that only is moved as a whole.
+Bounds sweptBounds(const Scene& scene, const glm::dmat4& place, const Motion& motion, double seconds)
+{
+    const Points points(scene);
+    const MotionSweep sweep = sweepOf(motion, seconds, kSweepSteps);
+    double distance = 0.0;
+    points.forEach(place, [&](const glm::vec3& point)
+                   { distance = std::max(distance, glm::length(glm::dvec3(point) - sweep.pivot)); });
+    Bounds bounds;
+    for (const glm::dmat4& step : sweep.places)
+    {
+        points.forEach(step * place, [&](const glm::vec3& point) { bounds.extend(point); });
+    }
+    if (bounds.empty())
+    {
+        return bounds;
+    }
+    const glm::vec3 reach = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    const double largest = std::max({reach.x, reach.y, reach.z});
+    const auto margin =
+        static_cast<float>(sweep.stray + sweep.stray_per_distance * distance + kRoundingMargin * largest);
+    return {bounds.min - margin, bounds.max + margin};
+}
+
+Bounds moverBounds(const Mover& mover, const Stage& stage)
+{
+    if (!mover.deforms && std::holds_alternative<std::monostate>(mover.motion))
+    {
+        return posedScene(mover.scene, moverPose(mover, 0.0)).bounds();
+    }
+    if (!mover.deforms)
+    {
+        return sweptBounds(posedScene(mover.scene, poseAt(mover.scene, 0.0)), mover.place, mover.motion, stage.seconds);
+    }
+    Bounds bounds;
+    // Every frame, unless there are very many.
+    const double count = std::clamp(std::round(stage.seconds * stage.frames_per_second), kSamplesMin, kSamplesMax);
+    for (double sample = 0.0; sample < count; ++sample)
+    {
+        const double seconds = stage.seconds * sample / count;
+        extend(bounds, posedScene(mover.scene, moverPose(mover, seconds)).bounds());
+    }
+    return bounds;
+}
+
+Scene withMovers(Scene scene, const std::vector<Mover>& movers, double seconds)
+{
+    for (const Mover& mover : movers)
+    {
+        scene.append(posedScene(mover.scene, moverPose(mover, seconds)));
+    }
+    return scene;
+}
+
+} // namespace
+
+double frameTime(const Stage& stage, std::uint64_t frame)
+{
+    const double frame_count = stage.seconds * stage.frames_per_second;
+    const double whole = std::round(frame_count);
+    if (whole >= 1.0 && std::abs(frame_count - whole) <= kFrameCountTolerance * whole)
+    {
+        return static_cast<double>(frame % static_cast<std::uint64_t>(whole)) / stage.frames_per_second;
+    }
+    return loopedTime(stage, static_cast<double>(frame) / stage.frames_per_second);
+}
+
+double loopedTime(const Stage& stage, double seconds)
+{
+    return std::fmod(seconds, stage.seconds);
+}
+
+glm::dmat4 placeAt(const Mover& mover, double seconds)
+{
+    return motionAt(mover.motion, seconds) * mover.place;
+}
+
+Pose moverPose(const Mover& mover, double seconds)
+{
+    return poseAt(mover.scene, seconds, placeAt(mover, seconds));
+}
+
+Scene stageAt(const Stage& stage, double seconds)
+{
+    return withMovers(Scene(stage.fixed), stage.movers, seconds);
+}
+
+Scene stageAt(Stage&& stage, double seconds)
+{
+    return withMovers(std::move(stage.fixed), stage.movers, seconds);
+}
+
+Bounds stageBounds(const Stage& stage)
+{
+    Bounds bounds = stage.fixed.bounds();
+    for (const Mover& mover : stage.movers)
+    {
+        extend(bounds, moverBounds(mover, stage));
+    }
+    return bounds;
+}
+
+} // namespace zvo

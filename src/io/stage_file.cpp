@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+#include "io/stage_file.h"
+
+#include "io/json_cursor.h"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::size_t kObjectsMax = 4096;
+constexpr double kSecondsMax = 1e6;
+constexpr double kFramesPerSecondMax = 1e4;
+constexpr double kDegreesOfTurn = 360.0;
+constexpr double kDefaultFov = 45.0;     // degrees
+constexpr double kHalfTurnCosine = 1e-9; // of half the angle: nearer to half a turn rounding decides the way around
+
+std::optional<glm::dvec3> findVector(const JsonCursor& object, std::string_view key)
+{
+    const auto member = object.find(key);
+    return member ? std::optional(member->vector()) : std::nullopt;
+}
+
+/// An axis with a number of turns about it.
+struct Rotation
+{
+    glm::dvec3 axis{0.0, 1.0, 0.0};
+    double turns = 0.0;
+};
+
+Rotation readRotation(const JsonCursor& rotation)
+{
+    rotation.allowKeys({"axis", "degrees"});
+    return {rotation.at("axis").direction(), rotation.at("degrees").number() / kDegreesOfTurn};
+}
+
+glm::dvec3 readScale(const JsonCursor& scale)
+{
+    if (scale.isNumber())
+    {
+        return glm::dvec3(scale.number());
+    }
+    try
+    {
+        return scale.vector();
+    }
+    catch (const Error&)
+    {
+        throw scale.mismatch("a number, or three numbers [x, y, z]");
+    }
+}
+
+struct Place
+{
+    glm::dvec3 translation{0.0};
+    glm::dmat3 linear{1.0}; // rotation * scale
+};
+
+Place readPlace(const JsonCursor& place)
+{
+    place.allowKeys({"translation", "rotation", "scale"});
+    Place result;
+    result.translation = findVector(place, "translation").value_or(glm::dvec3(0.0));
+    if (const auto rotation = place.find("rotation"))
+    {
+        const Rotation turn = readRotation(*rotation);
+        result.linear = rotationAbout(turn.axis, turn.turns);
+    }
+    const auto scale = place.find("scale");
+    const glm::dvec3 factors = scale ? readScale(*scale) : glm::dvec3(1.0);
+    for (int column = 0; column < 3; ++column)
+    {
+        result.linear[column] *= factors[column];
+    }
+    return result;
+}
+
+double readTurnsPerSecond(const JsonCursor& orbit, double stage_seconds)
+{
+    const auto turns = orbit.find("turns");
+    const auto degrees = orbit.find("degrees_per_second");
+    if (turns.has_value() == degrees.has_value())
+    {
+        throw orbit.error(turns ? "has both turns and degrees_per_second; expected one of them"
+                                : "has neither turns nor degrees_per_second; expected one of them");
+    }
+    return turns ? turns->number() / stage_seconds : degrees->number() / kDegreesOfTurn;
+}
+
+OrbitMotion readOrbit(const JsonCursor& orbit, const glm::dvec3& home, double stage_seconds)
+{
+    orbit.allowKeys({"centre", "axis", "turns", "degrees_per_second", "circles", "spins"});
+    const auto axis = orbit.find("axis");
+    const auto circles = orbit.find("circles");
+    const auto spins = orbit.find("spins");
+    OrbitMotion motion;
+    motion.centre = findVector(orbit, "centre").value_or(home);
+    motion.axis = axis ? axis->direction() : motion.axis;
+    motion.turns_per_second = readTurnsPerSecond(orbit, stage_seconds);
+    motion.home = home;
+    motion.circles = !circles || circles->flag();
+    motion.spins = !spins || spins->flag();
+    if (!motion.circles && !motion.spins)
+    {
+        throw orbit.error("neither circles nor spins; expected one of them to be true");
+    }
+    return motion;
+}
+
+LineMotion readLine(const JsonCursor& line, double stage_seconds)
+{
+    line.allowKeys({"from", "to", "seconds", "repeat"});
+    const auto seconds = line.find("seconds");
+    const auto repeat = line.find("repeat");
+    LineMotion motion;
+    motion.from = line.at("from").vector();
+    motion.to = line.at("to").vector();
+    motion.seconds = seconds ? seconds->positive(kSecondsMax) : stage_seconds;
+    motion.returns = repeat && repeat->oneOf({"loop", "ping-pong"}) == 1;
+    return motion;
+}
+
+/// The elements of an array with one for each key; none where it is missing.
+std::vector<JsonCursor> readKeyed(const JsonCursor& keys, std::string_view name, std::size_t key_count)
+{
+    const auto array = keys.find(name);
+    if (!array)
+    {
+        return {};
+    }
+    std::vector<JsonCursor> items = array->items();
+    if (items.size() != key_count)
+    {
+        throw array->error(fmt::format("has {} items, but there are {} times", items.size(), key_count));
+    }
+    return items;
+}
+
+glm::dquat quaternionOf(const Rotation& rotation)
+{
+    const double half = std::numbers::pi * (rotation.turns - std::round(rotation.turns));
+    return {std::cos(half), std::sin(half) * rotation.axis};
+}
+
+KeyMotion readKeys(const JsonCursor& keys, double stage_seconds)
+{
+    keys.allowKeys({"times", "translations", "rotations", "scales"});
+    KeyMotion motion;
+    for (const JsonCursor& time : keys.at("times").items())
+    {
+        const double seconds = time.number();
+        const bool ascends = motion.times.empty() || seconds > motion.times.back();
+        if (seconds < 0.0 || seconds > stage_seconds || !ascends)
+        {
+            throw time.mismatch(fmt::format("ascending times from 0 to the scene's length, {} seconds", stage_seconds));
+        }
+        motion.times.push_back(seconds);
+    }
+    if (motion.times.empty())
+    {
+        throw keys.at("times").error("is empty; expected a time at least");
+    }
+    for (const JsonCursor& translation : readKeyed(keys, "translations", motion.times.size()))
+    {
+        motion.translations.push_back(translation.vector());
+    }
+    for (const JsonCursor& rotation : readKeyed(keys, "rotations", motion.times.size()))
+    {
+        const glm::dquat turned = quaternionOf(readRotation(rotation));
+        if (!motion.rotations.empty() && std::abs(glm::dot(motion.rotations.back(), turned)) < kHalfTurnCosine)
+        {
+            throw rotation.error("is half a turn from the key before it, either way around; expected a key between");
+        }
+        motion.rotations.push_back(turned);
+    }
+    for (const JsonCursor& scale : readKeyed(keys, "scales", motion.times.size()))
+    {
+        motion.scales.push_back(readScale(scale));
+    }
+    if (motion.translations.empty() && motion.rotations.empty() && motion.scales.empty())
+    {
+        throw keys.error("moves nothing; expected translations, rotations or scales");
+    }
+    return motion;
+}
+
+Motion readMotion(const JsonCursor& motion, const glm::dvec3& home, double stage_seconds)
+{
+    motion.allowKeys({"orbit", "line", "keys"});
+    const auto orbit = motion.find("orbit");
+    const auto line = motion.find("line");
+    const auto keys = motion.find("keys");
+    if (orbit.has_value() + line.has_value() + keys.has_value() != 1)
+    {
+        throw motion.error("is not one motion; expected one of orbit, line, keys");
+    }
+    if (orbit)
+    {
+        return readOrbit(*orbit, home, stage_seconds);
+    }
+    return line ? Motion(readLine(*line, stage_seconds)) : Motion(readKeys(*keys, stage_seconds));
+}
+
+UpAxis readUp(const JsonCursor& up)
+{
+    constexpr std::array kAxes = {UpAxis::X, UpAxis::Y, UpAxis::Z, UpAxis::MinusX, UpAxis::MinusY, UpAxis::MinusZ};
+    return kAxes.at(up.oneOf({"x", "y", "z", "-x", "-y", "-z"}));
+}
+
+std::optional<bool> readIsDynamic(const JsonCursor& object)
+{
+    const auto is_static = object.find("static");
+    const auto is_dynamic = object.find("dynamic");
+    if (is_static && is_dynamic)
+    {
+        throw is_dynamic->error("stands beside static; expected one of them");
+    }
+    if (!is_static && !is_dynamic)
+    {
+        return std::nullopt;
+    }
+    return is_static ? !is_static->flag() : is_dynamic->flag();
+}
+
+AnimationChoice readAnimation(const JsonCursor& animation)
+{
+    if (animation.isText())
+    {
+        return animation.text();
+    }
+    if (!animation.isNumber())
+    {
+        throw animation.mismatch("the name of an animation of the file, or its number, from 0 on");
+    }
+    return animation.whole(0, UINT32_MAX);
+}
+
+StageObject readObject(const JsonCursor& json, double stage_seconds)
+{
+    json.allowKeys({"name", "file", "static", "dynamic", "up", "place", "motion", "animation"});
+    StageObject object;
+    object.where = json.where();
+    object.file = json.at("file").text();
+    const auto name = json.find("name");
+    object.name = name ? name->text() : std::filesystem::path(object.file).stem().string();
+    const auto up = json.find("up");
+    object.up = up ? readUp(*up) : UpAxis::Y;
+    const auto place = json.find("place");
+    const Place placed = place ? readPlace(*place) : Place();
+    object.place = glm::dmat4(placed.linear * glm::dmat3(rotationToY(object.up)));
+    object.place[3] = glm::dvec4(placed.translation, 1.0);
+    object.is_dynamic = readIsDynamic(json);
+    if (const auto motion = json.find("motion"))
+    {
+        if (object.is_dynamic == false)
+        {
+            throw motion->error("moves an object that is static; expected dynamic");
+        }
+        object.motion = readMotion(*motion, placed.translation, stage_seconds);
+        object.is_dynamic = true;
+    }
+    if (const auto animation = json.find("animation"))
+    {
+        if (object.is_dynamic == false)
+        {
+            throw animation->error("plays in an object that is static; expected dynamic");
+        }
+        object.animation = readAnimation(*animation);
+    }
+    return object;
+}
+
+glm::vec3 readCorner(const JsonCursor& corner)
+{
+    return glm::vec3(corner.vector());
+}
+
+void readGrid(const JsonCursor& grid, StageFile& stage)
+{
+    grid.allowKeys({"depth", "bounds"});
+    if (const auto depth = grid.find("depth"))
+    {
+        stage.grid_depth = depth->whole(1, Grid::kDepthMax);
+    }
+    if (const auto bounds = grid.find("bounds"))
+    {
+        bounds->allowKeys({"min", "max"});
+        const Bounds box = {readCorner(bounds->at("min")), readCorner(bounds->at("max"))};
+        if (box.empty() || box.min == box.max)
+        {
+            throw bounds->error("has no extent; expected a max that is nowhere below min, and not min itself");
+        }
+        stage.grid_bounds = box;
+    }
+}
+
+StageCamera readCamera(const JsonCursor& camera)
+{
+    if (camera.isText())
+    {
+        return camera.text();
+    }
+    camera.allowKeys({"eye", "target", "fov"});
+    const auto fov = camera.find("fov");
+    const glm::dvec3 eye = camera.at("eye").vector();
+    const glm::dvec3 target = camera.at("target").vector();
+    try
+    {
+        return ViewCamera::lookAt(eye, target, glm::radians(fov ? fov->number() : kDefaultFov));
+    }
+    catch (const Error& failure)
+    {
+        throw camera.error(fmt::format("makes no picture: {}", failure.what()));
+    }
+}
+
+} // namespace
+
+StageFile parseStageFile(std::string_view content, const std::filesystem::path& path)
+{
+    const nlohmann::json document = parseJsonStrictly(content, path);
+    const JsonCursor root(document, path);
+    root.allowKeys({"about", "objects", "seconds", "frames_per_second", "grid", "camera", "merge"});
+    StageFile stage;
+    if (const auto about = root.find("about"))
+    {
+        static_cast<void>(about->text());
+    }
+    if (const auto seconds = root.find("seconds"))
+    {
+        stage.seconds = seconds->positive(kSecondsMax);
+    }
+    if (const auto rate = root.find("frames_per_second"))
+    {
+        stage.frames_per_second = rate->positive(kFramesPerSecondMax);
+    }
+    const JsonCursor objects = root.at("objects");
+    for (const JsonCursor& object : objects.items())
+    {
+        stage.objects.push_back(readObject(object, stage.seconds));
+    }
+    if (stage.objects.empty() || stage.objects.size() > kObjectsMax)
+    {
+        throw objects.error(fmt::format("has {} objects; expected 1 to {}", stage.objects.size(), kObjectsMax));
+    }
+    if (const auto grid = root.find("grid"))
+    {
+        readGrid(*grid, stage);
+    }
+    if (const auto camera = root.find("camera"))
+    {
+        stage.camera = readCamera(*camera);
+    }
+    if (const auto merge = root.find("merge"))
+    {
+        constexpr std::array kRules = {MergeRule::Average, MergeRule::DynamicWins, MergeRule::StaticWins};
+        stage.merge = kRules.at(merge->oneOf({"average", "dynamic", "static"}));
+    }
+    return stage;
+}
+
+} // namespace zvo

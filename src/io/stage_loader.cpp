@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: MIT
+// Loading of stages (core/stage.h): files are found and loaded, and divided into what stands still and what moves.
+#include "core/animation.h"
+#include "core/deform.h"
+#include "core/input_error.h"
+#include "core/read_file.h"
+#include "core/scene_size.h"
+#include "io/folder_bounds.h"
+#include "io/load_scene.h"
+#include "io/scene_part.h"
+#include "io/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <map>
+#include <span>
+#include <system_error>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kShownAnimations = 8;                       // more are only counted
+constexpr std::size_t kStageFileBytesMax = std::size_t{4} << 20U; // many times what 4096 objects take
+
+bool isFinite(const glm::vec3& point)
+{
+    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+bool isFinite(const glm::mat4& matrix)
+{
+    return isFinite(glm::vec3(matrix[0])) && isFinite(glm::vec3(matrix[1])) && isFinite(glm::vec3(matrix[2])) &&
+           isFinite(glm::vec3(matrix[3]));
+}
+
+/// The product in double precision, rounded once.
+glm::mat4 placed(const glm::dmat4& place, const glm::mat4& transform)
+{
+    return glm::mat4(place * glm::dmat4(transform));
+}
+
+Error objectError(const fs::path& stage_path, const StageObject& object, std::string_view text)
+{
+    return inputError(stage_path, fmt::format("{}.{}", object.where, text));
+}
+
+/// The file of an object in the first of the folders that has it. other_folder: how messages call the second one.
+fs::path resolve(const fs::path& stage_path, const StageObject& object, const std::vector<fs::path>& folders,
+                 const std::string& other_folder)
+{
+    const fs::path file = object.file;
+    for (const fs::path& folder : folders)
+    {
+        std::error_code missing;
+        if (file.is_absolute() || !liesBelow(folder, folder / file))
+        {
+            throw objectError(stage_path, object,
+                              fmt::format("file is \"{}\", which leaves the folder of the scene file or of {}; "
+                                          "expected a file in one of them or below",
+                                          object.file, other_folder));
+        }
+        if (fs::exists(folder / file, missing))
+        {
+            return folder / file;
+        }
+    }
+    std::vector<std::string> names;
+    std::transform(folders.begin(), folders.end(), std::back_inserter(names),
+                   [](const fs::path& folder) { return folder.string(); });
+    throw objectError(stage_path, object,
+                      fmt::format("file is \"{}\", which is not in {}; {}{} tells where else to look", object.file,
+                                  fmt::join(names, " or "), folders.size() > 1 ? "another " : "", other_folder));
+}
+
+void moveBehind(std::vector<std::string>& into, std::vector<std::string>& from)
+{
+    into.insert(into.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+    from.clear();
+}
+
+/// What the arrays of a scene take.
+SceneSize sizeOf(const Scene& scene)
+{
+    SceneSize size;
+    size.instance_count = static_cast<double>(scene.instances.size());
+    size.triangle_count = static_cast<double>(scene.triangleCount());
+    const auto take = [&size](const auto& array)
+    { size.bytes += static_cast<double>(array.size()) * static_cast<double>(sizeof(array[0])); };
+    for (const Primitive& primitive : scene.primitives)
+    {
+        size.vertex_count = std::max(size.vertex_count, static_cast<double>(primitive.positions.size()));
+        take(primitive.positions);
+        take(primitive.normals);
+        take(primitive.uvs);
+        take(primitive.colors);
+        take(primitive.triangles);
+        take(primitive.joints);
+        take(primitive.weights);
+        for (const MorphTarget& target : primitive.morph_targets)
+        {
+            take(target.positions);
+            take(target.normals);
+        }
+    }
+    for (const Image& image : scene.images)
+    {
+        take(image.rgba);
+    }
+    take(scene.instances);
+    return size;
+}
+
+/// Loads the files of a stage's objects, each once.
+class ObjectLoader
+{
+public:
+    ObjectLoader(const fs::path& stage_path, const std::vector<fs::path>& paths) : m_stage_path(stage_path)
+    {
+        for (const fs::path& path : paths)
+        {
+            ++m_files[path].use_count;
+        }
+    }
+
+    /// The scene in a file, at one of its uses.
+    Scene load(const fs::path& path)
+    {
+        File& file = m_files.at(path);
+        if (!file.is_loaded)
+        {
+            file.scene = loadScene(std::span(&path, 1), {.every_animation = true});
+            file.size = sizeOf(file.scene);
+            file.is_loaded = true;
+        }
+        m_size.instance_count += file.size.instance_count;
+        m_size.triangle_count += file.size.triangle_count;
+        m_size.vertex_count = std::max(m_size.vertex_count, file.size.vertex_count);
+        m_size.bytes += file.size.bytes;
+        checkSceneSize(m_stage_path, m_size); // before it is copied
+        if (--file.use_count == 0)
+        {
+            return std::move(file.scene);
+        }
+        Scene copy = file.scene;
+        file.scene.warnings.clear(); // are told once
+        file.scene.rest_warnings.clear();
+        return copy;
+    }
+
+private:
+    struct File
+    {
+        std::size_t use_count = 0; // still to come
+        bool is_loaded = false;
+        Scene scene;
+        SceneSize size;
+    };
+
+    const fs::path& m_stage_path;
+    std::map<fs::path, File> m_files;
+    SceneSize m_size; // of all objects
+};
+
+void placeCamera(const glm::dmat4& place, Camera& camera)
+{
+    const glm::dvec3 up(camera.transform[1]);
+    const double length = glm::length(up);
+    const double scale = length > 0.0 ? glm::length(glm::dmat3(place) * up) / length : 1.0;
+    camera.transform = placed(place, camera.transform);
+    camera.half_height = static_cast<float>(scale * static_cast<double>(camera.half_height));
+}
+
+void checkPlace(const fs::path& stage_path, const StageObject& object, const Scene& scene)
+{
+    for (const Instance& instance : scene.instances)
+    {
+        if (!isFinite(placed(object.place, instance.transform)))
+        {
+            throw objectError(stage_path, object,
+                              "place makes the object larger than single precision holds; expected a smaller scale");
+        }
+    }
+}
+
+/// What a message says of the animations of a file.
+std::string listAnimations(const std::vector<Animation>& animations)
+{
+    if (animations.empty())
+    {
+        return "has no animations that move anything";
+    }
+    std::vector<std::string> names;
+    for (const Animation& animation : animations)
+    {
+        if (names.size() == kShownAnimations)
+        {
+            names.push_back(fmt::format("{} more", animations.size() - kShownAnimations));
+            break;
+        }
+        names.push_back(animation.name.empty() ? fmt::format("{}", animation.number)
+                                               : fmt::format("{} (\"{}\")", animation.number, animation.name));
+    }
+    return fmt::format("has {}", fmt::join(names, ", "));
+}
+
+/// Leaves the scene of an object the animation that plays.
+void chooseAnimation(const fs::path& stage_path, const StageObject& object, Scene& scene)
+{
+    if (keepAnimation(scene, object.animation))
+    {
+        return;
+    }
+    const auto* const name = std::get_if<std::string>(&*object.animation);
+    const std::string wanted =
+        name != nullptr ? fmt::format("\"{}\"", *name) : fmt::format("{}", std::get<std::uint32_t>(*object.animation));
+    throw objectError(stage_path, object,
+                      fmt::format("animation is {}, which {} does not have; it {}", wanted, object.file,
+                                  listAnimations(scene.animations)));
+}
+
+bool isDeformedAtAll(const Scene& scene)
+{
+    return std::any_of(scene.instances.begin(), scene.instances.end(),
+                       [&](const Instance& instance)
+                       { return isDeformed(scene.primitives[instance.primitive], instance); });
+}
+
+/// Adds what stands still, cameras included.
+void addFixed(Stage& stage, Scene&& scene, const glm::dmat4& place)
+{
+    if (isDeformedAtAll(scene))
+    {
+        moveBehind(stage.warnings, scene.rest_warnings);
+    }
+    scene = atRest(std::move(scene));
+    scene.rest_warnings.clear();
+    for (Instance& instance : scene.instances)
+    {
+        instance.transform = placed(place, instance.transform);
+    }
+    for (Camera& camera : scene.cameras)
+    {
+        placeCamera(place, camera);
+    }
+    stage.fixed.append(std::move(scene));
+}
+
+/// Adds a mover that has no scene yet, with those instances of scene that move, and the others as what stands still.
+void addParts(Stage& stage, Mover mover, Scene&& scene, const std::vector<bool>& moves)
+{
+    moveBehind(stage.warnings, scene.warnings);
+    if (!std::holds_alternative<std::monostate>(mover.motion))
+    {
+        scene.cameras.clear(); // they would have to move
+    }
+    if (std::find(moves.begin(), moves.end(), true) == moves.end())
+    {
+        addFixed(stage, std::move(scene), mover.place);
+        return;
+    }
+    std::vector<bool> stays = moves;
+    stays.flip();
+    addFixed(stage, partOf(scene, stays), mover.place);
+    mover.scene = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
+    mover.scene.cameras.clear();
+    mover.scene.rest_warnings.clear();
+    const std::vector<bool> animated = animatedInstances(mover.scene);
+    mover.deforms = std::find(animated.begin(), animated.end(), true) != animated.end();
+    stage.movers.push_back(std::move(mover));
+}
+
+void addObject(Stage& stage, const StageObject& object, Scene&& scene)
+{
+    const std::vector<bool> moves =
+        object.is_dynamic ? std::vector<bool>(scene.instances.size(), *object.is_dynamic) : animatedInstances(scene);
+    Mover mover;
+    mover.name = object.name;
+    mover.place = object.place;
+    mover.motion = object.motion;
+    addParts(stage, std::move(mover), std::move(scene), moves);
+}
+
+void checkCamera(const fs::path& stage_path, const Stage& stage)
+{
+    const auto* const name = stage.camera ? std::get_if<std::string>(&*stage.camera) : nullptr;
+    if (name == nullptr || *name == "auto" || *name == "close")
+    {
+        return;
+    }
+    std::vector<std::string> names = {"auto", "close"};
+    for (const Camera& camera : stage.fixed.cameras)
+    {
+        if (camera.name == *name)
+        {
+            return;
+        }
+        names.push_back(camera.name);
+    }
+    throw inputError(stage_path,
+                     fmt::format("camera is \"{}\"; expected one of {} (cameras of objects without a motion), or "
+                                 "an object with eye and target",
+                                 *name, fmt::join(names, ", ")));
+}
+
+std::string readStageText(const fs::path& path)
+{
+    const std::vector<std::uint8_t> content = readFile(path);
+    if (content.size() > kStageFileBytesMax)
+    {
+        throw inputError(
+            path, fmt::format("a scene file of {} bytes; expected {} at most", content.size(), kStageFileBytesMax));
+    }
+    return {content.begin(), content.end()};
+}
+
+} // namespace
+
+Stage stageOf(Scene scene, const std::string& name)
+{
+    Stage stage;
+    double seconds = 0.0;
+    for (const Animation& animation : scene.animations)
+    {
+        seconds = std::max(seconds, animation.seconds);
+    }
+    stage.seconds = seconds > 0.0 ? seconds : stage.seconds;
+    const std::vector<bool> moves = animatedInstances(scene);
+    Mover mover;
+    mover.name = name;
+    addParts(stage, std::move(mover), std::move(scene), moves);
+    return stage;
+}
+
+Stage loadStage(const fs::path& path, const StageOptions& options)
+{
+    if (!isStageFile(path))
+    {
+        Stage stage = stageOf(loadScene(std::span(&path, 1), options.load), path.stem().string());
+        stage.files.push_back(path);
+        return stage;
+    }
+    const StageFile file = parseStageFile(readStageText(path), path);
+    std::vector<fs::path> folders = {path.has_parent_path() ? path.parent_path() : fs::path(".")};
+    if (options.scenes_folder)
+    {
+        folders.push_back(*options.scenes_folder);
+    }
+    Stage stage;
+    stage.seconds = file.seconds;
+    stage.frames_per_second = file.frames_per_second;
+    stage.grid_depth = file.grid_depth;
+    stage.grid_bounds = file.grid_bounds;
+    stage.camera = file.camera;
+    stage.merge = file.merge;
+    for (const StageObject& object : file.objects)
+    {
+        stage.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
+    }
+    ObjectLoader loader(path, stage.files);
+    for (std::size_t i = 0; i < file.objects.size(); ++i)
+    {
+        const StageObject& object = file.objects[i];
+        Scene scene = loader.load(stage.files[i]);
+        checkPlace(path, object, scene);
+        chooseAnimation(path, object, scene);
+        addObject(stage, object, std::move(scene));
+    }
+    checkCamera(path, stage);
+    stage.files.push_back(path);
+    return stage;
+}
+
+} // namespace zvo

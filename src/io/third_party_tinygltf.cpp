@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+#include <fstream> // tinygltf's writers use it even without a file system
+
+#define TINYGLTF_IMPLEMENTATION
+#include "io/third_party_tinygltf.h"

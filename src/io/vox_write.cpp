@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "core/tree_build.h"
+#include "io/quantize.h"
+#include "io/vox_file.h"
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace zvo
+{
+
+namespace
+{
+
+static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
+
+constexpr std::uint32_t kBlockBits = 8; // models of 256^3
+constexpr std::uint32_t kPaletteSize = 255;
+constexpr std::uint32_t kVersion = 200;
+constexpr std::uint64_t kChunkHeaderBytes = 12;
+constexpr std::uint64_t kSizeMax = INT32_MAX;
+constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without attributes
+
+std::uint32_t colorOf(const TreeData& tree, std::size_t voxel)
+{
+    return tree.hasAttributes() ? tree.voxelAttribute(voxel).color & (kColorCount - 1) : kPlainColor;
+}
+
+// zvo's cell as MagicaVoxel's voxel.
+glm::ivec3 turned(const glm::uvec3& cell)
+{
+    const glm::ivec3 c(cell);
+    return {c.x, -1 - c.z, c.y};
+}
+
+// The voxels of one block, which are neighbours in Morton order.
+struct Model
+{
+    std::uint64_t voxel_count = 0;
+    glm::ivec3 min{INT32_MAX}; // MagicaVoxel's coordinates
+    glm::ivec3 max{INT32_MIN}; // inclusive
+
+    [[nodiscard]] glm::ivec3 size() const { return max - min + 1; }
+};
+
+// Bytes of chunks, little-endian.
+class Writer
+{
+public:
+    void number(std::int64_t value) { append(static_cast<std::int32_t>(value)); }
+    void name(const char* id) { add(id, 4); }
+    void text(const std::string& value)
+    {
+        number(static_cast<std::int64_t>(value.size()));
+        add(value.data(), value.size());
+    }
+    template <typename T> void append(const T& value) { add(&value, sizeof(value)); }
+
+    // A chunk without children around what is in content.
+    void chunk(const char* id, const Writer& content)
+    {
+        name(id);
+        number(static_cast<std::int64_t>(content.m_bytes.size()));
+        number(0);
+        add(content.m_bytes.data(), content.m_bytes.size());
+    }
+
+    [[nodiscard]] const std::vector<std::byte>& bytes() const { return m_bytes; }
+    void clear() { m_bytes.clear(); }
+
+private:
+    void add(const void* data, std::size_t size)
+    {
+        const std::size_t end = m_bytes.size();
+        m_bytes.resize(end + size);
+        std::memcpy(m_bytes.data() + end, data, size);
+    }
+
+    std::vector<std::byte> m_bytes;
+};
+
+// A node that places another one.
+void addTransform(Writer& writer, std::int32_t id, std::int32_t child, std::int32_t layer, const std::string& place)
+{
+    Writer content;
+    content.number(id);
+    content.number(0); // attributes
+    content.number(child);
+    content.number(-1); // reserved
+    content.number(layer);
+    content.number(1); // frames
+    content.number(place.empty() ? 0 : 1);
+    if (!place.empty())
+    {
+        content.text("_t");
+        content.text(place);
+    }
+    writer.chunk("nTRN", content);
+}
+
+// The root, a group, and for each model its place and its shape.
+Writer sceneGraph(const std::vector<Model>& models)
+{
+    constexpr std::int32_t kFirstPlace = 2;
+    Writer writer;
+    addTransform(writer, 0, 1, -1, "");
+    Writer group;
+    group.number(1);
+    group.number(0);
+    group.number(static_cast<std::int64_t>(models.size()));
+    for (std::size_t i = 0; i < models.size(); ++i)
+    {
+        group.number(kFirstPlace + 2 * static_cast<std::int64_t>(i));
+    }
+    writer.chunk("nGRP", group);
+    for (std::size_t i = 0; i < models.size(); ++i)
+    {
+        const auto place = kFirstPlace + 2 * static_cast<std::int32_t>(i);
+        const glm::ivec3 middle = models[i].min + models[i].size() / 2;
+        addTransform(writer, place, place + 1, 0, fmt::format("{} {} {}", middle.x, middle.y, middle.z));
+        Writer shape;
+        shape.number(place + 1);
+        shape.number(0);
+        shape.number(1);
+        shape.number(static_cast<std::int64_t>(i));
+        shape.number(0);
+        writer.chunk("nSHP", shape);
+    }
+    return writer;
+}
+
+Writer paletteChunk(const Palette& palette)
+{
+    constexpr std::uint32_t kOpaque = 0xff000000U;
+    Writer content;
+    for (std::size_t i = 0; i <= kPaletteSize; ++i) // 256 are written, the last one has no index
+    {
+        content.append(i < palette.colors.size() ? palette.colors[i] | kOpaque : std::uint32_t{0});
+    }
+    Writer writer;
+    writer.chunk("RGBA", content);
+    return writer;
+}
+
+} // namespace
+
+void writeVox(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+{
+    std::vector<Model> models;
+    std::vector<std::uint32_t> counts(kColorCount);
+    std::uint64_t last_block = UINT64_MAX;
+    std::size_t voxel = 0;
+    forEachVoxel(tree,
+                 [&](std::uint64_t code)
+                 {
+                     if (code >> (3 * kBlockBits) != last_block)
+                     {
+                         models.emplace_back();
+                         last_block = code >> (3 * kBlockBits);
+                     }
+                     Model& model = models.back();
+                     const glm::ivec3 place = turned(cellOfCode(code));
+                     ++model.voxel_count;
+                     model.min = glm::min(model.min, place);
+                     model.max = glm::max(model.max, place);
+                     ++counts[colorOf(tree, voxel++)];
+                 });
+    const Palette palette = quantize(counts, kPaletteSize);
+    const Writer graph = sceneGraph(models);
+    const Writer colors = paletteChunk(palette);
+    constexpr std::uint64_t kModelBytes = kChunkHeaderBytes + 12 + kChunkHeaderBytes + 4; // SIZE, and XYZI's head
+    const std::uint64_t children_bytes = models.size() * kModelBytes + std::uint64_t{4} * tree.voxel_count +
+                                         graph.bytes().size() + colors.bytes().size();
+    if (children_bytes > kSizeMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} voxels in {} models make {} bytes, more than a .vox file can "
+                                                  "hold (2 GiB); take a lower resolution",
+                                                  tree.voxel_count, models.size(), children_bytes));
+    }
+
+    Writer writer;
+    writer.name("VOX ");
+    writer.number(kVersion);
+    writer.name("MAIN");
+    writer.number(0);
+    writer.number(static_cast<std::int64_t>(children_bytes));
+    constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
+    std::size_t model = 0;
+    std::uint64_t rest = 0; // voxels of the current model
+    voxel = 0;
+    forEachVoxel(tree,
+                 [&](std::uint64_t code)
+                 {
+                     if (rest == 0)
+                     {
+                         Writer size;
+                         const glm::ivec3 edges = models[model].size();
+                         size.append(edges);
+                         writer.chunk("SIZE", size);
+                         rest = models[model++].voxel_count;
+                         writer.name("XYZI");
+                         writer.number(static_cast<std::int64_t>(4 + 4 * rest));
+                         writer.number(0);
+                         writer.number(static_cast<std::int64_t>(rest));
+                     }
+                     --rest;
+                     const glm::ivec3 place = turned(cellOfCode(code)) - models[model - 1].min;
+                     const std::uint32_t index = palette.indices[colorOf(tree, voxel++)] + 1U;
+                     writer.append(static_cast<std::uint32_t>(place.x) | static_cast<std::uint32_t>(place.y) << 8 |
+                                   static_cast<std::uint32_t>(place.z) << 16 | index << 24);
+                     if (writer.bytes().size() >= kPieceBytes)
+                     {
+                         write(writer.bytes());
+                         writer.clear();
+                     }
+                 });
+    write(writer.bytes());
+    write(graph.bytes());
+    write(colors.bytes());
+}
+
+} // namespace zvo
