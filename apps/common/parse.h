@@ -3,10 +3,10 @@
 // value of the kind asked for is an Error{Usage} that names the option.
 #pragma once
 
-#include "core/coverage.h"
 #include "core/scene.h"
 #include "core/tree_data.h"
 #include "io/load_scene.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <optional>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/attribute_form.h"
-#include "core/coverage.h"
 #include "core/scene.h"
 #include "io/load_scene.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <filesystem>

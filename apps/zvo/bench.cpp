@@ -22,6 +22,7 @@
 
 #ifdef ZVO_EMBREE
 #include "bench_embree.h"
+#include "core/compress.h"
 #endif
 
 #include <fmt/format.h>

@@ -7,6 +7,7 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
+#include "core/compress.h"
 #include "core/dynamic_octree.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"

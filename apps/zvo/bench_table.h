@@ -2,8 +2,8 @@
 #pragma once
 
 #include "common/report.h"
-#include "core/coverage.h"
 #include "vk/timer.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <optional>

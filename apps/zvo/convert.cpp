@@ -5,6 +5,7 @@
 #include "common/progress.h"
 #include "common/session.h"
 #include "common/tree_input.h"
+#include "core/compress.h"
 #include "core/input_error.h"
 #include "core/kernels.h"
 #include "core/svdag.h"

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/coverage.h"
 #include "core/scene.h"
 #include "core/trace.h"
 #include "core/tree_data.h"
 #include "io/load_scene.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -7,6 +7,7 @@
 #include "common/session.h"
 #include "common/tree_input.h"
 #include "common/view.h"
+#include "core/compress.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"

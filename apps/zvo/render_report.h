@@ -5,6 +5,7 @@
 #include "common/report.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"
+#include "core/svdag_builder.h"
 #include "core/tree_data.h"
 #include "io/stage.h"
 #include "io/stage_octree.h"

@@ -4,6 +4,7 @@
 
 #include "shared/attribute_forms.h"
 #include "vk/buffer.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <span>
@@ -12,14 +13,10 @@
 namespace zvo
 {
 
-/// How attributes are stored.
-enum class AttributeForm : std::uint32_t
-{
-    None = gpu::kFormNone,     ///< voxels look all alike
-    Bytes4 = gpu::kForm4,      ///< colours of 16 bits, normals of 16
-    Bytes8 = gpu::kForm8,      ///< gpu::Attribute, as they are made
-    Blocks = gpu::kFormBlocks, ///< of voxels: 16 in 24 bytes; of nodes: Bytes4
-};
+static_assert(static_cast<gpu::uint>(AttributeForm::None) == gpu::kFormNone);
+static_assert(static_cast<gpu::uint>(AttributeForm::Bytes4) == gpu::kForm4);
+static_assert(static_cast<gpu::uint>(AttributeForm::Bytes8) == gpu::kForm8);
+static_assert(static_cast<gpu::uint>(AttributeForm::Blocks) == gpu::kFormBlocks);
 
 /// As options and messages call it: "none", "4", "8", "block".
 const char* formName(AttributeForm form);

@@ -41,18 +41,21 @@ void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& a
     pass.dispatch(count, params);
 }
 
+PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, const Octree& tree)
+{
+    const std::uint64_t voxel_words = packedWords(form, tree.voxel_attributes.count());
+    const std::uint64_t node_words = packedWords(nodeForm(form), tree.node_attributes.count());
+    device.memory().require((voxel_words + node_words) * sizeof(gpu::uint), "packing the attributes");
+    return {form, {device, "packed voxel attributes", voxel_words}, {device, "packed node attributes", node_words}};
+}
+
 std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, Octree& tree)
 {
     if (!isPacked(form) || tree.attributeForm() != AttributeForm::Bytes8)
     {
         return {};
     }
-    const std::uint64_t voxel_words = packedWords(form, tree.voxel_attributes.count());
-    const std::uint64_t node_words = packedWords(nodeForm(form), tree.node_attributes.count());
-    device.device().memory().require((voxel_words + node_words) * sizeof(gpu::uint), "packing the attributes");
-    PackedAttributes packed = {form,
-                               {device.device(), "packed voxel attributes", voxel_words},
-                               {device.device(), "packed node attributes", node_words}};
+    PackedAttributes packed = makePackedAttributes(device.device(), form, tree);
     std::vector<vk::PassTime> passes = device.run(
         [&](vk::FrameGraph& graph)
         {

@@ -18,6 +18,10 @@ namespace zvo
 void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeForm form,
                     vk::BufferOf<gpu::uint>& words);
 
+/// What the attributes of tree, those of voxels and of nodes, are packed into. Throws Error{Memory} when the device's
+/// budget does not suffice.
+PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, const Octree& tree);
+
 /// Replaces the attributes of tree, those of voxels and of nodes, by such in a packed form, and waits. tree: an octree,
 /// or what a DAG has of one. Nothing happens to a tree without attributes, or for another form. Returns the passes.
 /// Throws Error{Memory} when the device's budget does not suffice.

@@ -2,25 +2,18 @@
 #pragma once
 
 #include "edit/edit.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 
 namespace zvo
 {
 
-enum class BrushShape : std::uint32_t
-{
-    Sphere = gpu::kBrushSphere, ///< voxels whose centres are less than radius + 1/2 voxels away
-    Box = gpu::kBrushBox,       ///< voxels at most radius away along each axis
-};
-
-enum class BrushAction : std::uint32_t
-{
-    Carve = gpu::kBrushCarve, ///< takes voxels away
-    Fill = gpu::kBrushFill,   ///< makes voxels where there are none; they face away from the brush's centre
-    Paint =
-        gpu::kBrushPaint, ///< gives voxels another colour, and takes their emission away; nothing without attributes
-};
+static_assert(static_cast<gpu::uint>(BrushShape::Sphere) == gpu::kBrushSphere);
+static_assert(static_cast<gpu::uint>(BrushShape::Box) == gpu::kBrushBox);
+static_assert(static_cast<gpu::uint>(BrushAction::Carve) == gpu::kBrushCarve);
+static_assert(static_cast<gpu::uint>(BrushAction::Fill) == gpu::kBrushFill);
+static_assert(static_cast<gpu::uint>(BrushAction::Paint) == gpu::kBrushPaint);
 
 /// A dab of a brush on the voxels of a grid.
 struct Brush

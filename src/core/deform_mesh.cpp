@@ -87,7 +87,7 @@ public:
         }
     }
 
-    DeformMesh upload(vk::HeadlessDevice& device)
+    DeformMesh upload(vk::Uploader& device)
     {
         device.device().memory().require(
             std::as_bytes(std::span(m_positions)).size() + std::as_bytes(std::span(m_normals)).size() +
@@ -267,7 +267,7 @@ std::uint32_t writeTerms(std::span<const DeformMesh::Target> targets, std::span<
 
 } // namespace
 
-DeformMesh uploadDeformMesh(vk::HeadlessDevice& device, const Scene& scene)
+DeformMesh uploadDeformMesh(vk::Uploader& device, const Scene& scene)
 {
     return MeshStaging(scene).upload(device);
 }

@@ -5,8 +5,9 @@
 
 #include "core/scene.h"
 #include "deform/deform.h"
+#include "vk/device.h"
 #include "vk/frame_graph.h"
-#include "vk/headless.h"
+#include "vk/uploader.h"
 
 #include <array>
 #include <cstdint>
@@ -75,7 +76,7 @@ struct DeformMesh
 
 /// Uploads what deforms in scene, and waits. Throws Error{Memory} when the device's budget does not suffice and
 /// Error{Input} for a joint that is not there and for more of anything than 32-bit numbers count.
-DeformMesh uploadDeformMesh(vk::HeadlessDevice& device, const Scene& scene);
+DeformMesh uploadDeformMesh(vk::Uploader& device, const Scene& scene);
 
 /// What a pose is on the device, and the host's copies from which it is written.
 struct PoseBuffers

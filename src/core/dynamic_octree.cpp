@@ -43,10 +43,9 @@ StaticTree checked(StaticTree fixed, const DynamicOptions& options)
 
 } // namespace
 
-DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, StaticTree fixed, const DynamicOptions& options)
+DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree fixed, const DynamicOptions& options)
     : m_device(device), m_options(options),
-      m_overlays(device, checked(std::move(fixed), options), {options.attributes, options.emission_scale},
-                 options.minimal_capacities ? 1 : kRoomMin),
+      m_overlays(device.device(), checked(std::move(fixed), options), {options.attributes, options.emission_scale}),
       m_movers(device, m_overlays.octree().grid,
                {options.coverage,
                 {m_overlays.hasAttributes(), m_overlays.emits()},
@@ -55,7 +54,7 @@ DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, StaticTree fixed, const
                 options.minimal_capacities},
                m_retired),
       m_history(m_overlays.arena(), options.history),
-      m_edits(device, m_overlays, m_history, options.edits, options.frames_in_flight),
+      m_edits(device.device(), m_overlays, m_history, options.edits, options.frames_in_flight),
       m_tables(uploadScene(device, Scene{}, true)), m_sum_shift(m_overlays.sums().sum_shift),
       m_sizes(options.minimal_capacities)
 {
@@ -64,6 +63,8 @@ DynamicOctree::DynamicOctree(vk::HeadlessDevice& device, StaticTree fixed, const
     const std::uint64_t pending = std::uint64_t{options.frames_in_flight} * kUpdatesPerFrame;
     m_roots = {d, "update/roots", pending + 1};
     m_results = {d, "update/results", pending + 1, vk::MemoryKind::Readback};
+    const std::uint64_t room = options.minimal_capacities ? 1 : kRoomMin;
+    device.perform([&](vk::FrameGraph& graph, vk::Retired& retired) { m_overlays.settle(graph, room, retired); });
 }
 
 MoverId DynamicOctree::add(std::shared_ptr<const MoverMesh> mesh, Pose pose)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/coverage.h"
 #include "core/edits.h"
 #include "core/mover_set.h"
 #include "core/octree.h"
@@ -11,8 +10,10 @@
 #include "core/tree_view.h"
 #include "core/update.h"
 #include "core/update_sizes.h"
-#include "vk/headless.h"
+#include "vk/device.h"
 #include "vk/retired.h"
+#include "vk/uploader.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <deque>
@@ -69,7 +70,7 @@ public:
     /// Takes over a static tree, a BuildResult or a DAG (and, for MergeRule::Average, the sums it was made of:
     /// BuildOptions::keep_sums). Throws Error{Usage} where those are missing, Error{Memory} when the device's budget
     /// does not suffice.
-    DynamicOctree(vk::HeadlessDevice& device, StaticTree fixed, const DynamicOptions& options);
+    DynamicOctree(vk::Uploader& device, StaticTree fixed, const DynamicOptions& options);
     DynamicOctree(const DynamicOctree&) = delete;
     DynamicOctree& operator=(const DynamicOctree&) = delete;
 
@@ -85,6 +86,9 @@ public:
     /// Takes the mover away; gives up an update that is under way. Throws Error{Usage} for one that is not there, as
     /// place() does.
     void remove(MoverId mover);
+
+    /// What the mover is made of. Throws Error{Usage} for one that is not there.
+    [[nodiscard]] const MoverMesh& mesh(MoverId mover) { return m_movers.mesh(mover); }
 
     /// Numbers the frame that is to be recorded.
     std::uint64_t beginFrame();
@@ -199,7 +203,7 @@ private:
     void setShift(std::uint32_t fragments);
     [[nodiscard]] RootPlace rootOf(const RootStep& step) const;
 
-    vk::HeadlessDevice& m_device;
+    vk::Uploader& m_device;
     DynamicOptions m_options;
     vk::Retired m_retired; // knows the frame
     OverlayOctree m_overlays;

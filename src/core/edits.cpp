@@ -32,7 +32,7 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
 
 } // namespace
 
-Edits::Edits(vk::HeadlessDevice& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
+Edits::Edits(vk::Device& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
              std::uint32_t frames_in_flight)
     : m_device(device), m_overlays(overlays), m_regions(regions),
       m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.steps_max)},
@@ -126,7 +126,7 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
     }
     if (!m_buffers || m_buffers->cells.count() < extent.cell_count)
     {
-        DabBuffers larger(m_device.device(), extent.cell_count);
+        DabBuffers larger(m_device, extent.cell_count);
         if (m_buffers)
         {
             retired.keep(std::move(*m_buffers));
@@ -159,13 +159,13 @@ OverlayRegion Edits::allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, 
 std::shared_ptr<vk::BufferOf<gpu::EditState>> Edits::makeStates(vk::Retired& retired)
 {
     return retired.keep(
-        std::make_shared<vk::BufferOf<gpu::EditState>>(m_device.device(), "edit/states", m_now.history.placeCount()));
+        std::make_shared<vk::BufferOf<gpu::EditState>>(m_device, "edit/states", m_now.history.placeCount()));
 }
 
 // Makes the first region, in which nothing is edited.
 void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& retired)
 {
-    vk::Device& d = m_device.device();
+    vk::Device& d = m_device;
     const std::uint32_t places = m_now.history.placeCount();
     m_now.states = makeStates(retired);
     if (m_reports.count() == 0)
@@ -217,8 +217,8 @@ bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& 
 // Moves what steps show to a region of that capacity.
 void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired& retired)
 {
-    m_device.device().memory().require(CompactBuffers::bytes(*m_now.region), "making room for edits");
-    auto& buffers = retired.keep(CompactBuffers(m_device.device(), *m_now.region));
+    m_device.memory().require(CompactBuffers::bytes(*m_now.region), "making room for edits");
+    auto& buffers = retired.keep(CompactBuffers(m_device, *m_now.region));
     const OverlayRegion to = allocateRegion(graph, capacity.nodes, capacity.voxels, retired);
     m_left.push_back(to); // given back should something throw
     EditSite where = site();

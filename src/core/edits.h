@@ -6,7 +6,7 @@
 #include "core/edit_history.h"
 #include "core/overlay_octree.h"
 #include "core/root_history.h"
-#include "vk/headless.h"
+#include "vk/device.h"
 #include "vk/retired.h"
 
 #include <cstddef>
@@ -26,7 +26,7 @@ class Edits
 {
 public:
     /// Regions that frames in flight may use go back by way of regions. All must outlive this.
-    Edits(vk::HeadlessDevice& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
+    Edits(vk::Device& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
           std::uint32_t frames_in_flight);
 
     /// Records a dab of the stroke that is under way, or of a new one. False, and no dab, while its room is not known:
@@ -109,7 +109,7 @@ private:
     void report(vk::FrameGraph& graph, std::uint32_t first_place, std::uint32_t place_count);
     void learn(const Report& report, State& state) const;
 
-    vk::HeadlessDevice& m_device;
+    vk::Device& m_device;
     OverlayOctree& m_overlays;
     RootHistory& m_regions;
     std::uint64_t m_bytes_max;

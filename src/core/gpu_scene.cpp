@@ -185,7 +185,7 @@ void addChunks(Staging& staging, std::uint32_t draw_number)
     checkedCount(chunks.size() * gpu::kChunkTriangles, "triangles");
 }
 
-template <typename T> vk::BufferOf<T> upload(vk::HeadlessDevice& device, const char* name, const std::vector<T>& values)
+template <typename T> vk::BufferOf<T> upload(vk::Uploader& device, const char* name, const std::vector<T>& values)
 {
     return device.makeBuffer(name, std::span<const T>(values));
 }
@@ -217,8 +217,7 @@ float brightestEmission(const Scene& scene)
     return brightest;
 }
 
-GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attributes,
-                     std::optional<float> emission_scale)
+GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, std::optional<float> emission_scale)
 {
     GpuScene result;
     result.has_attributes = attributes;

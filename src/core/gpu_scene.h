@@ -3,7 +3,8 @@
 
 #include "core/scene.h"
 #include "shared/scene.h"
-#include "vk/headless.h"
+#include "vk/device.h"
+#include "vk/uploader.h"
 #include "voxelize/voxelize.h"
 
 #include <array>
@@ -46,7 +47,7 @@ float brightestEmission(const Scene& scene);
 /// octree needs one emission_scale: that of the scene with the largest brightestEmission(); by default, the scene's
 /// own. Emission beyond the scale is cut off. Throws Error{Memory} when the device's budget does not suffice and
 /// Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
-GpuScene uploadScene(vk::HeadlessDevice& device, const Scene& scene, bool attributes,
+GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes,
                      std::optional<float> emission_scale = std::nullopt);
 
 /// The table of scene's buffers.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/coverage.h"
 #include "core/gpu_scene.h"
 #include "core/grid.h"
 #include "core/update_step.h"
 #include "core/voxelize.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <vector>

@@ -46,7 +46,7 @@ void copyRigidVertices(vk::FrameGraph& graph, const Scene& scene, const GpuScene
 
 } // namespace
 
-MoverBuffers makeMover(vk::HeadlessDevice& device, const Scene& scene, const GpuScene& uploaded, const DeformMesh& mesh)
+MoverBuffers makeMover(vk::Uploader& device, const Scene& scene, const GpuScene& uploaded, const DeformMesh& mesh)
 {
     MoverBuffers mover;
     mover.host_draws = makeDraws(scene);
@@ -69,9 +69,13 @@ MoverBuffers makeMover(vk::HeadlessDevice& device, const Scene& scene, const Gpu
         mover.pose = {device.device(), mesh};
         view.positions = {mover.positions.address()};
         view.normals = {mover.normals.address()};
-        device.run([&](vk::FrameGraph& graph) { copyRigidVertices(graph, scene, uploaded, mesh, mover); });
     }
     mover.view = device.makeBuffer("mover/view", std::span<const gpu::SceneView>(&view, 1));
+    if (!mesh.empty())
+    {
+        device.perform([&](vk::FrameGraph& graph, vk::Retired&)
+                       { copyRigidVertices(graph, scene, uploaded, mesh, mover); });
+    }
     return mover;
 }
 

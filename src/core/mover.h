@@ -5,8 +5,9 @@
 #include "core/deform_mesh.h"
 #include "core/gpu_scene.h"
 #include "core/scene.h"
+#include "vk/device.h"
 #include "vk/frame_graph.h"
-#include "vk/headless.h"
+#include "vk/uploader.h"
 
 #include <span>
 #include <vector>
@@ -32,8 +33,7 @@ struct MoverBuffers
 
 /// The buffers of a mover, placed as scene is at rest; vertices that deform are undefined until placeMover. uploaded
 /// and mesh: made of scene. Waits. Throws Error{Memory} when the device's budget does not suffice.
-MoverBuffers makeMover(vk::HeadlessDevice& device, const Scene& scene, const GpuScene& uploaded,
-                       const DeformMesh& mesh);
+MoverBuffers makeMover(vk::Uploader& device, const Scene& scene, const GpuScene& uploaded, const DeformMesh& mesh);
 
 /// Records what puts the mover into pose: its draws and, where it deforms, its vertices. Values travel inside the
 /// command buffer; nothing is allocated and nothing waits. Throws Error{Usage} when pose does not fit the mover's

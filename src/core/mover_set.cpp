@@ -64,8 +64,7 @@ bool isSame(const Pose& a, const Pose& b)
 
 } // namespace
 
-std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene scene, bool attributes,
-                                             float emission_scale)
+std::shared_ptr<const MoverMesh> uploadMover(vk::Uploader& device, Scene scene, bool attributes, float emission_scale)
 {
     auto mesh = std::make_shared<MoverMesh>();
     mesh->uploaded = uploadScene(device, scene, attributes, emission_scale);
@@ -76,7 +75,7 @@ std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene s
     return mesh;
 }
 
-MoverSet::MoverSet(vk::HeadlessDevice& device, const Grid& grid, const MoverOptions& options, vk::Retired& retired)
+MoverSet::MoverSet(vk::Uploader& device, const Grid& grid, const MoverOptions& options, vk::Retired& retired)
     : m_device(device), m_grid(grid), m_options(options), m_retired(retired),
       m_reports(device.device(), "update/layer_reports", (std::uint64_t{options.updates_max} + 1) * gpu::kLayersMax,
                 vk::MemoryKind::Readback)

@@ -2,14 +2,15 @@
 #pragma once
 
 #include "core/animation.h"
-#include "core/coverage.h"
 #include "core/deform_mesh.h"
 #include "core/layer.h"
 #include "core/mover.h"
 #include "core/root_history.h"
 #include "core/update_step.h"
-#include "vk/headless.h"
+#include "vk/device.h"
 #include "vk/retired.h"
+#include "vk/uploader.h"
+#include "zvo/types.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,8 +34,7 @@ struct MoverMesh
 };
 
 /// Uploads scene as a mover and waits; emission_scale: the common one. Throws as uploadScene and uploadDeformMesh.
-std::shared_ptr<const MoverMesh> uploadMover(vk::HeadlessDevice& device, Scene scene, bool attributes,
-                                             float emission_scale);
+std::shared_ptr<const MoverMesh> uploadMover(vk::Uploader& device, Scene scene, bool attributes, float emission_scale);
 
 /// Number of a mover, for as long as its octree lives.
 using MoverId = std::uint32_t;
@@ -55,12 +55,15 @@ class MoverSet
 {
 public:
     /// What retires goes to retired, which outlives this.
-    MoverSet(vk::HeadlessDevice& device, const Grid& grid, const MoverOptions& options, vk::Retired& retired);
+    MoverSet(vk::Uploader& device, const Grid& grid, const MoverOptions& options, vk::Retired& retired);
 
     /// See DynamicOctree.
     MoverId add(std::shared_ptr<const MoverMesh> mesh, Pose pose);
     void place(MoverId mover, Pose pose);
     void remove(MoverId mover);
+
+    /// Throws Error{Usage} for a mover that is not there.
+    [[nodiscard]] const MoverMesh& mesh(MoverId mover) { return *presentMover(mover).mesh; }
 
     /// Movers, present ones only, and their poses become those of an earlier time.
     void bringBack(std::span<const LayerState> states);
@@ -125,7 +128,7 @@ private:
     void dropLayer(Mover& mover);
     bool learn(const PendingLayer& pending);
 
-    vk::HeadlessDevice& m_device;
+    vk::Uploader& m_device;
     const Grid& m_grid;
     MoverOptions m_options;
     vk::Retired& m_retired;

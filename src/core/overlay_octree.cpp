@@ -64,33 +64,31 @@ StaticTree::StaticTree(Svdag static_dag, FragmentSums kept)
 {
 }
 
-OverlayOctree::OverlayOctree(vk::HeadlessDevice& device, StaticTree fixed, const OverlayContents& contents,
-                             std::uint64_t room)
+OverlayOctree::OverlayOctree(vk::Device& device, StaticTree fixed, const OverlayContents& contents)
     : m_device(device), m_is_empty(fixed.dag.tree.node_count == 0),
       m_has_attributes(m_is_empty ? contents.attributes : fixed.dag.tree.hasAttributes()),
       m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(fixed.dag.tree.emission.count()),
       m_sums(std::move(fixed.sums)), m_tree(adopted(std::move(fixed.dag), fixed.has_lists)), m_arena(staticSpace())
 {
+    m_tree.dag.tree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
+}
+
+void OverlayOctree::settle(vk::FrameGraph& graph, std::uint64_t room, vk::Retired& retired)
+{
+    grow(graph, room, room, retired);
     Octree& octree = m_tree.dag.tree;
-    octree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
-    vk::Retired retired;
-    m_device.run(
-        [&](vk::FrameGraph& graph)
-        {
-            grow(graph, room, room, retired);
-            if (m_is_empty)
-            {
-                graph.fill(octree.nodes, 0);
-                graph.fill(octree.node_attributes, 0);
-            }
-            graph.copy(octree.nodes, 0, octree.nodes, m_tree.static_root * sizeof(gpu::Node), sizeof(gpu::Node));
-            if (m_has_attributes)
-            {
-                graph.copy(octree.node_attributes, 0, octree.node_attributes,
-                           m_tree.dag.octree_node_count * sizeof(gpu::Attribute), sizeof(gpu::Attribute));
-            }
-        });
-    m_before.reset();
+    if (m_is_empty)
+    {
+        graph.fill(octree.nodes, 0);
+        graph.fill(octree.node_attributes, 0);
+    }
+    graph.copy(octree.nodes, 0, octree.nodes, m_tree.static_root * sizeof(gpu::Node), sizeof(gpu::Node));
+    if (m_has_attributes)
+    {
+        graph.copy(octree.node_attributes, 0, octree.node_attributes,
+                   m_tree.dag.octree_node_count * sizeof(gpu::Attribute), sizeof(gpu::Attribute));
+    }
+    frameSubmitted(retired);
 }
 
 OverlaySpace OverlayOctree::staticSpace() const
@@ -156,11 +154,11 @@ OverlayOctree::Buffers OverlayOctree::makeBuffers(std::uint64_t node_capacity, s
     const std::uint64_t attribute_voxels = m_has_attributes ? voxel_capacity : 0;
     const std::uint64_t emission_words = m_emits ? voxel_capacity / kVoxelBlock : 0;
     const std::uint64_t emission = m_emits ? m_static_emissive + voxel_capacity - firstOverlayVoxel() : 0;
-    m_device.device().memory().require(node_capacity * sizeof(gpu::Node) + rank_count * sizeof(gpu::BeforeChild) +
-                                           (attribute_nodes + attribute_voxels) * sizeof(gpu::Attribute) +
-                                           emission_words * sizeof(gpu::uvec2) + emission * sizeof(gpu::uint),
-                                       "room for overlays");
-    vk::Device& d = m_device.device();
+    m_device.memory().require(node_capacity * sizeof(gpu::Node) + rank_count * sizeof(gpu::BeforeChild) +
+                                  (attribute_nodes + attribute_voxels) * sizeof(gpu::Attribute) +
+                                  emission_words * sizeof(gpu::uvec2) + emission * sizeof(gpu::uint),
+                              "room for overlays");
+    vk::Device& d = m_device;
     return {{d, octree.nodes.name(), node_capacity},
             {d, "update/ranks", rank_count},
             {d, octree.node_attributes.name(), attribute_nodes},

@@ -4,7 +4,8 @@
 #include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
 #include "core/pipeline.h"
-#include "vk/headless.h"
+#include "vk/device.h"
+#include "vk/frame_graph.h"
 #include "vk/retired.h"
 
 #include <cstdint>
@@ -41,9 +42,12 @@ struct OverlayContents
 class OverlayOctree
 {
 public:
-    /// Takes over a static tree. Waits. room: nodes, and voxels, that there is room for at first. Throws Error{Memory}
-    /// when the device's budget does not suffice.
-    OverlayOctree(vk::HeadlessDevice& device, StaticTree fixed, const OverlayContents& contents, std::uint64_t room);
+    /// Takes over a static tree: traced and overlaid only behind settle().
+    OverlayOctree(vk::Device& device, StaticTree fixed, const OverlayContents& contents);
+
+    /// Records what moves the static tree to buffers with room for that many nodes, and voxels, behind it. Throws
+    /// Error{Memory} when the device's budget does not suffice: then nothing was recorded.
+    void settle(vk::FrameGraph& graph, std::uint64_t room, vk::Retired& retired);
 
     /// Makes room for one more region of that many nodes and voxels, whatever is held: records the copies to longer
     /// buffers, and leaves the old ones to retired. Throws Error{Memory} when the device's budget does not suffice:
@@ -97,7 +101,7 @@ private:
     [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
     [[nodiscard]] OverlaySpace staticSpace() const;
 
-    vk::HeadlessDevice& m_device;
+    vk::Device& m_device;
     bool m_is_empty;
     bool m_has_attributes;
     bool m_emits;

@@ -3,6 +3,7 @@
 
 #include "core/grid.h"
 #include "core/rig.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <map>
@@ -21,14 +22,6 @@ struct Image
     std::uint32_t height = 0;
     std::vector<std::uint8_t> rgba;
 };
-
-enum class WrapMode : std::uint32_t
-{
-    Repeat,
-    MirroredRepeat,
-    ClampToEdge
-};
-
 /// An image and how coordinates outside of it are taken.
 struct Texture
 {
@@ -36,14 +29,6 @@ struct Texture
     WrapMode wrap_u = WrapMode::Repeat;
     WrapMode wrap_v = WrapMode::Repeat;
 };
-
-enum class AlphaMode : std::uint32_t
-{
-    Opaque, // alpha is ignored
-    Mask,   // a fragment whose alpha is below the cutoff does not exist
-    Blend   // a fragment exists in proportion to its alpha, by ordered dither on the voxel's coordinates
-};
-
 struct Material
 {
     std::string name;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/svdag_forest.h"
 
+#include "core/compress.h"
 #include "core/divide_up.h"
 #include "svdag/svdag.h"
 #include "zvo/error.h"

@@ -2,6 +2,7 @@
 #include "core/tiled_build.h"
 
 #include "core/attribute_pack.h"
+#include "core/compress.h"
 #include "core/pipeline.h"
 #include "core/svdag_forest.h"
 #include "core/tile_nodes.h"

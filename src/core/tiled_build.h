@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/coverage.h"
 #include "core/grid.h"
 #include "core/mover.h"
 #include "core/tree_data.h"
 #include "vk/headless.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <functional>

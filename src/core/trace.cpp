@@ -10,6 +10,16 @@
 namespace zvo
 {
 
+static_assert(static_cast<gpu::uint>(View::Color) == gpu::kViewColor);
+static_assert(static_cast<gpu::uint>(View::Albedo) == gpu::kViewAlbedo);
+static_assert(static_cast<gpu::uint>(View::Normal) == gpu::kViewNormal);
+static_assert(static_cast<gpu::uint>(View::Depth) == gpu::kViewDepth);
+static_assert(static_cast<gpu::uint>(View::Level) == gpu::kViewLevel);
+static_assert(static_cast<gpu::uint>(View::Iterations) == gpu::kViewIterations);
+static_assert(static_cast<gpu::uint>(View::Voxel) == gpu::kViewVoxel);
+static_assert(static_cast<gpu::uint>(View::Bricks) == gpu::kViewBricks);
+static_assert(static_cast<gpu::uint>(View::Origin) == gpu::kViewOrigin);
+
 namespace
 {
 

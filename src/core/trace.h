@@ -5,25 +5,12 @@
 #include "core/tree_view.h"
 #include "trace/trace.h"
 #include "vk/frame_graph.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 
 namespace zvo
 {
-
-/// What a picture shows.
-enum class View : std::uint32_t
-{
-    Color = gpu::kViewColor,           ///< lit by sun and sky
-    Albedo = gpu::kViewAlbedo,         ///< base colour alone
-    Normal = gpu::kViewNormal,         ///< shading normal
-    Depth = gpu::kViewDepth,           ///< near is white, the far end of the grid dark
-    Level = gpu::kViewLevel,           ///< brighter is coarser (TraceOptions::detail_pixels)
-    Iterations = gpu::kViewIterations, ///< heat map of the traversal's loop
-    Voxel = gpu::kViewVoxel,           ///< a colour for each voxel
-    Bricks = gpu::kViewBricks, ///< base colour with the borders of nodes: leaves white, larger ones yellow and red
-    Origin = gpu::kViewOrigin, ///< orange: in a leaf that a dynamic update made; without attributes nothing is
-};
 
 /// Where a ray keeps the nodes above the current one. The hits are the same.
 enum class TraceStack : std::uint32_t

@@ -46,13 +46,12 @@ TreeData downloadCommon(vk::HeadlessDevice& device, const Octree& octree)
     return tree;
 }
 
-template <typename T>
-vk::BufferOf<T> uploadVector(vk::HeadlessDevice& device, const char* name, const std::vector<T>& values)
+template <typename T> vk::BufferOf<T> uploadVector(vk::Uploader& device, const char* name, const std::vector<T>& values)
 {
     return values.empty() ? vk::BufferOf<T>() : device.makeBuffer(name, std::span(values));
 }
 
-Octree uploadCommon(vk::HeadlessDevice& device, const TreeData& tree)
+Octree uploadCommon(vk::Uploader& device, const TreeData& tree)
 {
     Octree octree;
     octree.grid = tree.grid;
@@ -69,7 +68,7 @@ Octree uploadCommon(vk::HeadlessDevice& device, const TreeData& tree)
     return octree;
 }
 
-vk::BufferOf<gpu::Node> uploadPool(vk::HeadlessDevice& device, const TreeData& tree)
+vk::BufferOf<gpu::Node> uploadPool(vk::Uploader& device, const TreeData& tree)
 {
     const ListPacking packing = tree.packing();
     vk::BufferOf<gpu::Node> pool(device.device(), "svdag/pool", packing.poolNodes());
@@ -129,7 +128,7 @@ TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag)
     return tree;
 }
 
-DeviceTree uploadTree(vk::HeadlessDevice& device, const TreeData& tree)
+DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
 {
     const std::uint64_t pool_bytes = tree.packing().poolNodes() * sizeof(gpu::Node);
     device.device().memory().require(pool_bytes + tree.attributeBytes(), "the tree");

@@ -15,13 +15,6 @@
 namespace zvo
 {
 
-/// How the nodes of a tree hang together. The values are those of files (docs/file-format.md).
-enum class TreeStructure : std::uint32_t
-{
-    Svo = 1,  ///< each node has its own children, one behind the other
-    Svdag = 2 ///< equal subtrees are one, children stand in lists
-};
-
 /// "svo" or "svdag".
 const char* structureName(TreeStructure structure);
 
@@ -93,7 +86,7 @@ using DeviceTree = std::variant<Octree, Svdag>;
 
 /// Copies a tree that checkTree accepts to the device and waits. Throws Error{Memory} when the device's budget does not
 /// suffice.
-DeviceTree uploadTree(vk::HeadlessDevice& device, const TreeData& tree);
+DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree);
 
 /// Calls what with the Morton code of every voxel, ascending: the i-th call is about voxel i.
 void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t code)>& what);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/coverage.h"
 #include "core/gpu_scene.h"
 #include "core/grid.h"
 #include "core/mover.h"
 #include "shared/bricks.h"
 #include "vk/frame_graph.h"
+#include "zvo/types.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/stage_octree.h"
 
+#include "core/compress.h"
 #include "core/gpu_scene.h"
 #include "zvo/error.h"
 

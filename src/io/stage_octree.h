@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/coverage.h"
 #include "core/dynamic_octree.h"
 #include "core/grid.h"
 #include "core/pipeline.h"
 #include "core/tree_data.h"
 #include "io/stage.h"
 #include "vk/headless.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <map>

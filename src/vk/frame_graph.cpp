@@ -315,9 +315,9 @@ void FrameGraph::record(const std::string& name, std::span<const CopyUse> uses,
     std::vector<BufferAccess> accesses;
     for (const CopyUse& use : uses)
     {
-        if (use.buffer->handle() != VK_NULL_HANDLE)
+        if (use.buffer != VK_NULL_HANDLE)
         {
-            accesses.push_back(accessOf(*use.buffer, use.access));
+            accesses.push_back({reinterpret_cast<std::uint64_t>(use.buffer), use.access, use.name});
         }
     }
     declarePass(name, accesses, "commands");

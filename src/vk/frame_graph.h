@@ -98,10 +98,11 @@ private:
 /// A buffer that a pass of the caller's own commands copies from or to.
 struct CopyUse
 {
-    static CopyUse read(const Buffer& buffer) { return {&buffer, Access::CopyRead}; }
-    static CopyUse write(Buffer& buffer) { return {&buffer, Access::CopyWrite}; }
+    static CopyUse read(const Buffer& buffer) { return {buffer.handle(), buffer.name(), Access::CopyRead}; }
+    static CopyUse write(Buffer& buffer) { return {buffer.handle(), buffer.name(), Access::CopyWrite}; }
 
-    const Buffer* buffer;
+    VkBuffer buffer;
+    std::string_view name; // for the dump
     Access access;
 };
 
@@ -155,6 +156,9 @@ public:
     /// Passes recorded so far. Work that is recorded between two calls has the passes from the first number on and
     /// before the second one; in that order the timers list them.
     [[nodiscard]] std::size_t passCount() const { return m_pass_count; }
+
+    /// Passes that were recorded before this graph, with the same timers.
+    void countFrom(std::size_t pass_count) { m_pass_count = pass_count; }
 
     [[nodiscard]] Device& device() { return m_device; }
 

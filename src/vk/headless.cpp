@@ -6,6 +6,7 @@
 #include "vk/flight.h"
 #include "vk/instance.h"
 #include "vk/pipeline_cache.h"
+#include "vk/retired.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -337,6 +338,12 @@ std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>
     slicer.submit();
     m_impl->submission_count = slicer.submissionCount();
     return slicer.takeTimes();
+}
+
+void HeadlessDevice::perform(const std::function<void(FrameGraph&, Retired&)>& record)
+{
+    Retired retired;
+    run([&](FrameGraph& graph) { record(graph, retired); });
 }
 
 Submission HeadlessDevice::submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync)

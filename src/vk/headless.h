@@ -6,6 +6,7 @@
 #include "vk/frame_graph.h"
 #include "vk/slice_planner.h"
 #include "vk/submission.h"
+#include "vk/uploader.h"
 #include "vk/window_support.h"
 
 #include <algorithm>
@@ -44,16 +45,16 @@ std::vector<DeviceReport> queryAllDevices();
 
 /// The project's own Vulkan instance, device and queue: for work without a window, unless options ask for one. It plays
 /// the host of the embedding contract: it owns what DeviceHandles names, submits and waits.
-class HeadlessDevice
+class HeadlessDevice : public Uploader
 {
 public:
     /// Throws Error{Device} when no device will do; the message lists every device with every reason.
     HeadlessDevice(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels);
-    ~HeadlessDevice();
+    ~HeadlessDevice() override;
     HeadlessDevice(const HeadlessDevice&) = delete;
     HeadlessDevice& operator=(const HeadlessDevice&) = delete;
 
-    [[nodiscard]] Device& device();
+    [[nodiscard]] Device& device() override;
 
     /// The queue that everything is submitted to. Not to be used while a call of this class is going on.
     [[nodiscard]] VkQueue queue();
@@ -79,12 +80,8 @@ public:
     /// Submissions of the last run().
     [[nodiscard]] std::uint32_t submissionCount() const;
 
-    /// Copies values to buffer from element first on (through a staging buffer) and waits. Throws Error{Other} when
-    /// they do not fit.
-    template <typename T> void upload(BufferOf<T>& buffer, std::span<const T> values, std::uint64_t first = 0)
-    {
-        uploadBytes(buffer, first * sizeof(T), values.data(), values.size_bytes());
-    }
+    /// Runs record's passes, as run().
+    void perform(const std::function<void(FrameGraph&, Retired&)>& record) override;
 
     /// Copies count elements from element first on (all of them by default) to the host and waits. Throws Error{Other}
     /// when the buffer does not have them.
@@ -97,19 +94,11 @@ public:
         return values;
     }
 
-    /// A new buffer holding values.
-    template <typename T> BufferOf<T> makeBuffer(std::string name, std::span<const T> values)
-    {
-        BufferOf<T> buffer(device(), std::move(name), values.size());
-        upload(buffer, values);
-        return buffer;
-    }
-
     /// What the validation layers have said so far (0 without them). Messages go to stderr as they come.
     [[nodiscard]] std::uint32_t validationMessageCount() const;
 
 private:
-    void uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes);
+    void uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes) override;
     void downloadBytes(const Buffer& buffer, std::uint64_t offset, void* data, std::uint64_t bytes);
 
     struct Impl;

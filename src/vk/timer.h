@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vk/functions.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <string>
@@ -12,12 +13,7 @@ namespace zvo::vk
 
 class Device;
 
-/// GPU time of one pass.
-struct PassTime
-{
-    std::string name;
-    double ms = 0;
-};
+using zvo::PassTime;
 
 /// Timestamps around passes, in one query pool. A pool without timestamps (the device has none) stays empty.
 class TimerPool

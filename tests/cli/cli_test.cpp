@@ -2,6 +2,7 @@
 // What the program gives when all goes well: files, reports, tables.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"

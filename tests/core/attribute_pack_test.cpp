@@ -2,6 +2,7 @@
 // Attributes in fewer bytes: what the device packs is what the oracle packs, and what is read is what was packed.
 #include "core/attribute_pack.h"
 
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/svdag.h"
 #include "oracle/attribute_forms.h"
@@ -24,6 +25,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

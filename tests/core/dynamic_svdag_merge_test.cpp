@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Movers merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it was.
+#include "core/compress.h"
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
 #include "support/device.h"
@@ -22,6 +23,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 
@@ -205,7 +207,9 @@ TEST(DynamicSvdagMerge, MoreNodesThanListsCanBeToldFromAreRefused)
     const auto make = [&](std::uint64_t room)
     {
         Svdag dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
-        return OverlayOctree(device(), StaticTree(std::move(dag), {}), {false, 0.0F}, room);
+        OverlayOctree octree(device().device(), StaticTree(std::move(dag), {}), {false, 0.0F});
+        device().perform([&](vk::FrameGraph& graph, vk::Retired& retired) { octree.settle(graph, room, retired); });
+        return octree;
     };
     EXPECT_GE(make(1).arena().largestFreeNodes(), 1U);
     try

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Movers above a DAG: everything looks as if the DAG were the octree that it was made of.
+#include "core/compress.h"
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
 #include "oracle/dag.h"
@@ -26,6 +27,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
 // memory than was asked for.
+#include "core/compress.h"
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
 #include "core/svdag.h"
@@ -21,6 +22,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

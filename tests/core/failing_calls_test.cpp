@@ -4,6 +4,7 @@
 #include "core/animation.h"
 #include "core/attribute_pack.h"
 #include "core/camera.h"
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/mover.h"
 #include "core/pipeline.h"
@@ -33,6 +34,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

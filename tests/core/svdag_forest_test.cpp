@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // DAGs of tiles become, byte for byte, the DAG of the whole.
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag_forest.h"
@@ -15,6 +16,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

@@ -2,6 +2,7 @@
 // Compression against the oracle, byte for byte: so the result does not depend on threads, subgroups or tables either.
 #include "core/svdag.h"
 
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "io/gltf_loader.h"
@@ -27,6 +28,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A DAG that was built tile by tile is the DAG of the whole: nodes, lists, attributes, averages, emission.
 #include "core/attribute_pack.h"
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"
@@ -17,6 +18,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Views that show how voxels are stored, and what is told of one pixel.
 #include "core/animation.h"
+#include "core/compress.h"
 #include "core/dynamic_octree.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
@@ -31,6 +32,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Single bytes of a file that change: noticed by a checksum; where that was made to fit, refused or a sound tree.
 #include "core/attribute_pack.h"
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"

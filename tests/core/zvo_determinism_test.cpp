@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One file, byte for byte, for a scene whose triangles and instances come in any order, in each form of attributes.
 #include "core/attribute_pack.h"
+#include "core/compress.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/tiled_build.h"
@@ -20,6 +21,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

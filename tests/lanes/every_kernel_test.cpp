@@ -3,6 +3,7 @@
 // valgrind, instrumented kernels, poisoned memory.
 #include "core/animation.h"
 #include "core/attribute_pack.h"
+#include "core/compress.h"
 #include "core/deform_mesh.h"
 #include "core/dynamic_octree.h"
 #include "core/grid.h"
@@ -29,6 +30,7 @@
 
 namespace zvo
 {
+
 namespace
 {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/coverage.h"
 #include "core/grid.h"
 #include "core/scene.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <vector>

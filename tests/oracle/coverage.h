@@ -4,8 +4,8 @@
 // Overlap Testing, 2001). Thin: the page's own inequalities, one by one.
 #pragma once
 
-#include "core/coverage.h"
 #include "oracle/exact.h"
+#include "zvo/types.h"
 
 #include <array>
 #include <cstdint>

@@ -3,9 +3,9 @@
 // minute).
 #pragma once
 
-#include "core/coverage.h"
 #include "core/grid.h"
 #include "core/scene.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <map>

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "core/animation.h"
-#include "core/coverage.h"
 #include "core/deform_mesh.h"
 #include "core/gpu_scene.h"
 #include "core/grid.h"
 #include "core/mover.h"
 #include "core/scene.h"
 #include "vk/headless.h"
+#include "zvo/types.h"
 
 #include <cstdint>
 #include <map>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/mover_scenery.h"
 
+#include "core/compress.h"
 #include "core/pipeline.h"
 #include "support/deforming_scenes.h"
 #include "support/materials_scene.h"

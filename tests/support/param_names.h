@@ -2,7 +2,7 @@
 // What parameters of tests are called, in the tests' names and wherever a runner shows their values.
 #pragma once
 
-#include "core/coverage.h"
+#include "zvo/types.h"
 
 #include <gtest/gtest.h>
 

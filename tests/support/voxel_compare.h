@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/coverage.h"
 #include "core/grid.h"
 #include "core/pipeline.h"
 #include "core/scene.h"
 #include "vk/headless.h"
+#include "zvo/types.h"
 
 #include <cstddef>
 

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Marks what the shared library exports; everything else is hidden.
+#if defined(_WIN32)
+#error "zvo is built for systems with ELF or Mach-O libraries"
+#else
+#define ZVO_API __attribute__((visibility("default")))
+#endif

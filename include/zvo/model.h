@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "zvo/context.h"
+#include "zvo/export.h"
+#include "zvo/types.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace zvo
+{
+
+inline constexpr std::uint32_t kNoTexture = UINT32_MAX;
+
+/// A picture: width * height * 4 bytes, rows from the top, RGBA with straight alpha, colour sRGB encoded.
+struct TextureInfo
+{
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::span<const std::uint8_t> rgba;
+    WrapMode wrap_u = WrapMode::Repeat;
+    WrapMode wrap_v = WrapMode::Repeat;
+};
+
+struct MaterialInfo
+{
+    Vec4 base_color = {1, 1, 1, 1}; // linear
+    std::uint32_t base_color_texture = kNoTexture;
+    Vec3 emission = {0, 0, 0}; // linear radiance
+    std::uint32_t emission_texture = kNoTexture;
+    AlphaMode alpha_mode = AlphaMode::Opaque;
+    float alpha_cutoff = 0.5F; // AlphaMode::Mask
+};
+
+/// A list of triangles with one material.
+struct MeshInfo
+{
+    std::span<const Vec3> positions;                         // [vertices]
+    std::span<const Vec3> normals;                           // [vertices] unit length; or none: flat shading
+    std::span<const Vec2> uvs;                               // [vertices] v = 0 at the top row; or none
+    std::span<const Vec4> colors;                            // [vertices] linear, multiply the base colour; or none
+    std::span<const std::array<std::uint32_t, 3>> triangles; // vertices
+    std::uint32_t material = 0;
+};
+
+/// One appearance of a mesh.
+struct InstanceInfo
+{
+    std::uint32_t mesh = 0;
+    Mat4 transform = kIdentity; // to the model's space
+};
+
+/// What a model is made of; nothing of it is needed afterwards.
+struct ModelInfo
+{
+    std::span<const MeshInfo> meshes;
+    std::span<const InstanceInfo> instances; // none: each mesh once, as it is
+    std::span<const MaterialInfo> materials; // none: a white one
+    std::span<const TextureInfo> textures;
+
+    bool attributes = true; // else only what alpha needs is uploaded, and trees of it have no attributes
+    /// Of which emission is a fraction: what is voxelized into one tree needs one. Emission beyond it is cut off. None:
+    /// that of the brightest material.
+    std::optional<float> emission_scale = std::nullopt;
+};
+
+/// Triangles with materials in device memory: what trees are built of, and what moves in dynamic trees. Copies refer to
+/// the same model.
+class ZVO_API Model
+{
+public:
+    /// Records the upload. Takes as much memory again for staging until the frame is done. Throws Error{Usage} for
+    /// indices out of range, arrays of unequal length and transforms that are not affine, Error{Memory}, and
+    /// Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
+    /// First stage: COPY. Last stage: COPY; what zvo does with it afterwards is ordered.
+    Model(Recorder& recorder, const ModelInfo& info);
+    ~Model();
+    Model(const Model&);
+    Model& operator=(const Model&);
+
+    /// With instances counted each time.
+    [[nodiscard]] std::uint64_t triangleCount() const;
+
+    /// The emission scale that it has; 0: nothing emits light.
+    [[nodiscard]] float emissionScale() const;
+
+    /// The smallest grid around the model, centred on it.
+    [[nodiscard]] GridInfo gridAround(std::uint32_t depth) const;
+
+    struct Impl;
+    [[nodiscard]] const std::shared_ptr<Impl>& impl() const { return m_impl; } // of the library
+
+private:
+    std::shared_ptr<Impl> m_impl;
+};
+
+} // namespace zvo

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "zvo/context.h"
+
+#include "api/context_impl.h"
+#include "core/kernels.h"
+
+#include <fmt/format.h>
+
+namespace zvo
+{
+
+namespace
+{
+
+// Where zvo's work on its own resources takes place.
+constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                                          VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
+
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+
+constexpr VkAccessFlags2 kAccesses = kWrites | VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
+                                     VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
+
+void recordBarrier(const vk::Device& device, VkCommandBuffer commands, const VkMemoryBarrier2& barrier)
+{
+    VkDependencyInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = 1;
+    info.pMemoryBarriers = &barrier;
+    device.fn().vkCmdPipelineBarrier2(commands, &info);
+}
+
+VkMemoryBarrier2 memoryBarrier()
+{
+    VkMemoryBarrier2 barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    return barrier;
+}
+
+vk::DeviceHandles handlesOf(const ContextInfo& info)
+{
+    vk::DeviceHandles handles;
+    handles.get_instance_proc_addr = info.get_instance_proc_addr;
+    handles.instance = info.instance;
+    handles.physical_device = info.physical_device;
+    handles.device = info.device;
+    handles.queue_family = info.queue_family;
+    handles.enabled_features = info.enabled_features;
+    handles.enabled_core_features = info.enabled_core_features;
+    handles.enabled_instance_extensions = info.enabled_instance_extensions;
+    handles.enabled_device_extensions = info.enabled_device_extensions;
+    handles.allocation_callbacks = info.allocation_callbacks;
+    handles.pipeline_cache = info.pipeline_cache;
+    handles.memory = info.memory;
+    handles.memory_budget_bytes = info.memory_budget_bytes;
+    handles.memory_budget_name = "ContextInfo::memory_budget_bytes";
+    handles.log = info.log;
+    return handles;
+}
+
+} // namespace
+
+Context::Impl::Impl(const ContextInfo& info)
+    : device(handlesOf(info), zvoKernels()), uploads(device, retired), timed_passes(info.timed_passes_per_frame)
+{
+}
+
+std::shared_ptr<FrameState> Context::Impl::beginFrame(std::uint64_t number)
+{
+    if (!frames.empty() && frames.back()->number == number)
+    {
+        return frames.back();
+    }
+    if ((!frames.empty() && number < frames.back()->number) || (done && number <= *done))
+    {
+        throw Error(ErrorCode::Usage, fmt::format("frame {} was begun after {}: their numbers must grow", number,
+                                                  frames.empty() ? *done : frames.back()->number));
+    }
+    auto frame = std::make_shared<FrameState>();
+    frame->number = number;
+    if (timed_passes != 0)
+    {
+        if (free_timers.empty())
+        {
+            free_timers.push_back(std::make_unique<vk::TimerPool>(device, timed_passes));
+        }
+        frame->timers = std::move(free_timers.back());
+        free_timers.pop_back();
+        frame->timers->reset();
+    }
+    frames.push_back(frame);
+    retired.beginFrame(number);
+    return frame;
+}
+
+Context::Context(const ContextInfo& info) : m_impl(std::make_unique<Impl>(info)) {}
+
+Context::~Context() = default;
+
+void Context::frameDone(std::uint64_t frame)
+{
+    Impl& impl = *m_impl;
+    while (!impl.frames.empty() && impl.frames.front()->number <= frame)
+    {
+        FrameState& state = *impl.frames.front();
+        if (state.timers)
+        {
+            state.times = state.timers->collect();
+            impl.times = state.times.empty() ? impl.times : state.times;
+            impl.free_timers.push_back(std::move(state.timers));
+        }
+        state.is_done = true;
+        impl.done = state.number;
+        impl.frames.pop_front();
+    }
+    impl.retired.frameDone(frame);
+}
+
+void Context::frameLost()
+{
+    Impl& impl = *m_impl;
+    if (impl.is_recording)
+    {
+        throw Error(ErrorCode::Usage, "a frame can be lost only when its Recorder is gone");
+    }
+    if (impl.frames.empty())
+    {
+        return;
+    }
+    FrameState& state = *impl.frames.back();
+    state.is_lost = true;
+    if (state.timers)
+    {
+        impl.free_timers.push_back(std::move(state.timers));
+    }
+    impl.frames.pop_back();
+}
+
+const std::vector<PassTime>& Context::passTimes() const
+{
+    return m_impl->times;
+}
+
+const DeviceReport& Context::report() const
+{
+    return m_impl->device.report();
+}
+
+MemoryUse Context::memory() const
+{
+    const vk::MemoryAllocator& memory = m_impl->device.memory();
+    return {memory.usedBytes(), memory.heldBytes(), memory.peakHeldBytes()};
+}
+
+Recorder::Recorder(Context& context, VkCommandBuffer commands, std::uint64_t frame, VkPipelineStageFlags2 readers)
+{
+    Context::Impl& impl = context.impl();
+    if (impl.is_recording)
+    {
+        throw Error(ErrorCode::Usage, "a context has one Recorder at a time");
+    }
+    std::shared_ptr<FrameState> state = impl.beginFrame(frame);
+    vk::TimerPool* const timers = state->timers.get();
+    const std::size_t pass_count = state->pass_count;
+    m_impl = std::make_unique<Impl>(Impl{impl, std::move(state), vk::FrameGraph(impl.device, commands, timers)});
+    m_impl->graph.countFrom(pass_count);
+    VkMemoryBarrier2 barrier = memoryBarrier();
+    barrier.srcStageMask = kStages | readers;
+    barrier.srcAccessMask = kWrites;
+    barrier.dstStageMask = kStages;
+    barrier.dstAccessMask = kAccesses;
+    recordBarrier(impl.device, commands, barrier);
+    impl.uploads.attach(&m_impl->graph);
+    impl.is_recording = true;
+}
+
+Recorder::~Recorder()
+{
+    m_impl->frame->pass_count = m_impl->graph.passCount();
+    m_impl->context.uploads.attach(nullptr);
+    m_impl->context.is_recording = false;
+}
+
+void Recorder::makeVisible(VkPipelineStageFlags2 stages)
+{
+    VkMemoryBarrier2 barrier = memoryBarrier();
+    barrier.srcStageMask = kStages;
+    barrier.srcAccessMask = kWrites;
+    barrier.dstStageMask = stages;
+    barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
+    recordBarrier(m_impl->context.device, m_impl->graph.commands(), barrier);
+}
+
+} // namespace zvo

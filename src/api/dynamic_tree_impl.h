@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "api/context_impl.h"
+#include "api/tree_impl.h"
+#include "core/dynamic_octree.h"
+#include "zvo/dynamic_tree.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+namespace zvo
+{
+
+struct DynamicTree::Impl
+{
+    Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTreeInfo& info);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    /// Learns what became of frames. Throws Error{Usage} where the tree, or a mover, was lost with one.
+    void learn();
+
+    /// The octree records into this frame.
+    void enter(Recorder::Impl& recorder);
+
+    /// Records a change of what is traced, and the table of it.
+    template <typename Change> bool change(Recorder& recorder, const Change& record)
+    {
+        enter(recorder.impl());
+        return recording(recorder,
+                         [&](Recorder::Impl& impl)
+                         {
+                             try
+                             {
+                                 const bool result = record(*octree, impl.graph);
+                                 publish(impl.graph);
+                                 return result;
+                             }
+                             catch (...) // it may have grown all the same
+                             {
+                                 publish(impl.graph);
+                                 throw;
+                             }
+                         });
+    }
+
+    void publish(vk::FrameGraph& graph);
+
+    // A frame that the device is not known to be done with, and its number for the octree.
+    struct Frame
+    {
+        std::shared_ptr<FrameState> host;
+        std::uint64_t number;
+    };
+
+    Context::Impl& context;
+    TreeFacts facts;
+    std::unique_ptr<DynamicOctree> octree;
+    vk::BufferOf<gpu::TreeTable> table;
+    std::deque<Frame> frames;
+    std::vector<std::shared_ptr<FrameState>> made_in; // of the tree and its movers, unless known to be done
+    std::vector<UpdateFacts> updates;
+    std::uint64_t version = 0; // of what is traced
+};
+
+} // namespace zvo

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "api/context_impl.h"
+#include "core/mover_set.h"
+#include "zvo/model.h"
+
+#include <memory>
+#include <utility>
+
+namespace zvo
+{
+
+struct Model::Impl
+{
+    Impl(Context::Impl& context_impl, std::shared_ptr<FrameState> frame)
+        : context(context_impl), made_in(std::move(frame))
+    {
+    }
+    ~Impl() { context.retire(std::move(mesh)); }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    Context::Impl& context;
+    std::shared_ptr<FrameState> made_in;
+    std::shared_ptr<const MoverMesh> mesh = nullptr;
+    Bounds bounds = {};
+};
+
+} // namespace zvo

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "api/context_impl.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+/// Work in steps, each recorded into a frame, the next one when the device is done with it.
+class StepJob
+{
+public:
+    explicit StepJob(Context::Impl& context) : m_context(context) {}
+    virtual ~StepJob() = default;
+    StepJob(const StepJob&) = delete;
+    StepJob& operator=(const StepJob&) = delete;
+
+    /// See TreeBuild.
+    bool record(Recorder& recorder)
+    {
+        requireSame(m_context, recorder.impl().context);
+        if (isDone())
+        {
+            return false;
+        }
+        if (!m_frame)
+        {
+            recording(recorder, [&](Recorder::Impl& impl) { recordStep(impl.graph); });
+            m_frame = recorder.impl().frame;
+        }
+        return true;
+    }
+
+    bool isDone()
+    {
+        if (m_is_broken)
+        {
+            throw Error(ErrorCode::Usage, "nothing comes of this any more: an earlier call has said why");
+        }
+        if (m_frame && m_frame->is_lost)
+        {
+            m_frame.reset();
+        }
+        if (m_frame && m_frame->is_done)
+        {
+            const std::shared_ptr<FrameState> frame = std::exchange(m_frame, nullptr);
+            m_is_broken = true; // unless this succeeds
+            stepDone(frame->times);
+            m_is_broken = false;
+        }
+        return isComplete();
+    }
+
+    [[nodiscard]] bool isBroken() const { return m_is_broken; }
+
+protected:
+    [[nodiscard]] Context::Impl& context() const { return m_context; }
+
+private:
+    virtual void recordStep(vk::FrameGraph& graph) = 0;
+    virtual void stepDone(const std::vector<PassTime>& passes) = 0;
+    [[nodiscard]] virtual bool isComplete() const = 0;
+
+    Context::Impl& m_context;
+    std::shared_ptr<FrameState> m_frame; // of the step that is under way
+    bool m_is_broken = false;
+};
+
+} // namespace zvo

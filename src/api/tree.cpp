@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "zvo/tree.h"
+
+#include "api/convert.h"
+#include "api/tree_impl.h"
+#include "core/tree_data.h"
+#include "core/tree_table.h"
+#include "core/zvo_file.h"
+
+#include <variant>
+
+namespace zvo
+{
+
+namespace
+{
+
+StaticTree staticTree(DeviceTree&& tree)
+{
+    if (auto* const dag = std::get_if<Svdag>(&tree))
+    {
+        return {std::move(*dag), {}};
+    }
+    BuildResult built;
+    built.octree = std::move(std::get<Octree>(tree));
+    return {std::move(built)};
+}
+
+std::unique_ptr<Tree::Impl> uploaded(Recorder& recorder, const TreeData& data)
+{
+    return recording(recorder,
+                     [&](Recorder::Impl& impl)
+                     {
+                         auto tree = std::make_unique<Tree::Impl>(impl.context,
+                                                                  staticTree(uploadTree(impl.context.uploads, data)));
+                         tree->made_in = impl.frame;
+                         impl.context.uploads.flush();
+                         tree->publish(impl.graph);
+                         return tree;
+                     });
+}
+
+} // namespace
+
+TreeFacts factsOf(const StaticTree& tree)
+{
+    const Svdag& dag = tree.dag;
+    const Octree& octree = dag.tree;
+    TreeFacts facts;
+    facts.structure = tree.has_lists ? TreeStructure::Svdag : TreeStructure::Svo;
+    facts.form = octree.attributeForm();
+    facts.grid = gridInfo(octree.grid);
+    facts.voxel_count = octree.voxel_count;
+    facts.node_count = octree.node_count;
+    facts.bytes = (tree.has_lists ? dag.geometryBytes() + dag.rankBytes() : octree.geometryBytes()) +
+                  octree.attributeBytes() + tree.sums.sums.bytes() + tree.sums.emission_sums.bytes();
+    facts.emission_scale = octree.emission.count() != 0 ? octree.emission_scale : 0;
+    return facts;
+}
+
+Tree::Impl& usable(const Tree& tree)
+{
+    Tree::Impl* const impl = tree.impl();
+    if (impl == nullptr)
+    {
+        throw Error(ErrorCode::Usage, "this tree was taken over: it is empty");
+    }
+    if (impl->made_in)
+    {
+        requireUsable(*impl->made_in, "tree");
+    }
+    return *impl;
+}
+
+Tree::Impl::Impl(Context::Impl& context_impl, StaticTree&& tree)
+    : context(context_impl), fixed(std::move(tree)), facts(factsOf(fixed)), table(context.device, "tree table", 1),
+      version(context.next_version++)
+{
+}
+
+void Tree::Impl::publish(vk::FrameGraph& graph)
+{
+    const gpu::TreeTable values = treeTable(view());
+    graph.update(table, 0, std::span(&values, 1));
+}
+
+Tree::Tree(Recorder& recorder, std::span<const std::byte> file)
+    : m_impl(uploaded(recorder, readZvo(file, "the tree in memory").tree))
+{
+}
+
+Tree::Tree(Recorder& recorder, const std::filesystem::path& path) : m_impl(uploaded(recorder, readZvo(path).tree)) {}
+
+Tree::Tree(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+Tree::~Tree() = default;
+Tree::Tree(Tree&&) noexcept = default;
+Tree& Tree::operator=(Tree&&) noexcept = default;
+
+const TreeFacts& Tree::facts() const
+{
+    return m_impl->facts;
+}
+
+std::uint64_t Tree::address() const
+{
+    return m_impl->table.address();
+}
+
+} // namespace zvo

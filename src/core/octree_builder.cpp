@@ -1,0 +1,390 @@
+// SPDX-License-Identifier: MIT
+#include "core/octree_builder.h"
+
+#include "core/divide_up.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <iterator>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+// Counters, raster counters of each class, level ranges.
+constexpr std::uint64_t kReadbackBytes = 1024;
+
+constexpr std::uint32_t kRetriesMax = 32; // a table of one brick grows to the largest in half of them
+
+[[noreturn]] void throwTooBig(const char* what)
+{
+    throw Error(ErrorCode::Memory,
+                fmt::format("the scene makes more {} than 32-bit numbers count; lower the resolution, "
+                            "or split the scene",
+                            what));
+}
+
+// Bytes of everything that coverVoxels allocates.
+std::uint64_t coverageBytes(const VoxelizeCapacities& capacities, const GpuScene& scene)
+{
+    std::uint64_t bytes = capacities.bricks * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) +
+                          divideUp(capacities.bricks, gpu::kScanBlock) * sizeof(gpu::uint);
+    for (const vk::BufferOf<gpu::Chunk>& chunks : scene.chunks)
+    {
+        if (chunks.count() != 0)
+        {
+            bytes +=
+                capacities.big_triangles * sizeof(gpu::BigTriangle) + capacities.row_blocks * sizeof(gpu::RowBlock);
+        }
+    }
+    return bytes;
+}
+
+// Whatever was asked for, a table of a power of two.
+VoxelizeCapacities usable(VoxelizeCapacities capacities)
+{
+    constexpr std::uint64_t kListMax = UINT32_MAX; // kernels count in 32 bits
+    capacities.bricks = std::bit_ceil(std::clamp<std::uint64_t>(capacities.bricks, 1, VoxelizeCapacities::kBricksMax));
+    capacities.big_triangles = std::min(capacities.big_triangles, kListMax);
+    capacities.row_blocks = std::min(capacities.row_blocks, kListMax);
+    return capacities;
+}
+
+// Row blocks of all bands, if those that found no room have as many each as the others, and an eighth more.
+std::uint64_t likelyRowBlocks(const gpu::RasterCounters& raster, std::uint64_t band_capacity)
+{
+    const std::uint64_t blocks = raster.block_count;
+    if (raster.big_count <= band_capacity || band_capacity == 0)
+    {
+        return blocks;
+    }
+    const double scaled = static_cast<double>(blocks) * raster.big_count / static_cast<double>(band_capacity);
+    return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(scaled * 1.125), blocks, gpu::kRowBlocksMax);
+}
+
+// Nothing when everything sufficed.
+std::optional<OctreeBuilder::Growth> growthOf(const VoxelizeCapacities& tried, const gpu::BrickCounters& bricks,
+                                              const std::vector<gpu::RasterCounters>& rasters)
+{
+    OctreeBuilder::Growth growth = {tried, tried};
+    bool grown = false;
+    if (bricks.overflow_count != 0)
+    {
+        if (tried.bricks >= VoxelizeCapacities::kBricksMax)
+        {
+            throwTooBig("octree nodes");
+        }
+        growth.needed.bricks = 2 * tried.bricks;
+        growth.likely.bricks = std::min(4 * tried.bricks, VoxelizeCapacities::kBricksMax);
+        grown = true;
+    }
+    for (const gpu::RasterCounters& raster : rasters)
+    {
+        if (raster.blocks_exceeded != 0)
+        {
+            throwTooBig("pieces of large triangles");
+        }
+        grown = grown || raster.big_count > tried.big_triangles || raster.block_count > tried.row_blocks;
+        for (VoxelizeCapacities* capacities : {&growth.needed, &growth.likely})
+        {
+            capacities->big_triangles = std::max<std::uint64_t>(capacities->big_triangles, raster.big_count);
+            capacities->row_blocks = std::max<std::uint64_t>(capacities->row_blocks, raster.block_count);
+        }
+        growth.likely.row_blocks = std::max(growth.likely.row_blocks, likelyRowBlocks(raster, tried.big_triangles));
+    }
+    return grown ? std::optional(growth) : std::nullopt;
+}
+
+std::map<std::string, std::uint64_t> droppedTriangles(const std::vector<gpu::RasterCounters>& rasters)
+{
+    std::map<std::string, std::uint64_t> dropped;
+    for (const gpu::RasterCounters& raster : rasters)
+    {
+        dropped["nonfinite"] += raster.nonfinite;
+        dropped["out_of_range"] += raster.out_of_range;
+        dropped["outside"] += raster.outside;
+        dropped["zero_area"] += raster.zero_area;
+    }
+    std::erase_if(dropped, [](const auto& entry) { return entry.second == 0; });
+    return dropped;
+}
+
+} // namespace
+
+double operationMs(std::span<const vk::PassTime> passes, std::string_view operation)
+{
+    constexpr std::string_view kFill = "fill ";
+    double ms = 0;
+    for (const vk::PassTime& pass : passes)
+    {
+        std::string_view name = pass.name;
+        name.remove_prefix(name.starts_with(kFill) ? kFill.size() : 0);
+        ms += name.starts_with(operation) && name.substr(operation.size()).starts_with('/') ? pass.ms : 0.0;
+    }
+    return ms;
+}
+
+OctreeBuilder::OctreeBuilder(vk::Device& device, const PlacedScene& scene, const GridTile& tile,
+                             const BuildOptions& options)
+    : m_device(device), m_scene(scene), m_tile(tile), m_options(options)
+{
+    const Grid& grid = tile.grid;
+    if (grid.depth < 1 || grid.depth > Grid::kDepthMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} is out of range: 1 to {} (resolution 2 to {})",
+                                                  grid.depth, Grid::kDepthMax, 1U << Grid::kDepthMax));
+    }
+    const std::uint32_t places = tile.depth <= grid.depth ? 1U << (grid.depth - tile.depth) : 0;
+    if (places > GridTile::kPlacesMax || glm::any(glm::greaterThanEqual(tile.place, glm::uvec3(places))))
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} has no tile ({}, {}, {}) of depth {}", grid.depth,
+                                                  tile.place.x, tile.place.y, tile.place.z, tile.depth));
+    }
+    if (options.attributes && !scene.uploaded().has_attributes)
+    {
+        throw Error(ErrorCode::Usage, "attributes were asked of a scene that was uploaded without them");
+    }
+    m_readback = {device, kReadbackBytes};
+    m_result.octree.grid = grid;
+    m_result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid)));
+}
+
+void OctreeBuilder::record(vk::FrameGraph& graph)
+{
+    m_readback.clear();
+    switch (m_step)
+    {
+    case Step::Cover:
+        cover(graph);
+        break;
+    case Step::Number:
+        numberNodes(graph, m_coverings->voxelize, m_coverings->work, m_result.octree);
+        break;
+    case Step::Attributes:
+        attributes(graph);
+        break;
+    case Step::Emission:
+        emission(graph);
+        break;
+    case Step::Average:
+        average(graph);
+        break;
+    case Step::Done:
+        break;
+    }
+    graph.releaseToHost();
+}
+
+void OctreeBuilder::stepDone(std::vector<vk::PassTime> passes)
+{
+    bool succeeded = true;
+    switch (m_step)
+    {
+    case Step::Cover:
+        succeeded = learnCoverage();
+        break;
+    case Step::Number:
+        m_coverings->work.items = {};
+        m_coverings->work.partials = {};
+        m_step = m_options.attributes ? Step::Attributes : Step::Done;
+        break;
+    case Step::Attributes:
+        succeeded = learnAttributes();
+        break;
+    case Step::Emission:
+        endVoxelAttributes();
+        break;
+    case Step::Average:
+        m_step = Step::Done;
+        break;
+    case Step::Done:
+        break;
+    }
+    if (succeeded)
+    {
+        m_result.passes.insert(m_result.passes.end(), std::make_move_iterator(passes.begin()),
+                               std::make_move_iterator(passes.end()));
+    }
+    else
+    {
+        ++m_result.retry_count;
+    }
+    if (m_step == Step::Done)
+    {
+        m_coverings.reset();
+        m_readback = {};
+    }
+}
+
+void OctreeBuilder::cover(vk::FrameGraph& graph)
+{
+    const GpuScene& scene = m_scene.uploaded();
+    if (!m_coverings)
+    {
+        m_device.memory().require(coverageBytes(m_result.capacities, scene), "voxelization");
+        m_coverings.emplace(Coverings{{m_device, m_result.capacities, scene}, {m_device, m_result.capacities.bricks}});
+    }
+    voxelizeCoverage(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize);
+    listNodes(graph, m_tile.grid, m_coverings->voxelize, m_coverings->work);
+    m_places.counters = m_readback.copy(graph, m_coverings->voxelize.counters, 0, 1);
+    m_places.ranges = m_readback.copy(graph, m_coverings->work.ranges, 0, m_tile.grid.nodeLevels());
+    m_places.rasters.clear();
+    for (const VoxelizeBuffers::RowWork& rows : m_coverings->voxelize.rows)
+    {
+        if (rows.counters.count() != 0)
+        {
+            m_places.rasters.push_back(m_readback.copy(graph, rows.counters, 0, 1));
+        }
+    }
+}
+
+// Whether there was room for everything.
+bool OctreeBuilder::learnCoverage()
+{
+    const gpu::BrickCounters counters = m_readback.at<gpu::BrickCounters>(m_places.counters, 1).front();
+    std::vector<gpu::RasterCounters> rasters;
+    for (const std::uint64_t place : m_places.rasters)
+    {
+        rasters.push_back(m_readback.at<gpu::RasterCounters>(place, 1).front());
+    }
+    if (const std::optional<Growth> growth = growthOf(m_result.capacities, counters, rasters))
+    {
+        grow(*growth);
+        return false;
+    }
+    if (counters.voxel_carry != 0)
+    {
+        throwTooBig("voxels");
+    }
+    m_result.dropped = droppedTriangles(rasters);
+    allocateNodes(counters);
+    if (!m_options.attributes)
+    {
+        m_coverings->voxelize.rows = {};
+    }
+    m_step = m_result.octree.node_count == 0 ? Step::Done : Step::Number;
+    return true;
+}
+
+void OctreeBuilder::grow(const Growth& growth)
+{
+    m_coverings.reset();
+    if (m_result.retry_count + 1 >= kRetriesMax)
+    {
+        throw Error(ErrorCode::Memory,
+                    fmt::format("voxelization found no room in {} attempts (last: a table of {} bricks); "
+                                "lower the resolution",
+                                kRetriesMax, m_result.capacities.bricks));
+    }
+    // The likely one: fewer runs, where memory allows it.
+    const bool fits = coverageBytes(growth.likely, m_scene.uploaded()) <= m_device.memory().roomBytes();
+    m_result.capacities = fits ? growth.likely : growth.needed;
+}
+
+// Sizes the octree from the node list.
+void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
+{
+    Octree& octree = m_result.octree;
+    octree.node_count = counters.node_count;
+    octree.voxel_count = counters.voxel_count;
+    if (octree.node_count == 0)
+    {
+        return;
+    }
+    const auto listed = m_readback.at<gpu::LevelRange>(m_places.ranges, octree.grid.nodeLevels());
+    std::uint32_t first_node = 0; // the list starts with the leaves, the octree with the root
+    for (auto range = listed.rbegin(); range != listed.rend(); ++range)
+    {
+        octree.levels.push_back({first_node, range->count});
+        first_node += range->count;
+    }
+    octree.nodes = {m_device, "octree/nodes", octree.node_count};
+}
+
+void OctreeBuilder::attributes(vk::FrameGraph& graph)
+{
+    Octree& octree = m_result.octree;
+    const bool emits = m_scene.uploaded().emission_scale > 0.0F;
+    if (!m_sums)
+    {
+        const std::uint64_t word_count = emits ? divideUp(octree.voxel_count, 32) : 0;
+        m_device.memory().require(octree.voxel_count * (sizeof(gpu::Attribute) + sizeof(gpu::VoxelSums)) +
+                                      word_count * sizeof(gpu::uvec2),
+                                  "averaging the attributes");
+        octree.voxel_attributes = {m_device, "octree/voxel_attributes", octree.voxel_count};
+        octree.emission_words = {m_device, "octree/emission_words", word_count};
+        m_sums.emplace(m_device, octree.voxel_count, emits);
+    }
+    voxelizeAttributes(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize, *m_sums, octree);
+    m_places.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
+    if (emits)
+    {
+        m_places.emissive_count = m_readback.copy(graph, m_sums->emissive_count, 0, 1);
+    }
+}
+
+// Whether sums had room for the fragments of every voxel.
+bool OctreeBuilder::learnAttributes()
+{
+    const gpu::uint fragments = m_readback.at<gpu::uint>(m_places.max_fragments, 1).front();
+    if (fragments != 0) // drop as many value bits as the largest sum has too many
+    {
+        m_sums->sum_shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
+        return false;
+    }
+    const float emission_scale = m_scene.uploaded().emission_scale;
+    if (emission_scale > 0.0F)
+    {
+        m_result.octree.emission_scale = emission_scale;
+        m_emissive_count = m_readback.at<gpu::uint>(m_places.emissive_count, 1).front();
+        if (m_emissive_count != 0)
+        {
+            m_step = Step::Emission;
+            return true;
+        }
+        m_result.octree.emission_words = {};
+    }
+    endVoxelAttributes();
+    return true;
+}
+
+void OctreeBuilder::emission(vk::FrameGraph& graph)
+{
+    if (m_result.octree.emission.count() == 0)
+    {
+        m_sums->emission_sums = {m_device, "voxelize/emission_sums", m_emissive_count};
+        m_result.octree.emission = {m_device, "octree/emission", m_emissive_count};
+    }
+    voxelizeEmission(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize, *m_sums, m_result.octree);
+}
+
+// The sums are many times larger than what becomes of them: they and the brick table go before the attributes of inner
+// nodes come.
+void OctreeBuilder::endVoxelAttributes()
+{
+    m_coverings.reset();
+    if (m_options.keep_sums)
+    {
+        m_result.sums = {std::move(m_sums->sums), std::move(m_sums->emission_sums), m_sums->sum_shift};
+    }
+    m_sums.reset();
+    m_step = Step::Average;
+}
+
+void OctreeBuilder::average(vk::FrameGraph& graph)
+{
+    Octree& octree = m_result.octree;
+    if (octree.node_attributes.count() == 0)
+    {
+        octree.node_attributes = {m_device, "octree/node_attributes", octree.node_count};
+    }
+    averageNodes(graph, m_scene.uploaded(), octree);
+}
+
+} // namespace zvo

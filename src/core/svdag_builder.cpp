@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+#include "core/svdag_builder.h"
+
+#include "core/divide_up.h"
+#include "vk/device.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint64_t kSlotsMax = UINT32_MAX; // of all levels: kernels count in 32 bits
+constexpr std::uint64_t kSlotsPerNodeMax = 16;  // with more, only equal hashes fill 256 slots in a row
+
+[[noreturn]] void throwTooBig(const ListPacking& packing)
+{
+    throw Error(ErrorCode::Memory, fmt::format("the DAG has {} nodes and {} entries of lists, more than numbers of 31 "
+                                               "bits tell apart; lower the resolution",
+                                               packing.node_count, packing.entry_count));
+}
+
+void requireCountable(std::span<const std::uint64_t> slot_counts)
+{
+    const std::uint64_t slots = std::reduce(slot_counts.begin(), slot_counts.end());
+    if (slots > kSlotsMax)
+    {
+        throw Error(ErrorCode::Memory, fmt::format("the table of equal nodes takes {} slots, but {} can be told apart; "
+                                                   "lower the resolution",
+                                                   slots, kSlotsMax));
+    }
+}
+
+// Grows the tables of levels that had too few slots. False: there were none.
+bool growSlots(const Candidates& candidates, const gpu::ClassSizes& sizes, std::vector<std::uint64_t>& slot_counts)
+{
+    bool grown = false;
+    for (std::size_t level = 0; level < slot_counts.size(); ++level)
+    {
+        if (sizes.overflow_counts[level] == 0)
+        {
+            continue;
+        }
+        if (slot_counts[level] > kSlotsPerNodeMax * candidates.levels()[level].node_count)
+        {
+            throw Error(ErrorCode::Other, fmt::format("more than {} different nodes of level {} have the same hash",
+                                                      gpu::kClassProbesMax, level));
+        }
+        slot_counts[level] *= 4;
+        grown = true;
+    }
+    return grown;
+}
+
+// Sizes dag from what the classes came to.
+void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::ClassSizes& sizes, bool has_ranks,
+                  std::uint32_t per_word_max, Svdag& dag)
+{
+    dag.tree.node_count = sizes.node_count;
+    dag.entry_count = sizes.entry_count;
+    const std::size_t level_count = candidates.levels().size();
+    for (std::size_t level = 0; level < level_count; ++level)
+    {
+        const std::uint32_t end = level + 1 < level_count ? sizes.first_nodes[level + 1] : sizes.node_count;
+        dag.tree.levels.push_back({sizes.first_nodes[level], end - sizes.first_nodes[level]});
+    }
+    dag.long_entry_count = level_count < 2 ? 0 : sizes.first_entries[level_count - 2];
+    ListPacking packing = ListPacking::tightest(sizes.node_count, sizes.entry_count);
+    packing.per_word = std::min(packing.per_word, per_word_max);
+    dag.entries_per_word = packing.per_word;
+    if (!packing.fits())
+    {
+        throwTooBig(packing);
+    }
+    const std::uint64_t before_count = has_ranks ? dag.long_entry_count : 0;
+    const std::uint64_t leaf_word_count = has_ranks ? divideUp(dag.entry_count - dag.long_entry_count, 2) : 0;
+    const std::uint64_t below_count = has_ranks ? dag.tree.levels.back().first_node : 0;
+    device.memory().require(packing.poolNodes() * sizeof(gpu::Node) +
+                                (before_count + below_count) * sizeof(gpu::BeforeChild) +
+                                leaf_word_count * sizeof(gpu::uint),
+                            "writing the DAG");
+    dag.tree.nodes = {device, "svdag/pool", packing.poolNodes()};
+    dag.before = {device, "svdag/before", before_count};
+    dag.voxels_before_leaf = {device, "svdag/voxels_before_leaf", leaf_word_count};
+}
+
+void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t level, const ClassBuffers& classes,
+                vk::BufferOf<gpu::BeforeChild>& below, Svdag& dag)
+{
+    const auto [first_node, node_count] = dag.tree.levels[level];
+    if (level + 1 == dag.tree.levels.size())
+    {
+        vk::Pass pass = graph.addPass("svdag/leaves");
+        const gpu::UniqueLeavesParams params = {pass.read(candidates.tree.nodes), pass.read(classes.table),
+                                                pass.write(dag.tree.nodes), first_node, node_count};
+        pass.dispatch(node_count, params);
+        return;
+    }
+    const bool above_leaves = level + 2 == dag.tree.levels.size();
+    const std::uint32_t has_before = below.count() != 0 ? 1 : 0;
+    vk::Pass pass = graph.addPass(
+        "svdag/lists", {candidates.entries_per_word, has_before, above_leaves ? 1U : 0U, dag.entries_per_word});
+    gpu::UniqueListsParams params{};
+    params.nodes = pass.read(candidates.tree.nodes);
+    params.classes = pass.read(classes.classes);
+    params.numbers = pass.read(classes.numbers);
+    params.unique_nodes = pass.read(classes.table);
+    params.first_entries = pass.read(classes.first_entries);
+    params.pool = pass.readWrite(dag.tree.nodes);
+    params.halfwords = {params.pool.address};
+    params.below = pass.readWrite(below);
+    params.before = pass.write(dag.before);
+    params.voxels_before_leaf = pass.readWrite(dag.voxels_before_leaf);
+    params.first_node = first_node;
+    params.node_count = node_count;
+    params.first_place = static_cast<std::uint32_t>(dag.packing().firstPlace());
+    params.long_entry_count = static_cast<std::uint32_t>(dag.long_entry_count);
+    pass.dispatch(node_count, params);
+}
+
+void writePool(vk::FrameGraph& graph, const Candidates& candidates, const ClassBuffers& classes,
+               vk::BufferOf<gpu::BeforeChild>& below, Svdag& dag)
+{
+    if (dag.entry_count != 0)
+    {
+        graph.fill(dag.tree.nodes, 0, dag.tree.node_count * (sizeof(gpu::Node) / sizeof(gpu::uint)));
+    }
+    graph.fill(dag.voxels_before_leaf, 0);
+    for (std::size_t level = dag.tree.levels.size(); level-- > 0;)
+    {
+        writeLevel(graph, candidates, level, classes, below, dag);
+    }
+}
+
+// Where octree, and the classes of its nodes, lead in depth-first order. numbers become ranks.
+void orderDepthFirst(vk::FrameGraph& graph, const Octree& octree, ClassBuffers& classes, Svdag& dag)
+{
+    vk::BufferOf<gpu::uint>& ranks = classes.numbers;
+    graph.fill(ranks, 0, 0, 1);
+    for (std::size_t level = 0; level + 1 < octree.levels.size(); ++level)
+    {
+        const auto [first_node, node_count] = octree.levels[level];
+        const bool above_leaves = level + 2 == octree.levels.size();
+        const bool packed = isPacked(octree.attributeForm());
+        vk::Pass pass = graph.addPass("svdag/depth_first", {0U, above_leaves ? 1U : 0U, packed ? 1U : 0U});
+        gpu::DepthFirstParams params{};
+        params.nodes = pass.read(octree.nodes);
+        params.classes = pass.read(classes.classes);
+        params.first_entries = pass.read(classes.first_entries);
+        params.before = pass.read(dag.before);
+        if (packed)
+        {
+            params.from = {pass.read(octree.packed.nodes).address};
+            params.to = {pass.readWrite(dag.tree.packed.nodes).address};
+        }
+        else
+        {
+            params.from = pass.read(octree.node_attributes);
+            params.to = pass.readWrite(dag.tree.node_attributes);
+        }
+        params.ranks = pass.readWrite(ranks);
+        params.first_node = first_node;
+        params.node_count = node_count;
+        pass.dispatch(node_count, params);
+    }
+}
+
+// What does not depend on equal nodes goes from one tree to the other.
+void moveVoxels(Octree& from, Octree& to)
+{
+    to.grid = from.grid;
+    to.voxel_count = from.voxel_count;
+    to.voxel_attributes = std::move(from.voxel_attributes);
+    to.packed.form = from.packed.form;
+    to.packed.voxels = std::move(from.packed.voxels);
+    to.emission_words = std::move(from.emission_words);
+    to.emission = std::move(from.emission);
+    to.emission_scale = from.emission_scale;
+}
+
+void requireLevels(const Octree& tree)
+{
+    if (tree.node_count != 0 && tree.levels.size() != tree.grid.nodeLevels())
+    {
+        throw Error(ErrorCode::Usage, "only a tree whose nodes stand level by level can be compressed");
+    }
+}
+
+Svdag withoutLists(Octree&& octree)
+{
+    Svdag dag;
+    dag.tree = std::move(octree);
+    return dag;
+}
+
+} // namespace
+
+double CompressResult::ms() const
+{
+    double sum = 0;
+    for (const vk::PassTime& pass : passes)
+    {
+        sum += pass.ms;
+    }
+    return sum;
+}
+
+SvdagBuilder::SvdagBuilder(vk::Device& device, Octree octree, const CompressOptions& options)
+    : SvdagBuilder(device, withoutLists(std::move(octree)), options, true)
+{
+}
+
+SvdagBuilder::SvdagBuilder(vk::Device& device, Svdag dag, const CompressOptions& options)
+    : SvdagBuilder(device, std::move(dag), options, false)
+{
+}
+
+SvdagBuilder::SvdagBuilder(vk::Device& device, Svdag source, const CompressOptions& options, bool of_octree)
+    : m_device(device), m_options(options), m_of_octree(of_octree),
+      m_source(std::move(source)), m_candidates{m_source.tree, of_octree ? 0 : m_source.entries_per_word,
+                                                options.hash_mask},
+      m_has_ranks(m_source.tree.hasAttributes() || options.ranks)
+{
+    const Octree& tree = m_source.tree;
+    requireLevels(tree);
+    m_result.dag.octree_node_count = of_octree ? tree.node_count : m_source.octree_node_count;
+    if (tree.node_count == 0)
+    {
+        finish();
+        return;
+    }
+    for (const Octree::Level& level : tree.levels)
+    {
+        m_result.candidate_counts.push_back(level.node_count);
+    }
+    m_slot_counts = classSlots(m_candidates, options.table_slots);
+    requireCountable(m_slot_counts);
+    m_readback = {device, sizeof(gpu::ClassSizes)};
+}
+
+void SvdagBuilder::record(vk::FrameGraph& graph)
+{
+    m_readback.clear();
+    switch (m_step)
+    {
+    case Step::Classify:
+        classify(graph);
+        break;
+    case Step::Write:
+        write(graph);
+        break;
+    case Step::Order:
+        order(graph);
+        break;
+    case Step::Done:
+        break;
+    }
+    graph.releaseToHost();
+}
+
+void SvdagBuilder::stepDone(std::vector<vk::PassTime> passes)
+{
+    bool succeeded = true;
+    switch (m_step)
+    {
+    case Step::Classify:
+        succeeded = learnClasses();
+        break;
+    case Step::Write:
+        m_below = {};
+        m_classes->table = {};
+        endNodes();
+        break;
+    case Step::Order:
+        finish();
+        break;
+    case Step::Done:
+        break;
+    }
+    if (succeeded)
+    {
+        m_result.passes.insert(m_result.passes.end(), std::make_move_iterator(passes.begin()),
+                               std::make_move_iterator(passes.end()));
+    }
+    else
+    {
+        ++m_result.retry_count;
+    }
+}
+
+void SvdagBuilder::classify(vk::FrameGraph& graph)
+{
+    if (!m_classes)
+    {
+        m_device.memory().require(ClassBuffers::bytes(m_candidates, m_slot_counts), "finding equal nodes");
+        m_classes.emplace(m_device, m_candidates, m_slot_counts);
+    }
+    findClasses(graph, m_candidates, m_slot_counts, *m_classes);
+    m_sizes_place = m_readback.copy(graph, m_classes->sizes, 0, 1);
+}
+
+// Whether the tables had enough slots.
+bool SvdagBuilder::learnClasses()
+{
+    const gpu::ClassSizes sizes = m_readback.at<gpu::ClassSizes>(m_sizes_place, 1).front();
+    if (growSlots(m_candidates, sizes, m_slot_counts))
+    {
+        m_classes.reset();
+        requireCountable(m_slot_counts);
+        return false;
+    }
+    m_classes->hashes = {};
+    const std::uint32_t per_word_max = m_options.entries_per_word != 0 ? m_options.entries_per_word : UINT32_MAX;
+    allocatePool(m_device, m_candidates, sizes, m_has_ranks, per_word_max, m_result.dag);
+    m_step = Step::Write;
+    return true;
+}
+
+void SvdagBuilder::write(vk::FrameGraph& graph)
+{
+    const std::uint64_t below_count = m_has_ranks ? m_result.dag.tree.levels.back().first_node : 0;
+    if (m_below.count() != below_count)
+    {
+        m_below = {m_device, "svdag/below", below_count};
+    }
+    writePool(graph, m_candidates, *m_classes, m_below, m_result.dag);
+}
+
+// What attributes of nodes come to.
+void SvdagBuilder::endNodes()
+{
+    Octree& source = m_source.tree;
+    if (m_of_octree && source.levels.size() > 1 && source.hasAttributes())
+    {
+        m_step = Step::Order;
+        return;
+    }
+    m_result.dag.tree.node_attributes = std::move(source.node_attributes);
+    m_result.dag.tree.packed.nodes = std::move(source.packed.nodes);
+    finish();
+}
+
+void SvdagBuilder::order(vk::FrameGraph& graph)
+{
+    Octree& tree = m_result.dag.tree;
+    const Octree& source = m_source.tree;
+    if (tree.node_attributes.count() + tree.packed.nodes.count() == 0)
+    {
+        tree.node_attributes = {m_device, "svdag/node_attributes", source.node_attributes.count()};
+        tree.packed.nodes = {m_device, "packed node attributes", source.packed.nodes.count()};
+    }
+    orderDepthFirst(graph, source, *m_classes, m_result.dag);
+}
+
+void SvdagBuilder::finish()
+{
+    moveVoxels(m_source.tree, m_result.dag.tree);
+    m_classes.reset();
+    m_readback = {};
+    m_step = Step::Done;
+}
+
+} // namespace zvo

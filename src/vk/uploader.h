@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vk/buffer.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace zvo::vk
+{
+
+class Device;
+class FrameGraph;
+class Retired;
+
+/// Fills buffers from the host's memory. Who implements it decides when: HeadlessDevice copies at once and waits,
+/// RecordedUploads puts the copies into a frame.
+class Uploader
+{
+public:
+    virtual ~Uploader() = default;
+
+    [[nodiscard]] virtual Device& device() = 0;
+
+    /// Has record's passes run behind all uploads before, and before whatever uses their results. What they need no
+    /// longer then goes to the Retired. Throws what record throws.
+    virtual void perform(const std::function<void(FrameGraph&, Retired&)>& record) = 0;
+
+    /// Copies values to buffer from element first on. Throws Error{Other} when they do not fit, Error{Memory}.
+    template <typename T> void upload(BufferOf<T>& buffer, std::span<const T> values, std::uint64_t first = 0)
+    {
+        uploadBytes(buffer, first * sizeof(T), values.data(), values.size_bytes());
+    }
+
+    /// A new buffer holding values.
+    template <typename T> BufferOf<T> makeBuffer(std::string name, std::span<const T> values)
+    {
+        BufferOf<T> buffer(device(), std::move(name), values.size());
+        upload(buffer, values);
+        return buffer;
+    }
+
+protected:
+    virtual void uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes) = 0;
+};
+
+} // namespace zvo::vk
