@@ -101,7 +101,7 @@ void CommandContext::create()
     pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool.queueFamilyIndex = m_device.handles().queue_family;
-    VK_CHECK(fn.vkCreateCommandPool(m_device.handle(), &pool, nullptr, &m_pool));
+    VK_CHECK(fn.vkCreateCommandPool(m_device.handle(), &pool, m_device.allocationCallbacks(), &m_pool));
     VkCommandBufferAllocateInfo buffer{};
     buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
     buffer.commandPool = m_pool;
@@ -110,7 +110,7 @@ void CommandContext::create()
     VK_CHECK(fn.vkAllocateCommandBuffers(m_device.handle(), &buffer, &m_commands));
     VkFenceCreateInfo fence{};
     fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    VK_CHECK(fn.vkCreateFence(m_device.handle(), &fence, nullptr, &m_fence));
+    VK_CHECK(fn.vkCreateFence(m_device.handle(), &fence, m_device.allocationCallbacks(), &m_fence));
     m_device.setName(VK_OBJECT_TYPE_COMMAND_POOL, reinterpret_cast<std::uint64_t>(m_pool), "headless commands");
     m_device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(m_commands), "headless commands");
     m_device.setName(VK_OBJECT_TYPE_FENCE, reinterpret_cast<std::uint64_t>(m_fence), "headless fence");
@@ -118,8 +118,8 @@ void CommandContext::create()
 
 void CommandContext::destroy()
 {
-    m_device.fn().vkDestroyFence(m_device.handle(), m_fence, nullptr);
-    m_device.fn().vkDestroyCommandPool(m_device.handle(), m_pool, nullptr);
+    m_device.fn().vkDestroyFence(m_device.handle(), m_fence, m_device.allocationCallbacks());
+    m_device.fn().vkDestroyCommandPool(m_device.handle(), m_pool, m_device.allocationCallbacks());
 }
 
 } // namespace zvo::vk

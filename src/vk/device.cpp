@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace zvo::vk
 {
 
@@ -30,10 +32,37 @@ void useQueueFamily(DeviceReport& report, const Functions& fn, std::uint32_t que
     report.timestamp_period_ns = report.timestamp_valid_bits != 0 ? timestamp_period_ns : 0;
 }
 
+const DeviceHandles& complete(const DeviceHandles& handles)
+{
+    std::vector<const char*> missing;
+    const auto need = [&](bool there, const char* name)
+    {
+        if (!there)
+        {
+            missing.push_back(name);
+        }
+    };
+    need(handles.get_instance_proc_addr != nullptr, "vkGetInstanceProcAddr");
+    need(handles.instance != VK_NULL_HANDLE, "VkInstance");
+    need(handles.physical_device != VK_NULL_HANDLE, "VkPhysicalDevice");
+    need(handles.device != VK_NULL_HANDLE, "VkDevice");
+    if (!missing.empty())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("zvo got no {}: hand over what the Vulkan device was created with",
+                                                  fmt::join(missing, ", no ")));
+    }
+    return handles;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name)
+{
+    return std::ranges::find(names, name) != names.end();
+}
+
 } // namespace
 
 Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> kernels)
-    : m_handles(handles),
+    : m_handles(complete(handles)),
       m_functions(Functions::ofDevice(handles.get_instance_proc_addr, handles.instance, handles.device)),
       m_report(query(handles.get_instance_proc_addr, handles.instance, handles.physical_device))
 {
@@ -42,6 +71,7 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
     m_limits = properties.limits;
     useQueueFamily(m_report, m_functions, handles.queue_family, m_limits.timestampPeriod);
     applyOverrides(handles.overrides, m_report, m_limits);
+    takeDeclaration();
     if (!m_report.usable())
     {
         throw Error(ErrorCode::Device, fmt::format("zvo cannot use the Vulkan device {}: {}", m_report.name,
@@ -53,9 +83,57 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
 
 Device::~Device() = default;
 
+void Device::takeDeclaration()
+{
+    if (m_handles.instance_api_version < VK_API_VERSION_1_3)
+    {
+        m_report.reasons.push_back(fmt::format(
+            "its instance was created for Vulkan {}.{}, zvo needs 1.3 (set VkApplicationInfo::apiVersion, and declare "
+            "it)",
+            std::max(VK_API_VERSION_MAJOR(m_handles.instance_api_version), 1U),
+            VK_API_VERSION_MINOR(m_handles.instance_api_version)));
+    }
+    const std::vector<std::string> declared =
+        enabledFeatures(m_handles.enabled_features, m_handles.enabled_core_features);
+    std::vector<std::string> undeclared;
+    for (const Feature& feature : knownFeatures())
+    {
+        const bool needed = feature.use == FeatureUse::Required ||
+                            (feature.name == "subgroupSizeControl" && m_handles.overrides.subgroup_size != 0);
+        const bool enabled = contains(declared, feature.name);
+        if (!contains(m_report.present, feature.name))
+        {
+            continue; // query() has said so
+        }
+        m_features[feature] = enabled ? VK_TRUE : VK_FALSE;
+        if (enabled)
+        {
+            m_enabled.emplace_back(feature.name);
+        }
+        else if (needed)
+        {
+            undeclared.emplace_back(feature.name);
+        }
+    }
+    if (!undeclared.empty())
+    {
+        m_report.reasons.push_back(fmt::format("was created without {} (call zvo::patchFeatures before vkCreateDevice, "
+                                               "and declare VkDeviceCreateInfo's pNext and pEnabledFeatures)",
+                                               fmt::join(undeclared, ", ")));
+    }
+    m_handles.enabled_features = &m_features.core;
+    m_handles.enabled_core_features = nullptr;
+    m_has_debug_utils = contains(m_handles.instance_extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+}
+
+bool Device::isEnabled(std::string_view feature) const
+{
+    return contains(m_enabled, feature);
+}
+
 void Device::setName(VkObjectType type, std::uint64_t object, const std::string& name) const noexcept
 {
-    if (!m_handles.debug_utils || m_functions.vkSetDebugUtilsObjectNameEXT == nullptr)
+    if (!m_has_debug_utils || m_functions.vkSetDebugUtilsObjectNameEXT == nullptr)
     {
         return;
     }

@@ -381,7 +381,7 @@ std::uint64_t FrameGraph::readGroups(const Buffer& args, std::uint64_t offset, B
 void FrameGraph::openPiece(const std::string& name)
 {
     const Functions& fn = m_device.fn();
-    if (m_device.handles().debug_utils && fn.vkCmdBeginDebugUtilsLabelEXT != nullptr)
+    if (m_device.hasDebugUtils() && fn.vkCmdBeginDebugUtilsLabelEXT != nullptr)
     {
         VkDebugUtilsLabelEXT label{};
         label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
@@ -401,7 +401,7 @@ void FrameGraph::closePiece()
         m_timers->end(m_commands);
     }
     const Functions& fn = m_device.fn();
-    if (m_device.handles().debug_utils && fn.vkCmdEndDebugUtilsLabelEXT != nullptr)
+    if (m_device.hasDebugUtils() && fn.vkCmdEndDebugUtilsLabelEXT != nullptr)
     {
         fn.vkCmdEndDebugUtilsLabelEXT(m_commands);
     }

@@ -12,8 +12,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 namespace zvo::vk
@@ -27,33 +29,47 @@ namespace
 constexpr std::uint64_t kStagingBytes = 16ull << 20;
 constexpr std::uint64_t kStagingBytesMin = 64ull << 10; // where memory is short
 
+bool has(const DeviceReport& report, std::string_view feature)
+{
+    return std::ranges::find(report.present, feature) != report.present.end();
+}
+
+// For kernels in subgroups of a chosen size. Where the device cannot, Device says so.
+bool choosesSubgroupSize(const HeadlessOptions& options, const DeviceReport& report)
+{
+    return options.overrides.subgroup_size != 0 && report.min_subgroup_size != 0;
+}
+
 // A logical device with one compute queue.
 class LogicalDevice
 {
 public:
-    LogicalDevice(const Instance& instance, const DeviceReport& report, const HeadlessOptions& options,
-                  bool subgroup_size_control)
+    LogicalDevice(const Instance& instance, const DeviceReport& report, const HeadlessOptions& options)
     {
-        RequiredFeatures features;
-        features.chain().vulkan13.subgroupSizeControl = subgroup_size_control ? VK_TRUE : VK_FALSE;
+        VkDeviceCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
         if (options.gpu_assisted_validation)
         {
-            enableForInstrumentation(features.chain(), instance, report);
+            enableForInstrumentation(instance, report);
+            info.pNext = &m_core_features;
         }
+        const OptionalFeatures optional = {.pass_times = options.timer_capacity != 0 && has(report, "hostQueryReset"),
+                                           .subgroup_sizes = choosesSubgroupSize(options, report)};
+        const std::vector<std::string> reasons = patchFeatures(info, m_feature_storage, optional);
+        assert(reasons.empty());
+        m_features = info.pNext;
         const float priority = 1;
         VkDeviceQueueCreateInfo queue{};
         queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
         queue.queueFamilyIndex = report.queue_family;
         queue.queueCount = 1;
         queue.pQueuePriorities = &priority;
-        VkDeviceCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-        info.pNext = features.head();
         info.queueCreateInfoCount = 1;
         info.pQueueCreateInfos = &queue;
-        const char* const swapchains = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
-        info.enabledExtensionCount = options.window ? 1 : 0;
-        info.ppEnabledExtensionNames = &swapchains;
+        const std::vector<const char*> extensions = deviceExtensions(options);
+        m_extensions.assign(extensions.begin(), extensions.end());
+        info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+        info.ppEnabledExtensionNames = extensions.data();
         VK_CHECK(instance.fn().vkCreateDevice(report.physical_device, &info, nullptr, &m_handle));
         try
         {
@@ -79,8 +95,15 @@ public:
     [[nodiscard]] VkDevice handle() const { return m_handle; }
     [[nodiscard]] VkQueue queue() const { return m_queue; }
     [[nodiscard]] const Functions& fn() const { return m_functions; }
+    [[nodiscard]] const void* features() const { return m_features; } // the chain that it was created with
+    [[nodiscard]] const std::vector<std::string>& extensions() const { return m_extensions; }
 
 private:
+    static std::vector<const char*> deviceExtensions(const HeadlessOptions& options)
+    {
+        return options.window ? std::vector{VK_KHR_SWAPCHAIN_EXTENSION_NAME} : std::vector<const char*>();
+    }
+
     // A device whose functions are not all there.
     static void destroyBare(const Instance& instance, VkDevice device)
     {
@@ -90,15 +113,21 @@ private:
     }
 
     // What the validation layer's own code in the kernels needs.
-    static void enableForInstrumentation(FeatureChain& chain, const Instance& instance, const DeviceReport& report)
+    void enableForInstrumentation(const Instance& instance, const DeviceReport& report)
     {
         VkPhysicalDeviceFeatures2 present{};
         present.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
         instance.fn().vkGetPhysicalDeviceFeatures2(report.physical_device, &present);
-        chain.core.features.fragmentStoresAndAtomics = present.features.fragmentStoresAndAtomics;
-        chain.core.features.vertexPipelineStoresAndAtomics = present.features.vertexPipelineStoresAndAtomics;
+        VkPhysicalDeviceFeatures& features = m_core_features.features;
+        m_core_features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        features.fragmentStoresAndAtomics = present.features.fragmentStoresAndAtomics;
+        features.vertexPipelineStoresAndAtomics = present.features.vertexPipelineStoresAndAtomics;
     }
 
+    VkPhysicalDeviceFeatures2 m_core_features{};
+    FeatureStorage m_feature_storage;
+    const void* m_features = nullptr;
+    std::vector<std::string> m_extensions;
     VkDevice m_handle = VK_NULL_HANDLE;
     VkQueue m_queue = VK_NULL_HANDLE;
     Functions m_functions;
@@ -188,12 +217,6 @@ void checkRange(const Buffer& buffer, std::uint64_t offset, std::uint64_t bytes)
     }
 }
 
-// For kernels in subgroups of a chosen size. Where the device cannot, Device says so.
-bool choosesSubgroupSize(const HeadlessOptions& options, const DeviceReport& report)
-{
-    return options.overrides.subgroup_size != 0 && report.min_subgroup_size != 0;
-}
-
 // Of a transfer of bytes, with room for what the transfer is about.
 std::uint64_t stagingBytes(const Device& device, std::uint64_t bytes)
 {
@@ -228,8 +251,7 @@ struct HeadlessDevice::Impl
 {
     Impl(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels)
         : instance(instanceOptions(options)), reports(queryFor(instance, options)),
-          chosen(chooseDevice(reports, options.device)),
-          logical(instance, chosen, options, choosesSubgroupSize(options, chosen)),
+          chosen(chooseDevice(reports, options.device)), logical(instance, chosen, options),
           cache(logical.fn(), chosen.physical_device, logical.handle(), options.pipeline_cache_path),
           device(handles(options), kernels), commands(device, logical.queue()), timers(device, options.timer_capacity),
           readback(device, "slice readback", sizeof(gpu::DispatchArgs), MemoryKind::Readback),
@@ -247,11 +269,14 @@ struct HeadlessDevice::Impl
                 .physical_device = chosen.physical_device,
                 .device = logical.handle(),
                 .queue_family = chosen.queue_family,
+                .instance_api_version = kInstanceApiVersion,
+                .instance_extensions = instance.extensions(),
+                .device_extensions = logical.extensions(),
+                .enabled_features = logical.features(),
                 .pipeline_cache = cache.handle(),
                 .memory_budget_bytes = options.memory_budget_bytes,
                 .memory_budget_name = options.memory_budget_name,
-                .overrides = options.overrides,
-                .debug_utils = instance.hasDebugUtils()};
+                .overrides = options.overrides};
     }
 
     void transfer(const std::function<void(FrameGraph&)>& record)

@@ -123,9 +123,8 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
                                                    "validation",
                                                    kValidationLayer));
     }
-    m_has_debug_utils = validation || hasExtension(get, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     std::vector<const char*> extensions = options.extensions;
-    if (m_has_debug_utils)
+    if (validation || hasExtension(get, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
     {
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
@@ -157,7 +156,7 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
     VkApplicationInfo application{};
     application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
     application.pApplicationName = "zvo";
-    application.apiVersion = VK_API_VERSION_1_3;
+    application.apiVersion = kInstanceApiVersion;
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pNext = validation ? &features : nullptr;
@@ -166,6 +165,7 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
     info.ppEnabledLayerNames = &kValidationLayer;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
+    m_extensions.assign(extensions.begin(), extensions.end());
     const auto create = globalFunction<PFN_vkCreateInstance>(get, "vkCreateInstance");
     const VkResult result = create(&info, nullptr, &m_handle);
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)

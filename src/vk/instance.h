@@ -26,6 +26,9 @@ struct InstanceOptions
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: the machine's loader
 };
 
+/// Of the project's own instances.
+inline constexpr std::uint32_t kInstanceApiVersion = VK_API_VERSION_1_3;
+
 /// A Vulkan 1.3 instance of the project's own, with validation layers if asked for. Stays where it is made: the layers
 /// keep its address.
 class Instance
@@ -39,7 +42,7 @@ public:
 
     [[nodiscard]] VkInstance handle() const { return m_handle; }
     [[nodiscard]] const Functions& fn() const { return m_functions; }
-    [[nodiscard]] bool hasDebugUtils() const { return m_has_debug_utils; }
+    [[nodiscard]] const std::vector<std::string>& extensions() const { return m_extensions; } // enabled ones
 
     /// Reports of all physical devices in the loader's order.
     [[nodiscard]] std::vector<DeviceReport> queryAll() const;
@@ -55,7 +58,7 @@ private:
     VkInstance m_handle = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT m_messenger = VK_NULL_HANDLE;
     Functions m_functions;
-    bool m_has_debug_utils = false;
+    std::vector<std::string> m_extensions;
     std::atomic<std::uint32_t> m_message_count = 0;
     std::atomic<std::uint32_t>* m_message_counter = nullptr;
 };

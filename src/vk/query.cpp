@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 
 namespace zvo::vk
 {
@@ -18,30 +17,6 @@ constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr std::uint32_t kPushConstantBytes = 128;  // of the largest kernel parameters
 constexpr std::uint32_t kGroupThreads = 128;       // of the largest workgroup; every device has them
 constexpr std::uint32_t kGroupSharedBytes = 16384; // shared memory of the largest workgroup
-
-struct Feature
-{
-    const char* name;
-    bool required;
-    VkBool32& (*get)(FeatureChain&);
-};
-
-constexpr Feature kFeatures[] = {
-    {"shaderInt64", true, [](FeatureChain& c) -> VkBool32& { return c.core.features.shaderInt64; }},
-    {"bufferDeviceAddress", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.bufferDeviceAddress; }},
-    {"scalarBlockLayout", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.scalarBlockLayout; }},
-    {"timelineSemaphore", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.timelineSemaphore; }},
-    {"hostQueryReset", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.hostQueryReset; }},
-    {"synchronization2", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan13.synchronization2; }},
-    {"maintenance4", true, [](FeatureChain& c) -> VkBool32& { return c.vulkan13.maintenance4; }},
-    {"shaderInt16", false, [](FeatureChain& c) -> VkBool32& { return c.core.features.shaderInt16; }},
-    {"shaderInt8", false, [](FeatureChain& c) -> VkBool32& { return c.vulkan12.shaderInt8; }},
-    {"shaderBufferInt64Atomics", false,
-     [](FeatureChain& c) -> VkBool32& { return c.vulkan12.shaderBufferInt64Atomics; }},
-    {"shaderSubgroupExtendedTypes", false,
-     [](FeatureChain& c) -> VkBool32& { return c.vulkan12.shaderSubgroupExtendedTypes; }},
-    {"subgroupSizeControl", false, [](FeatureChain& c) -> VkBool32& { return c.vulkan13.subgroupSizeControl; }},
-};
 
 struct SubgroupOperation
 {
@@ -138,9 +113,9 @@ void queryFeatures(DeviceReport& report, const Functions& fn)
 {
     FeatureChain features;
     fn.vkGetPhysicalDeviceFeatures2(report.physical_device, &features.core);
-    for (const Feature& feature : kFeatures)
+    for (const Feature& feature : knownFeatures())
     {
-        note(report, feature.name, feature.get(features) == VK_TRUE, feature.required);
+        note(report, std::string(feature.name), features[feature] == VK_TRUE, feature.use == FeatureUse::Required);
     }
 }
 
@@ -182,25 +157,6 @@ void queryProperties(DeviceReport& report, const Functions& fn)
 
 } // namespace
 
-FeatureChain::FeatureChain()
-{
-    core.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-    core.pNext = &vulkan11;
-    vulkan11.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
-    vulkan11.pNext = &vulkan12;
-    vulkan12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
-    vulkan12.pNext = &vulkan13;
-    vulkan13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
-}
-
-RequiredFeatures::RequiredFeatures()
-{
-    for (const Feature& feature : kFeatures)
-    {
-        feature.get(m_chain) = feature.required ? VK_TRUE : VK_FALSE;
-    }
-}
-
 void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPhysicalDeviceLimits& limits)
 {
     report.max_buffer_bytes =
@@ -213,12 +169,11 @@ void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPh
     for (const std::string& name : overrides.features)
     {
         const auto present = std::find(report.present.begin(), report.present.end(), name);
-        const auto feature = std::find_if(std::begin(kFeatures), std::end(kFeatures),
-                                          [&](const Feature& candidate) { return candidate.name == name; });
+        const auto feature = std::ranges::find(knownFeatures(), name, &Feature::name);
         if (present != report.present.end())
         {
             report.present.erase(present);
-            note(report, name, false, feature == std::end(kFeatures) || feature->required);
+            note(report, name, false, feature == knownFeatures().end() || feature->use == FeatureUse::Required);
         }
     }
     const std::uint32_t subgroup = overrides.subgroup_size;
@@ -238,22 +193,27 @@ void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPh
     report.subgroup_size = subgroup;
 }
 
+} // namespace zvo::vk
+
+namespace zvo
+{
+
 DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
                    VkPhysicalDevice physical_device)
 {
     DeviceReport report;
     report.physical_device = physical_device;
-    const Functions fn = Functions::ofInstance(get_instance_proc_addr, instance);
+    const vk::Functions fn = vk::Functions::ofInstance(get_instance_proc_addr, instance);
 
     VkPhysicalDeviceProperties properties{};
     fn.vkGetPhysicalDeviceProperties(physical_device, &properties);
     report.name = properties.deviceName;
-    report.type = typeText(properties.deviceType);
-    report.api_version = versionText(properties.apiVersion);
-    queryMemory(report, fn);
-    queryQueueFamily(report, fn, properties.limits.timestampPeriod);
+    report.type = vk::typeText(properties.deviceType);
+    report.api_version = vk::versionText(properties.apiVersion);
+    vk::queryMemory(report, fn);
+    vk::queryQueueFamily(report, fn, properties.limits.timestampPeriod);
 
-    if (properties.apiVersion < kApiVersion)
+    if (properties.apiVersion < vk::kApiVersion)
     {
         report.reasons.push_back("supports Vulkan " + report.api_version + " only, zvo needs 1.3");
     }
@@ -264,10 +224,10 @@ DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance 
     else
     {
         // Structs that an older driver does not know stay zero, so that it is said to lack what is in them.
-        queryFeatures(report, fn);
-        queryProperties(report, fn);
+        vk::queryFeatures(report, fn);
+        vk::queryProperties(report, fn);
     }
     return report;
 }
 
-} // namespace zvo::vk
+} // namespace zvo

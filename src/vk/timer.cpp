@@ -19,7 +19,7 @@ constexpr std::uint32_t kFullTimestampBits = 64;
 TimerPool::TimerPool(Device& device, std::uint32_t pass_capacity)
     : m_device(device), m_pass_capacity(pass_capacity), m_stamp_count(device.report().type == "cpu" ? 3 : 2)
 {
-    if (device.report().timestamp_period_ns == 0 || pass_capacity == 0)
+    if (device.report().timestamp_period_ns == 0 || !device.isEnabled("hostQueryReset") || pass_capacity == 0)
     {
         m_pass_capacity = 0;
         return;

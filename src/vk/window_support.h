@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vk/functions.h"
+#include "zvo/device.h"
 
 #include <cstdint>
 #include <functional>
@@ -11,7 +12,6 @@ namespace zvo::vk
 {
 
 class Instance;
-struct DeviceReport;
 
 /// What a window needs of the device that shows it.
 struct WindowSupport

@@ -106,14 +106,16 @@ TEST(DeviceOverrides, WithoutARequiredFeatureTheDeviceIsRefusedByName)
 TEST(DeviceOverrides, WithoutOptionalFeaturesTheDeviceWorks)
 {
     vk::HeadlessOptions options = test::deviceOptions();
-    options.overrides.features = {"shaderInt16", "shaderInt8", "shaderBufferInt64Atomics",
-                                  "shaderSubgroupExtendedTypes", "subgroupSizeControl"};
+    options.overrides.features = {
+        "shaderInt16",         "shaderInt8",    "shaderBufferInt64Atomics", "shaderSubgroupExtendedTypes",
+        "subgroupSizeControl", "hostQueryReset"};
     vk::HeadlessDevice poor(options, testKernels());
     const std::vector<std::string>& missing = poor.device().report().missing;
     EXPECT_NE(std::find(missing.begin(), missing.end(), "shaderInt16"), missing.end());
     vk::BufferOf<gpu::uint> values(poor.device(), "values", 100);
-    poor.run([&](vk::FrameGraph& graph) { iota(graph, values); });
+    const std::vector<vk::PassTime> times = poor.run([&](vk::FrameGraph& graph) { iota(graph, values); });
     EXPECT_EQ(poor.download(values), counting(100));
+    EXPECT_TRUE(times.empty()) << "times come by hostQueryReset";
 }
 
 TEST(DeviceOverrides, OfTheSubgroupSizeAreTakenOrRefused)

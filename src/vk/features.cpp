@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+// Where features stand in a host's chain of structs, and which chains Vulkan forbids (VkDeviceCreateInfo's valid
+// usage).
+#include "vk/features.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace zvo::vk
+{
+
+namespace
+{
+
+constexpr VkStructureType kCore = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+constexpr VkStructureType kVulkan11 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES;
+constexpr VkStructureType kVulkan12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+constexpr VkStructureType kVulkan13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
+constexpr std::size_t kCoreOffset = offsetof(VkPhysicalDeviceFeatures2, features);
+
+#define ZVO_CORE_FEATURE(use, member)                                                                                  \
+    {                                                                                                                  \
+#member, FeatureUse::use, kCore, kCoreOffset + offsetof(VkPhysicalDeviceFeatures, member), kCore,              \
+            kCoreOffset + offsetof(VkPhysicalDeviceFeatures, member)                                                   \
+    }
+#define ZVO_FEATURE(use, version, member, struct_name, struct_type)                                                    \
+    {                                                                                                                  \
+#member, FeatureUse::use, kVulkan##version, offsetof(VkPhysicalDeviceVulkan##version##Features, member),       \
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_##struct_type##_FEATURES,                                                \
+            offsetof(VkPhysicalDevice##struct_name##Features, member)                                                  \
+    }
+constexpr Feature kFeatures[] = {
+    ZVO_CORE_FEATURE(Required, shaderInt64),
+    ZVO_FEATURE(Required, 12, bufferDeviceAddress, BufferDeviceAddress, BUFFER_DEVICE_ADDRESS),
+    ZVO_FEATURE(Required, 12, scalarBlockLayout, ScalarBlockLayout, SCALAR_BLOCK_LAYOUT),
+    ZVO_FEATURE(Required, 13, synchronization2, Synchronization2, SYNCHRONIZATION_2),
+    ZVO_FEATURE(Required, 13, maintenance4, Maintenance4, MAINTENANCE_4), // workgroup sizes by constants
+    ZVO_FEATURE(Optional, 12, hostQueryReset, HostQueryReset, HOST_QUERY_RESET),
+    ZVO_FEATURE(Optional, 13, subgroupSizeControl, SubgroupSizeControl, SUBGROUP_SIZE_CONTROL),
+    ZVO_CORE_FEATURE(Noted, shaderInt16),
+    ZVO_FEATURE(Noted, 12, shaderInt8, ShaderFloat16Int8, SHADER_FLOAT16_INT8),
+    ZVO_FEATURE(Noted, 12, shaderBufferInt64Atomics, ShaderAtomicInt64, SHADER_ATOMIC_INT64),
+    ZVO_FEATURE(Noted, 12, shaderSubgroupExtendedTypes, ShaderSubgroupExtendedTypes, SHADER_SUBGROUP_EXTENDED_TYPES),
+};
+#undef ZVO_FEATURE
+#undef ZVO_CORE_FEATURE
+
+// A struct of features that a later version of Vulkan collects in a struct of its own: the two exclude each other.
+struct SingleStruct
+{
+    VkStructureType type;
+    VkStructureType whole;
+    const char* name;
+};
+
+#define ZVO_SINGLE(version, struct_name, struct_type)                                                                  \
+    {                                                                                                                  \
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_##struct_type##_FEATURES, kVulkan##version,                                  \
+            "VkPhysicalDevice" #struct_name "Features"                                                                 \
+    }
+constexpr SingleStruct kSingleStructs[] = {
+    ZVO_SINGLE(11, 16BitStorage, 16BIT_STORAGE),
+    ZVO_SINGLE(11, Multiview, MULTIVIEW),
+    ZVO_SINGLE(11, ProtectedMemory, PROTECTED_MEMORY),
+    ZVO_SINGLE(11, SamplerYcbcrConversion, SAMPLER_YCBCR_CONVERSION),
+    ZVO_SINGLE(11, ShaderDrawParameters, SHADER_DRAW_PARAMETERS),
+    ZVO_SINGLE(11, VariablePointers, VARIABLE_POINTERS),
+    ZVO_SINGLE(12, 8BitStorage, 8BIT_STORAGE),
+    ZVO_SINGLE(12, BufferDeviceAddress, BUFFER_DEVICE_ADDRESS),
+    ZVO_SINGLE(12, DescriptorIndexing, DESCRIPTOR_INDEXING),
+    ZVO_SINGLE(12, HostQueryReset, HOST_QUERY_RESET),
+    ZVO_SINGLE(12, ImagelessFramebuffer, IMAGELESS_FRAMEBUFFER),
+    ZVO_SINGLE(12, ScalarBlockLayout, SCALAR_BLOCK_LAYOUT),
+    ZVO_SINGLE(12, SeparateDepthStencilLayouts, SEPARATE_DEPTH_STENCIL_LAYOUTS),
+    ZVO_SINGLE(12, ShaderAtomicInt64, SHADER_ATOMIC_INT64),
+    ZVO_SINGLE(12, ShaderFloat16Int8, SHADER_FLOAT16_INT8),
+    ZVO_SINGLE(12, ShaderSubgroupExtendedTypes, SHADER_SUBGROUP_EXTENDED_TYPES),
+    ZVO_SINGLE(12, TimelineSemaphore, TIMELINE_SEMAPHORE),
+    ZVO_SINGLE(12, UniformBufferStandardLayout, UNIFORM_BUFFER_STANDARD_LAYOUT),
+    ZVO_SINGLE(12, VulkanMemoryModel, VULKAN_MEMORY_MODEL),
+    ZVO_SINGLE(13, DynamicRendering, DYNAMIC_RENDERING),
+    ZVO_SINGLE(13, ImageRobustness, IMAGE_ROBUSTNESS),
+    ZVO_SINGLE(13, InlineUniformBlock, INLINE_UNIFORM_BLOCK),
+    ZVO_SINGLE(13, Maintenance4, MAINTENANCE_4),
+    ZVO_SINGLE(13, PipelineCreationCacheControl, PIPELINE_CREATION_CACHE_CONTROL),
+    ZVO_SINGLE(13, PrivateData, PRIVATE_DATA),
+    ZVO_SINGLE(13, ShaderDemoteToHelperInvocation, SHADER_DEMOTE_TO_HELPER_INVOCATION),
+    ZVO_SINGLE(13, ShaderIntegerDotProduct, SHADER_INTEGER_DOT_PRODUCT),
+    ZVO_SINGLE(13, ShaderTerminateInvocation, SHADER_TERMINATE_INVOCATION),
+    ZVO_SINGLE(13, SubgroupSizeControl, SUBGROUP_SIZE_CONTROL),
+    ZVO_SINGLE(13, Synchronization2, SYNCHRONIZATION_2),
+    ZVO_SINGLE(13, TextureCompressionASTCHDR, TEXTURE_COMPRESSION_ASTC_HDR),
+    ZVO_SINGLE(13, ZeroInitializeWorkgroupMemory, ZERO_INITIALIZE_WORKGROUP_MEMORY),
+};
+#undef ZVO_SINGLE
+
+struct WholeStruct
+{
+    VkStructureType type;
+    const char* name;
+};
+
+constexpr WholeStruct kWholeStructs[] = {
+    {kCore, "VkPhysicalDeviceFeatures2"},
+    {kVulkan11, "VkPhysicalDeviceVulkan11Features"},
+    {kVulkan12, "VkPhysicalDeviceVulkan12Features"},
+    {kVulkan13, "VkPhysicalDeviceVulkan13Features"},
+};
+
+// The struct of that type in a chain; null: there is none.
+const VkBaseInStructure* find(const void* chain, VkStructureType type)
+{
+    const auto* link = static_cast<const VkBaseInStructure*>(chain);
+    while (link != nullptr && link->sType != type)
+    {
+        link = link->pNext;
+    }
+    return link;
+}
+
+std::size_t countOf(const void* chain, VkStructureType type)
+{
+    std::size_t count = 0;
+    for (const VkBaseInStructure* link = find(chain, type); link != nullptr; link = find(link->pNext, type))
+    {
+        ++count;
+    }
+    return count;
+}
+
+const VkBool32* memberAt(const void* base, std::size_t offset)
+{
+    return reinterpret_cast<const VkBool32*>(static_cast<const std::byte*>(base) + offset);
+}
+
+// Of a feature in a chain; null: no struct there has it.
+const VkBool32* memberIn(const void* chain, const Feature& feature)
+{
+    if (const VkBaseInStructure* whole = find(chain, feature.whole))
+    {
+        return memberAt(whole, feature.whole_offset);
+    }
+    const VkBaseInStructure* single = find(chain, feature.single);
+    return single != nullptr ? memberAt(single, feature.single_offset) : nullptr;
+}
+
+const VkBool32* memberIn(const VkPhysicalDeviceFeatures& core, const Feature& feature)
+{
+    return memberAt(&core, feature.whole_offset - kCoreOffset);
+}
+
+const char* nameOf(VkStructureType whole)
+{
+    return std::ranges::find(kWholeStructs, whole, &WholeStruct::type)->name;
+}
+
+std::vector<std::string> forbiddenMixes(const VkDeviceCreateInfo& info)
+{
+    std::vector<std::string> reasons;
+    if (info.pEnabledFeatures != nullptr && find(info.pNext, kCore) != nullptr)
+    {
+        reasons.emplace_back("pEnabledFeatures is set and the chain has VkPhysicalDeviceFeatures2: move what is in "
+                             "pEnabledFeatures to VkPhysicalDeviceFeatures2::features");
+    }
+    for (const WholeStruct& whole : kWholeStructs)
+    {
+        if (countOf(info.pNext, whole.type) > 1)
+        {
+            reasons.push_back("the chain has " + std::string(whole.name) + " more than once: keep one");
+        }
+    }
+    for (const SingleStruct& single : kSingleStructs)
+    {
+        const std::size_t count = countOf(info.pNext, single.type);
+        if (count > 1)
+        {
+            reasons.push_back("the chain has " + std::string(single.name) + " more than once: keep one");
+        }
+        if (count > 0 && find(info.pNext, single.whole) != nullptr)
+        {
+            reasons.push_back("the chain has " + std::string(single.name) + " beside " + nameOf(single.whole) +
+                              ", which has its features: set them there");
+        }
+    }
+    for (std::uint32_t i = 0; i < info.enabledExtensionCount; ++i)
+    {
+        if (std::string_view(info.ppEnabledExtensionNames[i]) == VK_EXT_BUFFER_DEVICE_ADDRESS_EXTENSION_NAME)
+        {
+            reasons.emplace_back("VK_EXT_buffer_device_address is enabled, which excludes Vulkan's own "
+                                 "bufferDeviceAddress: use that in its place");
+        }
+    }
+    return reasons;
+}
+
+bool wants(const OptionalFeatures& optional, const Feature& feature)
+{
+    return feature.use == FeatureUse::Required || (feature.name == "hostQueryReset" && optional.pass_times) ||
+           (feature.name == "subgroupSizeControl" && optional.subgroup_sizes);
+}
+
+// Puts a struct of storage, with nothing enabled in it, in front of the chain.
+template <typename Struct> void putInFront(VkDeviceCreateInfo& info, Struct& storage, VkStructureType type)
+{
+    storage = {};
+    storage.sType = type;
+    storage.pNext = const_cast<void*>(info.pNext);
+    info.pNext = &storage;
+}
+
+void putInFront(VkDeviceCreateInfo& info, FeatureStorage& storage, VkStructureType type)
+{
+    switch (type)
+    {
+    case kCore:
+        return putInFront(info, storage.core, type);
+    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES:
+        return putInFront(info, storage.buffer_device_address, type);
+    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES:
+        return putInFront(info, storage.scalar_block_layout, type);
+    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES:
+        return putInFront(info, storage.host_query_reset, type);
+    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES:
+        return putInFront(info, storage.synchronization2, type);
+    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES:
+        return putInFront(info, storage.maintenance4, type);
+    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES:
+        return putInFront(info, storage.subgroup_size_control, type);
+    default:
+        assert(false && "a feature that wants() wants has a struct in FeatureStorage");
+    }
+}
+
+void enable(VkDeviceCreateInfo& info, FeatureStorage& storage, const Feature& feature)
+{
+    const VkBool32* member = nullptr;
+    if (feature.whole == kCore && info.pEnabledFeatures != nullptr)
+    {
+        member = memberIn(*info.pEnabledFeatures, feature);
+        if (*member == VK_FALSE) // what the host points to is its own
+        {
+            storage.enabled = *info.pEnabledFeatures;
+            info.pEnabledFeatures = &storage.enabled;
+            member = memberIn(storage.enabled, feature);
+        }
+    }
+    else
+    {
+        member = memberIn(info.pNext, feature);
+        if (member == nullptr)
+        {
+            putInFront(info, storage, feature.single);
+            member = memberIn(info.pNext, feature);
+        }
+    }
+    if (*member == VK_FALSE) // what is enabled already may stand in constant memory
+    {
+        *const_cast<VkBool32*>(member) = VK_TRUE;
+    }
+}
+
+} // namespace
+
+std::span<const Feature> knownFeatures()
+{
+    return kFeatures;
+}
+
+FeatureChain::FeatureChain()
+{
+    core.sType = kCore;
+    core.pNext = &vulkan12;
+    vulkan12.sType = kVulkan12;
+    vulkan12.pNext = &vulkan13;
+    vulkan13.sType = kVulkan13;
+}
+
+VkBool32& FeatureChain::operator[](const Feature& feature)
+{
+    return const_cast<VkBool32&>(*memberIn(&core, feature));
+}
+
+std::vector<std::string> enabledFeatures(const void* chain, const VkPhysicalDeviceFeatures* core)
+{
+    std::vector<std::string> names;
+    for (const Feature& feature : kFeatures)
+    {
+        const bool in_core = core != nullptr && feature.whole == kCore && *memberIn(*core, feature) == VK_TRUE;
+        const VkBool32* member = memberIn(chain, feature);
+        if (in_core || (member != nullptr && *member == VK_TRUE))
+        {
+            names.emplace_back(feature.name);
+        }
+    }
+    return names;
+}
+
+} // namespace zvo::vk
+
+namespace zvo
+{
+
+std::vector<std::string> patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage,
+                                       const OptionalFeatures& optional)
+{
+    std::vector<std::string> reasons = vk::forbiddenMixes(info);
+    if (reasons.empty())
+    {
+        for (const vk::Feature& feature : vk::kFeatures)
+        {
+            if (vk::wants(optional, feature))
+            {
+                vk::enable(info, storage, feature);
+            }
+        }
+    }
+    return reasons;
+}
+
+} // namespace zvo

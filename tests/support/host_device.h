@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// A program that embeds zvo: its own Vulkan, made without anything of zvo's but a table of function pointers.
+#pragma once
+
+#include "support/device.h"
+#include "vk/device.h"
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// How a HostDevice is made, and what it hands over to zvo.
+struct HostOptions
+{
+    bool validation = deviceOptions().validation; // core and synchronization validation
+    std::atomic<std::uint32_t>* message_counter = deviceOptions().message_counter; // a test fails when that one counts
+    bool debug_utils = true;                                                       // implied by validation
+    std::uint32_t api_version = VK_API_VERSION_1_3;                                // of the instance
+    std::vector<const char*> device_extensions;
+
+    /// The host's own part of the device's creation; empty: it enables nothing. What it chains must live until the
+    /// HostDevice is made, and for as long as zvo may read the declaration.
+    std::function<void(VkDeviceCreateInfo&)> prepare;
+    bool patch = true;         // zvo::patchFeatures adds what zvo needs
+    OptionalFeatures optional; // for that
+
+    PFN_vkGetInstanceProcAddr zvo_functions = nullptr; // that zvo gets, such as failingVulkan(); null: the loader's
+    const VkAllocationCallbacks* allocation_callbacks = nullptr; // for what zvo creates
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    std::uint64_t memory_budget_bytes = UINT64_MAX;
+};
+
+/// Whether HostOptions::validation can be had.
+bool hasValidationLayer();
+
+/// An instance, a device, a queue and command buffers. What zvo makes on them must be gone, and its work done, before
+/// the HostDevice is destroyed.
+class HostDevice
+{
+public:
+    /// Takes the software device, or the one that ZVO_TEST_DEVICE names. Throws Error for anything that fails.
+    explicit HostDevice(const HostOptions& options = {});
+    ~HostDevice();
+    HostDevice(const HostDevice&) = delete;
+    HostDevice& operator=(const HostDevice&) = delete;
+
+    /// What the host hands over; the declaration points to structs of this HostDevice.
+    [[nodiscard]] vk::DeviceHandles handles() const;
+
+    [[nodiscard]] VkInstance instance() const { return m_instance; }
+    [[nodiscard]] VkPhysicalDevice physicalDevice() const { return m_physical_device; }
+    [[nodiscard]] VkDevice device() const { return m_device; }
+    [[nodiscard]] VkQueue queue() const { return m_queue; }
+    [[nodiscard]] std::uint32_t queueFamily() const { return m_queue_family; }
+
+    /// The host's own functions: calls of them are not seen by what HostOptions::zvo_functions wraps.
+    [[nodiscard]] const vk::Functions& fn() const { return m_functions; }
+
+    /// A new command buffer that is being recorded. All of them live as long as the HostDevice.
+    VkCommandBuffer begin();
+
+    /// Ends it and submits it, once; with a barrier behind it, so that the host and later work see what it wrote.
+    void submit(VkCommandBuffer commands);
+
+    /// Waits for all that was submitted.
+    void wait();
+
+    /// The three in turn.
+    void run(const std::function<void(VkCommandBuffer)>& record);
+
+    /// What the validation layers have said so far of this instance.
+    [[nodiscard]] std::uint32_t messageCount() const { return m_message_count; }
+
+private:
+    static VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                                    VkDebugUtilsMessageTypeFlagsEXT types,
+                                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* host);
+
+    void makeInstance();
+    void choosePhysicalDevice();
+    void makeDevice();
+    void destroy() noexcept;
+    template <typename Function> Function load(const char* name) const;
+
+    HostOptions m_options;
+    PFN_vkGetInstanceProcAddr m_get;
+    std::vector<std::string> m_instance_extensions;
+    std::atomic<std::uint32_t> m_message_count = 0;
+    FeatureStorage m_feature_storage;
+    VkDeviceCreateInfo m_info{}; // its pNext and pEnabledFeatures are what is declared
+    VkInstance m_instance = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT m_messenger = VK_NULL_HANDLE;
+    VkPhysicalDevice m_physical_device = VK_NULL_HANDLE;
+    VkDevice m_device = VK_NULL_HANDLE;
+    VkQueue m_queue = VK_NULL_HANDLE;
+    std::uint32_t m_queue_family = 0;
+    VkCommandPool m_pool = VK_NULL_HANDLE;
+    vk::Functions m_functions;
+    PFN_vkQueueSubmit m_submit = nullptr;
+    PFN_vkQueueWaitIdle m_wait = nullptr;
+};
+
+} // namespace zvo::test
