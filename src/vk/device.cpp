@@ -51,6 +51,10 @@ const DeviceHandles& complete(const DeviceHandles& handles)
         throw Error(ErrorCode::Usage, fmt::format("zvo got no {}: hand over what the Vulkan device was created with",
                                                   fmt::join(missing, ", no ")));
     }
+    if (handles.memory.allocate != nullptr && handles.memory.release == nullptr)
+    {
+        throw Error(ErrorCode::Usage, "zvo got MemoryCallbacks with allocate and without release: set both");
+    }
     return handles;
 }
 
@@ -77,6 +81,7 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
         throw Error(ErrorCode::Device, fmt::format("zvo cannot use the Vulkan device {}: {}", m_report.name,
                                                    fmt::join(m_report.reasons, ", ")));
     }
+    tellWhatIsMissing();
     m_memory = std::make_unique<MemoryAllocator>(*this, handles.memory_budget_bytes, handles.memory_budget_name);
     m_kernels = std::make_unique<KernelCache>(*this, kernels, handles.pipeline_cache);
 }
@@ -124,6 +129,30 @@ void Device::takeDeclaration()
     m_handles.enabled_features = &m_features.core;
     m_handles.enabled_core_features = nullptr;
     m_has_debug_utils = contains(m_handles.instance_extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+}
+
+void Device::tellWhatIsMissing() const
+{
+    if (!isEnabled("hostQueryReset"))
+    {
+        log(LogSeverity::Info, "hostQueryReset is not enabled: passes are not timed");
+    }
+    else if (m_report.timestamp_period_ns == 0)
+    {
+        log(LogSeverity::Info, "queue family {} has no timestamps: passes are not timed", m_report.queue_family);
+    }
+}
+
+void Device::logText(LogSeverity severity, fmt::string_view format, fmt::format_args arguments) const noexcept
+{
+    try
+    {
+        m_handles.log.function(m_handles.log.user, severity, fmt::vformat(format, arguments).c_str());
+    }
+    catch (...)
+    {
+        // A message is not worth more than what it is about.
+    }
 }
 
 bool Device::isEnabled(std::string_view feature) const

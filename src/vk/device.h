@@ -7,6 +7,9 @@
 #include "vk/memory.h"
 #include "vk/overrides.h"
 #include "zvo/device.h"
+#include "zvo/log.h"
+
+#include <fmt/core.h>
 
 #include <cstdint>
 #include <memory>
@@ -42,6 +45,8 @@ struct DeviceHandles
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;                 // may be null
     std::uint64_t memory_budget_bytes = UINT64_MAX;                  // what zvo may allocate on this device
     std::string memory_budget_name = "the limit";                    // as whoever can raise it knows it, for messages
+    MemoryCallbacks memory{};                                        // of blocks and big buffers; may be empty
+    LogCallback log{};                                               // may be empty
     DeviceOverrides overrides{};                                     // for tests
 };
 
@@ -79,8 +84,20 @@ public:
     /// the driver cannot.
     void setName(VkObjectType type, std::uint64_t object, const std::string& name) const noexcept;
 
+    /// Tells the host, if it listens.
+    template <typename... Arguments>
+    void log(LogSeverity severity, fmt::format_string<Arguments...> format, Arguments&&... arguments) const noexcept
+    {
+        if (m_handles.log.function != nullptr)
+        {
+            logText(severity, format, fmt::make_format_args(arguments...));
+        }
+    }
+
 private:
     void takeDeclaration();
+    void tellWhatIsMissing() const;
+    void logText(LogSeverity severity, fmt::string_view format, fmt::format_args arguments) const noexcept;
 
     DeviceHandles m_handles;
     Functions m_functions;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace zvo::vk
@@ -246,6 +247,7 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& s
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = specialization.empty() ? nullptr : &constants;
     info.layout = kernel.layout;
+    const auto start = std::chrono::steady_clock::now();
     const VkResult result = fn.vkCreateComputePipelines(m_device.handle(), m_pipeline_cache, 1, &info,
                                                         m_device.allocationCallbacks(), &kernel.pipeline);
     fn.vkDestroyShaderModule(m_device.handle(), module, m_device.allocationCallbacks());
@@ -253,6 +255,8 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& s
     {
         throwFailedCall(result, ("vkCreateComputePipelines for " + name).c_str(), __FILE_NAME__, __LINE__);
     }
+    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
+    m_device.log(LogSeverity::Debug, "kernel {}: compiled in {:.1f} ms", name, wall.count());
     m_device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(kernel.pipeline), name);
 }
 

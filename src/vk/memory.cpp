@@ -16,20 +16,41 @@
 namespace zvo::vk
 {
 
+namespace
+{
+
+constexpr const char* kBlockName = "a block of small buffers";
+
+std::uint64_t roundUp(std::uint64_t value, std::uint64_t unit)
+{
+    return value > UINT64_MAX - (unit - 1) ? UINT64_MAX : (value + unit - 1) / unit * unit;
+}
+
+} // namespace
+
 struct MemoryAllocator::Block
 {
-    VkDeviceMemory memory = VK_NULL_HANDLE;
+    MemoryRange taken{};
     std::uint32_t memory_type = 0;
-    std::byte* mapped = nullptr;
     std::uint64_t bytes = 0;
-    FreeRanges free; // bytes
+    FreeRanges free; // bytes, as offsets in the VkDeviceMemory: alignments are about these
 
     [[nodiscard]] bool unused() const { return free.total() == bytes; }
 };
 
+struct MemoryAllocator::Wish
+{
+    std::uint64_t size;
+    std::uint64_t alignment;
+    VkMemoryPropertyFlags required;
+    VkMemoryPropertyFlags preferred;
+    const char* name;
+};
+
 MemoryAllocator::MemoryAllocator(Device& device, std::uint64_t limit_bytes, std::string limit_name)
     : m_device(device), m_limit_bytes(limit_bytes), m_limit_name(std::move(limit_name)),
-      m_block_bytes(limit_bytes == UINT64_MAX ? kBlockBytes : kLimitedBlockBytes)
+      m_block_bytes(limit_bytes == UINT64_MAX ? kBlockBytes : kLimitedBlockBytes),
+      m_granularity(std::max<std::uint64_t>(1, device.limits().bufferImageGranularity))
 {
     device.fn().vkGetPhysicalDeviceMemoryProperties(device.handles().physical_device, &m_properties);
 }
@@ -41,7 +62,7 @@ MemoryAllocator::~MemoryAllocator()
     {
         if (block)
         {
-            freeMemory(block->memory, block->bytes);
+            returnMemory(block->taken, block->bytes);
         }
     }
 }
@@ -73,6 +94,7 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
                                       VkMemoryPropertyFlags preferred, const char* what)
 {
     const std::uint64_t size = requirements.size;
+    const Wish wish = {size, std::max<std::uint64_t>(1, requirements.alignment), required, preferred, what};
     // Types with the preferred properties first, then those that merely suffice.
     for (const VkMemoryPropertyFlags wanted : {required | preferred, required})
     {
@@ -84,7 +106,7 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
                 continue;
             }
             MemoryBlock block;
-            if (allocateFrom(type, size, requirements.alignment, block))
+            if (allocateFrom(type, wish, block))
             {
                 if ((required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0)
                 {
@@ -108,6 +130,8 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
 
 void MemoryAllocator::throwOverLimit(std::uint64_t bytes, const char* what) const
 {
+    m_device.log(LogSeverity::Warning, "{} bytes for {} exceed {} of {} bytes: {} are in use", bytes, what,
+                 m_limit_name, m_limit_bytes, m_held_bytes);
     throw Error(
         ErrorCode::Memory,
         fmt::format("{} needs {} bytes in all, {} more than are in use, but the limit is {}: raise {}, or lower "
@@ -116,32 +140,39 @@ void MemoryAllocator::throwOverLimit(std::uint64_t bytes, const char* what) cons
                     m_limit_name));
 }
 
-bool MemoryAllocator::allocateFrom(std::uint32_t type, std::uint64_t size, std::uint64_t alignment, MemoryBlock& result)
+bool MemoryAllocator::allocateFrom(std::uint32_t type, const Wish& wish, MemoryBlock& result)
 {
     result.memory_type = type;
-    result.bytes = size;
-    if (size > m_block_bytes / 2) // so that a block never ends half empty because of one of these
+    result.bytes = wish.size;
+    if (wish.size > m_block_bytes / 2) // so that a block never ends half empty because of one of these
     {
-        return allocateMemory(type, size, result.memory, result.mapped);
+        if (!takeMemory(type, wish.size, wish, result.taken))
+        {
+            return false;
+        }
+        result.memory = result.taken.memory;
+        result.offset = result.taken.offset;
+        result.mapped = result.taken.mapped;
+        return true;
     }
     for (std::uint32_t i = 0; i < m_blocks.size(); ++i)
     {
-        if (m_blocks[i] && m_blocks[i]->memory_type == type && takeFrom(i, alignment, result))
+        if (m_blocks[i] && m_blocks[i]->memory_type == type && takeFrom(i, wish.alignment, result))
         {
             return true;
         }
     }
     // A new block; where memory is short, one that just suffices.
-    for (const std::uint64_t bytes : {m_block_bytes, size})
+    Wish of_block = wish;
+    of_block.name = kBlockName;
+    for (const std::uint64_t bytes : {m_block_bytes, wish.size})
     {
         auto block = std::make_unique<Block>();
-        void* mapped = nullptr;
-        if (allocateMemory(type, bytes, block->memory, mapped))
+        if (takeMemory(type, bytes, of_block, block->taken))
         {
             block->memory_type = type;
-            block->mapped = static_cast<std::byte*>(mapped);
             block->bytes = bytes;
-            block->free.give(0, bytes);
+            block->free.give(block->taken.offset, bytes);
             const auto slot = std::find(m_blocks.begin(), m_blocks.end(), nullptr);
             const auto index = static_cast<std::uint32_t>(slot - m_blocks.begin());
             if (slot == m_blocks.end())
@@ -152,7 +183,7 @@ bool MemoryAllocator::allocateFrom(std::uint32_t type, std::uint64_t size, std::
             {
                 *slot = std::move(block);
             }
-            return takeFrom(index, alignment, result);
+            return takeFrom(index, wish.alignment, result);
         }
     }
     return false;
@@ -166,24 +197,56 @@ bool MemoryAllocator::takeFrom(std::uint32_t index, std::uint64_t alignment, Mem
     {
         return false;
     }
-    result.memory = block.memory;
+    result.memory = block.taken.memory;
     result.offset = *offset;
-    result.mapped = block.mapped != nullptr ? block.mapped + *offset : nullptr;
+    result.mapped = block.taken.mapped != nullptr
+                        ? static_cast<std::byte*>(block.taken.mapped) + (*offset - block.taken.offset)
+                        : nullptr;
     result.block = index;
     return true;
 }
 
-bool MemoryAllocator::allocateMemory(std::uint32_t type, std::uint64_t size, VkDeviceMemory& memory, void*& mapped)
+// Of a request to the host whole granules: what lies beside it may be of another kind.
+std::uint64_t MemoryAllocator::heldSize(std::uint64_t size) const
 {
-    const VkMemoryType& memory_type = m_properties.memoryTypes[type];
-    if (size > roomBytes())
+    return m_device.handles().memory.allocate != nullptr ? roundUp(size, m_granularity) : size;
+}
+
+bool MemoryAllocator::isMapped(std::uint32_t type) const
+{
+    return (m_properties.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+}
+
+bool MemoryAllocator::takeMemory(std::uint32_t type, std::uint64_t size, const Wish& wish, MemoryRange& range)
+{
+    const std::uint64_t held = heldSize(size);
+    if (held > roomBytes())
     {
         freeUnusedBlocks();
     }
-    if (size > roomBytes() || size > m_properties.memoryHeaps[memory_type.heapIndex].size)
+    if (held > roomBytes() || held > m_properties.memoryHeaps[m_properties.memoryTypes[type].heapIndex].size)
     {
         return false;
     }
+    const bool of_host = m_device.handles().memory.allocate != nullptr;
+    const VkResult result = of_host ? takeOfHost(type, held, wish, range) : takeOfDriver(type, held, range);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
+    {
+        return false; // another memory type may have some left
+    }
+    if (result != VK_SUCCESS)
+    {
+        throwFailedCall(result, of_host ? "MemoryCallbacks::allocate" : "vkAllocateMemory", __FILE_NAME__, __LINE__);
+    }
+    m_held_bytes += held;
+    m_peak_held_bytes = std::max(m_peak_held_bytes, m_held_bytes);
+    m_device.log(LogSeverity::Debug, "memory: took {} bytes of type {} for {}, {} bytes in all", held, type, wish.name,
+                 m_held_bytes);
+    return true;
+}
+
+VkResult MemoryAllocator::takeOfDriver(std::uint32_t type, std::uint64_t size, MemoryRange& range)
+{
     VkMemoryAllocateFlagsInfo flags{};
     flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
@@ -194,35 +257,87 @@ bool MemoryAllocator::allocateMemory(std::uint32_t type, std::uint64_t size, VkD
     info.memoryTypeIndex = type;
 
     const Functions& fn = m_device.fn();
-    const VkResult result = fn.vkAllocateMemory(m_device.handle(), &info, m_device.allocationCallbacks(), &memory);
-    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
-    {
-        return false; // another memory type may have some left
-    }
+    const VkAllocationCallbacks* const callbacks = m_device.allocationCallbacks();
+    range = {};
+    const VkResult result = fn.vkAllocateMemory(m_device.handle(), &info, callbacks, &range.memory);
     if (result != VK_SUCCESS)
     {
-        throwFailedCall(result, "vkAllocateMemory", __FILE_NAME__, __LINE__);
+        return result;
     }
-    m_held_bytes += size;
-    m_peak_held_bytes = std::max(m_peak_held_bytes, m_held_bytes);
-    m_device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(memory),
+    m_device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, reinterpret_cast<std::uint64_t>(range.memory),
                      fmt::format("zvo memory of type {}", type));
-    if ((memory_type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0)
+    if (isMapped(type))
     {
-        const VkResult map_result = fn.vkMapMemory(m_device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+        const VkResult map_result = fn.vkMapMemory(m_device.handle(), range.memory, 0, VK_WHOLE_SIZE, 0, &range.mapped);
         if (map_result != VK_SUCCESS)
         {
-            freeMemory(memory, size);
+            fn.vkFreeMemory(m_device.handle(), range.memory, callbacks);
             throwFailedCall(map_result, "vkMapMemory", __FILE_NAME__, __LINE__);
         }
     }
-    return true;
+    return VK_SUCCESS;
 }
 
-void MemoryAllocator::freeMemory(VkDeviceMemory memory, std::uint64_t size) noexcept
+VkResult MemoryAllocator::takeOfHost(std::uint32_t type, std::uint64_t size, const Wish& wish, MemoryRange& range)
 {
-    m_held_bytes -= size;
-    m_device.fn().vkFreeMemory(m_device.handle(), memory, m_device.allocationCallbacks());
+    const MemoryCallbacks& host = m_device.handles().memory;
+    const MemoryRequest request = {.name = wish.name,
+                                   .requirements = {.size = size,
+                                                    .alignment = roundUp(wish.alignment, m_granularity),
+                                                    .memoryTypeBits = 1u << type},
+                                   .required = wish.required,
+                                   .preferred = wish.preferred,
+                                   .map = isMapped(type) ? VK_TRUE : VK_FALSE,
+                                   .device_address = VK_TRUE};
+    range = {};
+    const VkResult result = host.allocate(host.user, &request, &range);
+    if (result == VK_SUCCESS)
+    {
+        checkOfHost(request, range);
+    }
+    return result;
+}
+
+void MemoryAllocator::checkOfHost(const MemoryRequest& request, const MemoryRange& range)
+{
+    std::string fault;
+    if (range.memory == VK_NULL_HANDLE)
+    {
+        fault = "no VkDeviceMemory";
+    }
+    else if (range.offset % request.requirements.alignment != 0)
+    {
+        fault = fmt::format("an offset of {} bytes, which is no multiple of {}", range.offset,
+                            request.requirements.alignment);
+    }
+    else if (request.map == VK_TRUE && range.mapped == nullptr)
+    {
+        fault = "memory that is not mapped";
+    }
+    if (!fault.empty())
+    {
+        if (range.memory != VK_NULL_HANDLE)
+        {
+            m_device.handles().memory.release(m_device.handles().memory.user, &range);
+        }
+        throw Error(ErrorCode::Usage,
+                    fmt::format("MemoryCallbacks::allocate gave {} for {}: see zvo/memory.h", fault, request.name));
+    }
+}
+
+void MemoryAllocator::returnMemory(const MemoryRange& range, std::uint64_t size) noexcept
+{
+    const MemoryCallbacks& host = m_device.handles().memory;
+    m_held_bytes -= heldSize(size);
+    if (host.allocate != nullptr)
+    {
+        host.release(host.user, &range);
+    }
+    else
+    {
+        m_device.fn().vkFreeMemory(m_device.handle(), range.memory, m_device.allocationCallbacks());
+    }
+    m_device.log(LogSeverity::Debug, "memory: returned {} bytes, {} bytes in all", heldSize(size), m_held_bytes);
 }
 
 void MemoryAllocator::freeUnusedBlocks() noexcept
@@ -231,7 +346,7 @@ void MemoryAllocator::freeUnusedBlocks() noexcept
     {
         if (block && block->unused())
         {
-            freeMemory(block->memory, block->bytes);
+            returnMemory(block->taken, block->bytes);
             block.reset();
         }
     }
@@ -246,7 +361,7 @@ void MemoryAllocator::release(const MemoryBlock& range) noexcept
     m_used_bytes -= range.bytes;
     if (range.block == UINT32_MAX)
     {
-        freeMemory(range.memory, range.bytes);
+        returnMemory(range.taken, range.bytes);
         return;
     }
     Block& block = *m_blocks[range.block];
@@ -263,7 +378,7 @@ void MemoryAllocator::release(const MemoryBlock& range) noexcept
                                      });
     if (another)
     {
-        freeMemory(block.memory, block.bytes);
+        returnMemory(block.taken, block.bytes);
         m_blocks[range.block].reset();
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vk/functions.h"
+#include "zvo/memory.h"
 
 #include <cstdint>
 #include <memory>
@@ -22,11 +23,12 @@ struct MemoryBlock
     void* mapped = nullptr; // host address of the range when the memory is mapped
     std::uint32_t memory_type = 0;
     std::uint32_t block = UINT32_MAX; // index of the shared block; UINT32_MAX for a dedicated allocation
+    MemoryRange taken{};              // of a dedicated allocation: as the driver or the host gave it
 };
 
 /// Hands out ranges of device memory: small ones from shared blocks (first fit, coalescing), big ones as allocations of
-/// their own. What it holds of the driver's memory never exceeds the limit, the unused parts of blocks included. Not
-/// thread safe.
+/// their own. Blocks and big ones come from the driver, or from DeviceHandles::memory. What it holds of them never
+/// exceeds the limit, the unused parts of blocks included. Not thread safe.
 class MemoryAllocator
 {
 public:
@@ -54,18 +56,24 @@ public:
 
     [[nodiscard]] std::uint64_t usedBytes() const { return m_used_bytes; } // handed out
     [[nodiscard]] std::uint64_t peakBytes() const { return m_peak_bytes; } // most of it at once
-    [[nodiscard]] std::uint64_t heldBytes() const { return m_held_bytes; } // of the driver
+    [[nodiscard]] std::uint64_t heldBytes() const { return m_held_bytes; } // of the driver or the host
     [[nodiscard]] std::uint64_t peakHeldBytes() const { return m_peak_held_bytes; }
     void resetPeak();
 
 private:
     struct Block;
+    struct Wish; // what a range is for, and what it must be like
 
     // These return false when the memory type cannot provide the memory.
-    bool allocateFrom(std::uint32_t type, std::uint64_t size, std::uint64_t alignment, MemoryBlock& result);
+    bool allocateFrom(std::uint32_t type, const Wish& wish, MemoryBlock& result);
     bool takeFrom(std::uint32_t index, std::uint64_t alignment, MemoryBlock& result);
-    bool allocateMemory(std::uint32_t type, std::uint64_t size, VkDeviceMemory& memory, void*& mapped);
-    void freeMemory(VkDeviceMemory memory, std::uint64_t size) noexcept;
+    bool takeMemory(std::uint32_t type, std::uint64_t size, const Wish& wish, MemoryRange& range);
+    VkResult takeOfDriver(std::uint32_t type, std::uint64_t size, MemoryRange& range);
+    VkResult takeOfHost(std::uint32_t type, std::uint64_t size, const Wish& wish, MemoryRange& range);
+    void checkOfHost(const MemoryRequest& request, const MemoryRange& range);
+    void returnMemory(const MemoryRange& range, std::uint64_t size) noexcept;
+    [[nodiscard]] std::uint64_t heldSize(std::uint64_t size) const;
+    [[nodiscard]] bool isMapped(std::uint32_t type) const;
     void freeUnusedBlocks() noexcept;
     [[noreturn]] void throwOverLimit(std::uint64_t bytes, const char* what) const;
 
@@ -74,6 +82,7 @@ private:
     std::uint64_t m_limit_bytes;
     std::string m_limit_name;
     std::uint64_t m_block_bytes;
+    std::uint64_t m_granularity; // bytes, of requests to the host
     std::uint64_t m_used_bytes = 0;
     std::uint64_t m_peak_bytes = 0;
     std::uint64_t m_held_bytes = 0;

@@ -20,6 +20,12 @@ namespace
     X(vkEnumerateInstanceExtensionProperties)                                                                          \
     X(vkEnumerateInstanceLayerProperties)
 
+// Other ways to submit and to wait, none of which vk::Functions has.
+#define ZVO_TEST_WAITING_FUNCTIONS(X)                                                                                  \
+    X(vkQueueSubmit)                                                                                                   \
+    X(vkQueueWaitIdle)                                                                                                 \
+    X(vkWaitSemaphores)
+
 struct State
 {
     std::uint64_t fail_number = UINT64_MAX;
@@ -88,6 +94,7 @@ std::uint64_t destroyedHandle(First first, Second second, Rest...)
         static constexpr const char* kName = #name;                                                                    \
     };
 ZVO_TEST_GLOBAL_FUNCTIONS(ZVO_TEST_TAG)
+ZVO_TEST_WAITING_FUNCTIONS(ZVO_TEST_TAG)
 ZVO_VK_INSTANCE_FUNCTIONS(ZVO_TEST_TAG)
 ZVO_VK_DEVICE_FUNCTIONS(ZVO_TEST_TAG)
 ZVO_VK_DEBUG_FUNCTIONS(ZVO_TEST_TAG)
@@ -146,6 +153,7 @@ PFN_vkVoidFunction shimOf(std::string_view wanted, PFN_vkVoidFunction real)
         return reinterpret_cast<PFN_vkVoidFunction>(&TheShim::call);                                                   \
     }
     ZVO_TEST_GLOBAL_FUNCTIONS(ZVO_TEST_SHIM)
+    ZVO_TEST_WAITING_FUNCTIONS(ZVO_TEST_SHIM)
     ZVO_VK_INSTANCE_FUNCTIONS(ZVO_TEST_SHIM)
     ZVO_VK_DEVICE_FUNCTIONS(ZVO_TEST_SHIM)
     ZVO_VK_DEBUG_FUNCTIONS(ZVO_TEST_SHIM)
@@ -215,6 +223,17 @@ std::uint64_t callCount(const std::string& function)
 {
     const auto found = g_state.call_counts.find(function);
     return found != g_state.call_counts.end() ? found->second : 0;
+}
+
+std::uint64_t submitOrWaitCount()
+{
+    std::uint64_t count = 0;
+    for (const char* function : {"vkQueueSubmit", "vkQueueSubmit2", "vkQueueWaitIdle", "vkDeviceWaitIdle",
+                                 "vkWaitForFences", "vkWaitSemaphores"})
+    {
+        count += callCount(function);
+    }
+    return count;
 }
 
 std::string failedFunction()

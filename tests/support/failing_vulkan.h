@@ -12,8 +12,8 @@ namespace zvo::test
 {
 
 /// vkGetInstanceProcAddr of the machine's Vulkan behind shims: give it to whatever loads functions. Every function of
-/// vk::Functions that returns a VkResult, and those that make an instance, is counted and can fail; the driver does not
-/// see a call that fails (but for vkDeviceWaitIdle). One state for the process; not thread safe.
+/// vk::Functions that returns a VkResult, and those that make an instance, submit or wait, is counted and can fail; the
+/// driver does not see a call that fails (but for vkDeviceWaitIdle). One state for the process; not thread safe.
 PFN_vkGetInstanceProcAddr failingVulkan();
 
 /// Forgets all counts, and lets the call with this number (from 0 on) fail with result. UINT64_MAX: none of them.
@@ -31,6 +31,10 @@ std::uint64_t fallibleCallCount();
 
 /// Calls of the function with this name among them.
 std::uint64_t callCount(const std::string& function);
+
+/// Calls among them that submit or wait (vkQueueSubmit, vkQueueSubmit2, vkQueueWaitIdle, vkDeviceWaitIdle,
+/// vkWaitForFences, vkWaitSemaphores): recording into a host's command buffer makes none.
+std::uint64_t submitOrWaitCount();
 
 /// Name of the function that was made to fail; empty while none was.
 std::string failedFunction();

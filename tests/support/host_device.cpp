@@ -71,7 +71,9 @@ vk::DeviceHandles HostDevice::handles() const
             .enabled_core_features = m_info.pEnabledFeatures,
             .allocation_callbacks = m_options.allocation_callbacks,
             .pipeline_cache = m_options.pipeline_cache,
-            .memory_budget_bytes = m_options.memory_budget_bytes};
+            .memory_budget_bytes = m_options.memory_budget_bytes,
+            .memory = m_options.memory,
+            .log = m_options.log};
 }
 
 VkCommandBuffer HostDevice::begin()

@@ -33,6 +33,8 @@ struct HostOptions
     const VkAllocationCallbacks* allocation_callbacks = nullptr; // for what zvo creates
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     std::uint64_t memory_budget_bytes = UINT64_MAX;
+    MemoryCallbacks memory{};
+    LogCallback log{};
 };
 
 /// Whether HostOptions::validation can be had.

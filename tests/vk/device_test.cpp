@@ -2,6 +2,8 @@
 // Devices that somebody else owns: what zvo asks of them, and how it behaves on them.
 #include "vk/device.h"
 
+#include "support/failing_vulkan.h"
+#include "support/host_device.h"
 #include "vk/check.h"
 #include "vk/instance.h"
 #include "vk/kernels.h"
@@ -296,6 +298,34 @@ TEST(Device, RecordsIntoAHostsCommandBuffer)
     std::vector<gpu::uint> expected(1000);
     std::iota(expected.begin(), expected.end(), 0u);
     EXPECT_TRUE(std::equal(expected.begin(), expected.end(), result.mappedData()));
+}
+
+TEST(HostDevice, SeesWhatZvoSubmitsAndWaitsForAndNotItsOwn)
+{
+    test::failCall(UINT64_MAX);
+    test::HostOptions options;
+    options.zvo_functions = test::failingVulkan();
+    test::HostDevice host(options);
+    {
+        vk::Device guest(host.handles(), testKernels());
+        vk::BufferOf<gpu::uint> values(guest, "values", 1000);
+        host.run(
+            [&](VkCommandBuffer commands)
+            {
+                vk::FrameGraph graph(guest, commands);
+                test::iota(graph, values);
+                graph.fill(values, 3);
+            });
+        EXPECT_EQ(test::submitOrWaitCount(), 0u);
+        EXPECT_EQ(test::callCount("vkCreateBuffer"), 1u);
+        vk::CommandContext commands(guest, host.queue());
+        commands.begin();
+        commands.submit();
+        commands.wait();
+        EXPECT_EQ(test::submitOrWaitCount(), 2u);
+    }
+    EXPECT_EQ(test::liveObjects(), std::vector<std::string>());
+    test::failCall(UINT64_MAX);
 }
 
 // Says that the silence of the layers in all other tests means something.

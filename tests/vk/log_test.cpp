@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// What a host is told.
+#include "support/host_device.h"
+#include "vk/kernels.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+
+using namespace zvo;
+
+struct Log
+{
+    static void add(void* user, LogSeverity severity, const char* message)
+    {
+        static_cast<Log*>(user)->messages.emplace_back(severity, message);
+    }
+
+    [[nodiscard]] std::ptrdiff_t count(LogSeverity severity, const std::string& part) const
+    {
+        return std::count_if(messages.begin(), messages.end(),
+                             [&](const auto& message)
+                             { return message.first == severity && message.second.find(part) != std::string::npos; });
+    }
+
+    std::vector<std::pair<LogSeverity, std::string>> messages;
+};
+
+test::HostOptions listening(Log& log)
+{
+    test::HostOptions options;
+    options.log = {Log::add, &log};
+    return options;
+}
+
+TEST(Log, KernelsAreNamedWhenTheyAreCompiledAndOnlyThen)
+{
+    Log log;
+    test::HostDevice host(listening(log));
+    vk::Device device(host.handles(), testKernels());
+    EXPECT_EQ(log.count(LogSeverity::Debug, "kernel"), 0);
+    device.kernels().get("test/iota");
+    device.kernels().get("test/iota");
+    EXPECT_EQ(log.count(LogSeverity::Debug, "kernel test/iota: compiled in "), 1);
+    EXPECT_EQ(log.count(LogSeverity::Debug, "kernel"), 1);
+}
+
+TEST(Log, MemoryIsToldOfByWhatItIsFor)
+{
+    Log log;
+    test::HostDevice host(listening(log));
+    {
+        vk::Device device(host.handles(), testKernels());
+        {
+            const vk::Buffer big(device, "the big one", 100 << 20);
+            EXPECT_EQ(log.count(LogSeverity::Debug, "took 104857600 bytes"), 1);
+            EXPECT_EQ(log.count(LogSeverity::Debug, "for the big one"), 1);
+            EXPECT_EQ(log.count(LogSeverity::Debug, "returned"), 0);
+        }
+        EXPECT_EQ(log.count(LogSeverity::Debug, "returned 104857600 bytes, 0 bytes in all"), 1);
+        const vk::Buffer a(device, "a", 100);
+        const vk::Buffer b(device, "b", 100);
+    }
+    EXPECT_EQ(log.count(LogSeverity::Debug, "took"), 2) << "small ones share a block";
+    EXPECT_EQ(log.count(LogSeverity::Debug, "returned"), 2);
+}
+
+TEST(Log, WhatTheBudgetRefusesIsAWarning)
+{
+    Log log;
+    test::HostOptions options = listening(log);
+    options.memory_budget_bytes = 1 << 20;
+    test::HostDevice host(options);
+    vk::Device device(host.handles(), testKernels());
+    EXPECT_THROW(vk::Buffer(device, "the voxels", 2 << 20), Error);
+    EXPECT_THROW(device.memory().require(3 << 20, "the scene"), Error);
+    EXPECT_EQ(log.count(LogSeverity::Warning, "2097152 bytes for the voxels exceed"), 1);
+    EXPECT_EQ(log.count(LogSeverity::Warning, "3145728 bytes for the scene exceed"), 1);
+}
+
+TEST(Log, WhatTheDeviceGoesWithoutIsSaidOnce)
+{
+    for (const bool times : {false, true})
+    {
+        Log log;
+        test::HostOptions options = listening(log);
+        options.optional.pass_times = times;
+        test::HostDevice host(options);
+        const vk::Device device(host.handles(), testKernels());
+        EXPECT_EQ(log.count(LogSeverity::Info, "hostQueryReset"), times ? 0 : 1);
+        EXPECT_EQ(log.count(LogSeverity::Info, ""), times ? 0 : 1);
+    }
+}
+
+TEST(Log, AListenerThatThrowsChangesNothing)
+{
+    test::HostOptions options;
+    options.log.function = [](void*, LogSeverity, const char*) { throw Error(ErrorCode::Other, "no paper"); };
+    test::HostDevice host(options);
+    vk::Device device(host.handles(), testKernels());
+    vk::BufferOf<gpu::uint> values(device, "values", 100);
+    host.run(
+        [&](VkCommandBuffer commands)
+        {
+            vk::FrameGraph graph(device, commands);
+            test::iota(graph, values);
+        });
+}
+
+} // namespace
