@@ -108,7 +108,8 @@ Scales leastSquares(Scales scales)
 Scales better(Scales a, Scales b)
 {
     bvec2 is_b = lessThan(b.error, a.error);
-    uint of_b = (is_b.x ? kFractionOne : 0u) | (is_b.y ? ~kFractionOne : 0u);
+    const uint of_x = (1u << kBlockVoxels) - 1u; // bits of a plane
+    uint of_b = (is_b.x ? of_x : 0u) | (is_b.y ? ~of_x : 0u);
     return Scales(mix(a.first, b.first, is_b), mix(a.second, b.second, is_b), (a.planes & ~of_b) | (b.planes & of_b),
                   min(a.error, b.error));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Attributes out of any form, in integers: src/core/attribute_form.cpp is the same for the host.
-#include "lib/attribute.glsl"
+#include "lib/normal_code.glsl"
 #include "shared/attribute_forms.h"
 
 // 8 bits a channel of a colour in 5, 6 and 5 bits: c * 255 / 31 and c * 255 / 63, rounded.

@@ -20,6 +20,17 @@ struct Ray
 };
 GPU_BUFFER(Ray, 4);
 
+/// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
+/// left, offset = n.x * step_x + n.y * step_y: perspective rays start at origin along forward + offset, orthographic
+/// ones at origin + offset along forward. forward has length 1 and is orthogonal to both steps, so t is the depth.
+struct CameraRays
+{
+    vec3 origin;
+    vec3 forward;
+    vec3 step_x; // half a pixel to the right
+    vec3 step_y; // half a pixel down
+};
+
 /// What a ray met first. 16 bytes, as lib/hit.glsl packs them:
 ///
 ///     where: x 18 bits | y 18 | z 18 | level 4 | face 2, from the lowest bit of where.x on

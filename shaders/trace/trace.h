@@ -81,17 +81,6 @@ const uint kViewVoxel = 6u;      // a colour for each voxel, by its coordinates
 const uint kViewBricks = 7u;     // base colour, with the borders of nodes
 const uint kViewOrigin = 8u;     // grey: static; orange: in a leaf that a dynamic update made
 
-/// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
-/// left, offset = n.x * step_x + n.y * step_y: perspective rays start at origin along forward + offset, orthographic
-/// ones at origin + offset along forward. forward has length 1 and is orthogonal to both steps, so t is the depth.
-struct CameraRays
-{
-    vec3 origin;
-    vec3 forward;
-    vec3 step_x; // half a pixel to the right
-    vec3 step_y; // half a pixel down
-};
-
 struct RaysParams // push constants of trace/rays
 {
     GPU_CONST_PTR(Node) nodes;
