@@ -5,9 +5,14 @@
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# zvo_embed_kernels(TARGET ROOT FUNCTION): adds a generated source to TARGET that defines
-# `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT.
+# zvo_embed_kernels(TARGET ROOT FUNCTION [INCLUDE dir] [DEPENDS target]): adds a generated source to TARGET that defines
+# `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT. They include what is below dir, by
+# default zvo's own shaders, after target was made.
 function(zvo_embed_kernels target root function_name)
+    cmake_parse_arguments(arg "" "INCLUDE;DEPENDS" "" ${ARGN})
+    if(NOT arg_INCLUDE)
+        set(arg_INCLUDE ${PROJECT_SOURCE_DIR}/shaders)
+    endif()
     file(GLOB_RECURSE kernels CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.comp)
     list(SORT kernels)
     set(out_dir ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target})
@@ -23,12 +28,12 @@ function(zvo_embed_kernels target root function_name)
             # The SPIR-V first: that is the file which the depfile names.
             OUTPUT ${out_dir}/${name}.spv ${out_dir}/${name}.cpp
             DEPFILE ${out_dir}/${name}.d
-            COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders -S comp
+            COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${arg_INCLUDE} -S comp
                     --depfile ${out_dir}/${name}.d -o ${out_dir}/${name}.spv ${root}/${kernel}
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${out_dir}/${name}.spv
             COMMAND ${CMAKE_COMMAND} -DINPUT=${out_dir}/${name}.spv -DOUTPUT=${out_dir}/${name}.cpp -DSYMBOL=${symbol}
                     -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
-            DEPENDS ${root}/${kernel} ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+            DEPENDS ${root}/${kernel} ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake ${arg_DEPENDS}
             COMMENT "kernel ${name}"
             VERBATIM)
         list(APPEND embedded ${out_dir}/${name}.cpp)

@@ -29,7 +29,10 @@
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
 //   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the place of the entry that named their leaf
 //   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
+//   TRAVERSE_VARIABLES                 optional: then the includer declares what the five constants stand for, by their
+//                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
 
+#ifndef TRAVERSE_VARIABLES
 #ifndef TRAVERSE_CONSTANT_ID
 #define TRAVERSE_CONSTANT_ID 0
 #endif
@@ -39,10 +42,15 @@ layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const uint kStack = kStackRegiste
 layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const bool kDetail = false; // stop at small nodes
 layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kStepsMax = kTraceStepsMax;
 layout(constant_id = TRAVERSE_CONSTANT_ID + 4) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
+#endif
 
 const uint kMantissaBits = 23u;
 const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number the root's cells
+#ifdef TRAVERSE_VARIABLES
+#define kLeafShift (kMantissaBits - 2u * kNodeLevels) // a variable makes no constant
+#else
 const uint kLeafShift = kMantissaBits - 2u * kNodeLevels;
+#endif
 const uint kSavedMax = 8u; // levels of nodes above a leaf
 
 struct Traversal
