@@ -25,25 +25,18 @@ vec3 toneMap(vec3 radiance)
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-// Half a step of 8 bits up or down by an ordered pattern, so that gradients show no bands.
-float dither(uvec2 pixel)
+// Half a step of codes from 0 to steps up or down by an ordered pattern, so that gradients show no bands.
+float dither(uvec2 pixel, float steps)
 {
     uint x = pixel.x ^ pixel.y;
     uint rank = ((x & 1u) << 3) | ((pixel.y & 1u) << 2) | (x & 2u) | ((pixel.y & 2u) >> 1);
-    return (float(rank) - 7.5) / (16.0 * 255.0);
+    return (float(rank) - 7.5) / (16.0 * steps);
 }
 
-// From radiance to what is shown, encoded.
-vec3 develop(vec3 radiance, float exposure, uvec2 pixel)
+// From radiance to what is shown, encoded, for codes from 0 to steps.
+vec3 develop(vec3 radiance, float exposure, uvec2 pixel, float steps)
 {
-    return clamp(encodeSrgb(toneMap(exposure * radiance)) + dither(pixel), 0.0, 1.0);
-}
-
-// Red, green, blue in [0, 1], already encoded, with full alpha.
-uint packColor8(vec3 color)
-{
-    uvec3 byte = uvec3(color * 255.0 + 0.5);
-    return byte.r | (byte.g << 8) | (byte.b << 16) | (255u << 24);
+    return clamp(encodeSrgb(toneMap(exposure * radiance)) + dither(pixel, steps), 0.0, 1.0);
 }
 
 // Heat from black over blue, red and yellow to white, for x in [0, 1].

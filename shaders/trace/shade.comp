@@ -11,6 +11,7 @@
 #include "lib/hit.glsl"
 #include "lib/sky.glsl"
 #include "lib/surface_normal.glsl"
+#include "trace/texel.glsl"
 
 layout(constant_id = 0) const uint kView = kViewColor;
 layout(constant_id = 1) const uint kNodeLevels = 5u;
@@ -18,6 +19,7 @@ layout(constant_id = 2) const bool kOrthographic = false;
 layout(constant_id = 3) const uint kForm = kForm8; // of attributes
 layout(constant_id = 4) const bool kEmission = false;
 layout(constant_id = 5) const bool kLight = true; // params.light was filled
+layout(constant_id = 6) const uint kTexels = kTexelRgba8;
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -125,7 +127,7 @@ void main()
     uint i = pixel.y * size.x + pixel.x;
     Hit hit = loadHit(params.hits, i);
     uint light = kLight ? params.light.data[i] : kLightAll;
-    vec3 color; // encoded
+    vec3 color; // encoded; kViewColor in half floats: linear
     if (kView == kViewIterations)
         color = heatColor(log2(1.0 + float(light)) / 7.0);
     else if (kView == kViewDepth)
@@ -149,8 +151,10 @@ void main()
         else if (kView == kViewOrigin)
             color = originColor(hit, encodeSrgb(surface.albedo));
         else
-            color = develop(lit(surface, light), params.exposure, pixel);
+            color = developTexel(kTexels, lit(surface, light), params.exposure, pixel);
     }
+    if (kTexels == kTexelHalf && kView != kViewColor)
+        color = decodeSrgb(color);
     if (!isMiss(hit) || kView == kViewIterations)
-        params.image.data[i] = packColor8(color);
+        storeTexel(kTexels, params.image, i, color);
 }

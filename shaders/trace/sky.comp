@@ -1,14 +1,17 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A picture of the sky alone.
+// A picture of the sky alone, or a black one.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/sky.glsl"
+#include "trace/texel.glsl"
 
 layout(constant_id = 0) const bool kOrthographic = false;
+layout(constant_id = 1) const uint kTexels = kTexelRgba8;
+layout(constant_id = 2) const bool kBlack = false;
 
 layout(local_size_x = kSkyGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -20,12 +23,14 @@ const float kSunDisc = 4.0; // radiance of the sun's disc by its strength
 
 vec3 skyColor(uvec2 pixel, uvec2 size)
 {
+    if (kBlack)
+        return vec3(0.0);
     vec3 direction = params.forward;
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
     direction = normalize(direction);
     vec3 radiance = skyRadiance(direction) + kSunDisc * params.sun * sunDisc(direction, params.to_sun) * kSunColor;
-    return develop(radiance, params.exposure, pixel);
+    return developTexel(kTexels, radiance, params.exposure, pixel);
 }
 
 void main()
@@ -35,5 +40,5 @@ void main()
     uint first = threadIndex() / size.x * kSkyRows;
     uint last = min(first + kSkyRows, size.y);
     for (uint y = first; y < last; ++y)
-        params.image.data[y * size.x + column] = packColor8(skyColor(uvec2(column, y), size));
+        storeTexel(kTexels, params.image, y * size.x + column, skyColor(uvec2(column, y), size));
 }

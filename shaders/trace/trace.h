@@ -81,6 +81,14 @@ const uint kViewVoxel = 6u;      // a colour for each voxel, by its coordinates
 const uint kViewBricks = 7u;     // base colour, with the borders of nodes
 const uint kViewOrigin = 8u;     // grey: static; orange: in a leaf that a dynamic update made
 
+// How a picture stores a pixel: specialization constant of trace/shade and trace/sky. All but the last hold sRGB codes.
+const uint kTexelRgba8 = 0u; // red | green << 8 | blue << 16 | alpha << 24
+const uint kTexelBgra8 = 1u; // blue | green << 8 | red << 16 | alpha << 24
+const uint kTexelRgb10 = 2u; // red | green << 10 | blue << 20 | alpha << 30
+const uint kTexelHalf = 3u;  // two words of half floats, red | green << 16 and blue | alpha << 16: linear
+
+const float kHalfMax = 65504.0f; // largest half float
+
 struct RaysParams // push constants of trace/rays
 {
     GPU_CONST_PTR(Node) nodes;
@@ -232,7 +240,7 @@ struct OcclusionParams // push constants of trace/occlusion
 
 struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a column
 {
-    GPU_PTR(uint) image; // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
+    GPU_PTR(uint) image; // [width * height] texels of one word or two, as kTexels says
     vec3 forward;        // of the camera
     vec3 step_x;
     vec3 step_y;
@@ -281,7 +289,7 @@ struct ShadeParams // push constants of trace/shade
     GPU_CONST_PTR(Attribute) node_attributes;
     GPU_CONST_PTR(uvec2) emission_words;
     GPU_CONST_PTR(uint) emission;
-    GPU_PTR(uint) image;
+    GPU_PTR(uint) image; // as in SkyParams
     vec3 forward;
     vec3 step_x;
     vec3 step_y;

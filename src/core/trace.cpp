@@ -38,8 +38,9 @@ bool standsByLevels(const TreeView& tree)
 
 } // namespace
 
-TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
-    : width(picture_width), height(picture_height), args(device, "trace args", 1),
+TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height,
+                           TexelForm picture_texels)
+    : width(picture_width), height(picture_height), texels(picture_texels), args(device, "trace args", 1),
       rounds(device, "trace rounds", gpu::kTraceRoundsMax), status(device, "trace status", 1)
 {
     const PictureTiles tiles(*this);
@@ -48,14 +49,14 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
     // Indirect dispatches over more tiles than one row of workgroups fill up their last row.
     const std::uint64_t rows = divideUp(tile_count, gpu::kTilesFold);
     const std::uint64_t live_capacity = rows > 1 ? rows * gpu::kTilesFold : tile_count;
-    device.memory().require(pixel_count * (sizeof(gpu::Hit) + 2 * sizeof(gpu::uint)) + tile_count * sizeof(float) +
-                                live_capacity * sizeof(gpu::uvec2),
+    device.memory().require(pixel_count * (sizeof(gpu::Hit) + (1 + texelWords(texels)) * sizeof(gpu::uint)) +
+                                tile_count * sizeof(float) + live_capacity * sizeof(gpu::uvec2),
                             "the picture");
     starts = {device, "tile starts", tile_count};
     live = {device, "live tiles", live_capacity};
     hits = {device, "hits", pixel_count};
     light = {device, "light", pixel_count};
-    image = {device, "image", pixel_count};
+    image = {device, "image", pixel_count * texelWords(texels)};
 }
 
 void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,

@@ -20,6 +20,22 @@ enum class TraceStack : std::uint32_t
     Shared = gpu::kStackShared,
 };
 
+/// How a picture stores its pixels, alpha 1 always. All but Half hold sRGB codes, tone-mapped where the picture is lit.
+enum class TexelForm : std::uint32_t
+{
+    Rgba8 = gpu::kTexelRgba8, ///< one word: red | green << 8 | blue << 16 | alpha << 24
+    Bgra8 = gpu::kTexelBgra8, ///< one word: blue | green << 8 | red << 16 | alpha << 24
+    Rgb10 = gpu::kTexelRgb10, ///< one word: red | green << 10 | blue << 20 | alpha << 30
+    /// Two words of half floats, red first. View::Color: exposure times radiance, linear, neither tone-mapped nor
+    /// dithered, at most 65504. Other views: the linear values of the codes that they show.
+    Half = gpu::kTexelHalf,
+};
+
+constexpr std::uint32_t texelWords(TexelForm form)
+{
+    return form == TexelForm::Half ? 2 : 1;
+}
+
 /// The most rays that TraceOptions::occlusion_rays asks for.
 inline constexpr std::uint32_t kOcclusionRaysMax = 64;
 
@@ -57,10 +73,11 @@ struct BeamGrid
 /// What the passes for a picture of width x height pixels write. Pixels are stored row by row from the top left.
 struct TraceBuffers
 {
-    TraceBuffers(vk::Device& device, std::uint32_t width, std::uint32_t height);
+    TraceBuffers(vk::Device& device, std::uint32_t width, std::uint32_t height, TexelForm texels = TexelForm::Rgba8);
 
     std::uint32_t width;
     std::uint32_t height;
+    TexelForm texels;
     vk::BufferOf<float> starts;             // [tiles] of kTileEdge^2 pixels, row by row: kTileDead where nothing is hit
     vk::BufferOf<gpu::uvec2> live;          // [tiles] the others, in any order, then kNoTile
     vk::BufferOf<gpu::DispatchArgs> args;   // [1] one workgroup for each of them
@@ -68,7 +85,7 @@ struct TraceBuffers
     vk::BufferOf<gpu::TraceStatus> status;  // [1]
     vk::BufferOf<gpu::Hit> hits;            // [width * height]; undefined in dead tiles
     vk::BufferOf<gpu::uint> light;          // [width * height]; undefined in dead tiles. View::Iterations: those
-    vk::BufferOf<gpu::uint> image;          // [width * height] red | green << 8 | blue << 16 | alpha << 24, sRGB
+    vk::BufferOf<gpu::uint> image;          // [width * height * texelWords(texels)]
 };
 
 /// Records the passes that make the beam grid of tree: once for each tree, and again whenever a DynamicOctree shows

@@ -12,12 +12,36 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kBlack = 255U << 24;
-
 gpu::vec3 sunDirection(const TraceOptions& options)
 {
     const double length = glm::length(options.to_sun);
     return length > 0.0 ? gpu::vec3(options.to_sun / length) : gpu::vec3(0.0F, 1.0F, 0.0F);
+}
+
+// Records what makes a picture of what rays see that hit nothing.
+void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const TraceOptions& options,
+                    TraceBuffers& buffers)
+{
+    const bool shows_sky = options.view == View::Color;
+    if (!shows_sky && buffers.texels != TexelForm::Half) // black is one word
+    {
+        graph.fill(buffers.image, buffers.texels == TexelForm::Rgb10 ? 3U << 30 : 255U << 24);
+        return;
+    }
+    vk::Pass pass = graph.addPass(
+        "trace/sky", {camera.orthographic ? 1U : 0U, static_cast<std::uint32_t>(buffers.texels), shows_sky ? 0U : 1U});
+    gpu::SkyParams params{};
+    params.image = pass.write(buffers.image);
+    params.forward = camera.rays.forward;
+    params.step_x = camera.rays.step_x;
+    params.step_y = camera.rays.step_y;
+    params.to_sun = sunDirection(options);
+    params.width = buffers.width;
+    params.height = buffers.height;
+    params.sun = options.sun;
+    params.exposure = options.exposure;
+    const std::uint64_t rows = (buffers.height + gpu::kSkyRows - 1) / gpu::kSkyRows;
+    pass.dispatch(rows * buffers.width, params);
 }
 
 // Least and greatest depth of the grid in front of the camera, in unit space.
@@ -95,32 +119,13 @@ void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camer
            TraceBuffers& buffers)
 {
     const Octree& octree = tree.octree();
-    const gpu::vec3 to_sun = sunDirection(options);
-    if (options.view == View::Color)
-    {
-        vk::Pass pass = graph.addPass("trace/sky", withFlags({}, {camera.orthographic}));
-        gpu::SkyParams params{};
-        params.image = pass.write(buffers.image);
-        params.forward = camera.rays.forward;
-        params.step_x = camera.rays.step_x;
-        params.step_y = camera.rays.step_y;
-        params.to_sun = to_sun;
-        params.width = buffers.width;
-        params.height = buffers.height;
-        params.sun = options.sun;
-        params.exposure = options.exposure;
-        const std::uint64_t rows = (buffers.height + gpu::kSkyRows - 1) / gpu::kSkyRows;
-        pass.dispatch(rows * buffers.width, params);
-    }
-    else
-    {
-        graph.fill(buffers.image, kBlack);
-    }
+    drawBackground(graph, camera, options, buffers);
     const vk::Specialization constants = withFlags({static_cast<std::uint32_t>(options.view), octree.grid.nodeLevels(),
                                                     camera.orthographic ? 1U : 0U, formToRead(octree, options)},
                                                    {usesAttributes(octree, options) && octree.emission.count() != 0,
                                                     needsLight(options) || options.view == View::Iterations});
-    vk::Pass pass = graph.addPass("trace/shade", constants);
+    vk::Pass pass =
+        graph.addPass("trace/shade", withConstants(constants, {static_cast<std::uint32_t>(buffers.texels)}));
     gpu::ShadeParams params{};
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
@@ -134,7 +139,7 @@ void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camer
     params.step_y = camera.rays.step_y;
     params.sun = options.view == View::Depth    ? gpu::vec3(depthRange(octree.grid, camera), 0.0F)
                  : options.view == View::Origin ? originBounds(tree)
-                                                : options.sun * to_sun;
+                                                : options.sun * sunDirection(options);
     params.width = buffers.width;
     params.height = buffers.height;
     params.emission_scale = octree.emission_scale;

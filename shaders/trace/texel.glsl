@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Pixels in the forms in which pictures store them (kTexelRgba8 and so on). The includer includes trace/trace.h and
+// lib/color.glsl before.
+
+// The largest code of red, green and blue.
+float texelSteps(uint texels)
+{
+    return texels == kTexelRgb10 ? 1023.0 : 255.0;
+}
+
+// What a picture shows of radiance: codes in [0, 1], or in half floats the exposed radiance itself.
+vec3 developTexel(uint texels, vec3 radiance, float exposure, uvec2 pixel)
+{
+    if (texels == kTexelHalf)
+        return exposure * radiance;
+    return develop(radiance, exposure, pixel, texelSteps(texels));
+}
+
+uint packCodes(uint texels, vec3 color)
+{
+    uvec3 code = uvec3(color * texelSteps(texels) + 0.5);
+    if (texels == kTexelRgb10)
+        return code.r | (code.g << 10) | (code.b << 20) | (3u << 30);
+    if (texels == kTexelBgra8)
+        return code.b | (code.g << 8) | (code.r << 16) | (255u << 24);
+    return code.r | (code.g << 8) | (code.b << 16) | (255u << 24);
+}
+
+// Half floats do not become infinite: what is brighter than the largest one is the largest one.
+uint64_t packHalfs(vec3 color)
+{
+    vec3 finite = clamp(color, 0.0, kHalfMax);
+    return packUint2x32(uvec2(packHalf2x16(finite.rg), packHalf2x16(vec2(finite.b, 1.0))));
+}
+
+// color: codes in [0, 1], or in half floats linear, from 0 on. Alpha is 1.
+void storeTexel(uint texels, uint_Ptr image, uint pixel, vec3 color)
+{
+    if (texels == kTexelHalf)
+        uint64_t_Ptr(uint64_t(image)).data[pixel] = packHalfs(color);
+    else
+        image.data[pixel] = packCodes(texels, color);
+}

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+// Pictures in all texel forms: the same picture, as exactly as each form can hold it.
+#include "core/kernels.h"
+#include "core/trace.h"
+#include "support/device.h"
+#include "support/pictures.h"
+#include "support/trace_octrees.h"
+
+#include <glm/gtc/packing.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using Words = std::vector<gpu::uint>;
+
+constexpr std::uint32_t kWidth = 83; // no multiples of a tile
+constexpr std::uint32_t kHeight = 61;
+constexpr View kViews[] = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
+                           View::Iterations, View::Voxel,  View::Bricks, View::Origin};
+// Of a half float, half a step, or one where a device rounds down; and some single precision.
+constexpr double kHalfError = 1.0 / 1024 + 1e-5;
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+struct Shown
+{
+    Words image;
+    std::vector<gpu::Hit> hits;
+};
+
+Shown show(const Octree& octree, const ViewCamera& view, TexelForm form, const TraceOptions& options)
+{
+    BeamGrid beam(device().device());
+    TraceBuffers buffers(device().device(), kWidth, kHeight, form);
+    const TraceCamera camera = traceCamera(view, octree.grid, kHeight);
+    test::Picture picture = test::takePicture(device(), octree, beam, camera, buffers, options);
+    return {std::move(picture.image), std::move(picture.hits)};
+}
+
+glm::dvec4 codesOf(TexelForm form, const Words& image, std::size_t pixel)
+{
+    const gpu::uint word = image.at(pixel);
+    const glm::dvec3 low(word & 255U, word >> 8 & 255U, word >> 16 & 255U);
+    switch (form)
+    {
+    case TexelForm::Rgba8:
+        return glm::dvec4(low, word >> 24) / 255.0;
+    case TexelForm::Bgra8:
+        return glm::dvec4(low.z, low.y, low.x, word >> 24) / 255.0;
+    case TexelForm::Rgb10:
+        return glm::dvec4(glm::dvec3(word & 1023U, word >> 10 & 1023U, word >> 20 & 1023U) / 1023.0,
+                          (word >> 30) / 3.0);
+    case TexelForm::Half:
+        break;
+    }
+    ADD_FAILURE();
+    return {};
+}
+
+glm::dvec4 halfsOf(const Words& image, std::size_t pixel)
+{
+    const glm::vec2 red_green = glm::unpackHalf2x16(image.at(2 * pixel));
+    const glm::vec2 blue_alpha = glm::unpackHalf2x16(image.at(2 * pixel + 1));
+    return {red_green.x, red_green.y, blue_alpha.x, blue_alpha.y};
+}
+
+double encodeSrgb(double linear)
+{
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+// K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015, after the factor that he gives for the original's brightness.
+double toneMap(double radiance)
+{
+    const double x = 0.6 * radiance;
+    return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// A shell in all attributes, lit from the side, with sky around it.
+Octree coloredSphere()
+{
+    Octree octree = test::octreeOf(device(), test::sphereShell(6, 25.0), 6);
+    test::addAttributes(device(), octree);
+    return octree;
+}
+
+ViewCamera sphereView()
+{
+    return ViewCamera::lookAt({80.0, 60.0, 90.0}, {32.0, 32.0, 32.0}, 0.8);
+}
+
+TEST(TexelForm, BlueFirstIsTheSamePictureWithItsBytesSwapped)
+{
+    const Octree octree = coloredSphere();
+    for (const View view : kViews)
+    {
+        TraceOptions options;
+        options.view = view;
+        Words expected = show(octree, sphereView(), TexelForm::Rgba8, options).image;
+        for (gpu::uint& word : expected)
+        {
+            word = (word & 0xFF00FF00U) | (word & 255U) << 16 | (word >> 16 & 255U);
+        }
+        EXPECT_EQ(show(octree, sphereView(), TexelForm::Bgra8, options).image, expected);
+    }
+}
+
+TEST(TexelForm, TenBitsShowWhatEightDo)
+{
+    const Octree octree = coloredSphere();
+    for (const View view : kViews)
+    {
+        SCOPED_TRACE(static_cast<int>(view));
+        TraceOptions options;
+        options.view = view;
+        const Words eight = show(octree, sphereView(), TexelForm::Rgba8, options).image;
+        const Words ten = show(octree, sphereView(), TexelForm::Rgb10, options).image;
+        // Half a code by rounding; what is lit is dithered by up to half a code more.
+        const double codes = view == View::Color ? 1.0 : 0.5;
+        std::size_t finer_count = 0;
+        for (std::size_t i = 0; i < eight.size(); ++i)
+        {
+            const glm::dvec4 coarse = codesOf(TexelForm::Rgba8, eight, i);
+            const glm::dvec4 fine = codesOf(TexelForm::Rgb10, ten, i);
+            ASSERT_EQ(fine.w, 1.0);
+            for (int c = 0; c < 3; ++c)
+            {
+                ASSERT_NEAR(fine[c], coarse[c], codes / 255.0 + codes / 1023.0 + 1e-6) << "pixel " << i;
+                finer_count += std::abs(fine[c] - coarse[c]) > 0.25 / 255.0 ? 1 : 0;
+            }
+        }
+        if (view == View::Color)
+        {
+            EXPECT_GT(finer_count, eight.size() / 10) << "no bits more than eight";
+        }
+    }
+}
+
+TEST(TexelForm, HalfFloatsToneMappedAreTheCodesOfThePicture)
+{
+    const Octree octree = coloredSphere();
+    TraceOptions options;
+    options.exposure = 1.7F;
+    options.occlusion_rays = 3;
+    const Words codes = show(octree, sphereView(), TexelForm::Rgba8, options).image;
+    const Words halfs = show(octree, sphereView(), TexelForm::Half, options).image;
+    ASSERT_EQ(halfs.size(), 2 * codes.size());
+    double brightest = 0.0;
+    for (std::size_t i = 0; i < codes.size(); ++i)
+    {
+        const glm::dvec4 code = codesOf(TexelForm::Rgba8, codes, i);
+        const glm::dvec4 half = halfsOf(halfs, i);
+        ASSERT_EQ(half.w, 1.0);
+        for (int c = 0; c < 3; ++c)
+        {
+            // A code is the nearest one to what it shows plus up to half a code of dither.
+            const double least = encodeSrgb(toneMap(half[c] * (1.0 - kHalfError)));
+            const double most = encodeSrgb(toneMap(half[c] * (1.0 + kHalfError)));
+            ASSERT_GE(code[c], least - 1.0 / 255.0 - 1e-6) << "pixel " << i;
+            ASSERT_LE(code[c], most + 1.0 / 255.0 + 1e-6) << "pixel " << i;
+            brightest = std::max(brightest, half[c]);
+        }
+    }
+    EXPECT_GT(brightest, 1.5) << "not radiance but what a screen shows";
+}
+
+TEST(TexelForm, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
+{
+    const Octree octree = coloredSphere();
+    for (const View view : kViews)
+    {
+        if (view == View::Color)
+        {
+            continue;
+        }
+        SCOPED_TRACE(static_cast<int>(view));
+        TraceOptions options;
+        options.view = view;
+        const Words codes = show(octree, sphereView(), TexelForm::Rgba8, options).image;
+        const Shown halfs = show(octree, sphereView(), TexelForm::Half, options);
+        std::size_t miss_count = 0;
+        for (std::size_t i = 0; i < codes.size(); ++i)
+        {
+            const glm::dvec4 code = codesOf(TexelForm::Rgba8, codes, i);
+            const glm::dvec4 half = halfsOf(halfs.image, i);
+            ASSERT_EQ(half.w, 1.0);
+            for (int c = 0; c < 3; ++c)
+            {
+                // Half a code by rounding; steps of half floats are finer than 1 / 3 of a code everywhere.
+                ASSERT_NEAR(encodeSrgb(half[c]), code[c], (0.5 + 1.0 / 3.0) / 255.0) << "pixel " << i;
+            }
+            if (halfs.hits[i].index == gpu::kHitMiss && view != View::Iterations)
+            {
+                ASSERT_EQ(half, glm::dvec4(0.0, 0.0, 0.0, 1.0));
+                ++miss_count;
+            }
+        }
+        EXPECT_TRUE(miss_count > 500 || view == View::Iterations);
+    }
+}
+
+// Of shaders/lib/sky.glsl and trace/shade.comp, in double precision.
+const glm::dvec3 kSunColor(1.0, 0.93, 0.82);
+
+glm::dvec3 skyAmbient(const glm::dvec3& normal)
+{
+    return glm::mix(glm::dvec3(0.17, 0.16, 0.15), glm::dvec3(0.40, 0.48, 0.62), 0.5 + 0.5 * normal.y);
+}
+
+void expectNear(const glm::dvec4& half, const glm::dvec3& expected)
+{
+    for (int c = 0; c < 3; ++c)
+    {
+        EXPECT_NEAR(half[c], expected[c], kHalfError * expected[c]);
+    }
+    EXPECT_EQ(half.w, 1.0);
+}
+
+// A wall that fills the picture, seen from the front, of one colour, all of it emissive.
+TEST(TexelForm, HalfFloatsAreExposedRadiance)
+{
+    const test::Codes codes = test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; });
+    Octree octree = test::octreeOf(device(), codes, 4);
+    const gpu::uint color = 200U | 100U << 8 | 50U << 16 | gpu::kAttributeEmissive << 24;
+    const std::vector<gpu::Attribute> attributes(codes.size(), {color, 0U}); // normal +z
+    octree.voxel_attributes = device().makeBuffer<gpu::Attribute>("attributes", attributes);
+    const ViewCamera front = ViewCamera::lookAt({8, 8, 24}, {8, 8, 0}, 0.2);
+    const std::size_t middle = kHeight / 2 * kWidth + kWidth / 2;
+    TraceOptions options;
+    options.to_sun = {0.0, 3.0, 4.0};
+    options.sun = 5.0F;
+    options.exposure = 1.7F;
+    options.shadows = false;
+    const auto decode = [](double code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
+    const glm::dvec3 albedo(decode(200.0), decode(100.0), decode(50.0));
+    const glm::dvec3 arrives = 5.0 * 0.8 * kSunColor + skyAmbient({0.0, 0.0, 1.0});
+    expectNear(halfsOf(show(octree, front, TexelForm::Half, options).image, middle), 1.7 * albedo * arrives);
+
+    // Emission of (256, 128, 1) / 512 in RGB9E5, times a scale.
+    std::vector<gpu::uvec2> words;
+    for (std::size_t i = 0; i < (codes.size() + 31) / 32; ++i)
+    {
+        words.emplace_back(~0U, static_cast<gpu::uint>(32 * i));
+    }
+    const std::vector<gpu::uint> emission(codes.size(), 256U | 128U << 9 | 1U << 18 | 15U << 27);
+    octree.emission_words = device().makeBuffer<gpu::uvec2>("emission words", words);
+    octree.emission = device().makeBuffer<gpu::uint>("emission", emission);
+    octree.emission_scale = 100.0F;
+    const glm::dvec3 emitted(0.5, 0.25, 1.0 / 512.0);
+    expectNear(halfsOf(show(octree, front, TexelForm::Half, options).image, middle),
+               1.7 * (albedo * arrives + 100.0 * emitted));
+
+    octree.emission_scale = 1e6F;
+    const glm::dvec4 clamped = halfsOf(show(octree, front, TexelForm::Half, options).image, middle);
+    EXPECT_EQ(clamped.x, 65504.0);
+    EXPECT_EQ(clamped.y, 65504.0);
+    EXPECT_NEAR(clamped.z, 1.7e6 / 512.0, 1e6 * kHalfError);
+}
+
+TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
+{
+    const Octree octree = test::octreeOf(device(), {}, 4);
+    const std::size_t middle = kHeight / 2 * kWidth + kWidth / 2; // sizes are odd: the ray along forward
+    TraceOptions options;
+    options.exposure = 0.5F;
+    options.to_sun = {-1.0, 0.6, 0.0};
+    const auto towards = [&](const glm::dvec3& direction)
+    {
+        const ViewCamera view = ViewCamera::lookAt(glm::dvec3(0.0), direction, 0.9);
+        return halfsOf(show(octree, view, TexelForm::Half, options).image, middle);
+    };
+    const double above = 1.0 - 0.4 * 0.4; // of the way from horizon to zenith at 0.6 up
+    const glm::dvec3 sky = glm::mix(glm::dvec3(0.72, 0.80, 0.90), glm::dvec3(0.16, 0.34, 0.70), above);
+    expectNear(towards({0.0, 0.6, 0.8}), 0.5 * sky);
+    options.to_sun = {0.0, 0.6, 0.8}; // the disc's middle
+    options.sun = 30.0F;
+    expectNear(towards({0.0, 0.6, 0.8}), 0.5 * (sky + 4.0 * 30.0 * kSunColor));
+}
+
+TEST(TexelForm, EveryViewOfAnEmptyOctreeIsBlackInEveryForm)
+{
+    const Octree octree = test::octreeOf(device(), {}, 5);
+    const std::size_t pixels = std::size_t{kWidth} * kHeight;
+    for (const View view : kViews)
+    {
+        TraceOptions options;
+        options.view = view;
+        if (view != View::Color)
+        {
+            EXPECT_EQ(show(octree, sphereView(), TexelForm::Bgra8, options).image, Words(pixels, 255U << 24));
+            EXPECT_EQ(show(octree, sphereView(), TexelForm::Rgb10, options).image, Words(pixels, 3U << 30));
+            const Words halfs = show(octree, sphereView(), TexelForm::Half, options).image;
+            for (std::size_t i = 0; i < pixels; ++i)
+            {
+                ASSERT_EQ(halfs.at(2 * i), 0U);
+                ASSERT_EQ(halfs.at(2 * i + 1), 0x3C000000U);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace zvo
