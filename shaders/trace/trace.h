@@ -251,6 +251,19 @@ struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a
     float exposure;
 };
 
+struct DepthParams // push constants of trace/depth
+{
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_PTR(float) depth; // [width * height] row by row; misses and dead tiles keep what is there
+    // The host's clip z and w along a ray: at the camera's origin, what they gain per unit of t along forward, and per
+    // half pixel to the right and down (CameraRays).
+    vec4 clip_z;
+    vec4 clip_w;
+    uint width;
+    uint height;
+};
+
 /// What the ray of one pixel meets.
 struct PixelReport
 {

@@ -13,6 +13,7 @@
 #include "core/svdag.h"
 #include "core/svdag_forest.h"
 #include "core/trace.h"
+#include "core/trace_depth.h"
 #include "oracle/voxelizer.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
@@ -355,6 +356,42 @@ Names scalePictures()
     return names;
 }
 
+// Pictures in the texel forms of hosts' images, lit and not, and their depth.
+Names traceForHosts(const TreeView& tree)
+{
+    Names names;
+    ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    view.half_height = 12.0;
+    const BeamGrid beam(device().device(), tree.svdag() != nullptr); // not used
+    ClipDepth clip;                                                  // 1 / (1 + distance)
+    clip.z.w = 1.0;
+    clip.w = glm::dvec4(view.forward, 1.0 - glm::dot(view.forward, view.position));
+    clip.miss = 0.0F;
+    for (const TexelForm form : {TexelForm::Bgra8, TexelForm::Rgb10, TexelForm::Half})
+    {
+        TraceBuffers buffers(device().device(), 17, 9, form);
+        vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
+        view.orthographic = form == TexelForm::Half;
+        const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
+        for (const View shown : {View::Color, View::Albedo})
+        {
+            TraceOptions options;
+            options.view = shown;
+            options.beam = false;
+            options.shadows = false;
+            addNames(names, device().run(
+                                [&](vk::FrameGraph& graph)
+                                {
+                                    trace(graph, tree, beam, camera, options, buffers);
+                                    traceDepth(graph, tree.octree().grid, camera, clip, buffers, depth);
+                                }));
+        }
+        const std::vector<float> depths = device().download(depth);
+        EXPECT_GT(*std::ranges::max_element(depths), 0.0F);
+    }
+    return names;
+}
+
 // Of all kernels, those of brushes or the others.
 void expectAllRan(const Names& names, bool of_brushes)
 {
@@ -400,6 +437,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         {
             names.merge(mergeMovers(scene, grid, c.coverage, false));
             names.merge(tracePictures(built.octree));
+            names.merge(traceForHosts(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
             names.merge(mergeMovers(scene, deep, c.coverage, true));

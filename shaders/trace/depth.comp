@@ -1,0 +1,43 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// From hits to a host's depth buffer, one workgroup a live tile: the depth at which a rasterizer would draw the point
+// where the pixel's ray enters its voxel.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+
+layout(constant_id = 0) const bool kOrthographic = false;
+
+layout(local_size_x = kTilePixels) in;
+layout(push_constant, scalar) uniform Push
+{
+    DepthParams params;
+};
+
+// A clip coordinate along a pixel's ray. Linear in t, so that nothing is lost to the distance of the point from the
+// origin of the world or of the grid.
+float clipAlongRay(vec4 clip, vec2 offset, float t)
+{
+    float across = offset.x * clip.z + offset.y * clip.w;
+    return kOrthographic ? clip.x + across + t * clip.y : clip.x + t * (clip.y + across);
+}
+
+void main()
+{
+    uvec2 size = uvec2(params.width, params.height);
+    uvec2 tile = params.live.data[workgroupIndex()];
+    if (tile.x == kNoTile)
+        return;
+    uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    uint i = pixel.y * size.x + pixel.x;
+    Hit hit = loadHit(params.hits, i);
+    vec2 offset = pixelOffset(pixel, size);
+    float depth = clipAlongRay(params.clip_z, offset, hit.t) / clipAlongRay(params.clip_w, offset, hit.t);
+    // Nearer than the near plane, down to the eye where w is 0, and beyond the far one: depth images take [0, 1] only.
+    if (!isMiss(hit))
+        params.depth.data[i] = depth > 0.0 ? min(depth, 1.0) : 0.0;
+}
