@@ -14,8 +14,9 @@ namespace zvo::vk
 namespace
 {
 
-// The host may have chosen another queue family than query() would.
-void useQueueFamily(DeviceReport& report, const Functions& fn, std::uint32_t queue_family, float timestamp_period_ns)
+// The host may have chosen another queue family than query() would. Returns what it can do.
+VkQueueFlags useQueueFamily(DeviceReport& report, const Functions& fn, std::uint32_t queue_family,
+                            float timestamp_period_ns)
 {
     std::uint32_t count = 0;
     fn.vkGetPhysicalDeviceQueueFamilyProperties(report.physical_device, &count, nullptr);
@@ -25,11 +26,12 @@ void useQueueFamily(DeviceReport& report, const Functions& fn, std::uint32_t que
     {
         report.reasons.push_back(
             fmt::format("queue family {} cannot compute, {} can", queue_family, report.queue_family));
-        return;
+        return 0;
     }
     report.queue_family = queue_family;
     report.timestamp_valid_bits = families[queue_family].timestampValidBits;
     report.timestamp_period_ns = report.timestamp_valid_bits != 0 ? timestamp_period_ns : 0;
+    return families[queue_family].queueFlags;
 }
 
 const DeviceHandles& complete(const DeviceHandles& handles)
@@ -73,7 +75,7 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
     VkPhysicalDeviceProperties properties{};
     m_functions.vkGetPhysicalDeviceProperties(handles.physical_device, &properties);
     m_limits = properties.limits;
-    useQueueFamily(m_report, m_functions, handles.queue_family, m_limits.timestampPeriod);
+    m_queue_flags = useQueueFamily(m_report, m_functions, handles.queue_family, m_limits.timestampPeriod);
     applyOverrides(handles.overrides, m_report, m_limits);
     takeDeclaration();
     if (!m_report.usable())

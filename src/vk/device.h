@@ -76,6 +76,10 @@ public:
     [[nodiscard]] bool hasDebugUtils() const { return m_has_debug_utils; }
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return m_limits; }
+
+    /// What queues of DeviceHandles::queue_family can do.
+    [[nodiscard]] VkQueueFlags queueFlags() const { return m_queue_flags; }
+
     [[nodiscard]] MemoryAllocator& memory() { return *m_memory; }
     [[nodiscard]] const MemoryAllocator& memory() const { return *m_memory; }
     [[nodiscard]] KernelCache& kernels() { return *m_kernels; }
@@ -106,6 +110,7 @@ private:
     std::vector<std::string> m_enabled;
     bool m_has_debug_utils = false;
     VkPhysicalDeviceLimits m_limits{};
+    VkQueueFlags m_queue_flags = 0;
     std::unique_ptr<MemoryAllocator> m_memory;
     std::unique_ptr<KernelCache> m_kernels;
 };

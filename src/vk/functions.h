@@ -30,6 +30,7 @@ namespace zvo::vk
     X(vkBindImageMemory)                         \
     X(vkCmdBindPipeline)                         \
     X(vkCmdCopyBuffer)                           \
+    X(vkCmdCopyBufferToImage)                    \
     X(vkCmdDispatch)                             \
     X(vkCmdDispatchBase)                         \
     X(vkCmdDispatchIndirect)                     \
@@ -96,7 +97,6 @@ namespace zvo::vk
     X(vkAcquireNextImageKHR)                     \
     X(vkCmdBeginRenderPass)                      \
     X(vkCmdBlitImage)                            \
-    X(vkCmdCopyBufferToImage)                    \
     X(vkCmdCopyImageToBuffer)                    \
     X(vkCmdEndRenderPass)                        \
     X(vkCreateDescriptorPool)                    \

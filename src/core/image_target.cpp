@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "core/image_target.h"
+
+#include "vk/image_copy.h"
+#include "zvo/error.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace zvo
+{
+
+namespace
+{
+
+struct ColorFormat
+{
+    VkFormat format;
+    TexelForm form;
+    const char* name;
+};
+
+constexpr ColorFormat kColorFormats[] = {
+    {VK_FORMAT_R8G8B8A8_UNORM, TexelForm::Rgba8, "R8G8B8A8_UNORM"},
+    {VK_FORMAT_R8G8B8A8_SRGB, TexelForm::Rgba8, "R8G8B8A8_SRGB"},
+    {VK_FORMAT_B8G8R8A8_UNORM, TexelForm::Bgra8, "B8G8R8A8_UNORM"},
+    {VK_FORMAT_B8G8R8A8_SRGB, TexelForm::Bgra8, "B8G8R8A8_SRGB"},
+    {VK_FORMAT_A2B10G10R10_UNORM_PACK32, TexelForm::Rgb10, "A2B10G10R10_UNORM_PACK32"},
+    {VK_FORMAT_R16G16B16A16_SFLOAT, TexelForm::Half, "R16G16B16A16_SFLOAT"},
+};
+
+struct DepthFormat
+{
+    VkFormat format;
+    VkImageAspectFlags aspect;
+    const char* name;
+};
+
+constexpr DepthFormat kDepthFormats[] = {
+    {VK_FORMAT_D32_SFLOAT, VK_IMAGE_ASPECT_DEPTH_BIT, "D32_SFLOAT"},
+    {VK_FORMAT_D32_SFLOAT_S8_UINT, VK_IMAGE_ASPECT_DEPTH_BIT, "D32_SFLOAT_S8_UINT"},
+    {VK_FORMAT_R32_SFLOAT, VK_IMAGE_ASPECT_COLOR_BIT, "R32_SFLOAT"},
+};
+
+// The entry for a format. what: of which the image cannot take any.
+template <typename Format, std::size_t Count>
+const Format& entryFor(const Format (&formats)[Count], VkFormat format, const char* what)
+{
+    const Format* const found =
+        std::ranges::find_if(formats, [&](const Format& known) { return known.format == format; });
+    if (found != std::end(formats))
+    {
+        return *found;
+    }
+    std::string names;
+    for (const Format& known : formats)
+    {
+        names += names.empty() ? "" : ", ";
+        names += known.name;
+    }
+    throw Error(ErrorCode::Usage, fmt::format("zvo cannot copy {} into an image of VkFormat {}: use one of {}", what,
+                                              static_cast<int>(format), names));
+}
+
+const char* wordsFor(TexelForm form)
+{
+    switch (form)
+    {
+    case TexelForm::Rgba8:
+        return "RGBA with 8 bits";
+    case TexelForm::Bgra8:
+        return "BGRA with 8 bits";
+    case TexelForm::Rgb10:
+        return "RGBA with 10 bits";
+    case TexelForm::Half:
+        return "half floats";
+    }
+    return "";
+}
+
+vk::ImageRegion regionOf(const ImageTarget& target, VkImageAspectFlags aspect, std::uint32_t texel_bytes,
+                         PictureSize size)
+{
+    if (target.layout != VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL && target.layout != VK_IMAGE_LAYOUT_GENERAL)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("zvo cannot copy into an image in VkImageLayout {}: bring it into "
+                                                  "TRANSFER_DST_OPTIMAL or GENERAL before",
+                                                  static_cast<int>(target.layout)));
+    }
+    if (target.offset.x < 0 || target.offset.y < 0)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a picture cannot begin at ({}, {}) of an image: both must be 0 or "
+                                                  "more",
+                                                  target.offset.x, target.offset.y));
+    }
+    return {target.image,     target.layout,     aspect, texel_bytes, target.offset, {size.width, size.height},
+            target.mip_level, target.array_layer};
+}
+
+} // namespace
+
+TexelForm texelForm(VkFormat format)
+{
+    return entryFor(kColorFormats, format, "a picture").form;
+}
+
+void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const ImageTarget& target)
+{
+    const ColorFormat& format = entryFor(kColorFormats, target.format, "a picture");
+    if (format.form != buffers.texels)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("a picture made as {} cannot be copied into an image in {}, which takes {}: make "
+                                "TraceBuffers with the texelForm() of the image's format",
+                                wordsFor(buffers.texels), format.name, wordsFor(format.form)));
+    }
+    const std::uint32_t texel_bytes = texelWords(format.form) * static_cast<std::uint32_t>(sizeof(gpu::uint));
+    vk::copyToImage(graph, buffers.image,
+                    regionOf(target, VK_IMAGE_ASPECT_COLOR_BIT, texel_bytes, {buffers.width, buffers.height}));
+}
+
+void copyDepthToImage(vk::FrameGraph& graph, const vk::BufferOf<float>& depth, PictureSize size,
+                      const ImageTarget& target)
+{
+    const DepthFormat& format = entryFor(kDepthFormats, target.format, "depth");
+    vk::copyToImage(graph, depth, regionOf(target, format.aspect, sizeof(float), size));
+}
+
+} // namespace zvo
