@@ -26,12 +26,13 @@ struct ContextInfo
     VkDevice device = VK_NULL_HANDLE;
     std::uint32_t queue_family = 0; // of the queues that recordings are submitted to: it computes
 
-    // What was enabled, which Vulkan cannot be asked: as it was given to vkCreateDevice and vkCreateInstance, the chain
+    // What was enabled, which Vulkan cannot be asked: as it was given to vkCreateInstance and vkCreateDevice, the chain
     // as patchFeatures() left it. Looked at by the constructor only.
+    std::uint32_t instance_api_version = 0;                // VkApplicationInfo::apiVersion
+    std::span<const char* const> instance_extensions = {}; // VK_EXT_debug_utils: objects get names
+    std::span<const char* const> device_extensions = {};
     const void* enabled_features = nullptr;                          // VkDeviceCreateInfo::pNext
     const VkPhysicalDeviceFeatures* enabled_core_features = nullptr; // VkDeviceCreateInfo::pEnabledFeatures
-    std::span<const char* const> enabled_instance_extensions = {};   // VK_EXT_debug_utils: objects get names
-    std::span<const char* const> enabled_device_extensions = {};
 
     // What is the host's choice.
     const VkAllocationCallbacks* allocation_callbacks = nullptr; // of every Vulkan object; outlive the Context

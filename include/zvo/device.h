@@ -2,6 +2,8 @@
 // What zvo asks of a Vulkan device that a host creates: before it exists, and when it is created.
 #pragma once
 
+#include "zvo/export.h"
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -36,8 +38,8 @@ struct DeviceReport
 
 /// Whether zvo can use a physical device, and if not, every reason. Creates nothing, and throws for no device that will
 /// not do. The instance must have been created for Vulkan 1.3 (VkApplicationInfo::apiVersion).
-DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
-                   VkPhysicalDevice physical_device);
+ZVO_API DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
+                           VkPhysicalDevice physical_device);
 
 /// Features that zvo does without, and uses where they are enabled. No result depends on them. Ask only for those that
 /// are among DeviceReport::present.
@@ -77,7 +79,7 @@ struct FeatureStorage
 /// VkPhysicalDeviceVulkan12Features beside a struct of one of its features, and VK_EXT_buffer_device_address. Then
 /// nothing is changed. Empty: done; info.pNext and info.pEnabledFeatures are what to declare to zvo. Whether the device
 /// supports the features is not looked at: query() says it.
-[[nodiscard]] std::vector<std::string> patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage,
-                                                     const OptionalFeatures& optional = {});
+[[nodiscard]] ZVO_API std::vector<std::string> patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage,
+                                                             const OptionalFeatures& optional = {});
 
 } // namespace zvo

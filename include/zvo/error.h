@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "zvo/export.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -19,7 +21,7 @@ enum class ErrorCode : int
 };
 
 /// A failure at run time. what() is one line: what went wrong, where, and what to do about it.
-class Error : public std::runtime_error
+class ZVO_API Error : public std::runtime_error
 {
 public:
     Error(ErrorCode code, const std::string& message) : std::runtime_error(message), m_code(code) {}

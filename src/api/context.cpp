@@ -47,8 +47,9 @@ vk::DeviceHandles handlesOf(const ContextInfo& info)
     handles.queue_family = info.queue_family;
     handles.enabled_features = info.enabled_features;
     handles.enabled_core_features = info.enabled_core_features;
-    handles.enabled_instance_extensions = info.enabled_instance_extensions;
-    handles.enabled_device_extensions = info.enabled_device_extensions;
+    handles.instance_api_version = info.instance_api_version;
+    handles.instance_extensions = {info.instance_extensions.begin(), info.instance_extensions.end()};
+    handles.device_extensions = {info.device_extensions.begin(), info.device_extensions.end()};
     handles.allocation_callbacks = info.allocation_callbacks;
     handles.pipeline_cache = info.pipeline_cache;
     handles.memory = info.memory;

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "zvo/tracer.h"
+
+#include "api/convert.h"
+#include "api/dynamic_tree_impl.h"
+#include "api/tree_impl.h"
+#include "core/camera.h"
+#include "core/image_target.h"
+#include "core/trace.h"
+#include "core/trace_depth.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <optional>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kEdgeMax = 16384; // pixels
+
+// Above it, a direction counts as vertical.
+constexpr double kVertical = 0.999999;
+
+std::uint32_t checkedEdge(std::uint32_t edge)
+{
+    if (edge == 0 || edge > kEdgeMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a picture has edges from 1 to {} pixels, not {}", kEdgeMax, edge));
+    }
+    return edge;
+}
+
+ViewCamera viewOf(const CameraInfo& info)
+{
+    ViewCamera view;
+    view.position = toGlm(info.position);
+    view.forward = glm::normalize(toGlm(info.forward));
+    view.right = glm::normalize(glm::cross(view.forward, toGlm(info.up)));
+    view.up = glm::cross(view.right, view.forward);
+    view.orthographic = info.orthographic;
+    view.vertical_fov = info.vertical_fov;
+    view.half_height = info.half_height;
+    const double size = info.orthographic ? info.half_height : info.vertical_fov;
+    const double size_max = info.orthographic ? INFINITY : std::numbers::pi;
+    const double sum = glm::dot(view.position, glm::dvec3(1)) + glm::dot(view.right + view.up, glm::dvec3(1));
+    if (!std::isfinite(sum) || !(size > 0 && size < size_max))
+    {
+        throw Error(ErrorCode::Usage,
+                    "a camera needs a position, a direction, an up that is not parallel to it, and a field of view "
+                    "inside (0, pi) or a half height above 0, all of them finite");
+    }
+    return view;
+}
+
+TraceOptions optionsOf(const TraceInfo& info)
+{
+    if (info.occlusion_rays > kOcclusionRaysMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} occlusion rays are more than the {} that there can be",
+                                                  info.occlusion_rays, kOcclusionRaysMax));
+    }
+    TraceOptions options;
+    options.view = info.view;
+    options.shadows = info.shadows;
+    options.to_sun = toGlm(info.to_sun);
+    options.sun = info.sun;
+    options.exposure = info.exposure;
+    options.occlusion_rays = info.occlusion_rays;
+    options.occlusion_reach = info.occlusion_reach;
+    options.detail_pixels = info.detail_pixels;
+    return options;
+}
+
+Vec3 arrayOf(const gpu::vec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+} // namespace
+
+struct Tracer::Impl
+{
+    Impl(Context::Impl& context_impl, std::uint32_t width, std::uint32_t height, VkFormat format)
+        : context(context_impl), buffers(std::make_unique<TraceBuffers>(context.device, checkedEdge(width),
+                                                                        checkedEdge(height), texelForm(format)))
+    {
+    }
+
+    ~Impl()
+    {
+        context.retire(std::move(buffers));
+        context.retire(std::move(beam));
+        context.retire(std::move(depths));
+    }
+
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    // What rays skip, made anew where another tree is traced than before.
+    void prepareBeam(Recorder::Impl& recorder, const TreeView& tree, std::uint64_t version)
+    {
+        if (beam && version == beam_version && !beam_frame->is_lost)
+        {
+            return;
+        }
+        if (!beam || has_ranks != tree.hasLists())
+        {
+            auto made = std::make_unique<BeamGrid>(context.device, tree.hasLists());
+            context.retire(std::move(beam));
+            beam = std::move(made);
+            has_ranks = tree.hasLists();
+        }
+        beam_version = 0; // should the next line throw
+        buildBeam(recorder.graph, tree, *beam);
+        beam_version = version;
+        beam_frame = recorder.frame;
+    }
+
+    void trace(Recorder& recorder, const TreeView& tree, std::uint64_t version, const CameraInfo& camera_info,
+               const TraceInfo& info, const ImageTarget& color, const DepthTarget* depth)
+    {
+        const Grid& grid = tree.octree().grid;
+        const TraceCamera camera = traceCamera(viewOf(camera_info), grid, buffers->height);
+        const TraceOptions options = optionsOf(info);
+        recording(recorder,
+                  [&](Recorder::Impl& impl)
+                  {
+                      prepareBeam(impl, tree, version);
+                      zvo::trace(impl.graph, tree, *beam, camera, options, *buffers);
+                      if (depth != nullptr)
+                      {
+                          traceDepthOf(impl.graph, grid, camera, *depth);
+                      }
+                      copyToImage(impl.graph, *buffers, color);
+                      if (depth != nullptr)
+                      {
+                          copyDepthToImage(impl.graph, depths, {buffers->width, buffers->height}, depth->image);
+                      }
+                  });
+    }
+
+    void traceDepthOf(vk::FrameGraph& graph, const Grid& grid, const TraceCamera& camera, const DepthTarget& target)
+    {
+        if (depths.count() == 0)
+        {
+            depths = {context.device, "depth", std::uint64_t{buffers->width} * buffers->height};
+        }
+        traceDepth(graph, grid, camera, ClipDepth::of(toGlm(target.view_projection), target.miss), *buffers, depths);
+    }
+
+    Context::Impl& context;
+    std::unique_ptr<TraceBuffers> buffers;
+    std::unique_ptr<BeamGrid> beam = nullptr;
+    bool has_ranks = false;
+    std::uint64_t beam_version = 0;                   // of what it was made of
+    std::shared_ptr<FrameState> beam_frame = nullptr; // in which it was made
+    vk::BufferOf<float> depths = {};                  // none until depth is asked for
+};
+
+CameraInfo CameraInfo::lookAt(const DVec3& eye, const DVec3& target, double vertical_fov)
+{
+    CameraInfo info;
+    info.position = eye;
+    info.vertical_fov = vertical_fov;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+        info.forward[axis] = target[axis] - eye[axis];
+    }
+    const bool vertical = std::abs(glm::normalize(toGlm(info.forward)).y) > kVertical;
+    info.up = vertical ? DVec3{0, 0, 1} : DVec3{0, 1, 0};
+    return info;
+}
+
+Tracer::Tracer(Context& context, std::uint32_t width, std::uint32_t height, VkFormat format)
+    : m_impl(std::make_unique<Impl>(context.impl(), width, height, format))
+{
+}
+
+Tracer::~Tracer() = default;
+Tracer::Tracer(Tracer&&) noexcept = default;
+Tracer& Tracer::operator=(Tracer&&) noexcept = default;
+
+void Tracer::trace(Recorder& recorder, const Tree& tree, const CameraInfo& camera, const TraceInfo& info,
+                   const ImageTarget& color, const DepthTarget* depth)
+{
+    const Tree::Impl& impl = usable(tree);
+    requireSame(m_impl->context, impl.context);
+    requireSame(m_impl->context, recorder.impl().context);
+    m_impl->trace(recorder, impl.view(), impl.version, camera, info, color, depth);
+}
+
+void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,
+                   const ImageTarget& color, const DepthTarget* depth)
+{
+    DynamicTree::Impl& impl = tree.impl();
+    requireSame(m_impl->context, impl.context);
+    impl.enter(recorder.impl());
+    m_impl->trace(recorder, impl.octree->tree(), impl.version, camera, info, color, depth);
+}
+
+CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height)
+{
+    const gpu::CameraRays rays = traceCamera(viewOf(camera), toGrid(grid), checkedEdge(height)).rays;
+    return {arrayOf(rays.origin), arrayOf(rays.forward), arrayOf(rays.step_x), arrayOf(rays.step_y)};
+}
+
+} // namespace zvo
