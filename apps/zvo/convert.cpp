@@ -10,7 +10,7 @@
 #include "core/kernels.h"
 #include "core/svdag.h"
 #include "core/zvo_file.h"
-#include "export.h"
+#include "tree_export.h"
 #include "io/glb_write.h"
 #include "io/nvdb_write.h"
 #include "io/vox_file.h"

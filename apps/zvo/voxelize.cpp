@@ -8,7 +8,7 @@
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
-#include "export.h"
+#include "tree_export.h"
 #include "io/octree_sha256.h"
 #include "zvo/error.h"
 

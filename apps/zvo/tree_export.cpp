@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "export.h"
+#include "tree_export.h"
 
 #include "common/normal.h"
 #include "morton.h"
