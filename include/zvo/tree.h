@@ -13,7 +13,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <utility>
 
 namespace zvo
 {
@@ -52,7 +51,7 @@ public:
     struct Impl;
     explicit Tree(std::unique_ptr<Impl> impl);
     [[nodiscard]] Impl* impl() const { return m_impl.get(); } // of the library; null where another one took it over
-    std::unique_ptr<Impl> release() { return std::move(m_impl); }
+    std::unique_ptr<Impl> release();
 
 private:
     std::unique_ptr<Impl> m_impl;

@@ -134,7 +134,12 @@ void Context::frameLost()
     {
         impl.free_timers.push_back(std::move(state.timers));
     }
+    const std::uint64_t number = state.number;
     impl.frames.pop_back();
+    if (impl.frames.empty()) // nothing is under way
+    {
+        impl.retired.frameDone(number);
+    }
 }
 
 const std::vector<PassTime>& Context::passTimes() const

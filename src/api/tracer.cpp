@@ -27,6 +27,9 @@ constexpr std::uint32_t kEdgeMax = 16384; // pixels
 // Above it, a direction counts as vertical.
 constexpr double kVertical = 0.999999;
 
+// Sine of the angle between forward and up: with less, rounding would decide where up is.
+constexpr double kSlantMin = 1e-9;
+
 std::uint32_t checkedEdge(std::uint32_t edge)
 {
     if (edge == 0 || edge > kEdgeMax)
@@ -46,10 +49,11 @@ ViewCamera viewOf(const CameraInfo& info)
     view.orthographic = info.orthographic;
     view.vertical_fov = info.vertical_fov;
     view.half_height = info.half_height;
+    const double slant = glm::length(glm::cross(view.forward, glm::normalize(toGlm(info.up))));
     const double size = info.orthographic ? info.half_height : info.vertical_fov;
     const double size_max = info.orthographic ? INFINITY : std::numbers::pi;
     const double sum = glm::dot(view.position, glm::dvec3(1)) + glm::dot(view.right + view.up, glm::dvec3(1));
-    if (!std::isfinite(sum) || !(size > 0 && size < size_max))
+    if (!std::isfinite(sum) || !(slant > kSlantMin) || !(size > 0 && size < size_max))
     {
         throw Error(ErrorCode::Usage,
                     "a camera needs a position, a direction, an up that is not parallel to it, and a field of view "
@@ -125,6 +129,11 @@ struct Tracer::Impl
     void trace(Recorder& recorder, const TreeView& tree, std::uint64_t version, const CameraInfo& camera_info,
                const TraceInfo& info, const ImageTarget& color, const DepthTarget* depth)
     {
+        if (texelForm(color.format) != buffers->texels)
+        {
+            throw Error(ErrorCode::Usage, "this Tracer makes pictures for images of another format: make one with "
+                                          "the format of the image");
+        }
         const Grid& grid = tree.octree().grid;
         const TraceCamera camera = traceCamera(viewOf(camera_info), grid, buffers->height);
         const TraceOptions options = optionsOf(info);

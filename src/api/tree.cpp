@@ -92,6 +92,12 @@ Tree::Tree(Recorder& recorder, std::span<const std::byte> file)
 Tree::Tree(Recorder& recorder, const std::filesystem::path& path) : m_impl(uploaded(recorder, readZvo(path).tree)) {}
 
 Tree::Tree(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+
+std::unique_ptr<Tree::Impl> Tree::release()
+{
+    return std::move(m_impl);
+}
+
 Tree::~Tree() = default;
 Tree::Tree(Tree&&) noexcept = default;
 Tree& Tree::operator=(Tree&&) noexcept = default;

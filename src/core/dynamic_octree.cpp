@@ -63,8 +63,9 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree fixed, const Dynam
     const std::uint64_t pending = std::uint64_t{options.frames_in_flight} * kUpdatesPerFrame;
     m_roots = {d, "update/roots", pending + 1};
     m_results = {d, "update/results", pending + 1, vk::MemoryKind::Readback};
-    const std::uint64_t room = options.minimal_capacities ? 1 : kRoomMin;
-    device.perform([&](vk::FrameGraph& graph, vk::Retired& retired) { m_overlays.settle(graph, room, retired); });
+    m_overlays.reserve(options.minimal_capacities ? 1 : kRoomMin);
+    // Last: what is recorded must not go.
+    device.perform([&](vk::FrameGraph& graph, vk::Retired& retired) { m_overlays.settle(graph, retired); });
 }
 
 MoverId DynamicOctree::add(std::shared_ptr<const MoverMesh> mesh, Pose pose)

@@ -73,9 +73,16 @@ OverlayOctree::OverlayOctree(vk::Device& device, StaticTree fixed, const Overlay
     m_tree.dag.tree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
 }
 
-void OverlayOctree::settle(vk::FrameGraph& graph, std::uint64_t room, vk::Retired& retired)
+void OverlayOctree::reserve(std::uint64_t room)
 {
-    grow(graph, room, room, retired);
+    m_room = grownCapacities(room, room);
+    m_reserved = makeBuffers(m_room);
+}
+
+void OverlayOctree::settle(vk::FrameGraph& graph, vk::Retired& retired)
+{
+    lengthen(graph, std::move(m_reserved), retired);
+    m_arena.grow(m_room.nodes, m_room.voxels);
     Octree& octree = m_tree.dag.tree;
     if (m_is_empty)
     {
@@ -128,6 +135,14 @@ std::uint32_t OverlayOctree::emissionOffset() const
 
 void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels, vk::Retired& retired)
 {
+    const Capacities capacities = grownCapacities(nodes, voxels);
+    lengthen(graph, makeBuffers(capacities), retired); // all of them, before anything is recorded
+    m_arena.grow(capacities.nodes, capacities.voxels);
+}
+
+// With room for one more region of that many.
+OverlayOctree::Capacities OverlayOctree::grownCapacities(std::uint64_t nodes, std::uint64_t voxels) const
+{
     const OverlaySpace& space = m_arena.space();
     const std::uint64_t voxel_room = space.voxel_capacity - std::min(space.voxel_capacity, firstOverlayVoxel());
     const std::uint64_t node_capacity =
@@ -141,12 +156,13 @@ void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64
                                                    "apart: keep fewer steps of history, or lower the resolution",
                                                    count_max));
     }
-    lengthen(graph, node_capacity, voxel_capacity, retired);
-    m_arena.grow(static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity));
+    return {static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity)};
 }
 
-OverlayOctree::Buffers OverlayOctree::makeBuffers(std::uint64_t node_capacity, std::uint64_t voxel_capacity)
+OverlayOctree::Buffers OverlayOctree::makeBuffers(const Capacities& capacities)
 {
+    const std::uint64_t node_capacity = capacities.nodes;
+    const std::uint64_t voxel_capacity = capacities.voxels;
     Octree& octree = m_tree.dag.tree;
     const std::uint64_t overlay_nodes = node_capacity - m_tree.static_root; // with the static root
     const std::uint64_t attribute_nodes = m_has_attributes ? m_tree.dag.octree_node_count + overlay_nodes : 0;
@@ -178,11 +194,9 @@ void OverlayOctree::swapBuffers(Buffers& buffers)
     std::swap(octree.emission, buffers.emission);
 }
 
-void OverlayOctree::lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity, std::uint64_t voxel_capacity,
-                             vk::Retired& retired)
+void OverlayOctree::lengthen(vk::FrameGraph& graph, Buffers&& longer, vk::Retired& retired)
 {
-    Buffers longer = makeBuffers(node_capacity, voxel_capacity); // all of them, before anything is recorded
-    // In safety before that, too: it may fail half way, with the device at work on what went before.
+    // In safety before anything is recorded: that may fail half way, with the device at work on what went before.
     Buffers& from = m_before ? retired.keep(std::move(longer)) : m_before.emplace(std::move(longer));
     swapBuffers(from);
     Octree& octree = m_tree.dag.tree;
@@ -227,7 +241,7 @@ void OverlayOctree::catchUp(vk::FrameGraph& graph, vk::Retired& retired)
     const OverlaySpace& space = m_arena.space();
     if (octree().nodes.count() != space.node_capacity)
     {
-        lengthen(graph, space.node_capacity, space.voxel_capacity, retired);
+        lengthen(graph, makeBuffers({space.node_capacity, space.voxel_capacity}), retired);
     }
 }
 

@@ -45,9 +45,12 @@ public:
     /// Takes over a static tree: traced and overlaid only behind settle().
     OverlayOctree(vk::Device& device, StaticTree fixed, const OverlayContents& contents);
 
-    /// Records what moves the static tree to buffers with room for that many nodes, and voxels, behind it. Throws
-    /// Error{Memory} when the device's budget does not suffice: then nothing was recorded.
-    void settle(vk::FrameGraph& graph, std::uint64_t room, vk::Retired& retired);
+    /// Makes the buffers that settle() takes, with room for that many nodes, and voxels. Throws Error{Memory} when the
+    /// device's budget does not suffice.
+    void reserve(std::uint64_t room);
+
+    /// Records what moves the static tree to what was reserved.
+    void settle(vk::FrameGraph& graph, vk::Retired& retired);
 
     /// Makes room for one more region of that many nodes and voxels, whatever is held: records the copies to longer
     /// buffers, and leaves the old ones to retired. Throws Error{Memory} when the device's budget does not suffice:
@@ -80,6 +83,11 @@ public:
     [[nodiscard]] std::uint32_t emissionOffset() const;
 
 private:
+    struct Capacities
+    {
+        std::uint32_t nodes = 0;
+        std::uint32_t voxels = 0;
+    };
     // That grow: empty where the tree has no such thing.
     struct Buffers
     {
@@ -91,10 +99,10 @@ private:
         vk::BufferOf<gpu::uint> emission;
     };
 
-    [[nodiscard]] Buffers makeBuffers(std::uint64_t node_capacity, std::uint64_t voxel_capacity);
+    [[nodiscard]] Capacities grownCapacities(std::uint64_t nodes, std::uint64_t voxels) const;
+    [[nodiscard]] Buffers makeBuffers(const Capacities& capacities);
     void swapBuffers(Buffers& buffers);
-    void lengthen(vk::FrameGraph& graph, std::uint64_t node_capacity, std::uint64_t voxel_capacity,
-                  vk::Retired& retired);
+    void lengthen(vk::FrameGraph& graph, Buffers&& longer, vk::Retired& retired);
     [[nodiscard]] bool hasRanks() const { return m_tree.has_lists && m_has_attributes; }
     [[nodiscard]] std::uint32_t nodeBytes() const;
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;
@@ -109,6 +117,8 @@ private:
     FragmentSums m_sums;
     OverlaidTree m_tree;
     OverlayArena m_arena;
+    Buffers m_reserved;              // for settle()
+    Capacities m_room;               // of them
     std::optional<Buffers> m_before; // of the tree when the last frame began, if they have been replaced in it
 };
 

@@ -208,7 +208,8 @@ TEST(DynamicSvdagMerge, MoreNodesThanListsCanBeToldFromAreRefused)
     {
         Svdag dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
         OverlayOctree octree(device().device(), StaticTree(std::move(dag), {}), {false, 0.0F});
-        device().perform([&](vk::FrameGraph& graph, vk::Retired& retired) { octree.settle(graph, room, retired); });
+        octree.reserve(room);
+        device().perform([&](vk::FrameGraph& graph, vk::Retired& retired) { octree.settle(graph, retired); });
         return octree;
     };
     EXPECT_GE(make(1).arena().largestFreeNodes(), 1U);

@@ -38,6 +38,7 @@ public:
     void setLargest(std::uint64_t bytes) { m_largest_bytes = bytes; }
 
     [[nodiscard]] std::uint64_t requestCount() const { return m_request_count; }
+    [[nodiscard]] bool hasFailed() const { return m_request_count > m_fail_number; }
     [[nodiscard]] std::uint64_t liveCount() const { return m_live.size(); }
     [[nodiscard]] std::uint64_t liveBytes() const;
     [[nodiscard]] std::vector<std::string> liveNames() const;

@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: MIT
+// What zvo promises to hosts: what it does not call, what it says of misuse, and what it leaves behind when it fails.
+#include "api_scene.h"
+#include "support/failing_vulkan.h"
+#include "support/host_allocator.h"
+#include "support/host_memory.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace zvo
+{
+
+namespace
+{
+
+/// All that a host can do, in a few frames. Returns a picture of each tree.
+class Program
+{
+public:
+    explicit Program(test::EmbeddingHost& host) : m_host(host) {}
+
+    std::vector<std::vector<std::uint32_t>> run()
+    {
+        const test::HostModel description(m_scene);
+        const Model model = m_host.upload(description.info());
+        Tree octree = m_host.build(model, {.grid = test::apiGrid(4), .form = AttributeForm::Bytes4});
+        std::vector<std::vector<std::uint32_t>> pictures = {m_host.picture(octree, test::apiCamera())};
+        TreeCompression compression(m_host.context, std::move(octree));
+        m_host.finish(compression);
+        const Tree dag = compression.take();
+        pictures.push_back(m_host.picture(dag, test::apiCamera()));
+
+        Tree fixed = m_host.build(model, {.grid = test::apiGrid(4)});
+        std::optional<DynamicTree> tree;
+        MoverId mover = 0;
+        m_host.frame(
+            [&](Recorder& recorder, VkCommandBuffer)
+            {
+                tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.history_steps = 2});
+                mover = tree->addMover(recorder, model, test::movedBy(1, 2, 0));
+            });
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
+        for (int tries = 0; tree->needsUpdate() && tries < 8; ++tries)
+        {
+            m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
+        }
+        pictures.push_back(m_host.picture(*tree, test::apiCamera()));
+        const BrushInfo brush = {.center = {8, 8, 8}, .radius = 3};
+        bool is_done = false;
+        for (int tries = 0; !is_done && tries < 8; ++tries)
+        {
+            m_host.frame([&](Recorder& recorder, VkCommandBuffer) { is_done = tree->edit(recorder, brush); });
+        }
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
+        pictures.push_back(m_host.picture(*tree, test::apiCamera()));
+        return pictures;
+    }
+
+private:
+    test::EmbeddingHost& m_host;
+    Scene m_scene = test::boxScene(glm::vec3(2), glm::vec3(6));
+};
+
+TEST(ApiContract, ZvoNeitherSubmitsNorWaits)
+{
+    test::failCall(UINT64_MAX);
+    test::HostOptions options;
+    options.zvo_functions = test::failingVulkan();
+    {
+        test::EmbeddingHost host(options);
+        Program(host).run();
+        EXPECT_GT(test::callCount("vkCreateBuffer"), 20U); // it counts
+        for (const char* const function :
+             {"vkQueueSubmit", "vkQueueSubmit2", "vkQueueWaitIdle", "vkDeviceWaitIdle", "vkWaitForFences",
+              "vkWaitSemaphores", "vkQueuePresentKHR", "vkCreateFence", "vkCreateCommandPool", "vkBeginCommandBuffer",
+              "vkEndCommandBuffer", "vkAllocateCommandBuffers", "vkCreateDevice", "vkCreateInstance"})
+        {
+            EXPECT_EQ(test::callCount(function), 0U) << function;
+        }
+    }
+    EXPECT_EQ(test::liveObjects(), std::vector<std::string>());
+}
+
+TEST(ApiContract, ValidationSpeaksWhereTheHostLeavesOutItsBarrier)
+{
+    if (!test::hasValidationLayer())
+    {
+        GTEST_SKIP() << "needs the validation layer";
+    }
+    for (const bool without_barrier : {false, true})
+    {
+        test::HostOptions options;
+        options.validation = true;
+        options.message_counter = nullptr;
+        test::EmbeddingHost host(options);
+        const test::HostModel description(test::boxScene(glm::vec3(2), glm::vec3(6)));
+        const Tree tree = host.build(host.upload(description.info()), {.grid = test::apiGrid(4)});
+        Tracer tracer(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
+        test::TargetImage image(host.device, VK_FORMAT_R8G8B8A8_UNORM, host.kWidth, host.kHeight);
+        host.frame(
+            [&](Recorder& recorder, VkCommandBuffer commands)
+            {
+                image.beginCopies(commands);
+                tracer.trace(recorder, tree, test::apiCamera(), {}, image.target());
+                image.read(commands, without_barrier);
+            });
+        EXPECT_EQ(host.device.messageCount() != 0, without_barrier);
+    }
+}
+
+// What every program of these tests shows.
+const std::vector<std::vector<std::uint32_t>>& expectedPictures()
+{
+    static const std::vector<std::vector<std::uint32_t>> pictures = []
+    {
+        test::EmbeddingHost host;
+        return Program(host).run();
+    }();
+    return pictures;
+}
+
+// Runs a program in which something fails; whether it did. What failed is an error, and the context goes on.
+bool failOnce(test::EmbeddingHost& host, const std::function<void()>& stopFailing)
+{
+    bool has_failed = false;
+    try
+    {
+        EXPECT_EQ(Program(host).run(), expectedPictures());
+    }
+    catch (const Error& error)
+    {
+        has_failed = true;
+        EXPECT_EQ(error.code(), ErrorCode::Memory) << error.what();
+    }
+    stopFailing();
+    EXPECT_EQ(host.context.memory().used, 0U) << "after a failure: " << has_failed;
+    EXPECT_EQ(Program(host).run(), expectedPictures());
+    return has_failed;
+}
+
+TEST(ApiContract, EveryRequestForMemoryMayFail)
+{
+    std::uint64_t failures = 0;
+    bool has_failed = true;
+    for (std::uint64_t number = 0; has_failed; ++number) // on a new context, which holds nothing yet
+    {
+        test::HostMemory memory;
+        test::HostOptions options;
+        options.memory = memory.callbacks();
+        {
+            test::EmbeddingHost host(options, [](ContextInfo& info) { info.memory_budget_bytes = 512ULL << 20; });
+            memory.attach(host.device);
+            memory.failRequests(number);
+            host.submits_failed = number % 2 == 1;
+            has_failed = failOnce(host, [&] { memory.failRequests(UINT64_MAX); });
+            failures += has_failed ? 1 : 0;
+        }
+        EXPECT_EQ(memory.liveCount(), 0U);
+    }
+    EXPECT_GE(failures, 5U);
+}
+
+TEST(ApiContract, EveryAllocationOfTheDriverMayFail)
+{
+    test::HostAllocator allocator;
+    test::HostOptions options;
+    options.allocation_callbacks = allocator.callbacks();
+    std::uint64_t failures = 0;
+    {
+        test::EmbeddingHost host(options);
+        Program(host).run(); // kernels are made: of these, test::AllocationCallbacks has every allocation fail
+        for (std::uint64_t number = 0;; ++number)
+        {
+            allocator.failCall(number);
+            host.submits_failed = number % 2 == 1;
+            bool was_reached = false;
+            failures += failOnce(host,
+                                 [&]
+                                 {
+                                     was_reached = allocator.hasFailed();
+                                     allocator.failCall(UINT64_MAX);
+                                 })
+                            ? 1
+                            : 0;
+            if (!was_reached)
+            {
+                break;
+            }
+        }
+    }
+    EXPECT_GT(failures, 100U);
+    EXPECT_EQ(allocator.liveCount(), 0U);
+}
+
+TEST(ApiContract, AllocationsOfTheDriverMayFailWhileKernelsAreMade)
+{
+    constexpr std::uint64_t kStep = 17; // a new context takes its time
+    bool was_reached = true;
+    std::uint64_t failures = 0;
+    for (std::uint64_t number = 0; was_reached; number += kStep)
+    {
+        test::HostAllocator allocator;
+        test::HostOptions options;
+        options.allocation_callbacks = allocator.callbacks();
+        {
+            test::EmbeddingHost host(options);
+            allocator.failCall(number);
+            failures += failOnce(host,
+                                 [&]
+                                 {
+                                     was_reached = allocator.hasFailed();
+                                     allocator.failCall(UINT64_MAX);
+                                 })
+                            ? 1
+                            : 0;
+        }
+        EXPECT_EQ(allocator.liveCount(), 0U);
+    }
+    EXPECT_GE(failures, 3U);
+}
+
+TEST(ApiContract, WhatIsTooMuchForTheBudgetIsAnErrorThatNamesIt)
+{
+    test::EmbeddingHost host({}, [](ContextInfo& info) { info.memory_budget_bytes = 4 << 20; });
+    const test::HostModel description(test::apiScene());
+    const Model model = host.upload(description.info());
+    TreeBuild build(host.context, model, {.grid = test::apiGrid(10)});
+    try
+    {
+        host.finish(build);
+        FAIL() << "no error";
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), ErrorCode::Memory);
+        EXPECT_NE(std::string(error.what()).find("ContextInfo::memory_budget_bytes"), std::string::npos)
+            << error.what();
+    }
+    const Tree small = host.build(model, {.grid = test::apiGrid(4)});
+    EXPECT_GT(small.facts().voxel_count, 0U);
+    EXPECT_LE(host.context.memory().peak_held, 4U << 20);
+}
+
+void expectUsage(const std::function<void()>& action, const std::string& word)
+{
+    try
+    {
+        action();
+        ADD_FAILURE() << "no error, expected one about " << word;
+    }
+    catch (const Error& error)
+    {
+        EXPECT_EQ(error.code(), ErrorCode::Usage) << error.what();
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+}
+
+TEST(ApiContract, MisuseIsAnErrorThatSaysWhat)
+{
+    test::EmbeddingHost host;
+    const Scene scene = test::boxScene(glm::vec3(2), glm::vec3(6));
+    const test::HostModel description(scene);
+    const Model model = host.upload(description.info());
+    const Tree tree = host.build(model, {.grid = test::apiGrid(4)});
+
+    const auto uploading = [&](const std::function<void(ModelInfo&)>& spoil, const std::string& word)
+    {
+        ModelInfo info = description.info();
+        spoil(info);
+        expectUsage([&] { host.upload(info); }, word);
+    };
+    std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 4711}};
+    MeshInfo mesh = description.info().meshes[0];
+    const std::vector<MaterialInfo> materials = {{.base_color_texture = 3, .emission = {}}};
+    std::vector<InstanceInfo> instances = {{.mesh = 9}};
+    const std::vector<TextureInfo> textures = {{.width = 4, .height = 4, .rgba = {}}};
+    uploading([&](ModelInfo& info) { info.instances = instances; }, "mesh 9");
+    uploading([&](ModelInfo& info) { info.textures = textures; }, "texture 0");
+    uploading([&](ModelInfo& info) { info.materials = materials; }, "texture 3");
+    mesh.triangles = triangles;
+    uploading([&](ModelInfo& info) { info.meshes = {&mesh, 1}; }, "vertex 4711");
+    mesh = description.info().meshes[0];
+    mesh.normals = mesh.positions.first(1);
+    uploading([&](ModelInfo& info) { info.meshes = {&mesh, 1}; }, "positions");
+    mesh = description.info().meshes[0];
+    mesh.material = 5;
+    uploading([&](ModelInfo& info) { info.meshes = {&mesh, 1}; }, "material 5");
+    instances = {{}};
+    instances[0].transform[3] = 0.5F;
+    uploading([&](ModelInfo& info) { info.instances = instances; }, "affine");
+
+    expectUsage([&] { TreeBuild(host.context, model, {.grid = test::apiGrid(18)}); }, "depth 18");
+    expectUsage([&] { (void)model.gridAround(0); }, "depth");
+    expectUsage([&] { Tracer(host.context, 0, 10, VK_FORMAT_R8G8B8A8_UNORM); }, "edges");
+    expectUsage([&] { Tracer(host.context, 10, 10, VK_FORMAT_R8_UNORM); }, "R8G8B8A8");
+    Tracer tracer(host.context, 10, 10, VK_FORMAT_R8G8B8A8_UNORM);
+    test::TargetImage image(host.device, VK_FORMAT_B8G8R8A8_UNORM, 10, 10);
+    const auto tracing = [&](const CameraInfo& camera, const TraceInfo& info, const ImageTarget& target)
+    { host.frame([&](Recorder& recorder, VkCommandBuffer) { tracer.trace(recorder, tree, camera, info, target); }); };
+    expectUsage([&] { tracing(test::apiCamera(), {}, image.target()); }, "another format");
+    CameraInfo camera = test::apiCamera();
+    camera.up = camera.forward;
+    const test::TargetImage right(host.device, VK_FORMAT_R8G8B8A8_UNORM, 10, 10);
+    expectUsage([&] { tracing(camera, {}, right.target()); }, "camera");
+    expectUsage([&] { tracing(test::apiCamera(), {.occlusion_rays = 65}, right.target()); }, "65");
+    expectUsage(
+        [&]
+        {
+            host.frame([&](Recorder&, VkCommandBuffer commands)
+                       { const Recorder second(host.context, commands, host.last_frame + 1); });
+        },
+        "one Recorder");
+    expectUsage(
+        [&]
+        {
+            VkCommandBuffer commands = host.device.begin();
+            const Recorder recorder(host.context, commands, host.last_frame); // which is done
+        },
+        "must grow");
+    TreeBuild build(host.context, model, {.grid = test::apiGrid(4)});
+    expectUsage([&] { (void)build.take(); }, "not there");
+    host.finish(build);
+    (void)build.take();
+    expectUsage([&] { (void)build.take(); }, "taken");
+}
+
+TEST(ApiContract, ObjectsMayGoWhileFramesUseThem)
+{
+    test::EmbeddingHost host;
+    const test::HostModel description(test::apiScene());
+    auto model = std::make_unique<Model>(host.upload(description.info()));
+    auto tree = std::make_unique<Tree>(host.build(*model, {.grid = test::apiGrid()}));
+    const auto expected = host.picture(*tree, test::apiCamera());
+    auto build = std::make_unique<TreeBuild>(host.context, *model, TreeBuildInfo{.grid = test::apiGrid()});
+    auto tracer = std::make_unique<Tracer>(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
+    test::TargetImage image(host.device, VK_FORMAT_R8G8B8A8_UNORM, host.kWidth, host.kHeight);
+    VkCommandBuffer commands = host.device.begin();
+    {
+        Recorder recorder(host.context, commands, ++host.last_frame);
+        build->record(recorder);
+        image.beginCopies(commands);
+        tracer->trace(recorder, *tree, test::apiCamera(), {}, image.target());
+        image.read(commands);
+    }
+    const std::uint64_t used = host.context.memory().used;
+    build.reset();
+    tracer.reset();
+    tree.reset();
+    model.reset();
+    EXPECT_EQ(host.context.memory().used, used);
+    host.device.submit(commands);
+    host.device.wait();
+    host.context.frameDone(host.last_frame);
+    EXPECT_EQ(host.context.memory().used, 0U);
+    EXPECT_EQ(image.words(), expected);
+}
+
+TEST(ApiContract, TimesOfPassesAreToldOfFramesThatAreDone)
+{
+    test::HostOptions options;
+    options.optional.pass_times = true;
+    test::EmbeddingHost host(options, [](ContextInfo& info) { info.timed_passes_per_frame = 300; });
+    if (host.context.report().timestamp_period_ns == 0)
+    {
+        GTEST_SKIP() << "the device has no timestamps";
+    }
+    const test::HostModel description(test::apiScene());
+    const Tree tree = host.build(host.upload(description.info()), {.grid = test::apiGrid()});
+    (void)host.picture(tree, test::apiCamera());
+    bool has_primary = false;
+    for (const PassTime& pass : host.context.passTimes())
+    {
+        has_primary = has_primary || pass.name == "trace/primary";
+        EXPECT_GE(pass.ms, 0.0);
+    }
+    EXPECT_TRUE(has_primary);
+}
+
+TEST(ApiContract, TheVersionIsThatOfTheHeaders)
+{
+    EXPECT_EQ(version(), ZVO_VERSION);
+}
+
+} // namespace
+
+} // namespace zvo

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// What a host gets of models that move, and of brushes.
+#include "api_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace zvo
+{
+
+namespace
+{
+
+class ApiDynamic : public testing::Test
+{
+protected:
+    // Everything as one model: what a dynamic tree must equal.
+    std::vector<std::uint32_t> rebuilt(float x)
+    {
+        Scene scene = test::apiScene();
+        Scene moving = test::sphereScene(glm::vec3(0), 2.0F, 9);
+        for (Instance& instance : moving.instances)
+        {
+            instance.transform[3] = {x, 5, 5, 1};
+        }
+        scene.append(std::move(moving));
+        const test::HostModel model(scene);
+        const Tree tree = m_host.build(m_host.upload(model.info()), {.grid = test::apiGrid()});
+        return m_host.picture(tree, test::apiCamera());
+    }
+
+    Tree fixedTree(bool as_dag)
+    {
+        const test::HostModel model(test::apiScene());
+        const Model uploaded = m_host.upload(model.info());
+        m_scale = uploaded.emissionScale();
+        Tree tree = m_host.build(uploaded, {.grid = test::apiGrid(), .keep_sums = true});
+        if (!as_dag)
+        {
+            return tree;
+        }
+        TreeCompression compression(m_host.context, std::move(tree));
+        m_host.finish(compression);
+        return compression.take();
+    }
+
+    Model ball()
+    {
+        const test::HostModel model(test::sphereScene(glm::vec3(0), 2.0F, 9));
+        ModelInfo info = model.info();
+        info.emission_scale = m_scale;
+        return m_host.upload(info);
+    }
+
+    DynamicTree dynamicTree(Tree&& fixed, std::size_t history_steps = 8)
+    {
+        std::optional<DynamicTree> tree;
+        DynamicTreeInfo info;
+        info.merge = MergeRule::Average;
+        info.history_steps = history_steps;
+        info.emission_scale = m_scale;
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.emplace(recorder, std::move(fixed), info); });
+        return std::move(*tree);
+    }
+
+    // Frames until what is shown is complete.
+    void update(DynamicTree& tree)
+    {
+        do
+        {
+            m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); });
+        } while (tree.needsUpdate());
+    }
+
+    test::EmbeddingHost m_host;
+    float m_scale = 0;
+};
+
+TEST_F(ApiDynamic, EqualsARebuildAndUndoEqualsBefore)
+{
+    for (const bool as_dag : {false, true})
+    {
+        DynamicTree tree = dynamicTree(fixedTree(as_dag));
+        const std::uint64_t address = tree.address();
+        const auto still = m_host.picture(tree, test::apiCamera());
+        MoverId mover = 0;
+        const Model model = ball();
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+                     { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+        std::vector<std::vector<std::uint32_t>> pictures = {still};
+        for (const float x : {2.0F, 4.5F, 8.25F})
+        {
+            tree.placeMover(mover, test::movedBy(x, 5, 5));
+            update(tree);
+            pictures.push_back(m_host.picture(tree, test::apiCamera()));
+            EXPECT_EQ(pictures.back(), rebuilt(x)) << x << (as_dag ? " above a DAG" : " above an octree");
+        }
+        const std::vector<UpdateFacts> facts = tree.takeUpdates();
+        ASSERT_GE(facts.size(), 3U);
+        EXPECT_FALSE(facts.back().failed);
+        EXPECT_GT(facts.back().moving_count, 100U);
+        for (const std::size_t step : {2U, 1U})
+        {
+            m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.undo(recorder)); });
+            EXPECT_EQ(m_host.picture(tree, test::apiCamera()), pictures[step]);
+        }
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.redo(recorder)); });
+        EXPECT_EQ(m_host.picture(tree, test::apiCamera()), pictures[2]);
+        tree.removeMover(mover);
+        update(tree);
+        EXPECT_EQ(m_host.picture(tree, test::apiCamera()), still);
+        EXPECT_EQ(tree.address(), address);
+        EXPECT_THROW(tree.placeMover(mover, kIdentity), Error);
+    }
+}
+
+TEST_F(ApiDynamic, BrushesChangeWhatStandsAndAreUndone)
+{
+    DynamicTree tree = dynamicTree(fixedTree(false));
+    const auto before = m_host.picture(tree, test::apiCamera());
+    const BrushInfo brush = {.action = BrushAction::Fill, .center = {44, 44, 44}, .radius = 9, .color = 0x2080ff};
+    bool is_done = false;
+    while (!is_done)
+    {
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { is_done = tree.edit(recorder, brush); });
+    }
+    tree.endStroke();
+    const auto after = m_host.picture(tree, test::apiCamera());
+    EXPECT_NE(after, before);
+    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.undoEdit(recorder)); });
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
+    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_FALSE(tree.undoEdit(recorder)); });
+    m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.redoEdit(recorder)); });
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), after);
+}
+
+TEST_F(ApiDynamic, ALostFrameTakesNothingAlong)
+{
+    DynamicTree tree = dynamicTree(fixedTree(false));
+    const Model model = ball();
+    MoverId mover = 0;
+    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+                 { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+    update(tree);
+    const auto before = m_host.picture(tree, test::apiCamera());
+    tree.placeMover(mover, test::movedBy(8.25F, 5, 5));
+    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); });
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
+    EXPECT_TRUE(tree.needsUpdate());
+    update(tree);
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
+}
+
+TEST_F(ApiDynamic, WhatWasMadeInALostFrameIsLost)
+{
+    const test::HostModel description(test::apiScene());
+    std::optional<Model> lost;
+    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { lost.emplace(recorder, description.info()); });
+    EXPECT_THROW(m_host.build(*lost, {.grid = test::apiGrid()}), Error);
+
+    const Model model = m_host.upload(description.info());
+    TreeBuild build(m_host.context, model, {.grid = test::apiGrid()});
+    std::uint32_t steps = 0;
+    for (; !build.isDone(); ++steps) // each step is lost once
+    {
+        m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { build.record(recorder); });
+        m_host.frame([&](Recorder& recorder, VkCommandBuffer) { build.record(recorder); });
+    }
+    EXPECT_GE(steps, 4U);
+    Tree tree = build.take();
+    const Tree other = m_host.build(model, {.grid = test::apiGrid()});
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), m_host.picture(other, test::apiCamera()));
+
+    std::optional<DynamicTree> dynamic;
+    m_host.lostFrame(
+        [&](Recorder& recorder, VkCommandBuffer)
+        { dynamic.emplace(recorder, std::move(tree), DynamicTreeInfo{.emission_scale = model.emissionScale()}); });
+    EXPECT_THROW(m_host.picture(*dynamic, test::apiCamera()), Error);
+}
+
+TEST_F(ApiDynamic, FramesInFlightKeepWhatTheyUse)
+{
+    DynamicTree tree = dynamicTree(fixedTree(false), 1);
+    const Model model = ball();
+    MoverId mover = 0;
+    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+                 { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+    Tracer tracer(m_host.context, m_host.kWidth, m_host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
+    test::TargetImage image(m_host.device, VK_FORMAT_R8G8B8A8_UNORM, m_host.kWidth, m_host.kHeight);
+    std::uint64_t frame = m_host.last_frame;
+    for (int i = 0; i < 12; ++i) // two at a time are under way
+    {
+        VkCommandBuffer commands = m_host.device.begin();
+        {
+            Recorder recorder(m_host.context, commands, ++frame);
+            tree.placeMover(mover, test::movedBy(2.0F + 0.5F * static_cast<float>(i), 5, 5));
+            tree.update(recorder);
+            image.beginCopies(commands);
+            tracer.trace(recorder, tree, test::apiCamera(), {}, image.target());
+            image.read(commands);
+        }
+        m_host.device.submit(commands);
+        if (i % 2 == 1)
+        {
+            m_host.device.wait();
+            m_host.context.frameDone(frame);
+        }
+    }
+    m_host.last_frame = frame;
+    update(tree);
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(7.5F));
+}
+
+} // namespace
+
+} // namespace zvo
