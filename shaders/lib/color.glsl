@@ -39,6 +39,13 @@ vec3 develop(vec3 radiance, float exposure, uvec2 pixel, float steps)
     return clamp(encodeSrgb(toneMap(exposure * radiance)) + dither(pixel, steps), 0.0, 1.0);
 }
 
+// Red, green, blue in [0, 1], already encoded, with full alpha.
+uint packColor8(vec3 color)
+{
+    uvec3 code = uvec3(color * 255.0 + 0.5);
+    return code.r | (code.g << 8) | (code.b << 16) | (255u << 24);
+}
+
 // Heat from black over blue, red and yellow to white, for x in [0, 1].
 vec3 heatColor(float x)
 {

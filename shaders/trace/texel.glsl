@@ -23,7 +23,7 @@ uint packCodes(uint texels, vec3 color)
         return code.r | (code.g << 10) | (code.b << 20) | (3u << 30);
     if (texels == kTexelBgra8)
         return code.b | (code.g << 8) | (code.r << 16) | (255u << 24);
-    return code.r | (code.g << 8) | (code.b << 16) | (255u << 24);
+    return packColor8(color);
 }
 
 // Half floats do not become infinite: what is brighter than the largest one is the largest one.
