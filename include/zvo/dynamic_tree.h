@@ -66,7 +66,8 @@ class ZVO_API DynamicTree
 {
 public:
     /// Takes over a static tree; records its move to buffers with room behind it. Throws Error{Usage} for attributes in
-    /// fewer than 8 bytes, for MergeRule::Average without kept sums and for another emission scale, Error{Memory}.
+    /// fewer than 8 bytes, for MergeRule::Average without kept sums and for another emission scale: the tree stays as
+    /// it is then. Throws Error{Memory}: the tree is used up.
     DynamicTree(Recorder& recorder, Tree&& fixed, const DynamicTreeInfo& info);
     ~DynamicTree();
     DynamicTree(DynamicTree&&) noexcept;

@@ -17,7 +17,7 @@ constexpr std::uint32_t kUpdatesPerFrame = 4;
 constexpr std::uint64_t kRoomMin = 1024; // nodes, and voxels, that overlays have at first
 
 // A static tree, if it can be merged as options say. Throws Error{Usage} where not.
-StaticTree checked(StaticTree fixed, const DynamicOptions& options)
+StaticTree& checked(StaticTree& fixed, const DynamicOptions& options)
 {
     if (options.frames_in_flight == 0 || options.history.steps_max == 0)
     {
@@ -43,9 +43,9 @@ StaticTree checked(StaticTree fixed, const DynamicOptions& options)
 
 } // namespace
 
-DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree fixed, const DynamicOptions& options)
+DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree&& fixed, const DynamicOptions& options)
     : m_device(device), m_options(options),
-      m_overlays(device.device(), checked(std::move(fixed), options), {options.attributes, options.emission_scale}),
+      m_overlays(device, std::move(checked(fixed, options)), {options.attributes, options.emission_scale}),
       m_movers(device, m_overlays.octree().grid,
                {options.coverage,
                 {m_overlays.hasAttributes(), m_overlays.emits()},

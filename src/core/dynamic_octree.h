@@ -68,9 +68,9 @@ class DynamicOctree
 {
 public:
     /// Takes over a static tree, a BuildResult or a DAG (and, for MergeRule::Average, the sums it was made of:
-    /// BuildOptions::keep_sums). Throws Error{Usage} where those are missing, Error{Memory} when the device's budget
-    /// does not suffice.
-    DynamicOctree(vk::Uploader& device, StaticTree fixed, const DynamicOptions& options);
+    /// BuildOptions::keep_sums). Throws Error{Usage} where those are missing, and takes nothing; Error{Memory}
+    /// when the device's budget does not suffice.
+    DynamicOctree(vk::Uploader& device, StaticTree&& fixed, const DynamicOptions& options);
     DynamicOctree(const DynamicOctree&) = delete;
     DynamicOctree& operator=(const DynamicOctree&) = delete;
 

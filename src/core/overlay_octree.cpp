@@ -64,13 +64,21 @@ StaticTree::StaticTree(Svdag static_dag, FragmentSums kept)
 {
 }
 
-OverlayOctree::OverlayOctree(vk::Device& device, StaticTree fixed, const OverlayContents& contents)
-    : m_device(device), m_is_empty(fixed.dag.tree.node_count == 0),
+OverlayOctree::OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents)
+    : m_uploads(uploads), m_device(uploads.device()), m_is_empty(fixed.dag.tree.node_count == 0),
       m_has_attributes(m_is_empty ? contents.attributes : fixed.dag.tree.hasAttributes()),
       m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(fixed.dag.tree.emission.count()),
       m_sums(std::move(fixed.sums)), m_tree(adopted(std::move(fixed.dag), fixed.has_lists)), m_arena(staticSpace())
 {
     m_tree.dag.tree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
+}
+
+OverlayOctree::~OverlayOctree()
+{
+    if (!m_is_settled) // frames under way may show the static tree
+    {
+        m_uploads.keep(std::make_shared<OverlaidTree>(std::move(m_tree)));
+    }
 }
 
 void OverlayOctree::reserve(std::uint64_t room)
@@ -96,6 +104,7 @@ void OverlayOctree::settle(vk::FrameGraph& graph, vk::Retired& retired)
                    m_tree.dag.octree_node_count * sizeof(gpu::Attribute), sizeof(gpu::Attribute));
     }
     frameSubmitted(retired);
+    m_is_settled = true;
 }
 
 OverlaySpace OverlayOctree::staticSpace() const

@@ -7,6 +7,7 @@
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/retired.h"
+#include "vk/uploader.h"
 
 #include <cstdint>
 #include <optional>
@@ -42,8 +43,12 @@ struct OverlayContents
 class OverlayOctree
 {
 public:
-    /// Takes over a static tree: traced and overlaid only behind settle().
-    OverlayOctree(vk::Device& device, StaticTree fixed, const OverlayContents& contents);
+    /// Takes over a static tree: traced and overlaid only behind settle(). uploads keeps it, should it not come so far,
+    /// and outlives this.
+    OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents);
+    ~OverlayOctree();
+    OverlayOctree(const OverlayOctree&) = delete;
+    OverlayOctree& operator=(const OverlayOctree&) = delete;
 
     /// Makes the buffers that settle() takes, with room for that many nodes, and voxels. Throws Error{Memory} when the
     /// device's budget does not suffice.
@@ -109,6 +114,7 @@ private:
     [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
     [[nodiscard]] OverlaySpace staticSpace() const;
 
+    vk::Uploader& m_uploads;
     vk::Device& m_device;
     bool m_is_empty;
     bool m_has_attributes;
@@ -117,6 +123,7 @@ private:
     FragmentSums m_sums;
     OverlaidTree m_tree;
     OverlayArena m_arena;
+    bool m_is_settled = false;
     Buffers m_reserved;              // for settle()
     Capacities m_room;               // of them
     std::optional<Buffers> m_before; // of the tree when the last frame began, if they have been replaced in it

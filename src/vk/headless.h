@@ -83,6 +83,9 @@ public:
     /// Runs record's passes, as run().
     void perform(const std::function<void(FrameGraph&, Retired&)>& record) override;
 
+    /// Does nothing: who submits knows what is under way.
+    void keep(std::shared_ptr<void> /*thing*/) override {}
+
     /// Copies count elements from element first on (all of them by default) to the host and waits. Throws Error{Other}
     /// when the buffer does not have them.
     template <typename T>

@@ -39,6 +39,11 @@ void RecordedUploads::perform(const std::function<void(FrameGraph&, Retired&)>& 
     record(*m_graph, m_retired);
 }
 
+void RecordedUploads::keep(std::shared_ptr<void> thing)
+{
+    m_retired.keep(std::move(thing));
+}
+
 void RecordedUploads::uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes)
 {
     if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)

@@ -29,6 +29,7 @@ public:
 
     [[nodiscard]] Device& device() override { return m_device; }
     void perform(const std::function<void(FrameGraph&, Retired&)>& record) override;
+    void keep(std::shared_ptr<void> thing) override;
 
 private:
     struct Copy

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,6 +29,9 @@ public:
     /// Has record's passes run behind all uploads before, and before whatever uses their results. What they need no
     /// longer then goes to the Retired. Throws what record throws.
     virtual void perform(const std::function<void(FrameGraph&, Retired&)>& record) = 0;
+
+    /// Keeps thing for as long as work that was handed over earlier may use it.
+    virtual void keep(std::shared_ptr<void> thing) = 0;
 
     /// Copies values to buffer from element first on. Throws Error{Other} when they do not fit, Error{Memory}.
     template <typename T> void upload(BufferOf<T>& buffer, std::span<const T> values, std::uint64_t first = 0)

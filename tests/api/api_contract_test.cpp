@@ -327,6 +327,25 @@ TEST(ApiContract, MisuseIsAnErrorThatSaysWhat)
     expectUsage([&] { (void)build.take(); }, "taken");
 }
 
+TEST(ApiContract, ATreeThatCannotBecomeDynamicStays)
+{
+    test::EmbeddingHost host;
+    const test::HostModel description(test::apiScene());
+    const Model model = host.upload(description.info());
+    Tree tree = host.build(model, {.grid = test::apiGrid(), .form = AttributeForm::Bytes4});
+    const auto expected = host.picture(tree, test::apiCamera());
+    const auto makeDynamic = [&]
+    {
+        host.frame([&](Recorder& recorder, VkCommandBuffer)
+                   { DynamicTree(recorder, std::move(tree), {.emission_scale = model.emissionScale()}); });
+    };
+    expectUsage(makeDynamic, "8 bytes");
+    EXPECT_EQ(host.picture(tree, test::apiCamera()), expected);
+    tree = host.build(model, {.grid = test::apiGrid()});
+    makeDynamic();
+    expectUsage([&] { host.picture(tree, test::apiCamera()); }, "taken over");
+}
+
 TEST(ApiContract, ObjectsMayGoWhileFramesUseThem)
 {
     test::EmbeddingHost host;

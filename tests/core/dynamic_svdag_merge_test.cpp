@@ -207,12 +207,13 @@ TEST(DynamicSvdagMerge, MoreNodesThanListsCanBeToldFromAreRefused)
     const auto make = [&](std::uint64_t room)
     {
         Svdag dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
-        OverlayOctree octree(device().device(), StaticTree(std::move(dag), {}), {false, 0.0F});
-        octree.reserve(room);
-        device().perform([&](vk::FrameGraph& graph, vk::Retired& retired) { octree.settle(graph, retired); });
+        auto octree =
+            std::make_unique<OverlayOctree>(device(), StaticTree(std::move(dag), {}), OverlayContents{false, 0.0F});
+        octree->reserve(room);
+        device().perform([&](vk::FrameGraph& graph, vk::Retired& retired) { octree->settle(graph, retired); });
         return octree;
     };
-    EXPECT_GE(make(1).arena().largestFreeNodes(), 1U);
+    EXPECT_GE(make(1)->arena().largestFreeNodes(), 1U);
     try
     {
         make(std::uint64_t{1} << 31);
