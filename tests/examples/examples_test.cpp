@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// The examples, run as a shell would: what they show is what the command line shows.
+#include "cli/run_zvo.h"
+#include "common/mesh.h"
+#include "examples/composite.h"
+#include "io/image_io.h"
+#include "support/device.h"
+#include "support/temp_dir.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::Outcome;
+using test::Picture;
+
+const std::string kCamera = "1.5,2,3.5,0,0,0,26";
+
+// A PPM file of the examples.
+Picture readPpm(const std::filesystem::path& path)
+{
+    const std::string bytes = test::contentOf(path);
+    const std::string header = "P6\n320 200\n255\n";
+    Picture picture;
+    EXPECT_TRUE(bytes.starts_with(header)) << path;
+    EXPECT_EQ(bytes.size(), header.size() + 3 * picture.rgb.size()) << path;
+    for (std::size_t i = 0; i < picture.rgb.size() && header.size() + 3 * i + 2 < bytes.size(); ++i)
+    {
+        for (std::size_t channel = 0; channel < 3; ++channel)
+        {
+            picture.rgb[i][channel] = static_cast<std::uint8_t>(bytes[header.size() + 3 * i + channel]);
+        }
+    }
+    return picture;
+}
+
+Picture readPng(const std::filesystem::path& path)
+{
+    const std::string bytes = test::contentOf(path);
+    const Image image =
+        decodeImage({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "picture", path.string());
+    Picture picture;
+    EXPECT_EQ(image.rgba.size(), 4 * picture.rgb.size());
+    for (std::size_t i = 0; i < picture.rgb.size() && 4 * i + 3 < image.rgba.size(); ++i)
+    {
+        std::copy_n(image.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, picture.rgb[i].begin());
+    }
+    return picture;
+}
+
+class Examples : public testing::Test
+{
+protected:
+    // Runs an example to its end; with validation where the tests' devices have it, silent all the same.
+    void run(const std::string& name, std::vector<std::string> arguments)
+    {
+        arguments.insert(arguments.begin(), name);
+        arguments.insert(arguments.end(), {"--device", test::deviceOptions().device});
+        if (test::deviceOptions().validation)
+        {
+            arguments.emplace_back("--validation");
+        }
+        const Outcome outcome =
+            test::ZvoProcess(std::filesystem::path(ZVO_EXAMPLES_DIR) / name, m_folder.path(), arguments, {}).wait();
+        EXPECT_EQ(outcome.exit_code, 0) << name;
+        EXPECT_EQ(outcome.err, "") << name;
+    }
+
+    // What the command line makes of a file, with the examples' camera.
+    Picture render(const std::vector<std::string>& scene, const std::vector<std::string>& more = {})
+    {
+        std::vector<std::string> arguments = {"render", "-f",      "-o",       "cli.png",
+                                              "--size", "320x200", "--camera", kCamera};
+        arguments.insert(arguments.end(), scene.begin(), scene.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = test::runZvo(m_folder.path(), arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return readPng(path("cli.png"));
+    }
+
+    [[nodiscard]] std::filesystem::path path(const std::string& name) const { return m_folder.path() / name; }
+
+    [[nodiscard]] Picture ppm(const std::string& name) const { return readPpm(path(name)); }
+
+    void writeKnot() const { host::writePly(host::knot(), path("knot.ply")); }
+
+    inline static const std::vector<std::string> kKnot = {"knot.ply", "--resolution", "128"};
+
+private:
+    test::TempDir m_folder;
+};
+
+TEST_F(Examples, MinimalShowsWhatTheCommandLineShows)
+{
+    run("embed_minimal", {"minimal.ppm", "--ply", "knot.ply"});
+    const Picture expected = render(kKnot);
+    EXPECT_EQ(ppm("minimal.ppm"), expected);
+    EXPECT_GT(expected.colorCount(), 1000U);
+    run("embed_minimal", {"bare.ppm", "--no-optional"});
+    EXPECT_EQ(ppm("bare.ppm"), expected);
+}
+
+TEST_F(Examples, MinimalShowsTheTreeOfAFile)
+{
+    writeKnot();
+    for (const char* const structure : {"svo", "svdag"})
+    {
+        const Outcome built = test::runZvo(
+            path(""), {"build", "knot.ply", "-f", "-o", "knot.zvo", "--resolution", "256", "--structure", structure});
+        EXPECT_EQ(built.exit_code, 0) << built.err;
+        run("embed_minimal", {"minimal.ppm", "knot.zvo"});
+        EXPECT_EQ(ppm("minimal.ppm"), render({"knot.zvo"})) << structure;
+    }
+}
+
+TEST_F(Examples, WhatIsNoTreeIsAnErrorInOneLine)
+{
+    writeKnot();
+    const Outcome outcome = test::ZvoProcess(std::filesystem::path(ZVO_EXAMPLES_DIR) / "embed_minimal", path(""),
+                                             {"embed_minimal", "minimal.ppm", "knot.ply", "--device", "cpu"}, {})
+                                .wait();
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("knot.ply"), std::string::npos);
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1);
+}
+
+TEST_F(Examples, TheHostsShaderFindsWhatPicturesShow)
+{
+    writeKnot();
+    const Picture albedo = render(kKnot, {"--view", "albedo"});
+    const Picture normals = render(kKnot, {"--view", "normal"});
+    EXPECT_NE(albedo, normals);
+    run("host_shader", {"albedo.ppm", "normals.ppm"});
+    EXPECT_EQ(ppm("albedo.ppm"), albedo);
+    EXPECT_EQ(ppm("normals.ppm"), normals);
+    run("host_shader", {"albedo_bare.ppm", "normals_bare.ppm", "--no-optional"});
+    EXPECT_EQ(ppm("albedo_bare.ppm"), albedo);
+    EXPECT_EQ(ppm("normals_bare.ppm"), normals);
+}
+
+TEST_F(Examples, TwoContextsShowTheSame)
+{
+    writeKnot();
+    const Picture expected = render(kKnot);
+    run("two_contexts", {"a.ppm", "b.ppm"});
+    EXPECT_EQ(ppm("a.ppm"), expected);
+    EXPECT_EQ(ppm("b.ppm"), expected);
+    run("two_contexts", {"a_bare.ppm", "b_bare.ppm", "--no-optional"});
+    EXPECT_EQ(ppm("a_bare.ppm"), expected);
+    EXPECT_EQ(ppm("b_bare.ppm"), expected);
+}
+
+// What moved through many frames looks like what is made at once, by another program.
+TEST_F(Examples, FramesInFlightEndWhereARebuildDoes)
+{
+    writeKnot();
+    host::writePly(host::ring({0, 0, 0}, 0.5F, 0.125F, {240, 240, 240, 255}), path("ring.ply"));
+    const Picture knot = render(kKnot, {"--json", "knot.json"});
+    const nlohmann::json grid = nlohmann::json::parse(test::contentOf(path("knot.json")))["grid"];
+    std::string grid_option;
+    for (const nlohmann::json& coordinate : grid["origin"])
+    {
+        grid_option += coordinate.dump() + ",";
+    }
+    grid_option += grid["voxel_size"].dump();
+
+    run("frames_in_flight", {"at-"});
+    run("frames_in_flight", {"bare-", "--no-optional"});
+    Picture previous;
+    for (const int frame : {22, 23, 24})
+    {
+        const nlohmann::json scene = {
+            {"objects",
+             {{{"file", "knot.ply"}, {"static", true}},
+              {{"file", "ring.ply"}, {"static", true}, {"place", {{"translation", {0, 1.0 - frame / 16.0, 0}}}}}}}};
+        std::ofstream(path("both.scene.json")) << scene;
+        const Picture expected = render({"both.scene.json", "--resolution", "128", "--grid", grid_option});
+        EXPECT_EQ(ppm("at-" + std::to_string(frame) + ".ppm"), expected) << frame;
+        EXPECT_EQ(ppm("bare-" + std::to_string(frame) + ".ppm"), expected) << frame;
+        EXPECT_NE(expected, previous);
+        previous = expected;
+    }
+    EXPECT_NE(previous, knot);
+}
+
+// The raster example's ring, as the test draws it: which of ring and knot is nearer is computed in double precision,
+// from the ring's triangles and the voxels of the oracle.
+TEST_F(Examples, TheNearerOfMeshAndVoxelIsSeen)
+{
+    writeKnot();
+    const Picture traced = render(kKnot);
+    run("embed_raster", {"raster.ppm"});
+    const Picture picture = ppm("raster.ppm");
+    const test::Winners winners =
+        test::winnersOf(path("knot.ply"), 7, host::ring({0, 0, 0}, 0.75F, 0.125F, {255, 0, 255, 255}));
+    const auto is_ring = [](const Picture::Rgb& rgb) { return rgb[0] > 64 && rgb[0] == rgb[2] && rgb[1] == 0; };
+    EXPECT_TRUE(std::ranges::none_of(traced.rgb, is_ring));
+    std::size_t wrong_count = 0;
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+    {
+        // One or the other, never a mixture, also where it is open which.
+        EXPECT_TRUE(is_ring(picture.rgb[i]) || picture.rgb[i] == traced.rgb[i]) << i;
+        const bool is_wrong =
+            winners[i] != test::Winner::Open && is_ring(picture.rgb[i]) != (winners[i] == test::Winner::Mesh);
+        wrong_count += is_wrong ? 1 : 0;
+    }
+    EXPECT_EQ(wrong_count, 0U);
+    const auto count = [&](test::Winner winner) { return std::ranges::count(winners, winner); };
+    EXPECT_GT(count(test::Winner::Mesh), 4000);
+    EXPECT_GT(count(test::Winner::VoxelBeforeMesh), 1000);
+    EXPECT_LT(count(test::Winner::Open), 64); // of 64,000
+    // Silhouettes: ring beside voxels that are before it, both sides known.
+    EXPECT_GT(test::edgeCount(winners), 100U);
+
+    run("embed_raster", {"bare.ppm", "--no-optional"});
+    EXPECT_EQ(ppm("bare.ppm"), picture);
+}
+
+// What they promise to whoever reads them.
+TEST(ExampleSources, AreShortAndSeePublicHeadersOnly)
+{
+    const std::filesystem::path root = ZVO_EXAMPLES_SOURCE_DIR;
+    std::size_t example_count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+    {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".cpp" && extension != ".h")
+        {
+            continue;
+        }
+        std::ifstream file(entry.path());
+        std::size_t line_count = 0;
+        for (std::string line; std::getline(file, line); ++line_count)
+        {
+            const bool is_include = line.starts_with("#include \"");
+            const std::string name = is_include ? line.substr(10, line.rfind('"') - 10) : "";
+            const bool is_own = std::filesystem::exists(root / name) || name.ends_with(".comp.h") ||
+                                name.ends_with(".vert.h") || name.ends_with(".frag.h");
+            const bool is_public =
+                name.starts_with("zvo/") && std::filesystem::exists(root.parent_path() / "include" / name);
+            EXPECT_TRUE(!is_include || is_own || is_public) << entry.path() << ": " << line;
+        }
+        if (entry.path().filename() == "main.cpp")
+        {
+            EXPECT_LT(line_count, 150U) << entry.path();
+            ++example_count;
+        }
+    }
+    EXPECT_EQ(example_count, 5U);
+}
+
+} // namespace
+} // namespace zvo
