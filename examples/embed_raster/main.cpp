@@ -71,7 +71,7 @@ void embed(const host::Options& options)
         zvo::Recorder recorder(context, commands, ++frame);
         tracer.trace(recorder, tree, camera, {}, {color.handle(), kColorFormat, kZvoWrites.layout}, &depth_target);
     }
-    // From zvo's copies to the mesh's attachments. Without these, the layers speak.
+    // From zvo's copies to the mesh's attachments: the images' other edges.
     color.barrier(commands, kZvoWrites, host::MeshPass::kColor);
     depth.barrier(commands, kZvoWrites, host::MeshPass::kDepth);
     mesh_pass.draw(commands, color, depth, kSize, to_clip);

@@ -24,7 +24,8 @@ struct CameraInfo
     double vertical_fov = 0.7; // radians, inside (0, pi); perspective
     double half_height = 1.0;  // world units; orthographic
 
-    /// From eye towards target, with y up (z for a view straight up or down): as `zvo render --eye --target --fov`.
+    /// From eye towards target, with y up (z for a view straight up or down): as `zvo render --camera`,
+    /// where the field of view is in degrees.
     [[nodiscard]] static ZVO_API CameraInfo lookAt(const DVec3& eye, const DVec3& target, double vertical_fov);
 };
 
