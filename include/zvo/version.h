@@ -11,6 +11,8 @@
 /// A number that grows with the version, for comparisons in the preprocessor.
 #define ZVO_VERSION (ZVO_VERSION_MAJOR * 10000 + ZVO_VERSION_MINOR * 100 + ZVO_VERSION_PATCH)
 
+#ifdef __cplusplus
+
 namespace zvo
 {
 
@@ -18,3 +20,5 @@ namespace zvo
 ZVO_API int version() noexcept;
 
 } // namespace zvo
+
+#endif

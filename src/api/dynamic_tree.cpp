@@ -43,8 +43,8 @@ DynamicTree::Impl::Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTre
     : context(recorder.context), facts(usable(fixed).facts), table(context.device, "tree table", 1)
 {
     requireSame(context, usable(fixed).context);
-    octree = std::make_unique<DynamicOctree>(context.uploads, std::move(fixed.impl()->fixed), optionsOf(info));
-    fixed.release();
+    const std::unique_ptr<Tree::Impl> source = fixed.release(); // what fails leaves no tree that is a shell
+    octree = std::make_unique<DynamicOctree>(context.uploads, std::move(source->fixed), optionsOf(info));
     made_in.push_back(recorder.frame);
     publish(recorder.graph);
 }

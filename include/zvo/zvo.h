@@ -1,0 +1,715 @@
+// SPDX-License-Identifier: MIT
+// All of zvo for programs in C, in other languages, and of other C++ compilers than the library's: C11, and C++. What
+// each function does, which errors it knows, and what is recorded between which stages stands at the class of the same
+// name in the C++ headers (zvo/zvo.hpp); docs/c-interface.md has the rules of this one and an example.
+//
+// Structs have their size first, which ZVO_..._INIT sets along with every default. A smaller size, of an older
+// header: members that are missing are as ZVO_..._INIT sets them. A larger one, of a newer header: whatever is beyond
+// the members that the library knows must be 0, and is made 0 where zvo fills the struct. Members called reserved are
+// 0. In an array all elements have the size of the first, which is the distance from one to the next.
+//
+// Functions return ZVO_OK or why they failed, and then zvoLastError() says more. What is given back comes last, and is
+// left alone where a function fails. Pointers may be null where it says so, and in the functions that destroy.
+#pragma once
+
+#include "zvo/export.h"
+#include "zvo/version.h"
+
+#include <vulkan/vulkan_core.h>
+
+#include <stddef.h>
+#include <stdint.h>
+
+/// Marks the functions of this interface.
+#ifdef __cplusplus
+#define ZVO_C_API extern "C" ZVO_API
+#else
+#define ZVO_C_API ZVO_API
+#endif
+
+// Handles. One context's are used by one thread at a time, and destroyed before it.
+typedef struct ZvoDeviceReport ZvoDeviceReport;
+typedef struct ZvoFeatureStorage ZvoFeatureStorage;
+typedef struct ZvoContext ZvoContext;
+typedef struct ZvoRecorder ZvoRecorder;
+typedef struct ZvoModel ZvoModel;
+typedef struct ZvoTree ZvoTree;
+typedef struct ZvoTreeBuild ZvoTreeBuild;
+typedef struct ZvoTreeCompression ZvoTreeCompression;
+typedef struct ZvoDynamicTree ZvoDynamicTree;
+typedef struct ZvoTracer ZvoTracer;
+
+// Enumerations. Their types are integers of a fixed size, so that every value is one that can be refused.
+
+typedef int32_t ZvoResult; // zvo::ErrorCode
+enum
+{
+    ZVO_OK = 0,
+    ZVO_ERROR_OTHER = 1,  ///< a failure that is none of the below, such as a lost device
+    ZVO_ERROR_USAGE = 2,  ///< the caller asked for something that does not exist or contradicts itself
+    ZVO_ERROR_INPUT = 3,  ///< a file that is missing, broken or not supported
+    ZVO_ERROR_OUTPUT = 4, ///< a file that could not be written
+    ZVO_ERROR_DEVICE = 5, ///< no Vulkan device that will do
+    ZVO_ERROR_MEMORY = 6  ///< the memory limit, or the memory of device or host, does not suffice
+};
+
+typedef uint32_t ZvoLogSeverity; // zvo::LogSeverity
+enum
+{
+    ZVO_LOG_DEBUG = 0,
+    ZVO_LOG_INFO = 1,
+    ZVO_LOG_WARNING = 2
+};
+
+typedef uint32_t ZvoCoverage; // zvo::Coverage
+enum
+{
+    ZVO_COVERAGE_CONSERVATIVE = 0,
+    ZVO_COVERAGE_THIN = 1
+};
+
+typedef uint32_t ZvoTreeStructure; // zvo::TreeStructure
+enum
+{
+    ZVO_TREE_STRUCTURE_SVO = 1,
+    ZVO_TREE_STRUCTURE_SVDAG = 2
+};
+
+typedef uint32_t ZvoAttributeForm; // zvo::AttributeForm
+enum
+{
+    ZVO_ATTRIBUTE_FORM_NONE = 0,
+    ZVO_ATTRIBUTE_FORM_BYTES4 = 1,
+    ZVO_ATTRIBUTE_FORM_BYTES8 = 2,
+    ZVO_ATTRIBUTE_FORM_BLOCKS = 3
+};
+
+typedef uint32_t ZvoMergeRule; // zvo::MergeRule
+enum
+{
+    ZVO_MERGE_RULE_AVERAGE = 0,
+    ZVO_MERGE_RULE_DYNAMIC_WINS = 1,
+    ZVO_MERGE_RULE_STATIC_WINS = 2
+};
+
+typedef uint32_t ZvoView; // zvo::View
+enum
+{
+    ZVO_VIEW_COLOR = 0,
+    ZVO_VIEW_ALBEDO = 1,
+    ZVO_VIEW_NORMAL = 2,
+    ZVO_VIEW_DEPTH = 3,
+    ZVO_VIEW_LEVEL = 4,
+    ZVO_VIEW_ITERATIONS = 5,
+    ZVO_VIEW_VOXEL = 6,
+    ZVO_VIEW_BRICKS = 7,
+    ZVO_VIEW_ORIGIN = 8
+};
+
+typedef uint32_t ZvoBrushShape; // zvo::BrushShape
+enum
+{
+    ZVO_BRUSH_SHAPE_SPHERE = 0,
+    ZVO_BRUSH_SHAPE_BOX = 1
+};
+
+typedef uint32_t ZvoBrushAction; // zvo::BrushAction
+enum
+{
+    ZVO_BRUSH_ACTION_CARVE = 0,
+    ZVO_BRUSH_ACTION_FILL = 1,
+    ZVO_BRUSH_ACTION_PAINT = 2
+};
+
+typedef uint32_t ZvoWrapMode; // zvo::WrapMode
+enum
+{
+    ZVO_WRAP_MODE_REPEAT = 0,
+    ZVO_WRAP_MODE_MIRRORED_REPEAT = 1,
+    ZVO_WRAP_MODE_CLAMP_TO_EDGE = 2
+};
+
+typedef uint32_t ZvoAlphaMode; // zvo::AlphaMode
+enum
+{
+    ZVO_ALPHA_MODE_OPAQUE = 0,
+    ZVO_ALPHA_MODE_MASK = 1,
+    ZVO_ALPHA_MODE_BLEND = 2
+};
+
+#define ZVO_NO_TEXTURE UINT32_MAX
+
+// Structs without a size, which stay as they are.
+
+/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on.
+typedef struct ZvoGrid
+{
+    float origin[3];  // world position of the minimum corner
+    float voxel_size; // world units
+    uint32_t depth;   // 1 to 17
+} ZvoGrid;
+
+#define ZVO_GRID_INIT                                                                                                  \
+    {                                                                                                                  \
+        {0, 0, 0}, 1, 8                                                                                                \
+    }
+
+/// A camera's rays as zvo/trace.glsl takes them (zvo_CameraRays, scalar layout).
+typedef struct ZvoCameraRays
+{
+    float origin[3];
+    float forward[3];
+    float step_x[3];
+    float step_y[3];
+} ZvoCameraRays;
+
+/// As zvo::LogCallback; null: nowhere. It must not throw, unwind by longjmp, nor call zvo.
+typedef struct ZvoLogCallback
+{
+    void (*function)(void* user, ZvoLogSeverity severity, const char* message);
+    void* user;
+} ZvoLogCallback;
+
+/// As zvo::MemoryRequest.
+typedef struct ZvoMemoryRequest
+{
+    const char* name;
+    VkMemoryRequirements requirements;
+    VkMemoryPropertyFlags required;
+    VkMemoryPropertyFlags preferred;
+    VkBool32 map;
+    VkBool32 device_address;
+} ZvoMemoryRequest;
+
+/// As zvo::MemoryRange.
+typedef struct ZvoMemoryRange
+{
+    VkDeviceMemory memory;
+    VkDeviceSize offset;
+    void* mapped;
+    void* cookie;
+} ZvoMemoryRange;
+
+/// As zvo::MemoryCallbacks; null: zvo asks the driver. They must not throw, unwind by longjmp, nor call zvo.
+typedef struct ZvoMemoryCallbacks
+{
+    void* user;
+    VkResult (*allocate)(void* user, const ZvoMemoryRequest* request, ZvoMemoryRange* range);
+    void (*release)(void* user, const ZvoMemoryRange* range);
+} ZvoMemoryCallbacks;
+
+// Errors and version.
+
+/// What the last call on this thread that failed says: one line, in UTF-8, which lives until the next one fails.
+/// Empty: none has. Never null.
+ZVO_C_API const char* zvoLastError(void);
+
+/// ZVO_VERSION of the library that runs.
+ZVO_C_API int zvoVersion(void);
+
+// The host's device: before it exists, and when it is created.
+
+/// As zvo::DeviceReport. Texts live as long as the ZvoDeviceReport.
+typedef struct ZvoDeviceFacts
+{
+    size_t struct_size;
+    VkPhysicalDevice physical_device;
+    const char* name;
+    const char* driver;
+    const char* type;
+    const char* api_version;
+    uint64_t memory_bytes;
+    uint64_t max_buffer_bytes;
+    uint32_t subgroup_size;
+    uint32_t min_subgroup_size;
+    uint32_t max_subgroup_size;
+    uint32_t queue_family;
+    float timestamp_period_ns;
+    uint32_t timestamp_valid_bits;
+    VkBool32 usable;
+    uint32_t reserved;
+} ZvoDeviceFacts;
+
+#define ZVO_DEVICE_FACTS_INIT                                                                                          \
+    {                                                                                                                  \
+        sizeof(ZvoDeviceFacts), VK_NULL_HANDLE, NULL, NULL, NULL, NULL, 0, 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0            \
+    }
+
+typedef uint32_t ZvoReportList; // of zvo::DeviceReport
+enum
+{
+    ZVO_REPORT_PRESENT = 0,
+    ZVO_REPORT_MISSING = 1,
+    ZVO_REPORT_REASONS = 2
+};
+
+/// zvo::query(): ZVO_OK for devices that will not do, too.
+ZVO_C_API ZvoResult zvoQuery(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
+                             VkPhysicalDevice physical_device, ZvoDeviceReport** report);
+ZVO_C_API void zvoDeviceReportDestroy(ZvoDeviceReport* report); // not that of a context
+ZVO_C_API ZvoResult zvoDeviceReportFacts(const ZvoDeviceReport* report, ZvoDeviceFacts* facts);
+
+/// A line of a list, which lives as long as the report; null behind the last one.
+ZVO_C_API ZvoResult zvoDeviceReportText(const ZvoDeviceReport* report, ZvoReportList list, uint32_t index,
+                                        const char** text);
+
+typedef struct ZvoOptionalFeatures
+{
+    size_t struct_size;
+    VkBool32 pass_times;
+    VkBool32 subgroup_sizes;
+} ZvoOptionalFeatures;
+
+#define ZVO_OPTIONAL_FEATURES_INIT                                                                                     \
+    {                                                                                                                  \
+        sizeof(ZvoOptionalFeatures), VK_FALSE, VK_FALSE                                                                \
+    }
+
+/// The storage lives for as long as the VkDeviceCreateInfo that it serves is used.
+ZVO_C_API ZvoResult zvoFeatureStorageCreate(ZvoFeatureStorage** storage);
+ZVO_C_API void zvoFeatureStorageDestroy(ZvoFeatureStorage* storage);
+
+/// zvo::patchFeatures(). Where the host's structs make no legal chain, ZVO_ERROR_USAGE, nothing is changed, and the
+/// error says why. optional: null: none.
+ZVO_C_API ZvoResult zvoPatchFeatures(VkDeviceCreateInfo* info, ZvoFeatureStorage* storage,
+                                     const ZvoOptionalFeatures* optional);
+
+// zvo::Context.
+
+/// As zvo::ContextInfo.
+typedef struct ZvoContextInfo
+{
+    size_t struct_size;
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+    uint32_t queue_family;
+    uint32_t instance_api_version;
+    const char* const* instance_extensions; // [instance_extension_count]
+    const char* const* device_extensions;   // [device_extension_count]
+    uint32_t instance_extension_count;
+    uint32_t device_extension_count;
+    const void* enabled_features;
+    const VkPhysicalDeviceFeatures* enabled_core_features;
+    const VkAllocationCallbacks* allocation_callbacks;
+    VkPipelineCache pipeline_cache;
+    ZvoMemoryCallbacks memory;
+    uint64_t memory_budget_bytes;
+    ZvoLogCallback log;
+    uint32_t timed_passes_per_frame;
+    uint32_t reserved;
+} ZvoContextInfo;
+
+#define ZVO_CONTEXT_INFO_INIT                                                                                          \
+    {                                                                                                                  \
+        sizeof(ZvoContextInfo), NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE, 0, 0, NULL, NULL, 0, 0, NULL,    \
+            NULL, NULL, VK_NULL_HANDLE, {NULL, NULL, NULL}, UINT64_MAX, {NULL, NULL}, 0, 0                             \
+    }
+
+typedef struct ZvoMemoryUse
+{
+    size_t struct_size;
+    uint64_t used; // bytes, as the others
+    uint64_t held;
+    uint64_t peak_held;
+} ZvoMemoryUse;
+
+#define ZVO_MEMORY_USE_INIT                                                                                            \
+    {                                                                                                                  \
+        sizeof(ZvoMemoryUse), 0, 0, 0                                                                                  \
+    }
+
+typedef struct ZvoPassTime
+{
+    size_t struct_size;
+    const char* name; // lives until the next zvoContextFrameDone()
+    double ms;
+} ZvoPassTime;
+
+#define ZVO_PASS_TIME_INIT                                                                                             \
+    {                                                                                                                  \
+        sizeof(ZvoPassTime), NULL, 0                                                                                   \
+    }
+
+ZVO_C_API ZvoResult zvoContextCreate(const ZvoContextInfo* info, ZvoContext** context);
+ZVO_C_API void zvoContextDestroy(ZvoContext* context);
+ZVO_C_API ZvoResult zvoContextFrameDone(ZvoContext* context, uint64_t frame);
+ZVO_C_API ZvoResult zvoContextFrameLost(ZvoContext* context);
+ZVO_C_API ZvoResult zvoContextMemory(const ZvoContext* context, ZvoMemoryUse* use);
+ZVO_C_API ZvoResult zvoContextPassTimeCount(const ZvoContext* context, uint32_t* count);
+ZVO_C_API ZvoResult zvoContextPassTime(const ZvoContext* context, uint32_t index, ZvoPassTime* time);
+ZVO_C_API ZvoResult zvoContextReport(const ZvoContext* context, const ZvoDeviceReport** report); // the context's own
+
+// zvo::Recorder. Ended before the host ends or submits the command buffer.
+
+ZVO_C_API ZvoResult zvoRecorderBegin(ZvoContext* context, VkCommandBuffer commands, uint64_t frame,
+                                     VkPipelineStageFlags2 readers, ZvoRecorder** recorder);
+ZVO_C_API void zvoRecorderEnd(ZvoRecorder* recorder); // the handle goes
+ZVO_C_API ZvoResult zvoRecorderMakeVisible(ZvoRecorder* recorder, VkPipelineStageFlags2 stages);
+
+// zvo::Model.
+
+/// As zvo::TextureInfo.
+typedef struct ZvoTextureInfo
+{
+    size_t struct_size;
+    const uint8_t* rgba; // [rgba_bytes], width * height * 4
+    size_t rgba_bytes;
+    uint32_t width;
+    uint32_t height;
+    ZvoWrapMode wrap_u;
+    ZvoWrapMode wrap_v;
+} ZvoTextureInfo;
+
+#define ZVO_TEXTURE_INFO_INIT                                                                                          \
+    {                                                                                                                  \
+        sizeof(ZvoTextureInfo), NULL, 0, 0, 0, ZVO_WRAP_MODE_REPEAT, ZVO_WRAP_MODE_REPEAT                              \
+    }
+
+/// As zvo::MaterialInfo.
+typedef struct ZvoMaterialInfo
+{
+    size_t struct_size;
+    float base_color[4];
+    uint32_t base_color_texture;
+    float emission[3];
+    uint32_t emission_texture;
+    ZvoAlphaMode alpha_mode;
+    float alpha_cutoff;
+    uint32_t reserved;
+} ZvoMaterialInfo;
+
+#define ZVO_MATERIAL_INFO_INIT                                                                                         \
+    {                                                                                                                  \
+        sizeof(ZvoMaterialInfo), {1, 1, 1, 1}, ZVO_NO_TEXTURE, {0, 0, 0}, ZVO_NO_TEXTURE, ZVO_ALPHA_MODE_OPAQUE, 0.5F, \
+            0                                                                                                          \
+    }
+
+/// As zvo::MeshInfo.
+typedef struct ZvoMeshInfo
+{
+    size_t struct_size;
+    const float* positions; // [3 * vertex_count]
+    const float* normals;   // [3 * vertex_count] or null
+    const float* uvs;       // [2 * vertex_count] or null
+    const float* colors;    // [4 * vertex_count] or null
+    size_t vertex_count;
+    const uint32_t* triangles; // [3 * triangle_count] vertices
+    size_t triangle_count;
+    uint32_t material;
+    uint32_t reserved;
+} ZvoMeshInfo;
+
+#define ZVO_MESH_INFO_INIT                                                                                             \
+    {                                                                                                                  \
+        sizeof(ZvoMeshInfo), NULL, NULL, NULL, NULL, 0, NULL, 0, 0, 0                                                  \
+    }
+
+/// As zvo::InstanceInfo.
+typedef struct ZvoInstanceInfo
+{
+    size_t struct_size;
+    float transform[16]; // of columns
+    uint32_t mesh;
+    uint32_t reserved;
+} ZvoInstanceInfo;
+
+#define ZVO_INSTANCE_INFO_INIT                                                                                         \
+    {                                                                                                                  \
+        sizeof(ZvoInstanceInfo), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, 0, 0                                \
+    }
+
+/// As zvo::ModelInfo.
+typedef struct ZvoModelInfo
+{
+    size_t struct_size;
+    const ZvoMeshInfo* meshes;        // [mesh_count]
+    const ZvoInstanceInfo* instances; // [instance_count]; none: each mesh once, as it is
+    const ZvoMaterialInfo* materials; // [material_count]; none: a white one
+    const ZvoTextureInfo* textures;   // [texture_count]
+    size_t mesh_count;
+    size_t instance_count;
+    size_t material_count;
+    size_t texture_count;
+    VkBool32 attributes;
+    float emission_scale; // negative: that of the brightest material
+} ZvoModelInfo;
+
+#define ZVO_MODEL_INFO_INIT                                                                                            \
+    {                                                                                                                  \
+        sizeof(ZvoModelInfo), NULL, NULL, NULL, NULL, 0, 0, 0, 0, VK_TRUE, -1                                          \
+    }
+
+typedef struct ZvoModelFacts
+{
+    size_t struct_size;
+    uint64_t triangle_count; // with instances counted each time
+    float emission_scale;    // 0: nothing emits light
+    uint32_t reserved;
+} ZvoModelFacts;
+
+#define ZVO_MODEL_FACTS_INIT                                                                                           \
+    {                                                                                                                  \
+        sizeof(ZvoModelFacts), 0, 0, 0                                                                                 \
+    }
+
+ZVO_C_API ZvoResult zvoModelCreate(ZvoRecorder* recorder, const ZvoModelInfo* info, ZvoModel** model);
+ZVO_C_API void zvoModelDestroy(ZvoModel* model); // what was made of it may go on using it
+ZVO_C_API ZvoResult zvoModelFacts(const ZvoModel* model, ZvoModelFacts* facts);
+ZVO_C_API ZvoResult zvoModelGridAround(const ZvoModel* model, uint32_t depth, ZvoGrid* grid);
+
+// zvo::Tree.
+
+/// As zvo::TreeFacts.
+typedef struct ZvoTreeFacts
+{
+    size_t struct_size;
+    ZvoTreeStructure structure;
+    ZvoAttributeForm form;
+    ZvoGrid grid;
+    float emission_scale;
+    uint64_t voxel_count;
+    uint64_t node_count;
+    uint64_t bytes;
+} ZvoTreeFacts;
+
+#define ZVO_TREE_FACTS_INIT                                                                                            \
+    {                                                                                                                  \
+        sizeof(ZvoTreeFacts), ZVO_TREE_STRUCTURE_SVO, ZVO_ATTRIBUTE_FORM_NONE, ZVO_GRID_INIT, 0, 0, 0, 0               \
+    }
+
+/// path: in UTF-8.
+ZVO_C_API ZvoResult zvoTreeFromFile(ZvoRecorder* recorder, const char* path, ZvoTree** tree);
+ZVO_C_API ZvoResult zvoTreeFromMemory(ZvoRecorder* recorder, const void* file, size_t file_bytes, ZvoTree** tree);
+ZVO_C_API void zvoTreeDestroy(ZvoTree* tree);
+ZVO_C_API ZvoResult zvoTreeFacts(const ZvoTree* tree, ZvoTreeFacts* facts);
+ZVO_C_API ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address);
+
+// zvo::TreeBuild.
+
+/// As zvo::TreeBuildInfo.
+typedef struct ZvoTreeBuildInfo
+{
+    size_t struct_size;
+    ZvoGrid grid;
+    ZvoCoverage coverage;
+    ZvoAttributeForm form;
+    VkBool32 keep_sums;
+} ZvoTreeBuildInfo;
+
+#define ZVO_TREE_BUILD_INFO_INIT                                                                                       \
+    {                                                                                                                  \
+        sizeof(ZvoTreeBuildInfo), ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORM_BYTES8, VK_FALSE                \
+    }
+
+/// Triangles that were left out, by reason.
+typedef struct ZvoDroppedTriangles
+{
+    size_t struct_size;
+    uint64_t nonfinite;
+    uint64_t out_of_range;
+    uint64_t outside;
+    uint64_t zero_area;
+} ZvoDroppedTriangles;
+
+#define ZVO_DROPPED_TRIANGLES_INIT                                                                                     \
+    {                                                                                                                  \
+        sizeof(ZvoDroppedTriangles), 0, 0, 0, 0                                                                        \
+    }
+
+ZVO_C_API ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const ZvoTreeBuildInfo* info,
+                                       ZvoTreeBuild** build);
+ZVO_C_API void zvoTreeBuildDestroy(ZvoTreeBuild* build);
+ZVO_C_API ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* goes_on);
+ZVO_C_API ZvoResult zvoTreeBuildIsDone(ZvoTreeBuild* build, VkBool32* is_done);
+ZVO_C_API ZvoResult zvoTreeBuildIsBroken(const ZvoTreeBuild* build, VkBool32* is_broken);
+ZVO_C_API ZvoResult zvoTreeBuildTake(ZvoTreeBuild* build, ZvoTree** tree);
+ZVO_C_API ZvoResult zvoTreeBuildDropped(const ZvoTreeBuild* build, ZvoDroppedTriangles* dropped);
+
+// zvo::TreeCompression.
+
+/// Takes the octree over: where this succeeds, its handle is gone. Where it fails, the host destroys it, and using
+/// it for anything else may be ZVO_ERROR_USAGE: what it held can be gone.
+ZVO_C_API ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeCompression** compression);
+ZVO_C_API void zvoTreeCompressionDestroy(ZvoTreeCompression* compression);
+ZVO_C_API ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder, VkBool32* goes_on);
+ZVO_C_API ZvoResult zvoTreeCompressionIsDone(ZvoTreeCompression* compression, VkBool32* is_done);
+ZVO_C_API ZvoResult zvoTreeCompressionIsBroken(const ZvoTreeCompression* compression, VkBool32* is_broken);
+ZVO_C_API ZvoResult zvoTreeCompressionTake(ZvoTreeCompression* compression, ZvoTree** tree);
+
+// zvo::DynamicTree.
+
+/// As zvo::DynamicTreeInfo.
+typedef struct ZvoDynamicTreeInfo
+{
+    size_t struct_size;
+    ZvoCoverage coverage;
+    ZvoMergeRule merge;
+    uint32_t frames_in_flight;
+    float emission_scale;
+    uint64_t history_steps;
+    uint64_t history_bytes;
+    uint64_t strokes;
+    uint64_t edit_bytes;
+} ZvoDynamicTreeInfo;
+
+#define ZVO_DYNAMIC_TREE_INFO_INIT                                                                                     \
+    {                                                                                                                  \
+        sizeof(ZvoDynamicTreeInfo), ZVO_COVERAGE_THIN, ZVO_MERGE_RULE_DYNAMIC_WINS, 2, 0, 1, UINT64_MAX, 1024,         \
+            268435456                                                                                                  \
+    }
+
+/// As zvo::BrushInfo.
+typedef struct ZvoBrushInfo
+{
+    size_t struct_size;
+    ZvoBrushShape shape;
+    ZvoBrushAction action;
+    int32_t center[3];
+    uint32_t radius;
+    uint32_t color;
+    uint32_t reserved;
+} ZvoBrushInfo;
+
+#define ZVO_BRUSH_INFO_INIT                                                                                            \
+    {                                                                                                                  \
+        sizeof(ZvoBrushInfo), ZVO_BRUSH_SHAPE_SPHERE, ZVO_BRUSH_ACTION_CARVE, {0, 0, 0}, 0, 0, 0                       \
+    }
+
+/// As zvo::UpdateFacts.
+typedef struct ZvoUpdateFacts
+{
+    size_t struct_size;
+    uint64_t node_count;
+    uint64_t voxel_count;
+    uint64_t moving_count;
+    uint64_t dropped_nonfinite;
+    uint64_t dropped_out_of_range;
+    uint64_t dropped_outside;
+    uint64_t dropped_zero_area;
+    VkBool32 failed;
+    uint32_t reserved;
+} ZvoUpdateFacts;
+
+#define ZVO_UPDATE_FACTS_INIT                                                                                          \
+    {                                                                                                                  \
+        sizeof(ZvoUpdateFacts), 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0                                                       \
+    }
+
+typedef uint32_t ZvoMoverId;
+
+/// Takes the static tree over, under the same rule as zvoTreeCompressionCreate().
+ZVO_C_API ZvoResult zvoDynamicTreeCreate(ZvoRecorder* recorder, ZvoTree* fixed, const ZvoDynamicTreeInfo* info,
+                                         ZvoDynamicTree** tree);
+ZVO_C_API void zvoDynamicTreeDestroy(ZvoDynamicTree* tree);
+ZVO_C_API ZvoResult zvoDynamicTreeAddMover(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
+                                           const float to_world[16], ZvoMoverId* mover);
+ZVO_C_API ZvoResult zvoDynamicTreePlaceMover(ZvoDynamicTree* tree, ZvoMoverId mover, const float to_world[16]);
+ZVO_C_API ZvoResult zvoDynamicTreeRemoveMover(ZvoDynamicTree* tree, ZvoMoverId mover);
+ZVO_C_API ZvoResult zvoDynamicTreeUpdate(ZvoDynamicTree* tree, ZvoRecorder* recorder, double budget_ms,
+                                         VkBool32* is_complete);
+ZVO_C_API ZvoResult zvoDynamicTreeNeedsUpdate(ZvoDynamicTree* tree, VkBool32* needs_update);
+ZVO_C_API ZvoResult zvoDynamicTreeUndo(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_undone);
+ZVO_C_API ZvoResult zvoDynamicTreeRedo(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_redone);
+ZVO_C_API ZvoResult zvoDynamicTreeEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoBrushInfo* brush,
+                                       VkBool32* is_recorded);
+ZVO_C_API ZvoResult zvoDynamicTreeEndStroke(ZvoDynamicTree* tree);
+ZVO_C_API ZvoResult zvoDynamicTreeUndoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_undone);
+ZVO_C_API ZvoResult zvoDynamicTreeRedoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_redone);
+
+/// The oldest update that was not taken yet, of those whose frames are done. VK_FALSE, and facts left alone: none.
+ZVO_C_API ZvoResult zvoDynamicTreeTakeUpdate(ZvoDynamicTree* tree, ZvoUpdateFacts* facts, VkBool32* is_taken);
+ZVO_C_API ZvoResult zvoDynamicTreeFacts(const ZvoDynamicTree* tree, ZvoTreeFacts* facts);
+ZVO_C_API ZvoResult zvoDynamicTreeAddress(const ZvoDynamicTree* tree, uint64_t* address);
+
+// zvo::Tracer.
+
+/// As zvo::CameraInfo.
+typedef struct ZvoCameraInfo
+{
+    size_t struct_size;
+    double position[3];
+    double forward[3];
+    double up[3];
+    double vertical_fov; // radians
+    double half_height;  // world units
+    VkBool32 orthographic;
+    uint32_t reserved;
+} ZvoCameraInfo;
+
+#define ZVO_CAMERA_INFO_INIT                                                                                           \
+    {                                                                                                                  \
+        sizeof(ZvoCameraInfo), {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.7, 1, VK_FALSE, 0                                   \
+    }
+
+/// As zvo::TraceInfo.
+typedef struct ZvoTraceInfo
+{
+    size_t struct_size;
+    double to_sun[3];
+    ZvoView view;
+    VkBool32 shadows;
+    float sun;
+    float exposure;
+    uint32_t occlusion_rays;
+    float occlusion_reach;
+    float detail_pixels;
+    uint32_t reserved;
+} ZvoTraceInfo;
+
+#define ZVO_TRACE_INFO_INIT                                                                                            \
+    {                                                                                                                  \
+        sizeof(ZvoTraceInfo), {-0.6, 0.75, 0.45}, ZVO_VIEW_COLOR, VK_TRUE, 2.2F, 1, 0, 0.1F, 0, 0                      \
+    }
+
+/// As zvo::ImageTarget.
+typedef struct ZvoImageTarget
+{
+    size_t struct_size;
+    VkImage image;
+    VkFormat format;
+    VkImageLayout layout;
+    VkOffset2D offset;
+    uint32_t mip_level;
+    uint32_t array_layer;
+} ZvoImageTarget;
+
+#define ZVO_IMAGE_TARGET_INIT                                                                                          \
+    {                                                                                                                  \
+        sizeof(ZvoImageTarget), VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, {0, 0}, 0,  \
+            0                                                                                                          \
+    }
+
+/// As zvo::DepthTarget.
+typedef struct ZvoDepthTarget
+{
+    size_t struct_size;
+    const ZvoImageTarget* image;
+    double view_projection[16];
+    float miss;
+    uint32_t reserved;
+} ZvoDepthTarget;
+
+#define ZVO_DEPTH_TARGET_INIT                                                                                          \
+    {                                                                                                                  \
+        sizeof(ZvoDepthTarget), NULL, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 1, 0                           \
+    }
+
+ZVO_C_API ZvoResult zvoTracerCreate(ZvoContext* context, uint32_t width, uint32_t height, VkFormat format,
+                                    ZvoTracer** tracer);
+ZVO_C_API void zvoTracerDestroy(ZvoTracer* tracer);
+
+/// depth: null: none.
+ZVO_C_API ZvoResult zvoTracerTrace(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
+                                   const ZvoCameraInfo* camera, const ZvoTraceInfo* info, const ZvoImageTarget* color,
+                                   const ZvoDepthTarget* depth);
+ZVO_C_API ZvoResult zvoTracerTraceDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                          const ZvoCameraInfo* camera, const ZvoTraceInfo* info,
+                                          const ZvoImageTarget* color, const ZvoDepthTarget* depth);
+
+/// zvo::CameraInfo::lookAt(). camera: its size is set.
+ZVO_C_API ZvoResult zvoCameraLookAt(const double eye[3], const double target[3], double vertical_fov,
+                                    ZvoCameraInfo* camera);
+ZVO_C_API ZvoResult zvoCameraRays(const ZvoCameraInfo* camera, const ZvoGrid* grid, uint32_t height,
+                                  ZvoCameraRays* rays);

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+// The C interface: errors, the host's device, contexts and recorders.
+#include "api/c_convert.h"
+#include "api/c_handles.h"
+#include "api/c_struct.h"
+
+#include <array>
+#include <cstdio>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::size_t kMessageMax = 4096; // bytes; nothing is allocated for what may be a lack of memory
+
+std::array<char, kMessageMax>& lastMessage()
+{
+    thread_local std::array<char, kMessageMax> message{};
+    return message;
+}
+
+// Functions of the C++ interface that call a host's functions in C. user: the ZvoContext.
+
+void logInC(void* user, LogSeverity severity, const char* message)
+{
+    const ZvoLogCallback& log = static_cast<const ZvoContext*>(user)->log;
+    log.function(log.user, static_cast<ZvoLogSeverity>(severity), message);
+}
+
+ZvoMemoryRange rangeInC(const MemoryRange& range)
+{
+    return {range.memory, range.offset, range.mapped, range.cookie};
+}
+
+VkResult allocateInC(void* user, const MemoryRequest* request, MemoryRange* range)
+{
+    const ZvoMemoryCallbacks& memory = static_cast<const ZvoContext*>(user)->memory;
+    const ZvoMemoryRequest given = {request->name,      request->requirements, request->required,
+                                    request->preferred, request->map,          request->device_address};
+    ZvoMemoryRange got = rangeInC(*range);
+    const VkResult result = memory.allocate(memory.user, &given, &got);
+    *range = {got.memory, got.offset, got.mapped, got.cookie};
+    return result;
+}
+
+void releaseInC(void* user, const MemoryRange* range)
+{
+    const ZvoMemoryCallbacks& memory = static_cast<const ZvoContext*>(user)->memory;
+    const ZvoMemoryRange given = rangeInC(*range);
+    memory.release(memory.user, &given);
+}
+
+ContextInfo contextInfo(const ZvoContextInfo& info, ZvoContext* context)
+{
+    ContextInfo result = ofC(info);
+    result.memory.user = context;
+    result.memory.allocate = info.memory.allocate != nullptr ? &allocateInC : nullptr;
+    result.memory.release = info.memory.release != nullptr ? &releaseInC : nullptr;
+    result.log.user = context;
+    result.log.function = info.log.function != nullptr ? &logInC : nullptr;
+    return result;
+}
+
+const std::vector<std::string>& listOf(const DeviceReport& report, ZvoReportList list)
+{
+    switch (list)
+    {
+    case ZVO_REPORT_PRESENT:
+        return report.present;
+    case ZVO_REPORT_MISSING:
+        return report.missing;
+    case ZVO_REPORT_REASONS:
+        return report.reasons;
+    default:
+        throw Error(ErrorCode::Usage, "a report has no list " + std::to_string(list));
+    }
+}
+
+} // namespace
+
+ZvoResult failed(const char* function, ErrorCode code, const char* message) noexcept
+{
+    std::snprintf(lastMessage().data(), kMessageMax, "%s: %s", function, message);
+    return static_cast<ZvoResult>(code);
+}
+
+} // namespace zvo
+
+using namespace zvo;
+
+ZvoContext::ZvoContext(const ZvoContextInfo& info)
+    : memory(info.memory), log(info.log), object(contextInfo(info, this)), report{object.report()}
+{
+}
+
+const char* zvoLastError(void)
+{
+    return lastMessage().data();
+}
+
+int zvoVersion(void)
+{
+    return version();
+}
+
+ZvoResult zvoQuery(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
+                   VkPhysicalDevice physical_device, ZvoDeviceReport** report)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       at(get_instance_proc_addr, "get_instance_proc_addr");
+                       at(instance, "instance");
+                       at(physical_device, "physical_device");
+                       give(report, "report", [&] { return query(get_instance_proc_addr, instance, physical_device); });
+                   });
+}
+
+void zvoDeviceReportDestroy(ZvoDeviceReport* report)
+{
+    delete report;
+}
+
+ZvoResult zvoDeviceReportFacts(const ZvoDeviceReport* report, ZvoDeviceFacts* facts)
+{
+    return guarded(__func__, [&] { writeStruct(facts, "facts", toC(at(report, "report").object)); });
+}
+
+ZvoResult zvoDeviceReportText(const ZvoDeviceReport* report, ZvoReportList list, uint32_t index, const char** text)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const std::vector<std::string>& lines = listOf(at(report, "report").object, list);
+                       at(text, "text") = index < lines.size() ? lines[index].c_str() : nullptr;
+                   });
+}
+
+ZvoResult zvoFeatureStorageCreate(ZvoFeatureStorage** storage)
+{
+    return guarded(__func__, [&] { give(storage, "storage", [] { return FeatureStorage(); }); });
+}
+
+void zvoFeatureStorageDestroy(ZvoFeatureStorage* storage)
+{
+    delete storage;
+}
+
+ZvoResult zvoPatchFeatures(VkDeviceCreateInfo* info, ZvoFeatureStorage* storage, const ZvoOptionalFeatures* optional)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const OptionalFeatures features =
+                           optional == nullptr ? OptionalFeatures{} : ofC(readStruct(optional, "optional"));
+                       std::string reasons;
+                       for (const std::string& reason :
+                            patchFeatures(at(info, "info"), at(storage, "storage").object, features))
+                       {
+                           reasons += (reasons.empty() ? "" : "; ") + reason;
+                       }
+                       if (!reasons.empty())
+                       {
+                           throw Error(ErrorCode::Usage, reasons);
+                       }
+                   });
+}
+
+ZvoResult zvoContextCreate(const ZvoContextInfo* info, ZvoContext** context)
+{
+    return guarded(__func__, [&] { give(context, "context", [&] { return readStruct(info, "info"); }); });
+}
+
+void zvoContextDestroy(ZvoContext* context)
+{
+    delete context;
+}
+
+ZvoResult zvoContextFrameDone(ZvoContext* context, uint64_t frame)
+{
+    return guarded(__func__, [&] { at(context, "context").object.frameDone(frame); });
+}
+
+ZvoResult zvoContextFrameLost(ZvoContext* context)
+{
+    return guarded(__func__, [&] { at(context, "context").object.frameLost(); });
+}
+
+ZvoResult zvoContextMemory(const ZvoContext* context, ZvoMemoryUse* use)
+{
+    return guarded(__func__, [&] { writeStruct(use, "use", toC(at(context, "context").object.memory())); });
+}
+
+ZvoResult zvoContextPassTimeCount(const ZvoContext* context, uint32_t* count)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const std::size_t passes = at(context, "context").object.passTimes().size();
+                       at(count, "count") = static_cast<std::uint32_t>(passes);
+                   });
+}
+
+ZvoResult zvoContextPassTime(const ZvoContext* context, uint32_t index, ZvoPassTime* time)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const std::vector<PassTime>& times = at(context, "context").object.passTimes();
+                       if (index >= times.size())
+                       {
+                           throw Error(ErrorCode::Usage, "there is no pass " + std::to_string(index));
+                       }
+                       writeStruct(time, "time", toC(times[index]));
+                   });
+}
+
+ZvoResult zvoContextReport(const ZvoContext* context, const ZvoDeviceReport** report)
+{
+    return guarded(__func__, [&] { at(report, "report") = &at(context, "context").report; });
+}
+
+ZvoResult zvoRecorderBegin(ZvoContext* context, VkCommandBuffer commands, uint64_t frame, VkPipelineStageFlags2 readers,
+                           ZvoRecorder** recorder)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       at(commands, "commands");
+                       Context& object = at(context, "context").object;
+                       give(recorder, "recorder", [&] { return Recorder(object, commands, frame, readers); });
+                   });
+}
+
+void zvoRecorderEnd(ZvoRecorder* recorder)
+{
+    delete recorder;
+}
+
+ZvoResult zvoRecorderMakeVisible(ZvoRecorder* recorder, VkPipelineStageFlags2 stages)
+{
+    return guarded(__func__, [&] { at(recorder, "recorder").object.makeVisible(stages); });
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// From the structs of the C interface, which readStruct() has made whole, to those of the C++ one, and back. All throw
+// Error{Usage} for values that no enumeration has, and for arrays that are null and not empty.
+#pragma once
+
+#include "zvo/zvo.h"
+#include "zvo/zvo.hpp"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// The C++ ModelInfo of a C one, with the arrays that it refers to. Vertices stay the host's.
+class ModelOfC
+{
+public:
+    explicit ModelOfC(const ZvoModelInfo& info);
+    ModelOfC(const ModelOfC&) = delete;
+    ModelOfC& operator=(const ModelOfC&) = delete;
+
+    [[nodiscard]] const ModelInfo& info() const { return m_info; }
+
+private:
+    std::vector<MeshInfo> m_meshes;
+    std::vector<InstanceInfo> m_instances;
+    std::vector<MaterialInfo> m_materials;
+    std::vector<TextureInfo> m_textures;
+    ModelInfo m_info;
+};
+
+/// Without memory and log, which are functions of other types.
+ContextInfo ofC(const ZvoContextInfo& info);
+OptionalFeatures ofC(const ZvoOptionalFeatures& features);
+TextureInfo ofC(const ZvoTextureInfo& info);
+MaterialInfo ofC(const ZvoMaterialInfo& info);
+MeshInfo ofC(const ZvoMeshInfo& info);
+InstanceInfo ofC(const ZvoInstanceInfo& info);
+GridInfo ofC(const ZvoGrid& grid);
+TreeBuildInfo ofC(const ZvoTreeBuildInfo& info);
+DynamicTreeInfo ofC(const ZvoDynamicTreeInfo& info);
+BrushInfo ofC(const ZvoBrushInfo& info);
+CameraInfo ofC(const ZvoCameraInfo& info);
+TraceInfo ofC(const ZvoTraceInfo& info);
+ImageTarget ofC(const ZvoImageTarget& target);
+DepthTarget ofC(const ZvoDepthTarget& target);
+
+ZvoDeviceFacts toC(const DeviceReport& report); // texts are the report's
+ZvoMemoryUse toC(const MemoryUse& use);
+ZvoPassTime toC(const PassTime& time); // the name is time's
+ZvoGrid toC(const GridInfo& grid);
+ZvoTreeFacts toC(const TreeFacts& facts);
+ZvoUpdateFacts toC(const UpdateFacts& facts);
+ZvoDroppedTriangles toC(const std::map<std::string, std::uint64_t>& dropped);
+ZvoCameraInfo toC(const CameraInfo& info);
+ZvoCameraRays toC(const CameraRays& rays);
+
+} // namespace zvo

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// What keeps exceptions out of programs in C.
+#pragma once
+
+#include "zvo/error.h"
+#include "zvo/zvo.h"
+
+#include <new>
+#include <string>
+#include <utility>
+
+namespace zvo
+{
+
+/// Notes for zvoLastError() why a function of the C interface failed. Returns code.
+ZvoResult failed(const char* function, ErrorCode code, const char* message) noexcept;
+
+/// Calls what does the work of a function of the C interface. What it throws becomes a result.
+template <typename Work> ZvoResult guarded(const char* function, Work&& work) noexcept
+{
+    try
+    {
+        std::forward<Work>(work)();
+        return ZVO_OK;
+    }
+    catch (const Error& error)
+    {
+        return failed(function, error.code(), error.what());
+    }
+    catch (const std::bad_alloc&)
+    {
+        return failed(function, ErrorCode::Memory, "the host has no memory left");
+    }
+    catch (const std::exception& error)
+    {
+        return failed(function, ErrorCode::Other, error.what());
+    }
+    catch (...)
+    {
+        return failed(function, ErrorCode::Other, "an exception of an unknown type");
+    }
+}
+
+/// What a pointer refers to. Throws Error{Usage} for null.
+template <typename Object> Object& at(Object* object, const char* name)
+{
+    if (object == nullptr)
+    {
+        throw Error(ErrorCode::Usage, std::string(name) + " is null");
+    }
+    return *object;
+}
+
+/// Gives back a new handle of what make() returns. Throws Error{Usage} for null, and for want of memory, before that is
+/// called: so nothing that it takes over is lost.
+template <typename Handle, typename Make> void give(Handle** out, const char* name, const Make& make)
+{
+    Handle*& handle = at(out, name);
+    handle = new Handle{make()};
+}
+
+} // namespace zvo

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// What the handles of the C interface refer to.
+#pragma once
+
+#include "zvo/zvo.h"
+#include "zvo/zvo.hpp"
+
+#include <deque>
+
+struct ZvoDeviceReport
+{
+    zvo::DeviceReport object;
+};
+
+struct ZvoFeatureStorage
+{
+    zvo::FeatureStorage object;
+};
+
+/// The host's functions in C stand before the Context, which calls them until it is gone.
+struct ZvoContext
+{
+    explicit ZvoContext(const ZvoContextInfo& info);
+    ZvoContext(const ZvoContext&) = delete;
+    ZvoContext& operator=(const ZvoContext&) = delete;
+
+    ZvoMemoryCallbacks memory;
+    ZvoLogCallback log;
+    zvo::Context object;
+    ZvoDeviceReport report;
+};
+
+struct ZvoRecorder
+{
+    zvo::Recorder object;
+};
+
+struct ZvoModel
+{
+    zvo::Model object;
+};
+
+struct ZvoTree
+{
+    zvo::Tree object;
+};
+
+struct ZvoTreeBuild
+{
+    zvo::TreeBuild object;
+};
+
+struct ZvoTreeCompression
+{
+    zvo::TreeCompression object;
+};
+
+struct ZvoDynamicTree
+{
+    zvo::DynamicTree object;
+    std::deque<zvo::UpdateFacts> updates = {}; // that the host has not taken
+};
+
+struct ZvoTracer
+{
+    zvo::Tracer object;
+};

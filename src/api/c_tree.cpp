@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// The C interface: models, trees, and how they are made.
+#include "api/c_convert.h"
+#include "api/c_handles.h"
+#include "api/c_struct.h"
+
+#include <filesystem>
+
+namespace zvo
+{
+
+namespace
+{
+
+// A tree that another object may have taken over before that failed.
+Tree& present(ZvoTree* tree, const char* name)
+{
+    Tree& object = at(tree, name).object;
+    if (object.impl() == nullptr)
+    {
+        throw Error(ErrorCode::Usage, std::string(name) + " was taken over: it is empty");
+    }
+    return object;
+}
+
+const Tree& present(const ZvoTree* tree, const char* name)
+{
+    return present(const_cast<ZvoTree*>(tree), name);
+}
+
+VkBool32 boolean(bool value)
+{
+    return value ? VK_TRUE : VK_FALSE;
+}
+
+// TreeBuild and TreeCompression have the same steps.
+
+template <typename Job> ZvoResult record(const char* function, Job* job, ZvoRecorder* recorder, VkBool32* goes_on)
+{
+    return guarded(function,
+                   [&]
+                   {
+                       VkBool32& result = at(goes_on, "goes_on");
+                       result = boolean(at(job, "job").object.record(at(recorder, "recorder").object));
+                   });
+}
+
+template <typename Job> ZvoResult isDone(const char* function, Job* job, VkBool32* is_done)
+{
+    return guarded(function, [&] { at(is_done, "is_done") = boolean(at(job, "job").object.isDone()); });
+}
+
+template <typename Job> ZvoResult isBroken(const char* function, const Job* job, VkBool32* is_broken)
+{
+    return guarded(function, [&] { at(is_broken, "is_broken") = boolean(at(job, "job").object.isBroken()); });
+}
+
+template <typename Job> ZvoResult take(const char* function, Job* job, ZvoTree** tree)
+{
+    return guarded(function, [&] { give(tree, "tree", [&] { return at(job, "job").object.take(); }); });
+}
+
+} // namespace
+
+} // namespace zvo
+
+using namespace zvo;
+
+ZvoResult zvoModelCreate(ZvoRecorder* recorder, const ZvoModelInfo* info, ZvoModel** model)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const ModelOfC description(readStruct(info, "info"));
+                       give(model, "model", [&] { return Model(at(recorder, "recorder").object, description.info()); });
+                   });
+}
+
+void zvoModelDestroy(ZvoModel* model)
+{
+    delete model;
+}
+
+ZvoResult zvoModelFacts(const ZvoModel* model, ZvoModelFacts* facts)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const Model& object = at(model, "model").object;
+                       auto result = initial<ZvoModelFacts>();
+                       result.triangle_count = object.triangleCount();
+                       result.emission_scale = object.emissionScale();
+                       writeStruct(facts, "facts", result);
+                   });
+}
+
+ZvoResult zvoModelGridAround(const ZvoModel* model, uint32_t depth, ZvoGrid* grid)
+{
+    return guarded(__func__, [&] { at(grid, "grid") = toC(at(model, "model").object.gridAround(depth)); });
+}
+
+ZvoResult zvoTreeFromFile(ZvoRecorder* recorder, const char* path, ZvoTree** tree)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const std::filesystem::path file(&at(path, "path"));
+                       give(tree, "tree", [&] { return Tree(at(recorder, "recorder").object, file); });
+                   });
+}
+
+ZvoResult zvoTreeFromMemory(ZvoRecorder* recorder, const void* file, size_t file_bytes, ZvoTree** tree)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const auto* const bytes = &at(static_cast<const std::byte*>(file), "file");
+                       give(tree, "tree",
+                            [&] { return Tree(at(recorder, "recorder").object, std::span(bytes, file_bytes)); });
+                   });
+}
+
+void zvoTreeDestroy(ZvoTree* tree)
+{
+    delete tree;
+}
+
+ZvoResult zvoTreeFacts(const ZvoTree* tree, ZvoTreeFacts* facts)
+{
+    return guarded(__func__, [&] { writeStruct(facts, "facts", toC(present(tree, "tree").facts())); });
+}
+
+ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address)
+{
+    return guarded(__func__, [&] { at(address, "address") = present(tree, "tree").address(); });
+}
+
+ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const ZvoTreeBuildInfo* info,
+                             ZvoTreeBuild** build)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       const TreeBuildInfo description = ofC(readStruct(info, "info"));
+                       const Model& object = at(model, "model").object;
+                       give(build, "build",
+                            [&] { return TreeBuild(at(context, "context").object, object, description); });
+                   });
+}
+
+void zvoTreeBuildDestroy(ZvoTreeBuild* build)
+{
+    delete build;
+}
+
+ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* goes_on)
+{
+    return record(__func__, build, recorder, goes_on);
+}
+
+ZvoResult zvoTreeBuildIsDone(ZvoTreeBuild* build, VkBool32* is_done)
+{
+    return isDone(__func__, build, is_done);
+}
+
+ZvoResult zvoTreeBuildIsBroken(const ZvoTreeBuild* build, VkBool32* is_broken)
+{
+    return isBroken(__func__, build, is_broken);
+}
+
+ZvoResult zvoTreeBuildTake(ZvoTreeBuild* build, ZvoTree** tree)
+{
+    return take(__func__, build, tree);
+}
+
+ZvoResult zvoTreeBuildDropped(const ZvoTreeBuild* build, ZvoDroppedTriangles* dropped)
+{
+    return guarded(__func__, [&] { writeStruct(dropped, "dropped", toC(at(build, "build").object.dropped())); });
+}
+
+ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeCompression** compression)
+{
+    return guarded(__func__,
+                   [&]
+                   {
+                       Context& object = at(context, "context").object;
+                       Tree& source = present(octree, "octree");
+                       give(compression, "compression", [&] { return TreeCompression(object, std::move(source)); });
+                       delete octree;
+                   });
+}
+
+void zvoTreeCompressionDestroy(ZvoTreeCompression* compression)
+{
+    delete compression;
+}
+
+ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder, VkBool32* goes_on)
+{
+    return record(__func__, compression, recorder, goes_on);
+}
+
+ZvoResult zvoTreeCompressionIsDone(ZvoTreeCompression* compression, VkBool32* is_done)
+{
+    return isDone(__func__, compression, is_done);
+}
+
+ZvoResult zvoTreeCompressionIsBroken(const ZvoTreeCompression* compression, VkBool32* is_broken)
+{
+    return isBroken(__func__, compression, is_broken);
+}
+
+ZvoResult zvoTreeCompressionTake(ZvoTreeCompression* compression, ZvoTree** tree)
+{
+    return take(__func__, compression, tree);
+}
