@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: MIT
+// The C interface: what a program in C shows, how it fails, and how its structs grow.
+#include "api/c_guard.h"
+#include "api_scene.h"
+#include "c_host.h"
+#include "c_program.h"
+#include "core/zvo_file.h"
+#include "support/host_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace zvo
+{
+
+namespace
+{
+
+vk::HeadlessDevice& engine()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+// What c_program.c does, by the C++ interface.
+std::vector<std::vector<std::uint32_t>> picturesInCpp()
+{
+    test::EmbeddingHost host;
+    const CameraInfo camera = test::apiCamera();
+    MeshInfo mesh;
+    mesh.positions = {reinterpret_cast<const Vec3*>(kCBoxCorners), 8};
+    mesh.triangles = {reinterpret_cast<const std::array<std::uint32_t, 3>*>(kCBoxTriangles), 12};
+    MaterialInfo material;
+    material.base_color[1] = 0.25F;
+    ModelInfo info;
+    info.meshes = {&mesh, 1};
+    info.materials = {&material, 1};
+    const Model model = host.upload(info);
+    Tree octree = host.build(model, {.grid = test::apiGrid(5)});
+    std::vector<std::vector<std::uint32_t>> pictures = {host.picture(octree, camera)};
+    TreeCompression compression(host.context, std::move(octree));
+    host.finish(compression);
+    Tree dag = compression.take();
+    pictures.push_back(host.picture(dag, camera));
+    std::optional<DynamicTree> tree;
+    host.frame(
+        [&](Recorder& recorder, VkCommandBuffer)
+        {
+            tree.emplace(recorder, std::move(dag), DynamicTreeInfo{.history_steps = 2});
+            tree->addMover(recorder, model, test::movedBy(3, 4, 2));
+        });
+    const auto update = [&]
+    {
+        do
+        {
+            host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
+        } while (tree->needsUpdate());
+    };
+    update();
+    pictures.push_back(host.picture(*tree, camera));
+    bool is_done = false;
+    while (!is_done)
+    {
+        host.frame(
+            [&](Recorder& recorder, VkCommandBuffer) {
+                is_done = tree->edit(recorder,
+                                     {.action = BrushAction::Fill, .center = {24, 8, 24}, .radius = 4, .color = 255});
+            });
+    }
+    update();
+    pictures.push_back(host.picture(*tree, camera));
+    return pictures;
+}
+
+TEST(CApi, AProgramInCShowsWhatOneInCppShows)
+{
+    const std::vector<std::vector<std::uint32_t>> expected = picturesInCpp();
+    ASSERT_EQ(expected.size(), C_PROGRAM_PICTURES);
+    EXPECT_EQ(expected[0], expected[1]);
+    EXPECT_NE(expected[1], expected[2]);
+    EXPECT_NE(expected[2], expected[3]);
+    test::CEmbeddingHost host;
+    EXPECT_EQ(host.runProgram(), C_PROGRAM_PICTURES);
+    EXPECT_EQ(host.pictures, expected);
+    ZvoMemoryUse use = ZVO_MEMORY_USE_INIT;
+    EXPECT_EQ(zvoContextMemory(host.context, &use), ZVO_OK);
+    EXPECT_EQ(use.used, 0U);
+    EXPECT_GT(use.peak_held, 0U);
+    EXPECT_GE(use.peak_held, use.held);
+}
+
+TEST(CApi, AHostsMemoryAndLogAreFunctionsInC)
+{
+    test::HostMemory memory;
+    struct Callbacks
+    {
+        MemoryCallbacks memory;
+        std::vector<std::string> messages;
+        std::uint64_t ranges = 0;
+        std::uint64_t releases = 0;
+    } callbacks{memory.callbacks(), {}};
+    {
+        test::HostOptions options;
+        options.memory = callbacks.memory; // the device enables what it takes
+        test::CEmbeddingHost host(
+            options,
+            [&](ZvoContextInfo& info)
+            {
+                info.memory.user = &callbacks;
+                info.memory.allocate = [](void* user, const ZvoMemoryRequest* request, ZvoMemoryRange* range)
+                {
+                    auto& state = *static_cast<Callbacks*>(user);
+                    const MemoryRequest given = {request->name,      request->requirements, request->required,
+                                                 request->preferred, request->map,          request->device_address};
+                    MemoryRange got{};
+                    const VkResult result = state.memory.allocate(state.memory.user, &given, &got);
+                    *range = {got.memory, got.offset, got.mapped, got.cookie};
+                    state.ranges += result == VK_SUCCESS ? 1 : 0;
+                    return result;
+                };
+                info.memory.release = [](void* user, const ZvoMemoryRange* range)
+                {
+                    auto& state = *static_cast<Callbacks*>(user);
+                    ++state.releases;
+                    const MemoryRange given = {range->memory, range->offset, range->mapped, range->cookie};
+                    state.memory.release(state.memory.user, &given);
+                };
+                info.log.user = &callbacks;
+                info.log.function = [](void* user, ZvoLogSeverity severity, const char* message)
+                {
+                    EXPECT_LE(severity, std::uint32_t{ZVO_LOG_WARNING});
+                    static_cast<Callbacks*>(user)->messages.emplace_back(message);
+                };
+            },
+            [&](const test::HostDevice& device) { memory.attach(device); });
+        EXPECT_EQ(host.runProgram(), C_PROGRAM_PICTURES);
+        EXPECT_GT(callbacks.ranges, 0U);
+        EXPECT_FALSE(callbacks.messages.empty());
+
+        // Without any, an operation fails and says so.
+        memory.failRequests(0);
+        ZvoTracer* tracer = nullptr;
+        EXPECT_EQ(zvoTracerCreate(host.context, 4096, 4096, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_ERROR_MEMORY);
+        EXPECT_EQ(std::string(zvoLastError()).find("zvoTracerCreate: "), 0U) << zvoLastError();
+        EXPECT_EQ(tracer, nullptr);
+        memory.failRequests(UINT64_MAX);
+    }
+    EXPECT_EQ(callbacks.releases, callbacks.ranges);
+}
+
+TEST(CApi, EveryExceptionBecomesAResult)
+{
+    const auto resultOf = [](auto&& exception)
+    { return guarded("zvoTest", [&] { throw std::forward<decltype(exception)>(exception); }); };
+    for (int code = ZVO_ERROR_OTHER; code <= ZVO_ERROR_MEMORY; ++code)
+    {
+        EXPECT_EQ(resultOf(Error(static_cast<ErrorCode>(code), "why " + std::to_string(code))), code);
+        EXPECT_EQ(zvoLastError(), "zvoTest: why " + std::to_string(code));
+    }
+    EXPECT_EQ(resultOf(std::bad_alloc()), ZVO_ERROR_MEMORY);
+    EXPECT_EQ(resultOf(std::bad_array_new_length()), ZVO_ERROR_MEMORY);
+    EXPECT_EQ(resultOf(std::length_error("too long")), ZVO_ERROR_OTHER);
+    EXPECT_STREQ(zvoLastError(), "zvoTest: too long");
+    EXPECT_EQ(resultOf(7), ZVO_ERROR_OTHER);
+    EXPECT_EQ(resultOf(Error(ErrorCode::Usage, std::string(100000, 'x'))), ZVO_ERROR_USAGE);
+    EXPECT_GT(std::string(zvoLastError()).size(), 1000U);
+    const std::string before = zvoLastError();
+    EXPECT_EQ(guarded("zvoTest", [] {}), ZVO_OK);
+    EXPECT_EQ(zvoLastError(), before);
+    std::thread([] { EXPECT_STREQ(zvoLastError(), ""); }).join(); // another thread's
+}
+
+TEST(CApi, FilesAreReadAndBrokenOnesAreInputErrors)
+{
+    test::CEmbeddingHost host;
+    std::vector<std::byte> bytes;
+    const Octree octree = test::engineOctree(engine(), test::apiScene(), test::apiGrid());
+    writeZvo(downloadTree(engine(), octree),
+             [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
+    ZvoTree* tree = nullptr;
+    host.frame([&](ZvoRecorder* recorder)
+               { EXPECT_EQ(zvoTreeFromMemory(recorder, bytes.data(), bytes.size(), &tree), ZVO_OK); });
+    ASSERT_NE(tree, nullptr);
+    ZvoTreeFacts facts = ZVO_TREE_FACTS_INIT;
+    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_OK);
+    EXPECT_EQ(facts.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVO});
+    EXPECT_EQ(facts.form, std::uint32_t{ZVO_ATTRIBUTE_FORM_BYTES8});
+    EXPECT_EQ(facts.grid.depth, test::apiGrid().depth);
+    EXPECT_EQ(facts.voxel_count, octree.voxel_count);
+    EXPECT_EQ(facts.node_count, octree.node_count);
+    EXPECT_EQ(facts.emission_scale, octree.emission_scale);
+    std::uint64_t address = 0;
+    EXPECT_EQ(zvoTreeAddress(tree, &address), ZVO_OK);
+    EXPECT_NE(address, 0U);
+    EXPECT_EQ(host.picture(tree), test::pictureOf(engine(), octree, View::Color));
+    zvoTreeDestroy(tree);
+    bytes[200] ^= std::byte{1};
+    host.frame(
+        [&](ZvoRecorder* recorder)
+        {
+            EXPECT_EQ(zvoTreeFromMemory(recorder, bytes.data(), bytes.size(), &tree), ZVO_ERROR_INPUT);
+            EXPECT_EQ(zvoTreeFromMemory(recorder, bytes.data(), 0, &tree), ZVO_ERROR_INPUT);
+            EXPECT_EQ(zvoTreeFromFile(recorder, "/no/such/file.zvo", &tree), ZVO_ERROR_INPUT);
+            EXPECT_NE(std::string(zvoLastError()).find("/no/such/file.zvo"), std::string::npos) << zvoLastError();
+            EXPECT_EQ(zvoRecorderMakeVisible(recorder, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT), ZVO_OK);
+        });
+}
+
+TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
+{
+    test::CEmbeddingHost host;
+    ZvoModel* const model = host.uploadBox();
+    ZvoTreeBuildInfo info = ZVO_TREE_BUILD_INFO_INIT;
+    info.grid = {{-2, -2, -2}, 1, 4};
+    info.form = ZVO_ATTRIBUTE_FORM_BYTES4;
+    ZvoTree* tree = host.build(model, info);
+    ZvoTreeFacts facts = ZVO_TREE_FACTS_INIT;
+    ZvoTreeCompression* compression = nullptr;
+    EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, nullptr), ZVO_ERROR_USAGE);
+    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_OK); // it is as it was
+    EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_OK);
+    EXPECT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_ERROR_USAGE);
+    VkBool32 goes_on = VK_TRUE;
+    while (goes_on)
+    {
+        host.frame([&](ZvoRecorder* recorder)
+                   { EXPECT_EQ(zvoTreeCompressionRecord(compression, recorder, &goes_on), ZVO_OK); });
+    }
+    VkBool32 is_broken = VK_TRUE;
+    EXPECT_EQ(zvoTreeCompressionIsBroken(compression, &is_broken), ZVO_OK);
+    EXPECT_EQ(is_broken, VkBool32{VK_FALSE});
+    ASSERT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_OK);
+    zvoTreeCompressionDestroy(compression);
+    EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_ERROR_USAGE); // a DAG already
+    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_OK);
+    EXPECT_EQ(facts.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVDAG});
+
+    // Attributes of 4 bytes will not do. What it held is gone, and to use it is refused.
+    ZvoDynamicTree* dynamic = nullptr;
+    const ZvoDynamicTreeInfo defaults = ZVO_DYNAMIC_TREE_INFO_INIT;
+    host.frame([&](ZvoRecorder* recorder)
+               { EXPECT_EQ(zvoDynamicTreeCreate(recorder, tree, &defaults, &dynamic), ZVO_ERROR_USAGE); });
+    std::uint64_t address = 0;
+    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_ERROR_USAGE);
+    EXPECT_EQ(zvoTreeAddress(tree, &address), ZVO_ERROR_USAGE);
+    EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_ERROR_USAGE);
+    host.frame([&](ZvoRecorder* recorder)
+               { EXPECT_EQ(zvoDynamicTreeCreate(recorder, tree, &defaults, &dynamic), ZVO_ERROR_USAGE); });
+    zvoTreeDestroy(tree);
+    zvoModelDestroy(model);
+}
+
+TEST(CApi, ReportsAndPassTimesAreToldLineByLine)
+{
+    test::HostOptions options;
+    options.optional.pass_times = true;
+    test::CEmbeddingHost host(options, [](ZvoContextInfo& info) { info.timed_passes_per_frame = 300; });
+    const DeviceReport expected =
+        query(host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device);
+    ZvoDeviceReport* asked = nullptr;
+    ASSERT_EQ(zvoQuery(host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device, &asked),
+              ZVO_OK);
+    const ZvoDeviceReport* own = nullptr;
+    ASSERT_EQ(zvoContextReport(host.context, &own), ZVO_OK);
+    for (const ZvoDeviceReport* const report : {static_cast<const ZvoDeviceReport*>(asked), own})
+    {
+        ZvoDeviceFacts facts = ZVO_DEVICE_FACTS_INIT;
+        ASSERT_EQ(zvoDeviceReportFacts(report, &facts), ZVO_OK);
+        EXPECT_EQ(facts.physical_device, expected.physical_device);
+        EXPECT_EQ(facts.name, expected.name);
+        EXPECT_EQ(facts.driver, expected.driver);
+        EXPECT_EQ(facts.type, expected.type);
+        EXPECT_EQ(facts.api_version, expected.api_version);
+        EXPECT_EQ(facts.memory_bytes, expected.memory_bytes);
+        EXPECT_EQ(facts.max_buffer_bytes, expected.max_buffer_bytes);
+        EXPECT_EQ(facts.subgroup_size, expected.subgroup_size);
+        EXPECT_EQ(facts.min_subgroup_size, expected.min_subgroup_size);
+        EXPECT_EQ(facts.max_subgroup_size, expected.max_subgroup_size);
+        EXPECT_EQ(facts.timestamp_period_ns, expected.timestamp_period_ns);
+        EXPECT_EQ(facts.timestamp_valid_bits, expected.timestamp_valid_bits);
+        EXPECT_EQ(facts.usable, VkBool32{VK_TRUE});
+        for (const auto& [list, lines] :
+             {std::pair(ZVO_REPORT_PRESENT, expected.present), std::pair(ZVO_REPORT_MISSING, expected.missing),
+              std::pair(ZVO_REPORT_REASONS, expected.reasons)})
+        {
+            std::vector<std::string> told;
+            for (const char* text = "";; told.emplace_back(text))
+            {
+                ASSERT_EQ(zvoDeviceReportText(report, list, static_cast<std::uint32_t>(told.size()), &text), ZVO_OK);
+                if (text == nullptr)
+                {
+                    break;
+                }
+            }
+            EXPECT_EQ(told, lines);
+        }
+        const char* text = nullptr;
+        EXPECT_EQ(zvoDeviceReportText(report, 3, 0, &text), ZVO_ERROR_USAGE);
+    }
+    zvoDeviceReportDestroy(asked);
+
+    EXPECT_EQ(host.runProgram(), C_PROGRAM_PICTURES);
+    std::uint32_t count = 0;
+    ASSERT_EQ(zvoContextPassTimeCount(host.context, &count), ZVO_OK);
+    bool has_primary = false;
+    ZvoPassTime time = ZVO_PASS_TIME_INIT;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+        ASSERT_EQ(zvoContextPassTime(host.context, i, &time), ZVO_OK);
+        has_primary = has_primary || std::string(time.name) == "trace/primary";
+    }
+    EXPECT_EQ(has_primary, expected.timestamp_period_ns != 0);
+    EXPECT_EQ(zvoContextPassTime(host.context, count, &time), ZVO_ERROR_USAGE);
+}
+
+TEST(CApi, FeaturesArePatchedOrWhatStandsInTheWayIsSaid)
+{
+    ZvoFeatureStorage* storage = nullptr;
+    ASSERT_EQ(zvoFeatureStorageCreate(&storage), ZVO_OK);
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    ZvoOptionalFeatures optional = ZVO_OPTIONAL_FEATURES_INIT;
+    optional.pass_times = VK_TRUE;
+    const auto hasStruct = [&](VkStructureType type)
+    {
+        const auto* next = static_cast<const VkBaseInStructure*>(info.pNext);
+        while (next != nullptr && next->sType != type)
+        {
+            next = next->pNext;
+        }
+        return next != nullptr;
+    };
+    EXPECT_EQ(zvoPatchFeatures(&info, storage, nullptr), ZVO_OK);
+    EXPECT_TRUE(hasStruct(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES));
+    EXPECT_FALSE(hasStruct(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES));
+    EXPECT_EQ(zvoPatchFeatures(&info, storage, &optional), ZVO_OK);
+    EXPECT_TRUE(hasStruct(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES));
+
+    VkPhysicalDeviceVulkan12Features features12{};
+    features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
+    VkPhysicalDeviceScalarBlockLayoutFeatures scalar{};
+    scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
+    scalar.pNext = &features12;
+    info.pNext = &scalar;
+    EXPECT_EQ(zvoPatchFeatures(&info, storage, nullptr), ZVO_ERROR_USAGE);
+    EXPECT_NE(std::string(zvoLastError()).find("VkPhysicalDeviceVulkan12Features"), std::string::npos)
+        << zvoLastError();
+    zvoFeatureStorageDestroy(storage);
+
+    // What was not enabled is refused.
+    test::HostOptions options;
+    options.patch = false;
+    const test::HostDevice device(options);
+    const test::Declaration declaration(device);
+    const ZvoContextInfo bare = test::cDeclaration(declaration.info);
+    ZvoContext* context = nullptr;
+    EXPECT_EQ(zvoContextCreate(&bare, &context), ZVO_ERROR_DEVICE);
+    EXPECT_EQ(context, nullptr);
+}
+
+TEST(CApi, TheVersionIsThatOfTheHeader)
+{
+    EXPECT_EQ(zvoVersion(), ZVO_VERSION);
+}
+
+} // namespace
+
+} // namespace zvo
