@@ -43,8 +43,19 @@ DynamicTree::Impl::Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTre
     : context(recorder.context), facts(usable(fixed).facts), table(context.device, "tree table", 1)
 {
     requireSame(context, usable(fixed).context);
-    const std::unique_ptr<Tree::Impl> source = fixed.release(); // what fails leaves no tree that is a shell
-    octree = std::make_unique<DynamicOctree>(context.uploads, std::move(source->fixed), optionsOf(info));
+    try
+    {
+        octree = std::make_unique<DynamicOctree>(context.uploads, std::move(fixed.impl()->fixed), optionsOf(info));
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Usage) // else nothing was taken
+        {
+            fixed.release();
+        }
+        throw;
+    }
+    fixed.release();
     made_in.push_back(recorder.frame);
     publish(recorder.graph);
 }

@@ -242,9 +242,6 @@ SvdagBuilder::SvdagBuilder(vk::Device& device, Svdag source, const CompressOptio
     {
         m_result.candidate_counts.push_back(level.node_count);
     }
-    m_slot_counts = classSlots(m_candidates, options.table_slots);
-    requireCountable(m_slot_counts);
-    m_readback = {device, sizeof(gpu::ClassSizes)};
 }
 
 void SvdagBuilder::record(vk::FrameGraph& graph)
@@ -301,6 +298,12 @@ void SvdagBuilder::classify(vk::FrameGraph& graph)
 {
     if (!m_classes)
     {
+        if (m_slot_counts.empty()) // not in the constructor: it has taken the tree over, and fails only before that
+        {
+            m_slot_counts = classSlots(m_candidates, m_options.table_slots);
+            m_readback = {m_device, sizeof(gpu::ClassSizes)};
+        }
+        requireCountable(m_slot_counts);
         m_device.memory().require(ClassBuffers::bytes(m_candidates, m_slot_counts), "finding equal nodes");
         m_classes.emplace(m_device, m_candidates, m_slot_counts);
     }

@@ -569,7 +569,8 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     ZvoTracer* made_tracer = nullptr;
     ZvoModel* made_model = nullptr;
     ZvoMoverId mover = 0;
-    const float* const place = initial<ZvoInstanceInfo>().transform;
+    const ZvoInstanceInfo instance = ZVO_INSTANCE_INFO_INIT;
+    const float* const place = instance.transform;
     const double eye[3] = {1, 2, 3};
     ZvoCameraInfo camera = ZVO_CAMERA_INFO_INIT;
     ZvoCameraRays rays{};
