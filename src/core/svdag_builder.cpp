@@ -300,8 +300,8 @@ void SvdagBuilder::classify(vk::FrameGraph& graph)
     {
         if (m_slot_counts.empty()) // not in the constructor: it has taken the tree over, and fails only before that
         {
-            m_slot_counts = classSlots(m_candidates, m_options.table_slots);
             m_readback = {m_device, sizeof(gpu::ClassSizes)};
+            m_slot_counts = classSlots(m_candidates, m_options.table_slots);
         }
         requireCountable(m_slot_counts);
         m_device.memory().require(ClassBuffers::bytes(m_candidates, m_slot_counts), "finding equal nodes");
