@@ -11,6 +11,7 @@
 #include "core/gpu_scene.h"
 #include "core/pipeline.h"
 #include "core/svdag.h"
+#include "core/tree_download.h"
 #include "core/zvo_file.h"
 #include "io/stage_octree.h"
 #include "zvo/error.h"

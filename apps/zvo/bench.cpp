@@ -17,7 +17,7 @@
 #include "core/pipeline.h"
 #include "core/svdag.h"
 #include "core/trace.h"
-#include "core/tree_data.h"
+#include "core/tree_download.h"
 #include "zvo/error.h"
 
 #ifdef ZVO_EMBREE

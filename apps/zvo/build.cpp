@@ -5,11 +5,12 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
-#include "core/attribute_pack.h"
+#include "core/attribute_packer.h"
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/tiled_build.h"
+#include "core/tree_download.h"
 #include "core/zvo_file.h"
 #include "zvo/error.h"
 

@@ -9,11 +9,12 @@
 #include "core/input_error.h"
 #include "core/kernels.h"
 #include "core/svdag.h"
+#include "core/tree_download.h"
 #include "core/zvo_file.h"
-#include "tree_export.h"
 #include "io/glb_write.h"
 #include "io/nvdb_write.h"
 #include "io/vox_file.h"
+#include "tree_export.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

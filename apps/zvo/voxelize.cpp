@@ -8,8 +8,9 @@
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "core/pipeline.h"
-#include "tree_export.h"
+#include "core/tree_download.h"
 #include "io/octree_sha256.h"
+#include "tree_export.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -5,21 +5,8 @@
 #include "core/divide_up.h"
 #include "vk/device.h"
 
-#include <algorithm>
-#include <iterator>
-
 namespace zvo
 {
-
-namespace
-{
-
-constexpr std::uint64_t kPieceMax = 1U << 20; // attributes that the device packs at once
-constexpr std::uint64_t kPieceMin = 1U << 12;
-constexpr std::uint64_t kEnough = 1U << 16;     // what waits for the next piece, at most
-constexpr std::uint64_t kRoomPerAttribute = 32; // bytes: itself, its words, and as much for copying
-
-} // namespace
 
 void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeForm form,
                     vk::BufferOf<gpu::uint>& words)
@@ -47,68 +34,6 @@ PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, co
     const std::uint64_t node_words = packedWords(nodeForm(form), tree.node_attributes.count());
     device.memory().require((voxel_words + node_words) * sizeof(gpu::uint), "packing the attributes");
     return {form, {device, "packed voxel attributes", voxel_words}, {device, "packed node attributes", node_words}};
-}
-
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, Octree& tree)
-{
-    if (!isPacked(form) || tree.attributeForm() != AttributeForm::Bytes8)
-    {
-        return {};
-    }
-    PackedAttributes packed = makePackedAttributes(device.device(), form, tree);
-    std::vector<vk::PassTime> passes = device.run(
-        [&](vk::FrameGraph& graph)
-        {
-            packAttributes(graph, tree.voxel_attributes, form, packed.voxels);
-            packAttributes(graph, tree.node_attributes, nodeForm(form), packed.nodes);
-        });
-    tree.packed = std::move(packed);
-    tree.voxel_attributes = {};
-    tree.node_attributes = {};
-    return passes;
-}
-
-void AttributePacker::append(std::vector<gpu::Attribute>&& more)
-{
-    if (attributes.empty())
-    {
-        attributes = std::move(more);
-    }
-    else
-    {
-        attributes.insert(attributes.end(), more.begin(), more.end());
-    }
-    if (isPacked(m_form) && attributes.size() >= kEnough)
-    {
-        pack(attributes.size() / gpu::kBlockVoxels * gpu::kBlockVoxels); // blocks begin where they do in the whole
-    }
-}
-
-void AttributePacker::finish()
-{
-    if (isPacked(m_form))
-    {
-        pack(attributes.size());
-    }
-}
-
-// The first count attributes, in pieces.
-void AttributePacker::pack(std::uint64_t count)
-{
-    const std::uint64_t room = m_device.device().memory().roomBytes() / kRoomPerAttribute;
-    const std::uint64_t piece_max = std::clamp(room, kPieceMin, kPieceMax) / gpu::kBlockVoxels * gpu::kBlockVoxels;
-    for (std::uint64_t first = 0; first < count; first += piece_max)
-    {
-        const auto piece = std::span(attributes).subspan(first, std::min(count - first, piece_max));
-        const auto from = m_device.makeBuffer<gpu::Attribute>("attributes to pack", piece);
-        vk::BufferOf<gpu::uint> to(m_device.device(), "packed attributes", packedWords(m_form, piece.size()));
-        const std::vector<vk::PassTime> more =
-            m_device.run([&](vk::FrameGraph& graph) { packAttributes(graph, from, m_form, to); });
-        passes.insert(passes.end(), more.begin(), more.end());
-        const std::vector<gpu::uint> packed = m_device.download(to);
-        words.insert(words.end(), packed.begin(), packed.end());
-    }
-    attributes.erase(attributes.begin(), attributes.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 } // namespace zvo

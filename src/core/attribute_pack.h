@@ -4,11 +4,6 @@
 
 #include "core/octree.h"
 #include "vk/frame_graph.h"
-#include "vk/headless.h"
-
-#include <cstdint>
-#include <span>
-#include <vector>
 
 namespace zvo
 {
@@ -21,34 +16,5 @@ void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& a
 /// What the attributes of tree, those of voxels and of nodes, are packed into. Throws Error{Memory} when the device's
 /// budget does not suffice.
 PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, const Octree& tree);
-
-/// Replaces the attributes of tree, those of voxels and of nodes, by such in a packed form, and waits. tree: an octree,
-/// or what a DAG has of one. Nothing happens to a tree without attributes, or for another form. Returns the passes.
-/// Throws Error{Memory} when the device's budget does not suffice.
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, Octree& tree);
-
-/// Attributes that come to the host piece by piece, packed on the device as if all of them had come at once.
-class AttributePacker
-{
-public:
-    /// form: any; what is not packed is collected as it is.
-    AttributePacker(vk::HeadlessDevice& device, AttributeForm form) : m_device(device), m_form(form) {}
-
-    /// Adds attributes behind those that came before, packs what is enough for it, and waits. Throws Error{Memory}.
-    void append(std::vector<gpu::Attribute>&& more);
-
-    /// Packs the rest.
-    void finish();
-
-    std::vector<gpu::Attribute> attributes; ///< those that are not packed; in a packed form none, after finish()
-    std::vector<gpu::uint> words;           ///< of those that are
-    std::vector<vk::PassTime> passes;
-
-private:
-    void pack(std::uint64_t count);
-
-    vk::HeadlessDevice& m_device;
-    AttributeForm m_form;
-};
 
 } // namespace zvo

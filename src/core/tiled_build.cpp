@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "core/tiled_build.h"
 
-#include "core/attribute_pack.h"
+#include "core/attribute_packer.h"
 #include "core/compress.h"
 #include "core/pipeline.h"
 #include "core/svdag_forest.h"
 #include "core/tile_nodes.h"
+#include "core/tree_download.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

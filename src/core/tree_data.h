@@ -3,7 +3,7 @@
 
 #include "core/octree.h"
 #include "core/svdag.h"
-#include "vk/headless.h"
+#include "vk/uploader.h"
 
 #include <cstdint>
 #include <functional>
@@ -76,15 +76,10 @@ inline std::uint64_t cellMask(const gpu::Node& node)
     return node.mask_lo | std::uint64_t{node.mask_hi} << 32;
 }
 
-/// Copies an octree, or a DAG, to the host and waits. An octree must have levels, and its nodes must stand as they were
-/// built: not the enlarged one of a dynamic update. Throws Error{Usage} for one that does not.
-TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree);
-TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag);
-
 /// A tree in device memory, whichever structure it has.
 using DeviceTree = std::variant<Octree, Svdag>;
 
-/// Copies a tree that checkTree accepts to the device and waits. Throws Error{Memory} when the device's budget does not
+/// Copies a tree that checkTree accepts to the device. Throws Error{Memory} when the device's budget does not
 /// suffice.
 DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree);
 

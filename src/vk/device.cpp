@@ -69,7 +69,9 @@ bool contains(const std::vector<std::string>& names, std::string_view name)
 
 Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> kernels)
     : m_handles(complete(handles)),
-      m_functions(Functions::ofDevice(handles.get_instance_proc_addr, handles.instance, handles.device)),
+      m_functions(handles.functions != nullptr
+                      ? *handles.functions
+                      : Functions::ofDevice(handles.get_instance_proc_addr, handles.instance, handles.device)),
       m_report(query(handles.get_instance_proc_addr, handles.instance, handles.physical_device))
 {
     VkPhysicalDeviceProperties properties{};

@@ -48,6 +48,7 @@ struct DeviceHandles
     MemoryCallbacks memory{};                                        // of blocks and big buffers; may be empty
     LogCallback log{};                                               // may be empty
     DeviceOverrides overrides{};                                     // for tests
+    const Functions* functions = nullptr; // already loaded ones, of an owner; null: Device loads those that zvo calls
 };
 
 /// A Vulkan device that somebody else owns, with zvo's function table, memory and kernels on it. Not thread safe.

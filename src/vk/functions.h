@@ -6,83 +6,94 @@
 #endif
 #include <vulkan/vulkan_core.h>
 
+#include <string>
+
 namespace zvo::vk
 {
 
 // clang-format off
-#define ZVO_VK_INSTANCE_FUNCTIONS(X)             \
-    X(vkCreateDevice)                            \
-    X(vkDestroyInstance)                         \
-    X(vkEnumerateDeviceExtensionProperties)      \
-    X(vkEnumeratePhysicalDevices)                \
-    X(vkGetDeviceProcAddr)                       \
-    X(vkGetPhysicalDeviceFeatures2)              \
-    X(vkGetPhysicalDeviceMemoryProperties)       \
-    X(vkGetPhysicalDeviceProperties)             \
-    X(vkGetPhysicalDeviceProperties2)            \
+// What zvo calls on the devices of hosts.
+#define ZVO_VK_INSTANCE_FUNCTIONS(X)       \
+    X(vkGetDeviceProcAddr)                 \
+    X(vkGetPhysicalDeviceFeatures2)        \
+    X(vkGetPhysicalDeviceMemoryProperties) \
+    X(vkGetPhysicalDeviceProperties)       \
+    X(vkGetPhysicalDeviceProperties2)      \
     X(vkGetPhysicalDeviceQueueFamilyProperties)
 
-#define ZVO_VK_DEVICE_FUNCTIONS(X)               \
-    X(vkAllocateCommandBuffers)                  \
-    X(vkAllocateMemory)                          \
-    X(vkBeginCommandBuffer)                      \
-    X(vkBindBufferMemory)                        \
-    X(vkBindImageMemory)                         \
-    X(vkCmdBindPipeline)                         \
-    X(vkCmdCopyBuffer)                           \
-    X(vkCmdCopyBufferToImage)                    \
-    X(vkCmdDispatch)                             \
-    X(vkCmdDispatchBase)                         \
-    X(vkCmdDispatchIndirect)                     \
-    X(vkCmdFillBuffer)                           \
-    X(vkCmdPipelineBarrier2)                     \
-    X(vkCmdPushConstants)                        \
-    X(vkCmdUpdateBuffer)                         \
-    X(vkCmdWriteTimestamp2)                      \
-    X(vkCreateBuffer)                            \
-    X(vkCreateCommandPool)                       \
-    X(vkCreateComputePipelines)                  \
-    X(vkCreateFence)                             \
-    X(vkCreateImage)                             \
-    X(vkCreateImageView)                         \
-    X(vkCreatePipelineCache)                     \
-    X(vkCreatePipelineLayout)                    \
-    X(vkCreateQueryPool)                         \
-    X(vkCreateShaderModule)                      \
-    X(vkDestroyBuffer)                           \
-    X(vkDestroyCommandPool)                      \
-    X(vkDestroyDevice)                           \
-    X(vkDestroyFence)                            \
-    X(vkDestroyImage)                            \
-    X(vkDestroyImageView)                        \
-    X(vkDestroyPipeline)                         \
-    X(vkDestroyPipelineCache)                    \
-    X(vkDestroyPipelineLayout)                   \
-    X(vkDestroyQueryPool)                        \
-    X(vkDestroyShaderModule)                     \
-    X(vkDeviceWaitIdle)                          \
-    X(vkEndCommandBuffer)                        \
-    X(vkFreeMemory)                              \
-    X(vkGetBufferDeviceAddress)                  \
-    X(vkGetBufferMemoryRequirements)             \
-    X(vkGetDeviceQueue)                          \
-    X(vkGetImageMemoryRequirements)              \
-    X(vkGetPipelineCacheData)                    \
-    X(vkGetQueryPoolResults)                     \
-    X(vkMapMemory)                               \
-    X(vkQueueSubmit2)                            \
-    X(vkResetCommandPool)                        \
-    X(vkResetFences)                             \
-    X(vkResetQueryPool)                          \
-    X(vkWaitForFences)
+#define ZVO_VK_DEVICE_FUNCTIONS(X)   \
+    X(vkAllocateMemory)              \
+    X(vkBindBufferMemory)            \
+    X(vkCmdBindPipeline)             \
+    X(vkCmdCopyBuffer)               \
+    X(vkCmdCopyBufferToImage)        \
+    X(vkCmdDispatch)                 \
+    X(vkCmdDispatchBase)             \
+    X(vkCmdDispatchIndirect)         \
+    X(vkCmdFillBuffer)               \
+    X(vkCmdPipelineBarrier2)         \
+    X(vkCmdPushConstants)            \
+    X(vkCmdUpdateBuffer)             \
+    X(vkCmdWriteTimestamp2)          \
+    X(vkCreateBuffer)                \
+    X(vkCreateComputePipelines)      \
+    X(vkCreatePipelineLayout)        \
+    X(vkCreateQueryPool)             \
+    X(vkCreateShaderModule)          \
+    X(vkDestroyBuffer)               \
+    X(vkDestroyPipeline)             \
+    X(vkDestroyPipelineLayout)       \
+    X(vkDestroyQueryPool)            \
+    X(vkDestroyShaderModule)         \
+    X(vkFreeMemory)                  \
+    X(vkGetBufferDeviceAddress)      \
+    X(vkGetBufferMemoryRequirements) \
+    X(vkGetQueryPoolResults)         \
+    X(vkMapMemory)                   \
+    X(vkResetQueryPool)
 
 // Of VK_EXT_debug_utils: null where the instance does not have it.
-#define ZVO_VK_DEBUG_FUNCTIONS(X)                \
-    X(vkCmdBeginDebugUtilsLabelEXT)              \
-    X(vkCmdEndDebugUtilsLabelEXT)                \
-    X(vkCreateDebugUtilsMessengerEXT)            \
-    X(vkDestroyDebugUtilsMessengerEXT)           \
+#define ZVO_VK_DEBUG_FUNCTIONS(X)   \
+    X(vkCmdBeginDebugUtilsLabelEXT) \
+    X(vkCmdEndDebugUtilsLabelEXT)   \
     X(vkSetDebugUtilsObjectNameEXT)
+
+// What only those call who own an instance and a device (vk/owner_functions.h): they submit and wait, zvo does not.
+#define ZVO_VK_OWNER_INSTANCE_FUNCTIONS(X)  \
+    X(vkCreateDevice)                       \
+    X(vkDestroyInstance)                    \
+    X(vkEnumerateDeviceExtensionProperties) \
+    X(vkEnumeratePhysicalDevices)
+
+#define ZVO_VK_OWNER_DEVICE_FUNCTIONS(X) \
+    X(vkAllocateCommandBuffers)          \
+    X(vkBeginCommandBuffer)              \
+    X(vkBindImageMemory)                 \
+    X(vkCreateCommandPool)               \
+    X(vkCreateFence)                     \
+    X(vkCreateImage)                     \
+    X(vkCreateImageView)                 \
+    X(vkCreatePipelineCache)             \
+    X(vkDestroyCommandPool)              \
+    X(vkDestroyDevice)                   \
+    X(vkDestroyFence)                    \
+    X(vkDestroyImage)                    \
+    X(vkDestroyImageView)                \
+    X(vkDestroyPipelineCache)            \
+    X(vkDeviceWaitIdle)                  \
+    X(vkEndCommandBuffer)                \
+    X(vkGetDeviceQueue)                  \
+    X(vkGetImageMemoryRequirements)      \
+    X(vkGetPipelineCacheData)            \
+    X(vkQueueSubmit2)                    \
+    X(vkResetCommandPool)                \
+    X(vkResetFences)                     \
+    X(vkWaitForFences)
+
+// As ZVO_VK_DEBUG_FUNCTIONS.
+#define ZVO_VK_OWNER_DEBUG_FUNCTIONS(X) \
+    X(vkCreateDebugUtilsMessengerEXT)   \
+    X(vkDestroyDebugUtilsMessengerEXT)
 
 // Of windows, and of what is drawn in them: null where the instance has no surfaces or the device no swapchains.
 #define ZVO_VK_WINDOW_INSTANCE_FUNCTIONS(X)      \
@@ -93,23 +104,23 @@ namespace zvo::vk
     X(vkGetPhysicalDeviceSurfacePresentModesKHR) \
     X(vkGetPhysicalDeviceSurfaceSupportKHR)
 
-#define ZVO_VK_WINDOW_DEVICE_FUNCTIONS(X)        \
-    X(vkAcquireNextImageKHR)                     \
-    X(vkCmdBeginRenderPass)                      \
-    X(vkCmdBlitImage)                            \
-    X(vkCmdCopyImageToBuffer)                    \
-    X(vkCmdEndRenderPass)                        \
-    X(vkCreateDescriptorPool)                    \
-    X(vkCreateFramebuffer)                       \
-    X(vkCreateRenderPass)                        \
-    X(vkCreateSemaphore)                         \
-    X(vkCreateSwapchainKHR)                      \
-    X(vkDestroyDescriptorPool)                   \
-    X(vkDestroyFramebuffer)                      \
-    X(vkDestroyRenderPass)                       \
-    X(vkDestroySemaphore)                        \
-    X(vkDestroySwapchainKHR)                     \
-    X(vkGetSwapchainImagesKHR)                   \
+#define ZVO_VK_WINDOW_DEVICE_FUNCTIONS(X) \
+    X(vkAcquireNextImageKHR)              \
+    X(vkCmdBeginRenderPass)               \
+    X(vkCmdBlitImage)                     \
+    X(vkCmdCopyImageToBuffer)             \
+    X(vkCmdEndRenderPass)                 \
+    X(vkCreateDescriptorPool)             \
+    X(vkCreateFramebuffer)                \
+    X(vkCreateRenderPass)                 \
+    X(vkCreateSemaphore)                  \
+    X(vkCreateSwapchainKHR)               \
+    X(vkDestroyDescriptorPool)            \
+    X(vkDestroyFramebuffer)               \
+    X(vkDestroyRenderPass)                \
+    X(vkDestroySemaphore)                 \
+    X(vkDestroySwapchainKHR)              \
+    X(vkGetSwapchainImagesKHR)            \
     X(vkQueuePresentKHR)
 // clang-format on
 
@@ -117,10 +128,10 @@ namespace zvo::vk
 /// devices work in one process and calls go to the driver without the loader's trampoline.
 struct Functions
 {
-    /// The functions of an instance; what it does not have stays null, as do all device functions.
+    /// Those of an instance that zvo calls; what it does not have stays null, as do all others.
     static Functions ofInstance(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance);
 
-    /// The functions of an instance and a device. Throws Error{Device} naming those that are missing.
+    /// Those of an instance and a device that zvo calls. Throws Error{Device} naming those that are missing.
     static Functions ofDevice(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkDevice device);
 
     PFN_vkGetInstanceProcAddr vkGetInstanceProcAddr = nullptr;
@@ -128,9 +139,15 @@ struct Functions
     ZVO_VK_INSTANCE_FUNCTIONS(ZVO_VK_MEMBER)
     ZVO_VK_DEVICE_FUNCTIONS(ZVO_VK_MEMBER)
     ZVO_VK_DEBUG_FUNCTIONS(ZVO_VK_MEMBER)
+    ZVO_VK_OWNER_INSTANCE_FUNCTIONS(ZVO_VK_MEMBER)
+    ZVO_VK_OWNER_DEVICE_FUNCTIONS(ZVO_VK_MEMBER)
+    ZVO_VK_OWNER_DEBUG_FUNCTIONS(ZVO_VK_MEMBER)
     ZVO_VK_WINDOW_INSTANCE_FUNCTIONS(ZVO_VK_MEMBER)
     ZVO_VK_WINDOW_DEVICE_FUNCTIONS(ZVO_VK_MEMBER)
 #undef ZVO_VK_MEMBER
 };
+
+/// Throws Error{Device} where missing, names with a space before each, is not empty.
+void requireFunctions(const std::string& missing);
 
 } // namespace zvo::vk

@@ -5,6 +5,7 @@
 #include "vk/command_context.h"
 #include "vk/flight.h"
 #include "vk/instance.h"
+#include "vk/owner_functions.h"
 #include "vk/pipeline_cache.h"
 #include "vk/retired.h"
 #include "zvo/error.h"
@@ -73,7 +74,7 @@ public:
         VK_CHECK(instance.fn().vkCreateDevice(report.physical_device, &info, nullptr, &m_handle));
         try
         {
-            m_functions = Functions::ofDevice(instance.fn().vkGetInstanceProcAddr, instance.handle(), m_handle);
+            m_functions = ownerFunctions(instance.fn().vkGetInstanceProcAddr, instance.handle(), m_handle);
         }
         catch (...)
         {
@@ -276,7 +277,8 @@ struct HeadlessDevice::Impl
                 .pipeline_cache = cache.handle(),
                 .memory_budget_bytes = options.memory_budget_bytes,
                 .memory_budget_name = options.memory_budget_name,
-                .overrides = options.overrides};
+                .overrides = options.overrides,
+                .functions = &logical.fn()};
     }
 
     void transfer(const std::function<void(FrameGraph&)>& record)

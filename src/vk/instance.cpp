@@ -2,6 +2,7 @@
 #include "vk/instance.h"
 
 #include "vk/check.h"
+#include "vk/owner_functions.h"
 #include "zvo/error.h"
 
 #include <dlfcn.h>
@@ -178,7 +179,7 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
                                                    "as the package mesa-vulkan-drivers",
                                                    resultName(result)));
     }
-    m_functions = Functions::ofInstance(get, m_handle);
+    m_functions = ownerFunctions(get, m_handle);
     if (validation && m_functions.vkCreateDebugUtilsMessengerEXT(m_handle, &messenger, nullptr, &m_messenger) < 0)
     {
         m_messenger = VK_NULL_HANDLE; // the messages still come through the one given to vkCreateInstance

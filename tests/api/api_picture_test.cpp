@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a host gets of models that stand still.
 #include "api_scene.h"
+#include "core/tree_download.h"
 #include "core/zvo_file.h"
 
 #include <gtest/gtest.h>

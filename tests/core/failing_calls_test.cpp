@@ -2,7 +2,7 @@
 // Vulkan calls of a small run are made to fail: an error that says so, and nothing left behind. On a new device every
 // seventh one, all of them in scripts/check-sanitizers; on a device that goes on, every one.
 #include "core/animation.h"
-#include "core/attribute_pack.h"
+#include "core/attribute_packer.h"
 #include "core/camera.h"
 #include "core/compress.h"
 #include "core/kernels.h"
@@ -11,6 +11,7 @@
 #include "core/svdag.h"
 #include "core/tiled_build.h"
 #include "core/trace.h"
+#include "core/tree_download.h"
 #include "core/zvo_file.h"
 #include "io/octree_sha256.h"
 #include "io/sha256.h"

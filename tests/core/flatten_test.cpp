@@ -4,6 +4,7 @@
 
 #include "core/kernels.h"
 #include "core/tree_check.h"
+#include "core/tree_download.h"
 #include "support/device.h"
 #include "support/edit_machine.h"
 #include "support/mover_scenery.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Kernels of a host that trace with zvo/trace.glsl (tests/glsl) see what zvo's own kernels see.
-#include "core/attribute_pack.h"
+#include "core/attribute_packer.h"
 #include "core/dynamic_octree.h"
 #include "core/kernels.h"
 #include "core/trace_passes.h"

@@ -4,6 +4,7 @@
 #include "core/kernels.h"
 #include "core/pipeline.h"
 #include "core/tree_check.h"
+#include "core/tree_download.h"
 #include "io/octree_sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"

@@ -2,7 +2,7 @@
 // Every kernel of the library, run once on work so small that a tool which slows programs down a hundredfold can watch:
 // valgrind, instrumented kernels, poisoned memory.
 #include "core/animation.h"
-#include "core/attribute_pack.h"
+#include "core/attribute_packer.h"
 #include "core/compress.h"
 #include "core/deform_mesh.h"
 #include "core/dynamic_octree.h"

@@ -3,6 +3,7 @@
 
 #include "vk/check.h"
 #include "vk/instance.h"
+#include "vk/owner_functions.h"
 #include "zvo/error.h"
 
 #include <algorithm>
@@ -175,7 +176,7 @@ void HostDevice::makeInstance()
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     VK_CHECK(globalFunction<PFN_vkCreateInstance>("vkCreateInstance")(&info, nullptr, &m_instance));
-    m_functions = vk::Functions::ofInstance(m_get, m_instance);
+    m_functions = vk::ownerFunctions(m_get, m_instance);
     if (m_options.validation)
     {
         VK_CHECK(m_functions.vkCreateDebugUtilsMessengerEXT(m_instance, &messenger, nullptr, &m_messenger));
@@ -226,7 +227,7 @@ void HostDevice::makeDevice()
     VK_CHECK(m_functions.vkCreateDevice(m_physical_device, &m_info, nullptr, &m_device));
     m_info.queueCreateInfoCount = 0; // from here on, m_info is only what is declared
     m_info.pQueueCreateInfos = nullptr;
-    m_functions = vk::Functions::ofDevice(m_get, m_instance, m_device);
+    m_functions = vk::ownerFunctions(m_get, m_instance, m_device);
     m_submit = load<PFN_vkQueueSubmit>("vkQueueSubmit");
     m_wait = load<PFN_vkQueueWaitIdle>("vkQueueWaitIdle");
     m_functions.vkGetDeviceQueue(m_device, m_queue_family, 0, &m_queue);
