@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/report.h"
+#include "zvo/version.h"
 
 #include <algorithm>
 #include <numeric>
@@ -26,7 +27,7 @@ Json headJson(const std::string& schema, const vk::DeviceReport& device, const V
 {
     Json json;
     json["schema"] = schema;
-    json["zvo"] = ZVO_VERSION;
+    json["zvo"] = ZVO_VERSION_TEXT;
     json["device"] = deviceJson(device);
     json["grid"] = gridJson(grid);
     json["resolution"] = grid.resolution();

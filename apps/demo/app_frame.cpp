@@ -5,6 +5,7 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "zvo/error.h"
+#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -216,7 +217,7 @@ void App::writeStats()
     }
     cli::Json json;
     json["schema"] = "zvo.demo/1";
-    json["zvo"] = ZVO_VERSION;
+    json["zvo"] = ZVO_VERSION_TEXT;
     json["device"] = cli::deviceJson(m_device.device().report());
     json["frames"] = m_frame;
     json["frames_drawn"] = m_drawn_count;

@@ -5,6 +5,7 @@
 #include "common/parse.h"
 #include "common/view.h"
 #include "zvo/error.h"
+#include "zvo/version.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -181,7 +182,7 @@ std::variant<std::string, DemoOptions> parseCommandLine(int argc, const char* co
     CLI::App app("zvo-demo shows triangle scenes, and trees, as voxels in a window.", "zvo-demo");
     app.get_formatter()->column_width(kHelpColumn);
     app.footer(kFooter);
-    app.set_version_flag("--version", "zvo-demo " ZVO_VERSION, "print the version");
+    app.set_version_flag("--version", "zvo-demo " ZVO_VERSION_TEXT, "print the version");
     DemoOptions options;
     cli::addVoxelOptions(app, options.voxels, "; or one .zvo or .vox file");
     app.get_option("SCENE")->required(false);

@@ -10,6 +10,7 @@
 #include "core/gpu_scene.h"
 #include "core/kernels.h"
 #include "table.h"
+#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -201,7 +202,7 @@ std::string tableHead(const vk::DeviceReport& device, const BenchOptions& option
 {
     return fmt::format("zvo {} on {} ({}, {}), {} coverage. Voxelization and octree construction, GPU milliseconds: "
                        "median (min-max) of {} warm {}.\n\n",
-                       ZVO_VERSION, device.name, device.type, device.driver, coverageName(options.coverage),
+                       ZVO_VERSION_TEXT, device.name, device.type, device.driver, coverageName(options.coverage),
                        options.run_count, options.run_count == 1 ? "run" : "runs") +
            columnNames(columns());
 }
@@ -239,7 +240,7 @@ Json balanceJson(const vk::DeviceReport& device, const BenchOptions& options, co
 {
     Json json;
     json["schema"] = "zvo.balance/1";
-    json["zvo"] = ZVO_VERSION;
+    json["zvo"] = ZVO_VERSION_TEXT;
     json["device"] = deviceJson(device);
     json["coverage"] = coverageName(options.coverage);
     json["runs"] = options.run_count;

@@ -12,6 +12,7 @@
 #include "core/trace.h"
 #include "io/stage_octree.h"
 #include "table.h"
+#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -301,7 +302,7 @@ std::string tableHead(const vk::DeviceReport& device, std::uint32_t run_count)
     return fmt::format("zvo {} on {} ({}, {}). GPU milliseconds: median (min-max), of all frames or, for rebuilds, "
                        "pictures and the larger grid, of {}. "
                        "Trace: beam grid and primary rays, {}x{}.\n\n",
-                       ZVO_VERSION, device.name, device.type, device.driver, run_count, kWidth, kHeight) +
+                       ZVO_VERSION_TEXT, device.name, device.type, device.driver, run_count, kWidth, kHeight) +
            columnNames(columns());
 }
 
@@ -309,7 +310,7 @@ Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, con
 {
     Json json;
     json["schema"] = "zvo.bench_dynamic/1";
-    json["zvo"] = ZVO_VERSION;
+    json["zvo"] = ZVO_VERSION_TEXT;
     json["device"] = deviceJson(device);
     json["width"] = kWidth;
     json["height"] = kHeight;

@@ -15,6 +15,7 @@
 #include "morton.h"
 #include "table.h"
 #include "zvo/error.h"
+#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -371,7 +372,7 @@ std::string tableHead(const vk::DeviceReport& device, const BenchOptions& option
     return fmt::format(
         "zvo {} on {} ({}, {}). Strokes of a sphere on an {}: GPU milliseconds, median / 95 of 100, of {} "
         "strokes from the unedited scene on, and of the last {} of many of radius {}.\n",
-        ZVO_VERSION, device.name, device.type, device.driver,
+        ZVO_VERSION_TEXT, device.name, device.type, device.driver,
         options.structure == TreeStructure::Svdag ? "octree's DAG" : "octree", options.run_count, kStrokesMeasured,
         kHistoryRadius);
 }
@@ -401,7 +402,7 @@ Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, con
 {
     Json json;
     json["schema"] = "zvo.bench_edit/1";
-    json["zvo"] = ZVO_VERSION;
+    json["zvo"] = ZVO_VERSION_TEXT;
     json["device"] = deviceJson(device);
     json["coverage"] = coverageName(options.coverage);
     json["attributes"] = options.attributes ? "full" : "none";

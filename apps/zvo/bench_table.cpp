@@ -2,6 +2,7 @@
 #include "bench_table.h"
 
 #include "table.h"
+#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -204,7 +205,7 @@ std::string tableHead(const BenchHeader& header)
                        "many pictures. Compress: of voxelize and build. Trace: octree and DAG in turns, ratio of "
                        "neighbours. Rays: primary, {}x{}, million a second; ratio: zvo / Embree "
                        "(packets of 8 or 16 rays, whichever is faster, and single rays; on all processors).\n\n",
-                       ZVO_VERSION, header.device.name, header.device.type, header.device.driver, header.run_count,
+                       ZVO_VERSION_TEXT, header.device.name, header.device.type, header.device.driver, header.run_count,
                        header.run_count == 1 ? "run" : "runs", kTraceTurns, header.width, header.height) +
            columnNames(columns());
 }
@@ -237,7 +238,7 @@ Json benchJson(const BenchHeader& header, const std::vector<BenchRow>& rows)
 {
     Json json;
     json["schema"] = "zvo.bench/1";
-    json["zvo"] = ZVO_VERSION;
+    json["zvo"] = ZVO_VERSION_TEXT;
     json["device"] = deviceJson(header.device);
     json["width"] = header.width;
     json["height"] = header.height;

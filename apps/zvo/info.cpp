@@ -6,6 +6,7 @@
 #include "vk/headless.h"
 #include "vk/instance.h"
 #include "zvo/error.h"
+#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +39,7 @@ Json devicesJson(const std::vector<vk::DeviceReport>& reports, const vk::DeviceR
         device["chosen"] = &report == chosen;
         devices.push_back(device);
     }
-    return {{"schema", "zvo.info/1"}, {"zvo", ZVO_VERSION}, {"devices", devices}};
+    return {{"schema", "zvo.info/1"}, {"zvo", ZVO_VERSION_TEXT}, {"devices", devices}};
 }
 
 std::string deviceText(const vk::DeviceReport& report, std::size_t index, bool chosen)

@@ -5,6 +5,7 @@
 #include "common/parse.h"
 #include "common/view.h"
 #include "zvo/error.h"
+#include "zvo/version.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -304,7 +305,7 @@ Command parseCommandLine(int argc, const char* const* argv)
     CLI::App app("zvo turns triangle scenes into sparse voxel octrees on the GPU and ray traces them.", "zvo");
     app.get_formatter()->column_width(kHelpColumn);
     app.footer(kMainFooter);
-    app.set_version_flag("--version", "zvo " ZVO_VERSION, "print the version");
+    app.set_version_flag("--version", "zvo " ZVO_VERSION_TEXT, "print the version");
     RenderOptions render;
     VoxelizeOptions voxelize;
     BuildFileOptions build;

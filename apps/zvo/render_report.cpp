@@ -6,6 +6,7 @@
 #include "core/compress.h"
 #include "core/zvo_file.h"
 #include "io/octree_sha256.h"
+#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +50,7 @@ void RenderReport::addFile(const TreeData& tree)
 {
     m_built = fmt::format("{} voxels of {}^3 in {} nodes", tree.voxel_count, tree.grid.resolution(), tree.nodes.size());
     m_json["schema"] = "zvo.render_tree/1";
-    m_json["zvo"] = ZVO_VERSION;
+    m_json["zvo"] = ZVO_VERSION_TEXT;
     m_json["device"] = deviceJson(m_device.device().report());
     m_json["structure"] = structureName(tree.structure);
     m_json["grid"] = gridJson(tree.grid);
