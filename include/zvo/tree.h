@@ -49,9 +49,9 @@ public:
     [[nodiscard]] std::uint64_t address() const;
 
     struct Impl;
-    explicit Tree(std::unique_ptr<Impl> impl);
+    ZVO_LOCAL explicit Tree(std::unique_ptr<Impl> impl);      // of the library
     [[nodiscard]] Impl* impl() const { return m_impl.get(); } // of the library; null where another one took it over
-    std::unique_ptr<Impl> release();
+    ZVO_LOCAL std::unique_ptr<Impl> release();                // of the library
 
 private:
     std::unique_ptr<Impl> m_impl;

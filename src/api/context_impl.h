@@ -30,7 +30,7 @@ struct FrameState
     std::size_t pass_count = 0;       // recorded by earlier Recorders
 };
 
-struct Context::Impl
+struct ZVO_LOCAL Context::Impl
 {
     explicit Impl(const ContextInfo& info);
 
@@ -58,7 +58,7 @@ struct Context::Impl
     bool is_recording = false;
 };
 
-struct Recorder::Impl
+struct ZVO_LOCAL Recorder::Impl
 {
     Context::Impl& context;
     std::shared_ptr<FrameState> frame;

@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-struct DynamicTree::Impl
+struct ZVO_LOCAL DynamicTree::Impl
 {
     Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTreeInfo& info);
     ~Impl();

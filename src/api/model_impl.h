@@ -11,7 +11,7 @@
 namespace zvo
 {
 
-struct Model::Impl
+struct ZVO_LOCAL Model::Impl
 {
     Impl(Context::Impl& context_impl, std::shared_ptr<FrameState> frame)
         : context(context_impl), made_in(std::move(frame))

@@ -88,7 +88,7 @@ Vec3 arrayOf(const gpu::vec3& v)
 
 } // namespace
 
-struct Tracer::Impl
+struct ZVO_LOCAL Tracer::Impl
 {
     Impl(Context::Impl& context_impl, std::uint32_t width, std::uint32_t height, VkFormat format)
         : context(context_impl), buffers(std::make_unique<TraceBuffers>(context.device, checkedEdge(width),

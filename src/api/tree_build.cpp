@@ -65,7 +65,7 @@ private:
 
 } // namespace
 
-struct TreeBuild::Impl final : TreeJob
+struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
 {
     Impl(Context::Impl& context_impl, const Model& model, const TreeBuildInfo& info)
         : TreeJob(context_impl), mesh(model.impl()->mesh), form(info.form),
@@ -180,7 +180,7 @@ const std::map<std::string, std::uint64_t>& TreeBuild::dropped() const
     return m_impl->dropped;
 }
 
-struct TreeCompression::Impl final : TreeJob
+struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
 {
     Impl(Context::Impl& context_impl, Tree&& octree)
         : TreeJob(context_impl), source(octree.release()),

@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-struct Tree::Impl
+struct ZVO_LOCAL Tree::Impl
 {
     Impl(Context::Impl& context_impl, StaticTree&& tree);
     ~Impl()

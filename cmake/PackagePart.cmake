@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: MIT
+# zvo_package_part(TARGET): the objects of that static library go into the installed libraries, static and shared. What
+# these export is what is marked so (include/zvo/export.h).
+function(zvo_package_part target)
+    set_target_properties(${target} PROPERTIES
+        POSITION_INDEPENDENT_CODE ON
+        CXX_VISIBILITY_PRESET hidden
+        VISIBILITY_INLINES_HIDDEN ON)
+    # Constants of templates are global to the whole process otherwise, however hidden.
+    target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections
+                                             $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+endfunction()
