@@ -90,6 +90,7 @@ std::shared_ptr<FrameState> Context::Impl::beginFrame(std::uint64_t number)
         frame->timers->reset();
     }
     frames.push_back(frame);
+    was_lost = false;
     retired.beginFrame(number);
     return frame;
 }
@@ -128,6 +129,12 @@ void Context::frameLost()
     {
         return;
     }
+    if (impl.was_lost)
+    {
+        throw Error(ErrorCode::Usage, "only the frame that was begun last can be lost, and it is: those before it must "
+                                      "reach the device");
+    }
+    impl.was_lost = true;
     FrameState& state = *impl.frames.back();
     state.is_lost = true;
     if (state.timers)

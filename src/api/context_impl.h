@@ -56,6 +56,7 @@ struct ZVO_LOCAL Context::Impl
     std::vector<PassTime> times = {};
     std::uint64_t next_version = 1; // of what can be traced
     bool is_recording = false;
+    bool was_lost = false; // the frame that was begun last
 };
 
 struct ZVO_LOCAL Recorder::Impl

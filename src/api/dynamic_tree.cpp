@@ -56,7 +56,7 @@ DynamicTree::Impl::Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTre
         throw;
     }
     fixed.release();
-    made_in.push_back(recorder.frame);
+    made_in = recorder.frame;
     publish(recorder.graph);
 }
 
@@ -68,11 +68,11 @@ DynamicTree::Impl::~Impl()
 
 void DynamicTree::Impl::learn()
 {
-    for (const std::shared_ptr<FrameState>& frame : made_in)
+    if (made_in)
     {
-        requireUsable(*frame, "dynamic tree, or a mover of it,");
+        requireUsable(*made_in, "dynamic tree");
+        made_in = made_in->is_done ? nullptr : made_in;
     }
-    std::erase_if(made_in, [](const auto& frame) { return frame->is_done; });
     while (!frames.empty() && frames.front().host->is_done)
     {
         const Frame frame = std::move(frames.front());
@@ -88,6 +88,14 @@ void DynamicTree::Impl::learn()
         frames.pop_back();
         version = context.next_version++;
     }
+    for (const NewMover& made : new_movers)
+    {
+        if (made.made_in->is_lost)
+        {
+            octree->remove(made.mover); // what its vertices are was not uploaded
+        }
+    }
+    std::erase_if(new_movers, [](const NewMover& made) { return made.made_in->is_lost || made.made_in->is_done; });
 }
 
 void DynamicTree::Impl::enter(Recorder::Impl& recorder)
@@ -125,7 +133,7 @@ MoverId DynamicTree::addMover(Recorder& recorder, const Model& model, const Mat4
     const auto& mesh = model.impl()->mesh;
     const MoverId mover =
         recording(recorder, [&](Recorder::Impl&) { return m_impl->octree->add(mesh, poseOf(*mesh, to_world)); });
-    m_impl->made_in.push_back(recorder.impl().frame);
+    m_impl->new_movers.push_back({recorder.impl().frame, mover});
     return mover;
 }
 
@@ -139,6 +147,7 @@ void DynamicTree::removeMover(MoverId mover)
 {
     m_impl->learn();
     m_impl->octree->remove(mover);
+    std::erase_if(m_impl->new_movers, [&](const Impl::NewMover& made) { return made.mover == mover; });
 }
 
 bool DynamicTree::update(Recorder& recorder, double budget_ms)

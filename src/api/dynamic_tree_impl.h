@@ -21,7 +21,7 @@ struct ZVO_LOCAL DynamicTree::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// Learns what became of frames. Throws Error{Usage} where the tree, or a mover, was lost with one.
+    /// Learns what became of frames; movers that were lost with one go. Throws Error{Usage} where the tree was.
     void learn();
 
     /// The octree records into this frame.
@@ -57,12 +57,20 @@ struct ZVO_LOCAL DynamicTree::Impl
         std::uint64_t number;
     };
 
+    // A mover that was made in a frame that is not known to be done.
+    struct NewMover
+    {
+        std::shared_ptr<FrameState> made_in;
+        MoverId mover;
+    };
+
     Context::Impl& context;
     TreeFacts facts;
     std::unique_ptr<DynamicOctree> octree;
     vk::BufferOf<gpu::TreeTable> table;
     std::deque<Frame> frames;
-    std::vector<std::shared_ptr<FrameState>> made_in; // of the tree and its movers, unless known to be done
+    std::shared_ptr<FrameState> made_in; // of the tree; null: known to be done
+    std::vector<NewMover> new_movers;
     std::vector<UpdateFacts> updates;
     std::uint64_t version = 0; // of what is traced
 };

@@ -320,6 +320,14 @@ TEST(ApiContract, MisuseIsAnErrorThatSaysWhat)
             const Recorder recorder(host.context, commands, host.last_frame); // which is done
         },
         "must grow");
+    for (int i = 1; i <= 2; ++i) // of which only the second one can be lost
+    {
+        VkCommandBuffer commands = host.device.begin();
+        const Recorder recorder(host.context, commands, host.last_frame + static_cast<std::uint64_t>(i));
+    }
+    host.context.frameLost();
+    expectUsage([&] { host.context.frameLost(); }, "begun last");
+    host.context.frameDone(++host.last_frame);
     TreeBuild build(host.context, model, {.grid = test::apiGrid(4)});
     expectUsage([&] { (void)build.take(); }, "not there");
     host.finish(build);

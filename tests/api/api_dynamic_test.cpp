@@ -150,6 +150,37 @@ TEST_F(ApiDynamic, ALostFrameTakesNothingAlong)
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
 }
 
+TEST_F(ApiDynamic, AMoverOfALostFrameIsLostAlone)
+{
+    DynamicTree tree = dynamicTree(fixedTree(false));
+    const Model model = ball();
+    update(tree);
+    const auto before = m_host.picture(tree, test::apiCamera());
+    MoverId lost = 0;
+    MoverId removed = 0;
+    m_host.lostFrame(
+        [&](Recorder& recorder, VkCommandBuffer)
+        {
+            lost = tree.addMover(recorder, model, test::movedBy(2, 5, 5));
+            removed = tree.addMover(recorder, model, test::movedBy(3, 5, 5));
+            tree.update(recorder);
+            tree.removeMover(removed);
+        });
+    update(tree);
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
+    EXPECT_THROW(tree.placeMover(lost, test::movedBy(4, 5, 5)), Error);
+    EXPECT_THROW(tree.removeMover(lost), Error);
+    EXPECT_THROW(tree.removeMover(removed), Error);
+
+    MoverId mover = 0;
+    m_host.frame([&](Recorder& recorder, VkCommandBuffer)
+                 { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); }); // it was made before
+    tree.placeMover(mover, test::movedBy(8.25F, 5, 5));
+    update(tree);
+    EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
+}
+
 TEST_F(ApiDynamic, WhatWasMadeInALostFrameIsLost)
 {
     const test::HostModel description(test::apiScene());
