@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
 #include <set>
 
 namespace zvo
@@ -147,6 +148,21 @@ TEST(ApiPicture, TwoContextsDoNotKnowOfEachOther)
         EXPECT_THROW(one.picture(tree_two, test::apiCamera()), Error);
     }
     EXPECT_EQ(one.picture(tree_one, test::apiCamera()), picture);
+}
+
+TEST(ApiPicture, TwoThreadsMayUseTwoContexts)
+{
+    const Scene scene = test::apiScene(); // made before, on this thread
+    const auto pictureOf = [&scene]
+    {
+        test::EmbeddingHost host;
+        const test::HostModel model(scene);
+        const Tree tree = host.build(host.upload(model.info()), {.grid = test::apiGrid()});
+        return host.picture(tree, test::apiCamera());
+    };
+    auto other = std::async(std::launch::async, pictureOf);
+    const std::vector<std::uint32_t> picture = pictureOf();
+    EXPECT_EQ(other.get(), picture);
 }
 
 TEST(ApiPicture, DepthIsWhereTheVoxelsAre)
