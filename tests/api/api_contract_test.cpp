@@ -197,7 +197,7 @@ TEST(ApiContract, EveryAllocationOfTheDriverMayFail)
 
 TEST(ApiContract, AllocationsOfTheDriverMayFailWhileKernelsAreMade)
 {
-    constexpr std::uint64_t kStep = 17; // a new context takes its time
+    constexpr std::uint64_t kStep = 61; // a new context takes its time
     bool was_reached = true;
     std::uint64_t failures = 0;
     for (std::uint64_t number = 0; was_reached; number += kStep)
