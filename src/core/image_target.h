@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures in images of a host. 
+// Pictures in images of a host.
 //
 // zvo binds no descriptors: pictures and depth are made in buffers, in the bytes of the image's format, and copied. So
 // a host's image needs no usage but VK_IMAGE_USAGE_TRANSFER_DST_BIT, and no view. zvo records no barrier for it and
