@@ -197,6 +197,7 @@ vk::DeviceHandles intercept(const char* name, PFN_vkVoidFunction replacement)
     vk::DeviceHandles handles = device().device().handles();
     g_interception = {handles.get_instance_proc_addr, nullptr, name, replacement};
     handles.get_instance_proc_addr = interceptedInstanceProcAddr;
+    handles.functions = nullptr; // those of the shared device
     return handles;
 }
 
