@@ -7,6 +7,7 @@
 #include "support/device.h"
 #include "support/host_image.h"
 #include "support/trace_octrees.h"
+#include "vk/owner_functions.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -361,6 +362,8 @@ TEST_F(ImageTargets, DepthImagesNeedAQueueThatDraws)
     vk::DeviceHandles handles = device().device().handles();
     g_instance_proc_addr = handles.get_instance_proc_addr;
     handles.get_instance_proc_addr = computeOnlyProcAddr;
+    const vk::Functions functions = vk::ownerFunctions(computeOnlyProcAddr, handles.instance, handles.device);
+    handles.functions = &functions;
     vk::Device computes(handles, zvoKernels());
     EXPECT_EQ(computes.queueFlags() & VK_QUEUE_GRAPHICS_BIT, 0U);
     EXPECT_NE(computes.queueFlags() & VK_QUEUE_COMPUTE_BIT, 0U);

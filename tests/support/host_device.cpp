@@ -77,6 +77,13 @@ vk::DeviceHandles HostDevice::handles() const
             .log = m_options.log};
 }
 
+vk::DeviceHandles HostDevice::ownerHandles() const
+{
+    vk::DeviceHandles result = handles();
+    result.functions = &m_owner_functions;
+    return result;
+}
+
 VkCommandBuffer HostDevice::begin()
 {
     VkCommandBufferAllocateInfo info{};
@@ -228,6 +235,7 @@ void HostDevice::makeDevice()
     m_info.queueCreateInfoCount = 0; // from here on, m_info is only what is declared
     m_info.pQueueCreateInfos = nullptr;
     m_functions = vk::ownerFunctions(m_get, m_instance, m_device);
+    m_owner_functions = vk::ownerFunctions(handles().get_instance_proc_addr, m_instance, m_device);
     m_submit = load<PFN_vkQueueSubmit>("vkQueueSubmit");
     m_wait = load<PFN_vkQueueWaitIdle>("vkQueueWaitIdle");
     m_functions.vkGetDeviceQueue(m_device, m_queue_family, 0, &m_queue);

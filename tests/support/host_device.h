@@ -54,6 +54,10 @@ public:
     /// What the host hands over; the declaration points to structs of this HostDevice.
     [[nodiscard]] vk::DeviceHandles handles() const;
 
+    /// The same with functions that own devices, images and command buffers, too: for tests whose vk::Device takes the
+    /// host's part as well. They come from HostOptions::zvo_functions.
+    [[nodiscard]] vk::DeviceHandles ownerHandles() const;
+
     [[nodiscard]] VkInstance instance() const { return m_instance; }
     [[nodiscard]] VkPhysicalDevice physicalDevice() const { return m_physical_device; }
     [[nodiscard]] VkDevice device() const { return m_device; }
@@ -103,6 +107,7 @@ private:
     std::uint32_t m_queue_family = 0;
     VkCommandPool m_pool = VK_NULL_HANDLE;
     vk::Functions m_functions;
+    vk::Functions m_owner_functions; // as zvo's
     PFN_vkQueueSubmit m_submit = nullptr;
     PFN_vkQueueWaitIdle m_wait = nullptr;
 };

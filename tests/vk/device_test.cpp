@@ -308,7 +308,7 @@ TEST(HostDevice, SeesWhatZvoSubmitsAndWaitsForAndNotItsOwn)
     options.zvo_functions = test::failingVulkan();
     test::HostDevice host(options);
     {
-        vk::Device guest(host.handles(), testKernels());
+        vk::Device guest(host.ownerHandles(), testKernels());
         vk::BufferOf<gpu::uint> values(guest, "values", 1000);
         host.run(
             [&](VkCommandBuffer commands)

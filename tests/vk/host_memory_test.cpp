@@ -93,7 +93,7 @@ TEST(MemoryCallbacks, ServeBlocksAndBigBuffersAndGetThemBack)
     {
         MemoryHost world(budget);
         {
-            vk::Device device(world.host->handles(), testKernels());
+            vk::Device device(world.host->ownerHandles(), testKernels());
             work(*world.host, device);
             work(*world.host, device);
             const vk::Buffer big(device, "a big buffer", 70 * kMiB + 4);
@@ -110,7 +110,7 @@ TEST(MemoryCallbacks, ServeBlocksAndBigBuffersAndGetThemBack)
 TEST(MemoryCallbacks, AreCountedAgainstTheBudget)
 {
     MemoryHost world(10 * kMiB);
-    vk::Device device(world.host->handles(), testKernels());
+    vk::Device device(world.host->ownerHandles(), testKernels());
     const vk::Buffer most(device, "most", 9 * kMiB);
     const std::uint64_t requests = world.memory.requestCount();
     messageOf([&] { const vk::Buffer more(device, "more", 2 * kMiB); }, ErrorCode::Memory);
@@ -121,7 +121,7 @@ TEST(MemoryCallbacks, AreCountedAgainstTheBudget)
 TEST(MemoryCallbacks, RangesInABlockAreAlignedAsAddressesAre)
 {
     MemoryHost world;
-    vk::Device device(world.host->handles(), testKernels());
+    vk::Device device(world.host->ownerHandles(), testKernels());
     std::vector<vk::Buffer> buffers;
     for (std::uint64_t bytes : {4u, 20u, 4096u, 12u})
     {
@@ -141,7 +141,7 @@ TEST(MemoryCallbacks, AShortHostGetsSmallerBlocks)
 {
     MemoryHost world;
     world.memory.setLargest(kMiB);
-    vk::Device device(world.host->handles(), testKernels());
+    vk::Device device(world.host->ownerHandles(), testKernels());
     const vk::Buffer a(device, "a", 1000);
     const vk::Buffer b(device, "b", 1000);
     EXPECT_NE(a.address(), b.address());
@@ -160,7 +160,7 @@ TEST(MemoryCallbacks, EveryRequestMayFail)
         bool failed = true;
         for (std::uint64_t number = 0; failed; ++number)
         {
-            vk::Device device(world.host->handles(), testKernels()); // without blocks yet
+            vk::Device device(world.host->ownerHandles(), testKernels()); // without blocks yet
             world.memory.failRequests(number, count,
                                       number % 2 == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : VK_ERROR_OUT_OF_HOST_MEMORY);
             bool thrown = false;
@@ -189,7 +189,7 @@ TEST(MemoryCallbacks, EveryRequestMayFail)
 TEST(MemoryCallbacks, AFailureOfAnotherKindIsNamed)
 {
     MemoryHost world;
-    vk::Device device(world.host->handles(), testKernels());
+    vk::Device device(world.host->ownerHandles(), testKernels());
     world.memory.failRequests(0, 1, VK_ERROR_UNKNOWN);
     const std::string message = messageOf([&] { const vk::Buffer a(device, "a", 100); }, ErrorCode::Other);
     EXPECT_NE(message.find("MemoryCallbacks::allocate failed with VK_ERROR_UNKNOWN"), std::string::npos) << message;
@@ -206,7 +206,7 @@ TEST(MemoryCallbacks, WhatCannotBeIsRefusedAndReturned)
     for (const auto& fault : faults)
     {
         MemoryHost world;
-        vk::Device device(world.host->handles(), testKernels());
+        vk::Device device(world.host->ownerHandles(), testKernels());
         world.memory.setSpoiler(fault.first);
         for (const std::uint64_t bytes : {100ull, 100ull << 20})
         {
@@ -224,7 +224,7 @@ TEST(MemoryCallbacks, WhatCannotBeIsRefusedAndReturned)
 TEST(MemoryCallbacks, NeedBothFunctions)
 {
     MemoryHost world;
-    vk::DeviceHandles handles = world.host->handles();
+    vk::DeviceHandles handles = world.host->ownerHandles();
     handles.memory.release = nullptr;
     const std::string message = messageOf([&] { const vk::Device device(handles, testKernels()); }, ErrorCode::Usage);
     EXPECT_NE(message.find("release"), std::string::npos) << message;
@@ -265,7 +265,7 @@ TEST(AllocationCallbacks, AreUsedForEverythingAndGetEverythingBack)
 {
     AllocatorHost world;
     {
-        vk::Device device(world.host->handles(), testKernels());
+        vk::Device device(world.host->ownerHandles(), testKernels());
         create(device);
         EXPECT_GT(world.allocator.callCount(), 5u);
         work(*world.host, device);
@@ -289,7 +289,7 @@ TEST(AllocationCallbacks, EveryAllocationMayFail)
             std::optional<vk::Device> device;
             try
             {
-                device.emplace(world.host->handles(), testKernels());
+                device.emplace(world.host->ownerHandles(), testKernels());
                 create(*device);
                 const vk::CommandContext commands(*device, world.host->queue());
             }
