@@ -75,11 +75,12 @@ public:
     /// nothing.
     void frameDone(std::uint64_t frame);
 
-    /// The frame that was begun last did not reach the device, or not all of it: its command buffers were thrown away.
-    /// Models, trees, dynamic trees and movers that were made in it are lost: using them throws Error{Usage}. Dynamic
-    /// trees are as they were before it, steps of TreeBuild and TreeCompression are recorded again. The number can be
-    /// used again. Frames before it reach the device: throws Error{Usage} for a second one in a row.
-    void frameLost();
+    /// A frame, the one that was begun last, did not reach the device, or not all of it: its command buffers were
+    /// thrown away. Models, trees, dynamic trees and movers that were made in it are lost: using them throws
+    /// Error{Usage}. Dynamic trees are as they were before it, steps of TreeBuild and TreeCompression are recorded
+    /// again. The number can be used again. Nothing happens for one that never began, as where its Recorder could not
+    /// be made; throws Error{Usage} for those before the last, which must reach the device.
+    void frameLost(std::uint64_t frame);
 
     /// Of the newest frame that is done and has any: the device's time of each pass, in the order of recording.
     [[nodiscard]] const std::vector<PassTime>& passTimes() const;

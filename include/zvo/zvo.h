@@ -335,7 +335,7 @@ typedef struct ZvoPassTime
 ZVO_C_API ZvoResult zvoContextCreate(const ZvoContextInfo* info, ZvoContext** context);
 ZVO_C_API void zvoContextDestroy(ZvoContext* context);
 ZVO_C_API ZvoResult zvoContextFrameDone(ZvoContext* context, uint64_t frame);
-ZVO_C_API ZvoResult zvoContextFrameLost(ZvoContext* context);
+ZVO_C_API ZvoResult zvoContextFrameLost(ZvoContext* context, uint64_t frame);
 ZVO_C_API ZvoResult zvoContextMemory(const ZvoContext* context, ZvoMemoryUse* use);
 ZVO_C_API ZvoResult zvoContextPassTimeCount(const ZvoContext* context, uint32_t* count);
 ZVO_C_API ZvoResult zvoContextPassTime(const ZvoContext* context, uint32_t index, ZvoPassTime* time);

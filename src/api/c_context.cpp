@@ -183,9 +183,9 @@ ZvoResult zvoContextFrameDone(ZvoContext* context, uint64_t frame)
     return guarded(__func__, [&] { at(context, "context").object.frameDone(frame); });
 }
 
-ZvoResult zvoContextFrameLost(ZvoContext* context)
+ZvoResult zvoContextFrameLost(ZvoContext* context, uint64_t frame)
 {
-    return guarded(__func__, [&] { at(context, "context").object.frameLost(); });
+    return guarded(__func__, [&] { at(context, "context").object.frameLost(frame); });
 }
 
 ZvoResult zvoContextMemory(const ZvoContext* context, ZvoMemoryUse* use)

@@ -118,21 +118,21 @@ void Context::frameDone(std::uint64_t frame)
     impl.retired.frameDone(frame);
 }
 
-void Context::frameLost()
+void Context::frameLost(std::uint64_t frame)
 {
     Impl& impl = *m_impl;
     if (impl.is_recording)
     {
         throw Error(ErrorCode::Usage, "a frame can be lost only when its Recorder is gone");
     }
-    if (impl.frames.empty())
+    if (impl.frames.empty() || frame > impl.frames.back()->number)
     {
-        return;
+        return; // it never began
     }
-    if (impl.was_lost)
+    if (impl.was_lost || frame != impl.frames.back()->number)
     {
-        throw Error(ErrorCode::Usage, "only the frame that was begun last can be lost, and it is: those before it must "
-                                      "reach the device");
+        throw Error(ErrorCode::Usage, "only the frame that was begun last can be lost: those before it must reach the "
+                                      "device");
     }
     impl.was_lost = true;
     FrameState& state = *impl.frames.back();

@@ -325,8 +325,10 @@ TEST(ApiContract, MisuseIsAnErrorThatSaysWhat)
         VkCommandBuffer commands = host.device.begin();
         const Recorder recorder(host.context, commands, host.last_frame + static_cast<std::uint64_t>(i));
     }
-    host.context.frameLost();
-    expectUsage([&] { host.context.frameLost(); }, "begun last");
+    host.context.frameLost(host.last_frame + 3); // never began
+    expectUsage([&] { host.context.frameLost(host.last_frame + 1); }, "begun last");
+    host.context.frameLost(host.last_frame + 2);
+    expectUsage([&] { host.context.frameLost(host.last_frame + 1); }, "begun last");
     host.context.frameDone(++host.last_frame);
     TreeBuild build(host.context, model, {.grid = test::apiGrid(4)});
     expectUsage([&] { (void)build.take(); }, "not there");

@@ -587,7 +587,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     EXPECT_EQ(zvoPatchFeatures(&create_info, nullptr, nullptr), ZVO_ERROR_USAGE);
     REFUSES_NULLS(zvoContextCreate, &host.info, &made_context);
     REFUSES_NULLS(zvoContextFrameDone, host.context, 0);
-    REFUSES_NULLS(zvoContextFrameLost, host.context);
+    REFUSES_NULLS(zvoContextFrameLost, host.context, 1);
     REFUSES_NULLS(zvoContextMemory, host.context, &use);
     REFUSES_NULLS(zvoContextPassTimeCount, host.context, &count);
     EXPECT_EQ(zvoContextPassTime(nullptr, 0, nullptr), ZVO_ERROR_USAGE);

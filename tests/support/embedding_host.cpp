@@ -198,7 +198,7 @@ void EmbeddingHost::frame(const std::function<void(Recorder&, VkCommandBuffer)>&
         }
         else
         {
-            context.frameLost();
+            context.frameLost(last_frame + 1);
         }
         throw;
     }
@@ -220,7 +220,7 @@ void EmbeddingHost::lostFrame(const std::function<void(Recorder&, VkCommandBuffe
         Recorder recorder(context, commands, last_frame + 1);
         record(recorder, commands);
     }
-    context.frameLost();
+    context.frameLost(last_frame + 1);
 }
 
 Model EmbeddingHost::upload(const ModelInfo& info)
