@@ -16,49 +16,71 @@ namespace zvo
 namespace
 {
 
-// The primitives of rigid instances, out of the GpuScene to where the mover has them.
-void copyRigidVertices(vk::FrameGraph& graph, const Scene& scene, const GpuScene& uploaded, const DeformMesh& mesh,
-                       MoverBuffers& mover)
+// Primitives of rigid instances stand in the mover's arrays once each.
+std::vector<MoverPlan::VertexCopy> rigidCopies(const Scene& scene, const DeformMesh& mesh)
 {
     const std::vector<PrimitivePlace> places = primitivePlaces(scene);
     std::vector<bool> copied(scene.primitives.size(), false);
+    std::vector<MoverPlan::VertexCopy> copies;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
     {
         const Instance& instance = scene.instances[i];
         const Primitive& primitive = scene.primitives[instance.primitive];
-        const auto [first_position, first_normal] = mesh.places[i];
         if (isDeformed(primitive, instance) || copied[instance.primitive])
         {
             continue;
         }
         copied[instance.primitive] = true;
-        constexpr std::uint64_t kBytes = sizeof(gpu::vec3);
         const PrimitivePlace& from = places[instance.primitive];
-        graph.copy(uploaded.positions, from.first_vertex * kBytes, mover.positions, first_position * kBytes,
-                   primitive.positions.size() * kBytes);
-        if (!primitive.normals.empty())
+        copies.push_back({from.first_vertex, mesh.places[i].first_position,
+                          static_cast<std::uint32_t>(primitive.positions.size()), from.first_normal,
+                          mesh.places[i].first_normal, static_cast<std::uint32_t>(primitive.normals.size())});
+    }
+    return copies;
+}
+
+void copyVertices(vk::FrameGraph& graph, const std::vector<MoverPlan::VertexCopy>& copies, const GpuScene& uploaded,
+                  MoverBuffers& mover)
+{
+    constexpr std::uint64_t kBytes = sizeof(gpu::vec3);
+    for (const MoverPlan::VertexCopy& copy : copies)
+    {
+        graph.copy(uploaded.positions, copy.first_position_from * kBytes, mover.positions,
+                   copy.first_position_to * kBytes, copy.position_count * kBytes);
+        if (copy.normal_count != 0)
         {
-            graph.copy(uploaded.normals, from.first_normal * kBytes, mover.normals, first_normal * kBytes,
-                       primitive.normals.size() * kBytes);
+            graph.copy(uploaded.normals, copy.first_normal_from * kBytes, mover.normals, copy.first_normal_to * kBytes,
+                       copy.normal_count * kBytes);
         }
     }
 }
 
 } // namespace
 
-MoverBuffers makeMover(vk::Uploader& device, const Scene& scene, const GpuScene& uploaded, const DeformMesh& mesh)
+MoverPlan planMover(const Scene& scene, const DeformMesh& mesh)
 {
-    MoverBuffers mover;
-    mover.host_draws = makeDraws(scene);
+    MoverPlan plan;
+    plan.draws = makeDraws(scene);
     for (std::size_t i = 0; i < mesh.places.size(); ++i)
     {
-        mover.host_draws[i].first_vertex = mesh.places[i].first_position;
-        mover.host_draws[i].first_normal = mesh.places[i].first_normal;
+        plan.draws[i].first_vertex = mesh.places[i].first_position;
+        plan.draws[i].first_normal = mesh.places[i].first_normal;
     }
-    device.device().memory().require(mover.host_draws.size() * sizeof(gpu::Draw) +
+    if (!mesh.empty())
+    {
+        plan.rigid_copies = rigidCopies(scene, mesh);
+    }
+    return plan;
+}
+
+MoverBuffers makeMover(vk::Uploader& device, const MoverPlan& plan, const GpuScene& uploaded, const DeformMesh& mesh)
+{
+    device.device().memory().require(plan.draws.size() * sizeof(gpu::Draw) +
                                          (std::uint64_t{mesh.position_count} + mesh.normal_count) * sizeof(gpu::vec3) +
                                          sizeof(gpu::SceneView) + PoseBuffers::bytesOf(mesh),
                                      "a moving object");
+    MoverBuffers mover;
+    mover.host_draws = plan.draws;
     mover.draws = device.makeBuffer("mover/draws", std::span<const gpu::Draw>(mover.host_draws));
     gpu::SceneView view = sceneView(uploaded);
     view.draws = {mover.draws.address()};
@@ -74,7 +96,7 @@ MoverBuffers makeMover(vk::Uploader& device, const Scene& scene, const GpuScene&
     if (!mesh.empty())
     {
         device.perform([&](vk::FrameGraph& graph, vk::Retired&)
-                       { copyRigidVertices(graph, scene, uploaded, mesh, mover); });
+                       { copyVertices(graph, plan.rigid_copies, uploaded, mover); });
     }
     return mover;
 }

@@ -31,9 +31,29 @@ struct MoverBuffers
     std::vector<gpu::Draw> host_draws; // what draws is written from
 };
 
-/// The buffers of a mover, placed as scene is at rest; vertices that deform are undefined until placeMover. uploaded
-/// and mesh: made of scene. Waits. Throws Error{Memory} when the device's budget does not suffice.
-MoverBuffers makeMover(vk::Uploader& device, const Scene& scene, const GpuScene& uploaded, const DeformMesh& mesh);
+/// What movers of a scene begin with, beside its GpuScene and DeformMesh.
+struct MoverPlan
+{
+    /// A primitive of rigid instances, by numbers of vertices.
+    struct VertexCopy
+    {
+        std::uint32_t first_position_from = 0; // in the GpuScene
+        std::uint32_t first_position_to = 0;   // in the mover
+        std::uint32_t position_count = 0;
+        std::uint32_t first_normal_from = 0;
+        std::uint32_t first_normal_to = 0;
+        std::uint32_t normal_count = 0;
+    };
+    std::vector<gpu::Draw> draws;         // [instances] at rest
+    std::vector<VertexCopy> rigid_copies; // empty where nothing deforms
+};
+
+/// mesh: made of scene.
+MoverPlan planMover(const Scene& scene, const DeformMesh& mesh);
+
+/// The buffers of a mover, placed as at rest; vertices that deform are undefined until placeMover. plan, uploaded and
+/// mesh: made of one scene. Waits. Throws Error{Memory} when the device's budget does not suffice.
+MoverBuffers makeMover(vk::Uploader& device, const MoverPlan& plan, const GpuScene& uploaded, const DeformMesh& mesh);
 
 /// Records what puts the mover into pose: its draws and, where it deforms, its vertices. Values travel inside the
 /// command buffer; nothing is allocated and nothing waits. Throws Error{Usage} when pose does not fit the mover's

@@ -62,6 +62,18 @@ bool isSame(const Pose& a, const Pose& b)
            std::ranges::equal(a.morph_weights, b.morph_weights, same);
 }
 
+// Leaves of a scene what tells how it can be posed.
+void dropContents(Scene& scene)
+{
+    scene.images.clear();
+    for (Primitive& primitive : scene.primitives)
+    {
+        const std::size_t target_count = primitive.morph_targets.size();
+        primitive = Primitive();
+        primitive.morph_targets.resize(target_count);
+    }
+}
+
 } // namespace
 
 std::shared_ptr<const MoverMesh> uploadMover(vk::Uploader& device, Scene scene, bool attributes, float emission_scale)
@@ -70,7 +82,8 @@ std::shared_ptr<const MoverMesh> uploadMover(vk::Uploader& device, Scene scene, 
     mesh->uploaded = uploadScene(device, scene, attributes, emission_scale);
     mesh->deform = uploadDeformMesh(device, scene);
     mesh->emits = brightestEmission(scene) > 0;
-    scene.images.clear();
+    mesh->plan = planMover(scene, mesh->deform);
+    dropContents(scene);
     mesh->scene = std::move(scene);
     return mesh;
 }
@@ -98,7 +111,7 @@ MoverId MoverSet::add(std::shared_ptr<const MoverMesh> mesh, Pose pose)
     }
     checkPose(*mesh, pose);
     Mover mover;
-    mover.buffers = makeMover(m_device, mesh->scene, mesh->uploaded, mesh->deform);
+    mover.buffers = makeMover(m_device, mesh->plan, mesh->uploaded, mesh->deform);
     mover.capacities = m_options.minimal_capacities ? LayerCapacities{{1, 0, 0}, 1, 1}
                                                     : LayerCapacities::estimate(mesh->uploaded, m_grid);
     mover.mesh = std::move(mesh);

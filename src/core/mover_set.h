@@ -27,7 +27,8 @@ namespace zvo
 /// A mesh that can move, in device memory. Several movers may share it.
 struct MoverMesh
 {
-    Scene scene; // without its images
+    Scene scene; // what poses it: without images, and without what primitives consist of
+    MoverPlan plan;
     GpuScene uploaded;
     DeformMesh deform;
     bool emits = false; // any of its materials

@@ -66,7 +66,7 @@ std::string workOnAMover(vk::HeadlessDevice& device, const Scene& scene, const G
     pose.transforms[1][3].x += 1.0F;
     pose.morph_weights[0][0] = 0.25F;
     const DeformMesh mesh = uploadDeformMesh(device, scene);
-    MoverBuffers mover = makeMover(device, scene, gpu_scene, mesh);
+    MoverBuffers mover = makeMover(device, planMover(scene, mesh), gpu_scene, mesh);
     device.run([&](vk::FrameGraph& graph) { placeMover(graph, mesh, pose, mover); });
     const BuildResult built = buildOctree(device, {gpu_scene, mover}, grid, {Coverage::Thin, false, {}});
     return octreeSha256(device, built.octree);

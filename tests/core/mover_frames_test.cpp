@@ -165,7 +165,7 @@ TEST(Mover, TwoSetsOfBuffersOfOneSceneAreIndependent)
     Pose other = pose;
     test::changePose(random, other);
     MovedScene mover(device(), scene);
-    MoverBuffers second = makeMover(device(), scene, mover.uploaded(), mover.mesh());
+    MoverBuffers second = makeMover(device(), planMover(scene, mover.mesh()), mover.uploaded(), mover.mesh());
     device().run(
         [&](vk::FrameGraph& graph)
         {
@@ -220,7 +220,7 @@ TEST(Mover, NeedsAreNamedBeforeMemoryIsTaken)
     const std::uint64_t used = limited.device().memory().usedBytes();
     try
     {
-        const MoverBuffers mover = makeMover(limited, scene, uploaded, mesh);
+        const MoverBuffers mover = makeMover(limited, planMover(scene, mesh), uploaded, mesh);
         FAIL() << "400 instances of 1000 vertices, 24 bytes each";
     }
     catch (const Error& error)

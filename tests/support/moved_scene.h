@@ -36,7 +36,7 @@ class MovedScene
 public:
     MovedScene(vk::HeadlessDevice& device, const Scene& scene)
         : m_device(device), m_uploaded(uploadScene(device, scene, true)), m_mesh(uploadDeformMesh(device, scene)),
-          m_buffers(makeMover(device, scene, m_uploaded, m_mesh))
+          m_buffers(makeMover(device, planMover(scene, m_mesh), m_uploaded, m_mesh))
     {
     }
 
