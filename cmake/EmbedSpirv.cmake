@@ -12,7 +12,7 @@ file(WRITE ${OUTPUT}
 
 namespace
 {
-constexpr std::uint32_t kWords[] = {
+constexpr std::uint32_t ${SYMBOL}Words[] = {
 ${words}
 };
 } // namespace
@@ -20,6 +20,6 @@ ${words}
 namespace zvo::kernels
 {
 extern const std::span<const std::uint32_t> ${SYMBOL};
-const std::span<const std::uint32_t> ${SYMBOL} = kWords;
+const std::span<const std::uint32_t> ${SYMBOL} = ${SYMBOL}Words;
 } // namespace zvo::kernels
 ")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/normal.h"
+#include "demo/panel_text.h"
 #include "demo/panels.h"
 
 #include <fmt/format.h>
@@ -15,15 +16,10 @@ namespace zvo::demo
 namespace
 {
 
-void tell(const std::string& text)
-{
-    ImGui::TextUnformatted(text.c_str());
-}
-
 const char* faceName(std::uint32_t face)
 {
-    constexpr std::array kNames = {"x", "y", "z", "none: the ray began inside"};
-    return kNames[std::min<std::size_t>(face, kNames.size() - 1)];
+    constexpr std::array kFaces = {"x", "y", "z", "none: the ray began inside"};
+    return kFaces[std::min<std::size_t>(face, kFaces.size() - 1)];
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "demo/panel_text.h"
 #include "demo/panels.h"
 
 #include <fmt/format.h>
@@ -14,11 +15,6 @@ namespace
 {
 
 constexpr double kMiB = 1 << 20;
-
-void tell(const std::string& text)
-{
-    ImGui::TextUnformatted(text.c_str());
-}
 
 // A row of the table: of an operation, which opens to its passes, or of a pass. Whether it is open.
 bool timeRow(const std::string& name, const History& history, bool is_operation)

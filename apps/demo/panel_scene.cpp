@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "demo/panel_text.h"
 #include "demo/panels.h"
 
 #include <fmt/format.h>
@@ -9,11 +10,6 @@ namespace zvo::demo
 
 namespace
 {
-
-void tell(const std::string& text)
-{
-    ImGui::TextUnformatted(text.c_str());
-}
 
 void motionControls(const World& world, Timeline& timeline)
 {

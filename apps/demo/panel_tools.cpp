@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "demo/panel_text.h"
 #include "demo/panels.h"
 
 #include <fmt/format.h>
@@ -55,8 +56,7 @@ ToolsAnswer toolsPanel(ToolState& state, const World& world)
     const Edits* const edits = world.edits();
     if (edits == nullptr)
     {
-        ImGui::TextUnformatted(world.info().name.empty() ? "nothing to edit"
-                                                         : "packed attributes: nothing can be edited");
+        tell(world.info().name.empty() ? "nothing to edit" : "packed attributes: nothing can be edited");
         return answer;
     }
     if (state.tool == Tool::Brush)
@@ -75,9 +75,8 @@ ToolsAnswer toolsPanel(ToolState& state, const World& world)
     answer.redoes = button("redo", edits->redoCount() != 0);
     ImGui::SameLine();
     answer.saves = ImGui::Button("save");
-    ImGui::TextUnformatted(fmt::format("{} strokes to undo, {} to redo, {:.1f} MiB", edits->undoCount(),
-                                       edits->redoCount(), static_cast<double>(edits->heldBytes()) / (1 << 20))
-                               .c_str());
+    tell(fmt::format("{} strokes to undo, {} to redo, {:.1f} MiB", edits->undoCount(), edits->redoCount(),
+                     static_cast<double>(edits->heldBytes()) / (1 << 20)));
     return answer;
 }
 

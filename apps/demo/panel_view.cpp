@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/view.h"
+#include "demo/panel_text.h"
 #include "demo/panels.h"
 #include "demo/resolution_ladder.h"
 
@@ -81,7 +82,7 @@ void presentChoice(ViewState& view, const ViewFacts& facts)
     if (facts.mode != view.present_mode)
     {
         ImGui::SameLine();
-        ImGui::TextUnformatted("(fifo: the window has no other)");
+        tell("(fifo: the window has no other)");
     }
 }
 
@@ -137,7 +138,7 @@ void viewPanel(ViewState& view, const ViewFacts& facts)
     ImGui::SliderFloat("detail, pixels", &view.detail_pixels, 0.0F, 16.0F, "%.1f", ImGuiSliderFlags_AlwaysClamp);
     resolutionChoice(view, facts);
     presentChoice(view, facts);
-    ImGui::TextUnformatted(fmt::format("speed {:.3g} units/s", facts.camera_speed).c_str());
+    tell(fmt::format("speed {:.3g} units/s", facts.camera_speed));
 }
 
 } // namespace zvo::demo

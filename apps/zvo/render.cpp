@@ -63,10 +63,10 @@ private:
 };
 
 /// The pictures of a scene.
-class Run
+class RenderRun
 {
 public:
-    Run(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures, Progress& progress)
+    RenderRun(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures, Progress& progress)
         : m_options(options), m_camera_work(camera_work), m_pictures(pictures), m_progress(progress),
           m_device(headlessOptions(options.device), zvoKernels()), m_renderer(m_device, options),
           m_report(options, m_device)
@@ -270,7 +270,7 @@ void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pic
     const Bounds subject = subjectOf(boundsOf(tree), tree.grid);
     const ViewCamera camera =
         chooseCamera(options.camera, Scene(), subject, static_cast<double>(options.width) / options.height);
-    Run run(options, camera_work, pictures, progress);
+    RenderRun run(options, camera_work, pictures, progress);
     run.turn(std::move(tree), camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     run.finish(report);
 }
@@ -314,7 +314,7 @@ void render(const RenderOptions& options)
     const ViewCamera camera =
         chooseCamera(options.camera, stage, subject, static_cast<double>(options.width) / options.height);
 
-    Run run(options, camera_work, pictures, progress);
+    RenderRun run(options, camera_work, pictures, progress);
     if (moves && options.rebuild)
     {
         warnOfMergeRule(stage);

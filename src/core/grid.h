@@ -21,6 +21,9 @@ struct Bounds
     }
 };
 
+/// Bits of a Morton code for each level of octree nodes, of 4^3 children.
+inline constexpr std::uint32_t kCellBits = 6;
+
 /// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on. Both numbers
 /// are single precision: printed with nine digits they give the same grid again, bit for bit.
 struct Grid

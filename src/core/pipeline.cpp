@@ -31,7 +31,7 @@ std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& 
             const std::uint64_t mask = node.mask_lo | std::uint64_t{node.mask_hi} << 32;
             for (std::uint64_t rest = mask; rest != 0; rest &= rest - 1)
             {
-                children.push_back(codes[i] << 6 | static_cast<std::uint64_t>(std::countr_zero(rest)));
+                children.push_back(codes[i] << kCellBits | static_cast<std::uint64_t>(std::countr_zero(rest)));
             }
         }
         codes = std::move(children);

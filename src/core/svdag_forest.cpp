@@ -18,7 +18,6 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kCellBits = 6;                                        // of a code, for each level of nodes
 constexpr std::uint32_t kJoinedPerWord = 2;                                   // entries, of a pool of several parts
 constexpr std::uint64_t kNodeEntries = sizeof(gpu::Node) / sizeof(gpu::uint); // in the room of a node, then
 constexpr std::uint64_t kUnmergedMin = 1 << 16; // nodes that may stand unmerged, whatever the rest has

@@ -15,8 +15,6 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kCellBits = 6; // of a code, for each level of nodes
-
 // The nodes above tiles as an octree whose voxels are the tiles.
 Octree topOctree(vk::HeadlessDevice& device, const Grid& grid, std::size_t top_levels, const TileNodes& tiles)
 {

@@ -24,8 +24,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kTileDepthMin = 4;  // smaller tiles would take no less memory
-constexpr std::uint32_t kVoxelsOfWord = 32; // of the emission table
+constexpr std::uint32_t kTileDepthMin = 4; // smaller tiles would take no less memory
 
 template <typename T> void append(std::vector<T>& to, const std::vector<T>& from)
 {
@@ -63,7 +62,7 @@ public:
         append(emission, more.emission);
         for (std::size_t i = 0; i < more.emissive.size(); ++i)
         {
-            addBits(voxel_count + i * kVoxelsOfWord, more.emissive[i]);
+            addBits(voxel_count + i * kVoxelsPerEmissionWord, more.emissive[i]);
         }
         voxel_count += more.voxel_count;
     }
@@ -71,15 +70,15 @@ public:
 private:
     void addBits(std::uint64_t voxel, std::uint32_t bits)
     {
-        const std::size_t word = voxel / kVoxelsOfWord;
-        const std::uint64_t shifted = std::uint64_t{bits} << (voxel % kVoxelsOfWord);
+        const std::size_t word = voxel / kVoxelsPerEmissionWord;
+        const std::uint64_t shifted = std::uint64_t{bits} << (voxel % kVoxelsPerEmissionWord);
         if (shifted == 0)
         {
             return;
         }
         emissive.resize(std::max(emissive.size(), word + 2));
         emissive[word] |= static_cast<std::uint32_t>(shifted);
-        emissive[word + 1] |= static_cast<std::uint32_t>(shifted >> kVoxelsOfWord);
+        emissive[word + 1] |= static_cast<std::uint32_t>(shifted >> kVoxelsPerEmissionWord);
     }
 };
 
@@ -285,7 +284,7 @@ void TiledBuilder::finishAttributes(Looks& looks, TreeData& tree)
     }
     if (!tree.emission.empty())
     {
-        looks.emissive.resize((looks.voxel_count + kVoxelsOfWord - 1) / kVoxelsOfWord);
+        looks.emissive.resize((looks.voxel_count + kVoxelsPerEmissionWord - 1) / kVoxelsPerEmissionWord);
         std::uint32_t rank = 0;
         for (const std::uint32_t bits : looks.emissive)
         {

@@ -13,8 +13,6 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kCellBits = 6; // of a node's cells
-
 std::uint32_t rankOf(std::uint64_t mask, std::uint64_t cell)
 {
     return static_cast<std::uint32_t>(std::popcount(mask & ((std::uint64_t{1} << cell) - 1)));

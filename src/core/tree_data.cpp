@@ -122,7 +122,7 @@ void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t c
             path.pop_back();
             continue;
         }
-        const std::uint64_t code = last.code << 6 | static_cast<std::uint64_t>(std::countr_zero(last.rest));
+        const std::uint64_t code = last.code << kCellBits | static_cast<std::uint64_t>(std::countr_zero(last.rest));
         last.rest &= last.rest - 1;
         if (path.size() == tree.levels.size())
         {

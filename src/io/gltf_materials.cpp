@@ -15,7 +15,7 @@ namespace zvo
 namespace
 {
 
-constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+constexpr const char* kSpecularGlossinessName = "KHR_materials_pbrSpecularGlossiness";
 
 /// A factor in single precision: from 0 on and finite.
 float toFactor(const GltfDocument& document, double value, const std::string& where)
@@ -75,7 +75,7 @@ double emissiveStrength(const tinygltf::Material& material)
 /// diffuse colour. Metals, whose colour is all specular, become dark.
 void useSpecularGlossiness(tinygltf::Material& material)
 {
-    const auto extension = material.extensions.find(kSpecularGlossiness);
+    const auto extension = material.extensions.find(kSpecularGlossinessName);
     if (extension == material.extensions.end())
     {
         return;
@@ -158,7 +158,7 @@ GltfMaterial GltfMaterials::load(int index)
     tinygltf::Material source = index < 0 ? tinygltf::Material() : m_document.model.materials[index];
     useSpecularGlossiness(source);
     const std::string where = fmt::format("materials[{}]", index);
-    const bool is_diffuse = source.extensions.contains(kSpecularGlossiness);
+    const bool is_diffuse = source.extensions.contains(kSpecularGlossinessName);
     const std::string factor_name = is_diffuse ? ".diffuseFactor" : ".pbrMetallicRoughness.baseColorFactor";
     const std::string texture_name = is_diffuse ? ".diffuseTexture" : ".pbrMetallicRoughness.baseColorTexture";
     const auto factor = [&](double value, const std::string& name)
