@@ -51,7 +51,8 @@ struct UpdateFacts
     std::map<std::string, std::uint64_t> dropped; // movers' triangles that were left out, by reason
 };
 
-/// Number of a mover, for as long as its tree lives.
+/// Number of a mover, never used again. undo() to a step from before the mover was added takes the mover away, and the
+/// next update() then for good; redo(), or undo() of its removal, brings it back under its number.
 using MoverId = std::uint32_t;
 
 /// A tree that a brush edits and into which moving models are merged, frame by frame (Y. Pan, Dynamic Update of Sparse
@@ -92,8 +93,9 @@ public:
     /// Whether something has to be shown by another update(): one failed, was given up, was lost or had to wait.
     [[nodiscard]] bool needsUpdate();
 
-    /// Records that the step before, or behind, the one that is shown is shown again. False if there is none. Cost:
-    /// constant.
+    /// Records that the step before, or behind, the one that is shown is shown again, with the movers of that time
+    /// where they were. False if there is none. The first step is the static tree without movers; edit(), undoEdit()
+    /// and redoEdit() begin anew with the edited one. Cost: constant.
     bool undo(Recorder& recorder);
     bool redo(Recorder& recorder);
 

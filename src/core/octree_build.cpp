@@ -93,12 +93,19 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
 
 void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree)
 {
+    // Passes that put numbers where masks were cannot come twice: what can fail comes before the first of them.
+    const vk::Specialization key_width = {hasWideKeys(octree.grid) ? 1U : 0U};
+    graph.device().kernels().get("octree/place", key_width);
+    for (const char* kernel : {"octree/count", "octree/scan", "octree/assign"})
+    {
+        graph.device().kernels().get(kernel);
+    }
     std::uint32_t item_end = octree.node_count; // the root is the last item
     for (std::size_t level = 0; level < octree.levels.size(); ++level)
     {
         const std::uint32_t node_count = octree.levels[level].node_count;
         {
-            vk::Pass pass = graph.addPass("octree/place", {hasWideKeys(octree.grid) ? 1U : 0U});
+            vk::Pass pass = graph.addPass("octree/place", key_width);
             gpu::PlaceParams params{};
             params.bricks = pass.readWrite(voxelize.bricks);
             params.items = pass.read(work.items);

@@ -313,13 +313,15 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
     const bool emits = m_scene.uploaded().emission_scale > 0.0F;
     if (!m_sums)
     {
-        const std::uint64_t word_count = emits ? divideUp(octree.voxel_count, 32) : 0;
+        const std::uint64_t word_count = emits ? divideUp(octree.voxel_count, kVoxelsPerEmissionWord) : 0;
         m_device.memory().require(octree.voxel_count * (sizeof(gpu::Attribute) + sizeof(gpu::VoxelSums)) +
                                       word_count * sizeof(gpu::uvec2),
                                   "averaging the attributes");
-        octree.voxel_attributes = {m_device, "octree/voxel_attributes", octree.voxel_count};
-        octree.emission_words = {m_device, "octree/emission_words", word_count};
+        vk::BufferOf<gpu::Attribute> voxel_attributes(m_device, "octree/voxel_attributes", octree.voxel_count);
+        vk::BufferOf<gpu::uvec2> emission_words(m_device, "octree/emission_words", word_count);
         m_sums.emplace(m_device, octree.voxel_count, emits);
+        octree.voxel_attributes = std::move(voxel_attributes); // all or nothing: the step may come again
+        octree.emission_words = std::move(emission_words);
     }
     voxelizeAttributes(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize, *m_sums, octree);
     m_places.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
@@ -358,8 +360,9 @@ void OctreeBuilder::emission(vk::FrameGraph& graph)
 {
     if (m_result.octree.emission.count() == 0)
     {
-        m_sums->emission_sums = {m_device, "voxelize/emission_sums", m_emissive_count};
+        decltype(m_sums->emission_sums) emission_sums(m_device, "voxelize/emission_sums", m_emissive_count);
         m_result.octree.emission = {m_device, "octree/emission", m_emissive_count};
+        m_sums->emission_sums = std::move(emission_sums);
     }
     voxelizeEmission(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize, *m_sums, m_result.octree);
 }

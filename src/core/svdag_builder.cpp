@@ -367,6 +367,7 @@ void SvdagBuilder::order(vk::FrameGraph& graph)
 void SvdagBuilder::finish()
 {
     moveVoxels(m_source.tree, m_result.dag.tree);
+    m_source = {};
     m_classes.reset();
     m_readback = {};
     m_step = Step::Done;

@@ -18,9 +18,6 @@ namespace zvo
 /// "svo" or "svdag".
 const char* structureName(TreeStructure structure);
 
-/// Voxels whose bits of TreeData::emission_words share a word.
-inline constexpr std::uint32_t kVoxelsPerEmissionWord = 32;
-
 /// A whole octree or DAG in the host's memory: what files hold. Arrays are those of Octree and Svdag, whose layout
 /// shaders/shared/octree.h and svdag.h document; nodes and lists of a DAG's pool are apart.
 struct TreeData

@@ -118,9 +118,9 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
             }
         }
     }
-    if (size > roomBytes())
+    if (heldSize(size) > roomBytes())
     {
-        throwOverLimit(size, what);
+        throwOverLimit(heldSize(size), what);
     }
     throw Error(ErrorCode::Memory,
                 fmt::format("the device has no {} bytes of memory left for {} ({} in use by zvo): close other programs "

@@ -18,8 +18,10 @@ namespace zvo::vk
 void RecordedUploads::flush()
 {
     assert(m_copies.empty() || m_graph != nullptr);
-    for (Copy& copy : m_copies)
+    while (!m_copies.empty()) // each leaves the list first, so that none is recorded without what it copies
     {
+        Copy copy = std::move(m_copies.front());
+        m_copies.pop_front();
         const Buffer& from = m_retired.keep(std::move(copy.staging));
         m_graph->record("upload " + copy.target_name,
                         {CopyUse::read(from), {copy.target, copy.target_name, Access::CopyWrite}},
@@ -29,7 +31,6 @@ void RecordedUploads::flush()
                             m_device.fn().vkCmdCopyBuffer(commands, from.handle(), copy.target, 1, &region);
                         });
     }
-    m_copies.clear();
 }
 
 void RecordedUploads::perform(const std::function<void(FrameGraph&, Retired&)>& record)

@@ -4,6 +4,7 @@
 #include "vk/uploader.h"
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <vector>
 
@@ -45,7 +46,7 @@ private:
     Device& m_device;
     Retired& m_retired;
     FrameGraph* m_graph = nullptr;
-    std::vector<Copy> m_copies;
+    std::deque<Copy> m_copies;
 };
 
 } // namespace zvo::vk

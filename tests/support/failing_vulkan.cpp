@@ -29,7 +29,8 @@ namespace
 struct State
 {
     std::uint64_t fail_number = UINT64_MAX;
-    bool fail_on = false; // all later ones, too
+    std::string fail_function; // empty: among all of them
+    bool fail_on = false;      // all later ones, too
     bool counts_names = true;
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     std::uint64_t call_count = 0;
@@ -46,8 +47,12 @@ bool mustFail(const char* name)
     {
         return false;
     }
-    const std::uint64_t number = g_state.call_count++;
-    ++g_state.call_counts[name];
+    std::uint64_t number = g_state.call_count++;
+    const std::uint64_t number_of_its_own = g_state.call_counts[name]++;
+    if (!g_state.fail_function.empty())
+    {
+        number = g_state.fail_function == name ? number_of_its_own : UINT64_MAX - 1;
+    }
     if (number == g_state.fail_number || (g_state.fail_on && number > g_state.fail_number))
     {
         g_state.failed = g_state.failed.empty() ? name : g_state.failed;
@@ -191,6 +196,7 @@ PFN_vkVoidFunction VKAPI_CALL instanceProcAddr(VkInstance instance, const char* 
 void reset(std::uint64_t number, VkResult result, bool fail_on)
 {
     g_state.fail_number = number;
+    g_state.fail_function.clear();
     g_state.fail_on = fail_on;
     g_state.result = result;
     g_state.call_count = 0;
@@ -208,6 +214,12 @@ PFN_vkGetInstanceProcAddr failingVulkan()
 void failCall(std::uint64_t number, VkResult result)
 {
     reset(number, result, false);
+}
+
+void failCallOf(const std::string& function, std::uint64_t number)
+{
+    failCall(number);
+    g_state.fail_function = function;
 }
 
 void failAllFrom(std::uint64_t number, VkResult result)

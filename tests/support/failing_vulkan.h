@@ -20,6 +20,9 @@ PFN_vkGetInstanceProcAddr failingVulkan();
 /// From then on everything else works again.
 void failCall(std::uint64_t number, VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY);
 
+/// The same for calls of the function with this name alone.
+void failCallOf(const std::string& function, std::uint64_t number);
+
 /// Lets all calls from the failing one on fail, as on a device that is lost.
 void failAllFrom(std::uint64_t number, VkResult result);
 

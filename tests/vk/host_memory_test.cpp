@@ -118,6 +118,16 @@ TEST(MemoryCallbacks, AreCountedAgainstTheBudget)
     EXPECT_LE(world.memory.liveBytes(), 10 * kMiB);
 }
 
+TEST(MemoryCallbacks, WhatIsTooMuchWithWholeGranulesIsOverTheBudget)
+{
+    constexpr std::uint64_t kBytes = 40 * kMiB + 4; // hosts are asked for whole granules, of more than 4 bytes
+    MemoryHost world(kBytes);
+    vk::Device device(world.host->ownerHandles(), testKernels());
+    const std::string message = messageOf([&] { const vk::Buffer most(device, "most", kBytes); }, ErrorCode::Memory);
+    EXPECT_NE(message.find("but the limit is"), std::string::npos) << message;
+    EXPECT_EQ(message.find("close other programs"), std::string::npos) << message;
+}
+
 TEST(MemoryCallbacks, RangesInABlockAreAlignedAsAddressesAre)
 {
     MemoryHost world;

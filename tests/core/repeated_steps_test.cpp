@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// A step of a build whose recording fails half way reaches the device as far as it was recorded, and comes again: the
+// result is that of a build in which nothing failed. Kernels fail to be made, one by one, as these are made between
+// passes.
+#include "core/kernels.h"
+#include "core/octree_builder.h"
+#include "core/svdag_builder.h"
+#include "core/tree_download.h"
+#include "core/zvo_file.h"
+#include "io/sha256.h"
+#include "support/device.h"
+#include "support/failing_vulkan.h"
+#include "support/materials_scene.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+std::string zvoSha256(const TreeData& tree)
+{
+    std::vector<std::byte> file;
+    writeZvo(tree, [&file](std::span<const std::byte> more) { file.insert(file.end(), more.begin(), more.end()); });
+    return sha256Hex(file);
+}
+
+// Takes the steps of a build; how many recordings failed.
+template <typename Builder> std::uint32_t takeSteps(vk::HeadlessDevice& device, Builder& builder)
+{
+    std::uint32_t failures = 0;
+    while (!builder.isDone())
+    {
+        bool has_failed = false;
+        std::vector<vk::PassTime> passes = device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                try
+                {
+                    builder.record(graph);
+                }
+                catch (const Error& error)
+                {
+                    EXPECT_EQ(error.code(), ErrorCode::Memory) << error.what();
+                    has_failed = true;
+                }
+            });
+        failures += has_failed ? 1 : 0;
+        if (!has_failed)
+        {
+            builder.stepDone(std::move(passes));
+        }
+    }
+    return failures;
+}
+
+struct Outcome
+{
+    std::string octree;
+    std::string dag; // empty where a step of the octree has failed
+    std::uint32_t failures = 0;
+};
+
+// Builds and compresses on a new device, on which the kernel with this number cannot be made at first.
+Outcome outcome(const Scene& scene, const Grid& grid, std::uint64_t failing_kernel)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.get_instance_proc_addr = test::failingVulkan();
+    vk::HeadlessDevice device(options, zvoKernels());
+    const GpuScene uploaded = uploadScene(device, scene, true);
+    test::failCallOf("vkCreateComputePipelines", failing_kernel);
+    Outcome result;
+    OctreeBuilder octree(device.device(), uploaded, grid, {Coverage::Thin, true, {}});
+    result.failures += takeSteps(device, octree);
+    Octree built = octree.take().octree;
+    result.octree = zvoSha256(downloadTree(device, built));
+    if (result.failures != 0)
+    {
+        return result;
+    }
+    SvdagBuilder dag(device.device(), std::move(built), {});
+    result.failures += takeSteps(device, dag);
+    result.dag = zvoSha256(downloadTree(device, dag.take().dag));
+    return result;
+}
+
+TEST(RepeatedSteps, GiveTheSameBytes)
+{
+    const Scene scene = test::materialsScene(10.0F, 20);
+    Grid grid = Grid::around(scene.bounds(), 6);
+    grid.depth = 13; // the scene lies in a corner; keys of the brick table are of 64 bits, which leaves least room
+    const Outcome expected = outcome(scene, grid, UINT64_MAX);
+    ASSERT_EQ(expected.failures, 0U);
+    constexpr std::uint64_t kStep = 3; // a new device takes its time; 15 is one of those that number nodes
+    std::uint64_t number = 0;
+    for (std::uint32_t failures = 1; failures == 1; number += kStep)
+    {
+        const Outcome repeated = outcome(scene, grid, number);
+        failures = repeated.failures;
+        EXPECT_EQ(repeated.octree, expected.octree) << "kernel " << number;
+        EXPECT_TRUE(repeated.dag.empty() || repeated.dag == expected.dag) << "kernel " << number;
+    }
+    EXPECT_GT(number, 20U);
+}
+
+} // namespace
+
+} // namespace zvo
