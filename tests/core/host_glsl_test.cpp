@@ -424,7 +424,7 @@ TEST(HostGlsl, PicturesOfOctreesAndDagsAreZvos)
     }
 }
 
-TEST(HostGlsl, EveryCameraSeesTheSameByEveryVariant)
+TEST(HostGlsl, EveryCameraSeesTheSame)
 {
     const CodeSet set = {6, test::sphereShell(6, 24.0)};
     const Octree octree = octreeWith(set, AttributeForm::Bytes8);

@@ -287,7 +287,7 @@ TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
     expectNear(towards({0.0, 0.6, 0.8}), 0.5 * (sky + 4.0 * 30.0 * kSunColor));
 }
 
-TEST(TexelForm, EveryViewOfAnEmptyOctreeIsBlackInEveryForm)
+TEST(TexelForm, ViewsWithoutSkyOfAnEmptyOctreeAreBlackInEveryForm)
 {
     const Octree octree = test::octreeOf(device(), {}, 5);
     const std::size_t pixels = std::size_t{kWidth} * kHeight;
@@ -297,6 +297,7 @@ TEST(TexelForm, EveryViewOfAnEmptyOctreeIsBlackInEveryForm)
         options.view = view;
         if (view != View::Color)
         {
+            EXPECT_EQ(show(octree, sphereView(), TexelForm::Rgba8, options).image, Words(pixels, 255U << 24));
             EXPECT_EQ(show(octree, sphereView(), TexelForm::Bgra8, options).image, Words(pixels, 255U << 24));
             EXPECT_EQ(show(octree, sphereView(), TexelForm::Rgb10, options).image, Words(pixels, 3U << 30));
             const Words halfs = show(octree, sphereView(), TexelForm::Half, options).image;

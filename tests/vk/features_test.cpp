@@ -598,6 +598,7 @@ TEST(Declaration, WhatItPointsToMayGoOnceTheDeviceIsMade)
     vk::DeviceHandles handles = host.handles();
     handles.enabled_features = &structs->core;
     vk::Device device(handles, testKernels());
+    *structs = Structs{}; // what a pointer that was kept would find
     structs.reset();
     EXPECT_FALSE(device.isEnabled("hostQueryReset"));
     vk::Device guest(device.handles(), testKernels());

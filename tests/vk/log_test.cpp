@@ -101,17 +101,31 @@ TEST(Log, WhatTheDeviceGoesWithoutIsSaidOnce)
 
 TEST(Log, AListenerThatThrowsChangesNothing)
 {
+    int call_count = 0;
     test::HostOptions options;
-    options.log.function = [](void*, LogSeverity, const char*) { throw Error(ErrorCode::Other, "no paper"); };
+    options.log.user = &call_count;
+    options.log.function = [](void* count, LogSeverity, const char*)
+    {
+        ++*static_cast<int*>(count);
+        throw Error(ErrorCode::Other, "no paper");
+    };
     test::HostDevice host(options);
     vk::Device device(host.handles(), testKernels());
     vk::BufferOf<gpu::uint> values(device, "values", 100);
+    vk::BufferOf<gpu::uint> scaled(device, "scaled", 100, vk::MemoryKind::Readback);
     host.run(
         [&](VkCommandBuffer commands)
         {
             vk::FrameGraph graph(device, commands);
             test::iota(graph, values);
+            test::scale(graph, values, scaled, 3);
+            graph.releaseToHost();
         });
+    EXPECT_GT(call_count, 0);
+    for (std::uint32_t i = 0; i < 100; ++i)
+    {
+        ASSERT_EQ(scaled.mappedData()[i], 3 * i);
+    }
 }
 
 } // namespace
