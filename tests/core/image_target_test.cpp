@@ -5,6 +5,7 @@
 #include "core/kernels.h"
 #include "core/trace_depth.h"
 #include "support/device.h"
+#include "support/errors.h"
 #include "support/host_image.h"
 #include "support/trace_octrees.h"
 #include "vk/owner_functions.h"
@@ -25,6 +26,7 @@ namespace zvo
 namespace
 {
 
+using test::expectParts;
 using test::HostImage;
 using Words = std::vector<gpu::uint>;
 
@@ -260,26 +262,9 @@ std::string refusal(const std::function<void(vk::FrameGraph&)>& record, ErrorCod
                     vk::Device& on = device().device())
 {
     vk::FrameGraph graph(on, VK_NULL_HANDLE);
-    try
-    {
-        record(graph);
-        ADD_FAILURE() << "nothing was thrown";
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), code);
-        EXPECT_EQ(graph.passCount(), 0U);
-        return error.what();
-    }
-    return "";
-}
-
-void expectParts(const std::string& message, std::initializer_list<const char*> parts)
-{
-    for (const char* part : parts)
-    {
-        EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
-    }
+    const std::string message = test::messageOf([&] { record(graph); }, code);
+    EXPECT_EQ(graph.passCount(), 0U);
+    return message;
 }
 
 TEST_F(ImageTargets, OtherFormatsAreRefusedWithAListOfThoseThatAreSupported)

@@ -2,6 +2,7 @@
 // Devices that somebody else owns: what zvo asks of them, and how it behaves on them.
 #include "vk/device.h"
 
+#include "support/errors.h"
 #include "support/failing_vulkan.h"
 #include "support/host_device.h"
 #include "vk/check.h"
@@ -20,21 +21,7 @@ namespace
 
 using namespace zvo;
 using test::device;
-
-std::string messageOf(const std::function<void()>& action, ErrorCode expected)
-{
-    try
-    {
-        action();
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), expected) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
+using test::messageOf;
 
 bool contains(const std::string& text, const std::string& part)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Devices whose host hands out the device's memory, or the driver's host memory, and runs out of it.
+#include "support/errors.h"
 #include "support/host_allocator.h"
 #include "support/host_memory.h"
 #include "vk/image.h"
@@ -18,23 +19,9 @@ namespace
 {
 
 using namespace zvo;
+using test::messageOf;
 
 constexpr std::uint64_t kMiB = 1 << 20;
-
-std::string messageOf(const std::function<void()>& action, ErrorCode expected)
-{
-    try
-    {
-        action();
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), expected) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
-}
 
 /// Makes what zvo makes on a device: small and big buffers of each kind, an image, kernels; and runs these.
 void work(test::HostDevice& host, vk::Device& device)
