@@ -83,9 +83,19 @@ void TimerPool::end(VkCommandBuffer commands)
 
 std::vector<PassTime> TimerPool::collect() const
 {
+    std::optional<std::vector<PassTime>> times = collectIfReady();
+    if (!times)
+    {
+        throw Error(ErrorCode::Other, "the pass times were asked for before the device was done with the passes");
+    }
+    return std::move(*times);
+}
+
+std::optional<std::vector<PassTime>> TimerPool::collectIfReady() const
+{
     if (m_names.empty())
     {
-        return {};
+        return std::vector<PassTime>();
     }
     std::vector<std::uint64_t> stamps(m_stamp_count * m_names.size());
     const VkResult result = m_device.fn().vkGetQueryPoolResults(
@@ -97,7 +107,7 @@ std::vector<PassTime> TimerPool::collect() const
     }
     if (result == VK_NOT_READY)
     {
-        throw Error(ErrorCode::Other, "the pass times were asked for before the device was done with the passes");
+        return std::nullopt;
     }
     const std::uint32_t bits = m_device.report().timestamp_valid_bits;
     const std::uint64_t mask = bits >= kFullTimestampBits ? UINT64_MAX : (std::uint64_t{1} << bits) - 1;

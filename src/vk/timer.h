@@ -5,6 +5,7 @@
 #include "zvo/types.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ public:
     /// The times of the recorded passes in order, after the device is done with them. Passes past the capacity are left
     /// out and counted in droppedCount().
     [[nodiscard]] std::vector<PassTime> collect() const;
+
+    /// The same; none where the device did not carry out all of them.
+    [[nodiscard]] std::optional<std::vector<PassTime>> collectIfReady() const;
     [[nodiscard]] std::uint32_t droppedCount() const { return m_dropped_count; }
 
 private:
