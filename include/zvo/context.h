@@ -72,14 +72,21 @@ public:
 
     /// The device is done with a frame and all before it: a frame number of the host's, or the value that a timeline
     /// semaphore has reached. Gives memory back that only those used. Numbers that are not higher than before change
-    /// nothing.
+    /// nothing. A frame whose passes were not all carried out has no times. Throws Error{Usage} for the frame of a
+    /// Recorder that is still there: nothing changes. What reading times throws, as on a lost device, it throws when
+    /// all else is done.
     void frameDone(std::uint64_t frame);
 
-    /// A frame, the one that was begun last, did not reach the device, or not all of it: its command buffers were
-    /// thrown away. Models, trees, dynamic trees and movers that were made in it are lost: using them throws
+    /// A frame, the one that was begun last, did not reach the device: its command buffers were thrown away, and none
+    /// was submitted. Models, trees, dynamic trees and movers that were made in it are lost: using them throws
     /// Error{Usage}. Dynamic trees are as they were before it, steps of TreeBuild and TreeCompression are recorded
-    /// again. The number can be used again. Nothing happens for one that never began, as where its Recorder could not
-    /// be made; throws Error{Usage} for those before the last, which must reach the device.
+    /// again, unless what they are made of was lost. The number can be used again. Nothing happens for one that never
+    /// began, as where its Recorder could not be made; throws Error{Usage} for those before the last, which must reach
+    /// the device.
+    ///
+    /// A frame of which the device got a part is not lost: memory that it may be using would be freed, and what it has
+    /// changed not be as before. Submit its other command buffers as well. Where that cannot be, wait until the device
+    /// is idle; then the Context goes, with everything that was made of it.
     void frameLost(std::uint64_t frame);
 
     /// Of the newest frame that is done and has any: the device's time of each pass, in the order of recording.

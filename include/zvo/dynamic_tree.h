@@ -119,7 +119,7 @@ public:
     [[nodiscard]] std::uint64_t address() const;
 
     struct Impl;
-    [[nodiscard]] Impl& impl() const { return *m_impl; } // of the library
+    [[nodiscard]] Impl* impl() const { return m_impl.get(); } // of the library; null where it was moved from
 
 private:
     std::unique_ptr<Impl> m_impl;

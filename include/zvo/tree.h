@@ -29,7 +29,8 @@ struct TreeFacts
     float emission_scale = 0;     // 0: nothing emits light
 };
 
-/// An octree or a DAG in device memory, which does not change. Move-only.
+/// An octree or a DAG in device memory, which does not change. Move-only. Using one that was taken over or moved from,
+/// or lost with its frame (Context::frameLost()), throws Error{Usage}, as with all that is made of a Context.
 class ZVO_API Tree
 {
 public:
@@ -78,7 +79,8 @@ struct TreeBuildInfo
 class ZVO_API TreeBuild
 {
 public:
-    /// Throws Error{Usage} for a depth out of range, and for attributes of a model that was uploaded without.
+    /// Throws Error{Usage} for a depth out of range, for attributes of a model that was uploaded without, and for one
+    /// that was lost.
     TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info);
     ~TreeBuild();
     TreeBuild(TreeBuild&&) noexcept;
@@ -86,7 +88,8 @@ public:
 
     /// Records the next step, unless the device is still at work on the last one. False: there is none, the tree is
     /// there. Throws Error{Memory}: the budget, or the device's memory, does not suffice; the same step can be tried
-    /// again unless the error came from what the last step found out (isBroken()).
+    /// again unless the error came from what the last step found out (isBroken()). Throws Error{Usage} where the model
+    /// was lost with its frame: nothing will come of it.
     bool record(Recorder& recorder);
 
     /// Whether the tree is there. Like record(), learns what the last step came to, and throws.

@@ -12,22 +12,6 @@ namespace zvo
 namespace
 {
 
-// A tree that another object may have taken over before that failed.
-Tree& present(ZvoTree* tree, const char* name)
-{
-    Tree& object = at(tree, name).object;
-    if (object.impl() == nullptr)
-    {
-        throw Error(ErrorCode::Usage, std::string(name) + " was taken over: it is empty");
-    }
-    return object;
-}
-
-const Tree& present(const ZvoTree* tree, const char* name)
-{
-    return present(const_cast<ZvoTree*>(tree), name);
-}
-
 VkBool32 boolean(bool value)
 {
     return value ? VK_TRUE : VK_FALSE;
@@ -127,12 +111,12 @@ void zvoTreeDestroy(ZvoTree* tree)
 
 ZvoResult zvoTreeFacts(const ZvoTree* tree, ZvoTreeFacts* facts)
 {
-    return guarded(__func__, [&] { writeStruct(facts, "facts", toC(present(tree, "tree").facts())); });
+    return guarded(__func__, [&] { writeStruct(facts, "facts", toC(at(tree, "tree").object.facts())); });
 }
 
 ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address)
 {
-    return guarded(__func__, [&] { at(address, "address") = present(tree, "tree").address(); });
+    return guarded(__func__, [&] { at(address, "address") = at(tree, "tree").object.address(); });
 }
 
 ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const ZvoTreeBuildInfo* info,
@@ -184,7 +168,7 @@ ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTree
                    [&]
                    {
                        Context& object = at(context, "context").object;
-                       Tree& source = present(octree, "octree");
+                       Tree& source = at(octree, "octree").object;
                        give(compression, "compression", [&] { return TreeCompression(object, std::move(source)); });
                        delete octree;
                    });

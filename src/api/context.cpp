@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+
 namespace zvo
 {
 
@@ -66,16 +68,29 @@ Context::Impl::Impl(const ContextInfo& info)
 {
 }
 
+// What goes with it goes at once: no frame is under way.
+Context::Impl::~Impl()
+{
+    frames.clear();
+    retired = {};
+}
+
 std::shared_ptr<FrameState> Context::Impl::beginFrame(std::uint64_t number)
 {
     if (!frames.empty() && frames.back()->number == number)
     {
         return frames.back();
     }
-    if ((!frames.empty() && number < frames.back()->number) || (done && number <= *done))
+    if (done && number <= *done)
     {
-        throw Error(ErrorCode::Usage, fmt::format("frame {} was begun after {}: their numbers must grow", number,
-                                                  frames.empty() ? *done : frames.back()->number));
+        throw Error(ErrorCode::Usage, fmt::format("frame {} is done; the numbers of frames must grow: begin one after "
+                                                  "{}",
+                                                  number, frames.empty() ? *done : frames.back()->number));
+    }
+    if (!frames.empty() && number < frames.back()->number)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("frame {} was begun after {}: their numbers must grow", number, frames.back()->number));
     }
     auto frame = std::make_shared<FrameState>();
     frame->number = number;
@@ -95,6 +110,21 @@ std::shared_ptr<FrameState> Context::Impl::beginFrame(std::uint64_t number)
     return frame;
 }
 
+void Context::Impl::takeTimes(FrameState& frame)
+{
+    std::unique_ptr<vk::TimerPool> timers = std::move(frame.timers);
+    if (!timers)
+    {
+        return;
+    }
+    frame.times = timers->collectIfReady().value_or(std::vector<PassTime>());
+    if (!frame.times.empty())
+    {
+        times = frame.times;
+    }
+    free_timers.push_back(std::move(timers));
+}
+
 Context::Context(const ContextInfo& info) : m_impl(std::make_unique<Impl>(info)) {}
 
 Context::~Context() = default;
@@ -102,20 +132,32 @@ Context::~Context() = default;
 void Context::frameDone(std::uint64_t frame)
 {
     Impl& impl = *m_impl;
+    if (impl.is_recording && frame >= impl.frames.back()->number)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("frame {} cannot be done: its Recorder is still there", impl.frames.back()->number));
+    }
+    std::exception_ptr failure;
     while (!impl.frames.empty() && impl.frames.front()->number <= frame)
     {
-        FrameState& state = *impl.frames.front();
-        if (state.timers)
-        {
-            state.times = state.timers->collect();
-            impl.times = state.times.empty() ? impl.times : state.times;
-            impl.free_timers.push_back(std::move(state.timers));
-        }
-        state.is_done = true;
-        impl.done = state.number;
+        const std::shared_ptr<FrameState> state = std::move(impl.frames.front());
         impl.frames.pop_front();
+        state->is_done = true;
+        impl.done = state->number;
+        try
+        {
+            impl.takeTimes(*state);
+        }
+        catch (...) // what the device is done with is given back all the same
+        {
+            failure = failure ? failure : std::current_exception();
+        }
     }
     impl.retired.frameDone(frame);
+    if (failure)
+    {
+        std::rethrow_exception(failure);
+    }
 }
 
 void Context::frameLost(std::uint64_t frame)

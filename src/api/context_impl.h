@@ -13,6 +13,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,11 +34,17 @@ struct FrameState
 struct ZVO_LOCAL Context::Impl
 {
     explicit Impl(const ContextInfo& info);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
 
     /// The frame with that number: the last one, or a new one. Throws Error{Usage} for one that is over.
     std::shared_ptr<FrameState> beginFrame(std::uint64_t number);
 
-    /// Keeps thing until the device is done with all frames so far.
+    /// The times of its passes, of a frame that is done, where they can be had.
+    void takeTimes(FrameState& frame);
+
+    /// Keeps thing until the device is done with all frames so far. It does not retire anything when it goes.
     template <typename T> void retire(T&& thing)
     {
         if (!frames.empty())
@@ -91,16 +98,27 @@ template <typename Work> auto recording(Recorder& recorder, const Work& work)
     }
 }
 
-/// Throws Error{Usage} for what was made in a frame that was lost, or of another context.
+/// Throws Error{Usage} for what was made in a frame that was lost.
 inline void requireUsable(const FrameState& made_in, const char* what)
 {
     if (made_in.is_lost)
     {
-        throw Error(ErrorCode::Usage,
-                    std::string("this ") + what + " was made in a frame that did not reach the device: make it again");
+        throw Error(ErrorCode::Usage, std::string("this ") + what +
+                                          " was lost with its frame, which did not reach the device: make it again");
     }
 }
 
+/// What an object consists of. Throws Error{Usage} for one that is empty.
+template <typename Impl> Impl& contentOf(Impl* impl, const char* what)
+{
+    if (impl == nullptr)
+    {
+        throw Error(ErrorCode::Usage, std::string("this ") + what + " was taken over or moved from: it is empty");
+    }
+    return *impl;
+}
+
+/// Throws Error{Usage} for objects of two contexts.
 inline void requireSame(const Context::Impl& a, const Context::Impl& b)
 {
     if (&a != &b)

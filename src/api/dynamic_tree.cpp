@@ -68,11 +68,7 @@ DynamicTree::Impl::~Impl()
 
 void DynamicTree::Impl::learn()
 {
-    if (made_in)
-    {
-        requireUsable(*made_in, "dynamic tree");
-        made_in = made_in->is_done ? nullptr : made_in;
-    }
+    made_in = made_in && made_in->is_done ? nullptr : made_in;
     while (!frames.empty() && frames.front().host->is_done)
     {
         const Frame frame = std::move(frames.front());
@@ -115,6 +111,16 @@ void DynamicTree::Impl::publish(vk::FrameGraph& graph)
     graph.update(table, 0, std::span(&values, 1));
 }
 
+DynamicTree::Impl& usable(const DynamicTree& tree)
+{
+    DynamicTree::Impl& impl = contentOf(tree.impl(), "dynamic tree");
+    if (impl.made_in)
+    {
+        requireUsable(*impl.made_in, "dynamic tree");
+    }
+    return impl;
+}
+
 DynamicTree::DynamicTree(Recorder& recorder, Tree&& fixed, const DynamicTreeInfo& info)
     : m_impl(recording(recorder,
                        [&](Recorder::Impl& impl) { return std::make_unique<Impl>(impl, std::move(fixed), info); }))
@@ -127,49 +133,55 @@ DynamicTree& DynamicTree::operator=(DynamicTree&&) noexcept = default;
 
 MoverId DynamicTree::addMover(Recorder& recorder, const Model& model, const Mat4& to_world)
 {
-    requireUsable(*model.impl()->made_in, "model");
-    requireSame(m_impl->context, model.impl()->context);
-    m_impl->enter(recorder.impl());
-    const auto& mesh = model.impl()->mesh;
+    Impl& impl = usable(*this);
+    const Model::Impl& mover_impl = usable(model);
+    requireSame(impl.context, mover_impl.context);
+    impl.enter(recorder.impl());
+    const auto& mesh = mover_impl.mesh;
     const MoverId mover =
-        recording(recorder, [&](Recorder::Impl&) { return m_impl->octree->add(mesh, poseOf(*mesh, to_world)); });
-    m_impl->new_movers.push_back({recorder.impl().frame, mover});
+        recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, poseOf(*mesh, to_world)); });
+    impl.new_movers.push_back({recorder.impl().frame, mover});
     return mover;
 }
 
 void DynamicTree::placeMover(MoverId mover, const Mat4& to_world)
 {
-    m_impl->learn();
-    m_impl->octree->place(mover, poseOf(m_impl->octree->mesh(mover), to_world));
+    Impl& impl = usable(*this);
+    impl.learn();
+    impl.octree->place(mover, poseOf(impl.octree->mesh(mover), to_world));
 }
 
 void DynamicTree::removeMover(MoverId mover)
 {
-    m_impl->learn();
-    m_impl->octree->remove(mover);
-    std::erase_if(m_impl->new_movers, [&](const Impl::NewMover& made) { return made.mover == mover; });
+    Impl& impl = usable(*this);
+    impl.learn();
+    impl.octree->remove(mover);
+    std::erase_if(impl.new_movers, [&](const Impl::NewMover& made) { return made.mover == mover; });
 }
 
 bool DynamicTree::update(Recorder& recorder, double budget_ms)
 {
-    return m_impl->change(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
-                          { return octree.update(graph, budget_ms); });
+    return usable(*this).change(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
+                                { return octree.update(graph, budget_ms); });
 }
 
 bool DynamicTree::needsUpdate()
 {
-    m_impl->learn();
-    return m_impl->octree->needsUpdate();
+    Impl& impl = usable(*this);
+    impl.learn();
+    return impl.octree->needsUpdate();
 }
 
 bool DynamicTree::undo(Recorder& recorder)
 {
-    return m_impl->change(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.undo(graph); });
+    return usable(*this).change(recorder,
+                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.undo(graph); });
 }
 
 bool DynamicTree::redo(Recorder& recorder)
 {
-    return m_impl->change(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redo(graph); });
+    return usable(*this).change(recorder,
+                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redo(graph); });
 }
 
 bool DynamicTree::edit(Recorder& recorder, const BrushInfo& info)
@@ -180,41 +192,42 @@ bool DynamicTree::edit(Recorder& recorder, const BrushInfo& info)
     brush.center = {info.center[0], info.center[1], info.center[2]};
     brush.radius = info.radius;
     brush.color = info.color;
-    return m_impl->change(recorder,
-                          [&](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.edit(graph, brush); });
+    return usable(*this).change(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
+                                { return octree.edit(graph, brush); });
 }
 
 void DynamicTree::endStroke()
 {
-    m_impl->octree->endStroke();
+    usable(*this).octree->endStroke();
 }
 
 bool DynamicTree::undoEdit(Recorder& recorder)
 {
-    return m_impl->change(recorder,
-                          [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.undoEdit(graph); });
+    return usable(*this).change(recorder,
+                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.undoEdit(graph); });
 }
 
 bool DynamicTree::redoEdit(Recorder& recorder)
 {
-    return m_impl->change(recorder,
-                          [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redoEdit(graph); });
+    return usable(*this).change(recorder,
+                                [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redoEdit(graph); });
 }
 
 std::vector<UpdateFacts> DynamicTree::takeUpdates()
 {
-    m_impl->learn();
-    return std::exchange(m_impl->updates, {});
+    Impl& impl = usable(*this);
+    impl.learn();
+    return std::exchange(impl.updates, {});
 }
 
 const TreeFacts& DynamicTree::facts() const
 {
-    return m_impl->facts;
+    return usable(*this).facts;
 }
 
 std::uint64_t DynamicTree::address() const
 {
-    return m_impl->table.address();
+    return usable(*this).table.address();
 }
 
 } // namespace zvo

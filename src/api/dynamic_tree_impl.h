@@ -21,7 +21,7 @@ struct ZVO_LOCAL DynamicTree::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// Learns what became of frames; movers that were lost with one go. Throws Error{Usage} where the tree was.
+    /// Learns what became of frames; movers that were lost with one go.
     void learn();
 
     /// The octree records into this frame.
@@ -74,5 +74,8 @@ struct ZVO_LOCAL DynamicTree::Impl
     std::vector<UpdateFacts> updates;
     std::uint64_t version = 0; // of what is traced
 };
+
+/// Throws Error{Usage} for a dynamic tree that was lost with its frame, or moved from.
+DynamicTree::Impl& usable(const DynamicTree& tree);
 
 } // namespace zvo

@@ -156,6 +156,13 @@ Scene sceneOf(const ModelInfo& info)
 
 } // namespace
 
+const Model::Impl& usable(const Model& model)
+{
+    const Model::Impl& impl = contentOf(model.impl().get(), "model");
+    requireUsable(*impl.made_in, "model");
+    return impl;
+}
+
 Model::Model(Recorder& recorder, const ModelInfo& info)
 {
     Scene scene = sceneOf(info);
@@ -172,12 +179,12 @@ Model& Model::operator=(const Model&) = default;
 
 std::uint64_t Model::triangleCount() const
 {
-    return m_impl->mesh->uploaded.triangle_count;
+    return usable(*this).mesh->uploaded.triangle_count;
 }
 
 float Model::emissionScale() const
 {
-    return m_impl->mesh->uploaded.emission_scale;
+    return usable(*this).mesh->uploaded.emission_scale;
 }
 
 GridInfo Model::gridAround(std::uint32_t depth) const
@@ -186,7 +193,7 @@ GridInfo Model::gridAround(std::uint32_t depth) const
     {
         throw Error(ErrorCode::Usage, fmt::format("a grid has a depth from 1 to {}, not {}", Grid::kDepthMax, depth));
     }
-    return gridInfo(Grid::around(m_impl->bounds, depth));
+    return gridInfo(Grid::around(usable(*this).bounds, depth));
 }
 
 } // namespace zvo

@@ -27,4 +27,7 @@ struct ZVO_LOCAL Model::Impl
     Bounds bounds = {};
 };
 
+/// Throws Error{Usage} for a model that was lost with its frame.
+const Model::Impl& usable(const Model& model);
+
 } // namespace zvo

@@ -14,7 +14,11 @@ namespace zvo
 class StepJob
 {
 public:
-    explicit StepJob(Context::Impl& context) : m_context(context) {}
+    /// made_in: the frame of what it is made of, a name of which is source; null: that is known to be done.
+    StepJob(Context::Impl& context, std::shared_ptr<FrameState> made_in, const char* source)
+        : m_context(context), m_made_in(std::move(made_in)), m_source(source)
+    {
+    }
     virtual ~StepJob() = default;
     StepJob(const StepJob&) = delete;
     StepJob& operator=(const StepJob&) = delete;
@@ -37,6 +41,11 @@ public:
 
     bool isDone()
     {
+        if (m_made_in)
+        {
+            requireUsable(*m_made_in, m_source);
+            m_made_in = m_made_in->is_done ? nullptr : m_made_in;
+        }
         if (m_is_broken)
         {
             throw Error(ErrorCode::Usage, "nothing comes of this any more: an earlier call has said why");
@@ -55,7 +64,7 @@ public:
         return isComplete();
     }
 
-    [[nodiscard]] bool isBroken() const { return m_is_broken; }
+    [[nodiscard]] bool isBroken() const { return m_is_broken || (m_made_in && m_made_in->is_lost); }
 
 protected:
     [[nodiscard]] Context::Impl& context() const { return m_context; }
@@ -66,6 +75,8 @@ private:
     [[nodiscard]] virtual bool isComplete() const = 0;
 
     Context::Impl& m_context;
+    std::shared_ptr<FrameState> m_made_in; // null: done
+    const char* m_source;
     std::shared_ptr<FrameState> m_frame; // of the step that is under way
     bool m_is_broken = false;
 };

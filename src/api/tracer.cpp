@@ -198,19 +198,21 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 void Tracer::trace(Recorder& recorder, const Tree& tree, const CameraInfo& camera, const TraceInfo& info,
                    const ImageTarget& color, const DepthTarget* depth)
 {
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
     const Tree::Impl& impl = usable(tree);
-    requireSame(m_impl->context, impl.context);
-    requireSame(m_impl->context, recorder.impl().context);
-    m_impl->trace(recorder, impl.view(), impl.version, camera, info, color, depth);
+    requireSame(tracer.context, impl.context);
+    requireSame(tracer.context, recorder.impl().context);
+    tracer.trace(recorder, impl.view(), impl.version, camera, info, color, depth);
 }
 
 void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,
                    const ImageTarget& color, const DepthTarget* depth)
 {
-    DynamicTree::Impl& impl = tree.impl();
-    requireSame(m_impl->context, impl.context);
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    DynamicTree::Impl& impl = usable(tree);
+    requireSame(tracer.context, impl.context);
     impl.enter(recorder.impl());
-    m_impl->trace(recorder, impl.octree->tree(), impl.version, camera, info, color, depth);
+    tracer.trace(recorder, impl.octree->tree(), impl.version, camera, info, color, depth);
 }
 
 CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height)

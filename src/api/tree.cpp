@@ -60,16 +60,12 @@ TreeFacts factsOf(const StaticTree& tree)
 
 Tree::Impl& usable(const Tree& tree)
 {
-    Tree::Impl* const impl = tree.impl();
-    if (impl == nullptr)
+    Tree::Impl& impl = contentOf(tree.impl(), "tree");
+    if (impl.made_in)
     {
-        throw Error(ErrorCode::Usage, "this tree was taken over: it is empty");
+        requireUsable(*impl.made_in, "tree");
     }
-    if (impl->made_in)
-    {
-        requireUsable(*impl->made_in, "tree");
-    }
-    return *impl;
+    return impl;
 }
 
 Tree::Impl::Impl(Context::Impl& context_impl, StaticTree&& tree)
@@ -104,12 +100,12 @@ Tree& Tree::operator=(Tree&&) noexcept = default;
 
 const TreeFacts& Tree::facts() const
 {
-    return m_impl->facts;
+    return usable(*this).facts;
 }
 
 std::uint64_t Tree::address() const
 {
-    return m_impl->table.address();
+    return usable(*this).table.address();
 }
 
 } // namespace zvo

@@ -16,12 +16,6 @@ namespace zvo
 namespace
 {
 
-const MoverMesh& usableMesh(const Model& model)
-{
-    requireUsable(*model.impl()->made_in, "model");
-    return *model.impl()->mesh;
-}
-
 BuildOptions optionsOf(const TreeBuildInfo& info)
 {
     if (info.keep_sums && info.form != AttributeForm::Bytes8)
@@ -67,12 +61,11 @@ private:
 
 struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
 {
-    Impl(Context::Impl& context_impl, const Model& model, const TreeBuildInfo& info)
-        : TreeJob(context_impl), mesh(model.impl()->mesh), form(info.form),
-          builder(std::make_unique<OctreeBuilder>(context_impl.device, usableMesh(model).uploaded, toGrid(info.grid),
-                                                  optionsOf(info)))
+    Impl(Context::Impl& context_impl, const Model::Impl& model, const TreeBuildInfo& info)
+        : TreeJob(context_impl, model.made_in, "model"), mesh(model.mesh), form(info.form),
+          builder(
+              std::make_unique<OctreeBuilder>(context_impl.device, mesh->uploaded, toGrid(info.grid), optionsOf(info)))
     {
-        requireSame(context_impl, model.impl()->context);
     }
 
     ~Impl() override
@@ -80,6 +73,7 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
         context().retire(std::move(builder));
         context().retire(std::move(mesh));
         context().retire(std::move(built));
+        context().retire(std::move(packed));
     }
 
     void recordStep(vk::FrameGraph& graph) override
@@ -146,8 +140,20 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
     std::map<std::string, std::uint64_t> dropped;
 };
 
+namespace
+{
+
+const Model::Impl& buildable(Context& context, const Model& model)
+{
+    const Model::Impl& impl = usable(model);
+    requireSame(context.impl(), impl.context);
+    return impl;
+}
+
+} // namespace
+
 TreeBuild::TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info)
-    : m_impl(std::make_unique<Impl>(context.impl(), model, info))
+    : m_impl(std::make_unique<Impl>(context.impl(), buildable(context, model), info))
 {
 }
 
@@ -157,33 +163,33 @@ TreeBuild& TreeBuild::operator=(TreeBuild&&) noexcept = default;
 
 bool TreeBuild::record(Recorder& recorder)
 {
-    return m_impl->record(recorder);
+    return contentOf(m_impl.get(), "build").record(recorder);
 }
 
 bool TreeBuild::isDone()
 {
-    return m_impl->isDone();
+    return contentOf(m_impl.get(), "build").isDone();
 }
 
 bool TreeBuild::isBroken() const
 {
-    return m_impl->isBroken();
+    return contentOf(m_impl.get(), "build").isBroken();
 }
 
 Tree TreeBuild::take()
 {
-    return Tree(m_impl->take());
+    return Tree(contentOf(m_impl.get(), "build").take());
 }
 
 const std::map<std::string, std::uint64_t>& TreeBuild::dropped() const
 {
-    return m_impl->dropped;
+    return contentOf(m_impl.get(), "build").dropped;
 }
 
 struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
 {
     Impl(Context::Impl& context_impl, Tree&& octree)
-        : TreeJob(context_impl), source(octree.release()),
+        : TreeJob(context_impl, octree.impl()->made_in, "octree"), source(octree.release()),
           builder(
               std::make_unique<SvdagBuilder>(context_impl.device, std::move(source->fixed.dag.tree), CompressOptions{}))
     {
@@ -192,7 +198,7 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
     ~Impl() override
     {
         context().retire(std::move(builder));
-        context().retire(std::move(source));
+        source.reset(); // it retires what it has
     }
 
     void recordStep(vk::FrameGraph& graph) override
@@ -231,10 +237,10 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
 namespace
 {
 
-Tree&& compressible(const Context& context, Tree&& octree)
+Tree&& compressible(Context& context, Tree&& octree)
 {
     const Tree::Impl& impl = usable(octree);
-    requireSame(const_cast<Context&>(context).impl(), impl.context);
+    requireSame(context.impl(), impl.context);
     if (impl.fixed.has_lists)
     {
         throw Error(ErrorCode::Usage, "this tree is a DAG already");
@@ -255,22 +261,22 @@ TreeCompression& TreeCompression::operator=(TreeCompression&&) noexcept = defaul
 
 bool TreeCompression::record(Recorder& recorder)
 {
-    return m_impl->record(recorder);
+    return contentOf(m_impl.get(), "compression").record(recorder);
 }
 
 bool TreeCompression::isDone()
 {
-    return m_impl->isDone();
+    return contentOf(m_impl.get(), "compression").isDone();
 }
 
 bool TreeCompression::isBroken() const
 {
-    return m_impl->isBroken();
+    return contentOf(m_impl.get(), "compression").isBroken();
 }
 
 Tree TreeCompression::take()
 {
-    return Tree(m_impl->take());
+    return Tree(contentOf(m_impl.get(), "compression").take());
 }
 
 } // namespace zvo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What zvo promises to hosts: what it does not call, what it says of misuse, and what it leaves behind when it fails.
 #include "api_scene.h"
+#include "expect_usage.h"
 #include "support/failing_vulkan.h"
 #include "support/host_allocator.h"
 #include "support/host_memory.h"
@@ -15,6 +16,8 @@ namespace zvo
 
 namespace
 {
+
+using test::expectUsage;
 
 /// All that a host can do, in a few frames. Returns a picture of each tree.
 class Program
@@ -242,20 +245,6 @@ TEST(ApiContract, WhatIsTooMuchForTheBudgetIsAnErrorThatNamesIt)
     const Tree small = host.build(model, {.grid = test::apiGrid(4)});
     EXPECT_GT(small.facts().voxel_count, 0U);
     EXPECT_LE(host.context.memory().peak_held, 4U << 20);
-}
-
-void expectUsage(const std::function<void()>& action, const std::string& word)
-{
-    try
-    {
-        action();
-        ADD_FAILURE() << "no error, expected one about " << word;
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Usage) << error.what();
-        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
 }
 
 TEST(ApiContract, MisuseIsAnErrorThatSaysWhat)
