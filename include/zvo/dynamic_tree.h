@@ -59,10 +59,11 @@ using MoverId = std::uint32_t;
 /// Voxel Octree Based on Morton Code, 2021). The static tree never changes: an update copies the paths that movers
 /// touch behind it, and shows the copy; undo shows an older one. The result equals a rebuild of everything.
 ///
-/// At most four of update(), undo() and redo() in a frame. All of them: first stage COPY and COMPUTE, last stage
-/// COMPUTE and COPY, on resources of its own. What fails is reported, not waited for: what an update needs beyond the
-/// memory that there is, it reports when its frame is done; the frame shows the last complete tree, and a later update
-/// has more.
+/// At most 4 * frames_in_flight updates in all frames together that are recorded and not yet done
+/// (Context::frameDone()); undo() and redo() as often as one likes. All that records: first stages ALL_TRANSFER,
+/// COMPUTE_SHADER and DRAW_INDIRECT, last stages COMPUTE_SHADER and ALL_TRANSFER, on resources of its own. What fails
+/// is reported, not waited for: what an update needs beyond the memory that there is, it reports when its frame is
+/// done; the frame shows the last complete tree, and a later update has more.
 class ZVO_API DynamicTree
 {
 public:

@@ -51,7 +51,8 @@ struct DepthTarget
     float miss = 1.0F; // where rays hit nothing: the far end's depth, 0 where depth is reversed
 };
 
-/// Buffers in which pictures of one size and one kind of format are traced: one for each picture of a frame.
+/// Buffers in which pictures of one size and one kind of format are traced, one after the other: as many pictures
+/// of a frame as there are, of all frames in flight. Another size or kind of format takes another Tracer.
 class ZVO_API Tracer
 {
 public:
@@ -67,9 +68,10 @@ public:
     /// Records what traces a picture of a tree and copies it to the host's image, and its depth to another one. The
     /// picture is the bytes that `zvo render` writes, with the same options, on every device.
     ///
-    /// First stage: COPY and COMPUTE, on resources of zvo; last stage: COPY. Edges of the images, which are the host's:
-    /// before and after VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, in ImageTarget::layout; images
-    /// need VK_IMAGE_USAGE_TRANSFER_DST_BIT. Cost: pixels that are near something, and the copies.
+    /// First stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT, on resources of zvo; last stage: COPY. Edges of
+    /// the images, which are the host's: before and after VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+    /// in ImageTarget::layout; images need VK_IMAGE_USAGE_TRANSFER_DST_BIT. Cost: pixels that are near something, and
+    /// the copies.
     ///
     /// Throws Error{Usage} for formats, layouts, offsets and cameras that will not do, and what making a kernel throws:
     /// then no image is written.

@@ -36,7 +36,7 @@ class ZVO_API Tree
 public:
     /// Records the upload of a .zvo file (docs/file-format.md) that is in memory, or of one on disk. Takes as much
     /// memory again for staging until the frame is done. Throws Error{Input}, one line, for a file that is not right,
-    /// and Error{Memory}. First and last stage: COPY.
+    /// and Error{Memory}. First and last stage: ALL_TRANSFER.
     Tree(Recorder& recorder, std::span<const std::byte> file);
     Tree(Recorder& recorder, const std::filesystem::path& path);
     ~Tree();
@@ -74,8 +74,9 @@ struct TreeBuildInfo
 ///     while (build.record(recorder)) { submit; begin the next frame }
 ///     Tree tree = build.take();
 ///
-/// The result is the same bytes on every device, as `zvo build` writes them. First stage: COPY and COMPUTE. Last stage:
-/// COMPUTE and COPY. It touches resources of its own and the model.
+/// The result is the same bytes on every device, as `zvo build` writes them. First stages: ALL_TRANSFER,
+/// COMPUTE_SHADER and DRAW_INDIRECT. Last stages: COMPUTE_SHADER and ALL_TRANSFER. It touches resources of its own and
+/// the model.
 class ZVO_API TreeBuild
 {
 public:
