@@ -74,8 +74,9 @@ struct DeformMesh
     [[nodiscard]] bool empty() const { return parts.empty(); }
 };
 
-/// Uploads what deforms in scene, and waits. Throws Error{Memory} when the device's budget does not suffice and
-/// Error{Input} for a joint that is not there and for more of anything than 32-bit numbers count.
+/// Uploads what deforms in scene by way of device: done when that says (vk/uploader.h). Throws Error{Memory} when the
+/// device's budget does not suffice and Error{Input} for a joint that is not there and for more of anything than 32-bit
+/// numbers count.
 DeformMesh uploadDeformMesh(vk::Uploader& device, const Scene& scene);
 
 /// What a pose is on the device, and the host's copies from which it is written.

@@ -74,9 +74,9 @@ public:
     DynamicOctree(const DynamicOctree&) = delete;
     DynamicOctree& operator=(const DynamicOctree&) = delete;
 
-    /// Adds a mover in a pose of its mesh's scene; may wait for the device. Shown from the next update() on, as all
-    /// changes are. Throws Error{Usage} for more than kLayersMax movers, a mesh with another emission scale or a pose
-    /// that does not fit the mesh, and Error{Memory}.
+    /// Adds a mover in a pose of its mesh's scene, by way of the constructor's device: done when that says
+    /// (vk/uploader.h). Shown from the next update() on, as all changes are. Throws Error{Usage} for more than
+    /// kLayersMax movers, a mesh with another emission scale or a pose that does not fit the mesh, and Error{Memory}.
     MoverId add(std::shared_ptr<const MoverMesh> mesh, Pose pose);
 
     /// Puts the mover into another pose: nothing changes where it is the same, bit for bit. Where it is not finite,

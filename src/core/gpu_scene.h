@@ -43,10 +43,10 @@ struct GpuScene
 /// The largest emission of any material of scene, 0 where nothing emits light.
 float brightestEmission(const Scene& scene);
 
-/// Uploads scene and waits. Without attributes, only the textures that alpha needs are kept. What is voxelized into one
-/// octree needs one emission_scale: that of the scene with the largest brightestEmission(); by default, the scene's
-/// own. Emission beyond the scale is cut off. Throws Error{Memory} when the device's budget does not suffice and
-/// Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
+/// Uploads scene by way of device: done when that says (vk/uploader.h). Without attributes, only the textures that
+/// alpha needs are kept. What is voxelized into one octree needs one emission_scale: that of the scene with the largest
+/// brightestEmission(); by default, the scene's own. Emission beyond the scale is cut off. Throws Error{Memory} when
+/// the device's budget does not suffice and Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
 GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes,
                      std::optional<float> emission_scale = std::nullopt);
 

@@ -52,7 +52,8 @@ struct MoverPlan
 MoverPlan planMover(const Scene& scene, const DeformMesh& mesh);
 
 /// The buffers of a mover, placed as at rest; vertices that deform are undefined until placeMover. plan, uploaded and
-/// mesh: made of one scene. Waits. Throws Error{Memory} when the device's budget does not suffice.
+/// mesh: made of one scene. By way of device: done when that says (vk/uploader.h). Throws Error{Memory} when the
+/// device's budget does not suffice.
 MoverBuffers makeMover(vk::Uploader& device, const MoverPlan& plan, const GpuScene& uploaded, const DeformMesh& mesh);
 
 /// Records what puts the mover into pose: its draws and, where it deforms, its vertices. Values travel inside the

@@ -34,7 +34,8 @@ struct MoverMesh
     bool emits = false; // any of its materials
 };
 
-/// Uploads scene as a mover and waits; emission_scale: the common one. Throws as uploadScene and uploadDeformMesh.
+/// Uploads scene as a mover by way of device: done when that says (vk/uploader.h). emission_scale: the common one.
+/// Throws as uploadScene and uploadDeformMesh.
 std::shared_ptr<const MoverMesh> uploadMover(vk::Uploader& device, Scene scene, bool attributes, float emission_scale);
 
 /// Number of a mover, for as long as its octree lives.

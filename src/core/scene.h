@@ -22,6 +22,7 @@ struct Image
     std::uint32_t height = 0;
     std::vector<std::uint8_t> rgba;
 };
+
 /// An image and how coordinates outside of it are taken.
 struct Texture
 {
@@ -29,6 +30,7 @@ struct Texture
     WrapMode wrap_u = WrapMode::Repeat;
     WrapMode wrap_v = WrapMode::Repeat;
 };
+
 struct Material
 {
     std::string name;
