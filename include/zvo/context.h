@@ -40,8 +40,8 @@ struct ContextInfo
     MemoryCallbacks memory = {};                                 // in place of vkAllocateMemory
     std::uint64_t memory_budget_bytes = UINT64_MAX;              // of device memory that zvo holds
     LogCallback log = {};
-    std::uint32_t timed_passes_per_frame = 0; // passes of a frame whose times passTimes() tells; 0: none. Takes
-                                              // OptionalFeatures::pass_times
+    std::uint32_t timed_passes_per_frame = 0; // passes of a frame whose times passTimes() tells, at most 65536; 0:
+                                              // none. Without OptionalFeatures::pass_times there are none either
 };
 
 /// Device memory of a context, in bytes.
@@ -64,7 +64,7 @@ class ZVO_API Context
 {
 public:
     /// Throws Error{Device} with every reason when the device will not do or lacks something that was not enabled,
-    /// Error{Memory}.
+    /// Error{Usage} for null handles and more timed passes than there can be, Error{Memory}.
     explicit Context(const ContextInfo& info);
     ~Context();
     Context(const Context&) = delete;
@@ -117,13 +117,15 @@ class ZVO_API Recorder
 public:
     /// frame: a number of the host's, or the value that a timeline semaphore gets with it: never lower than the one
     /// before. Several recordings may have one frame. readers: stages in which the host's own shaders read trees.
+    /// Throws Error{Usage} for null, for such numbers and for a second Recorder at a time.
     Recorder(Context& context, VkCommandBuffer commands, std::uint64_t frame, VkPipelineStageFlags2 readers = 0);
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
     /// Records the barrier after which the host's own shaders, in these stages, see all trees as they were recorded so
-    /// far: through a tree's address. Edge: VK_ACCESS_2_SHADER_STORAGE_READ_BIT.
+    /// far: through a tree's address. Edge: VK_ACCESS_2_SHADER_STORAGE_READ_BIT. 0: nothing. Throws Error{Usage} for
+    /// stages of which none runs shaders.
     void makeVisible(VkPipelineStageFlags2 stages);
 
     struct Impl;

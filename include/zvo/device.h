@@ -37,7 +37,8 @@ struct DeviceReport
 };
 
 /// Whether zvo can use a physical device, and if not, every reason. Creates nothing, and throws for no device that will
-/// not do. The instance must have been created for Vulkan 1.3 (VkApplicationInfo::apiVersion).
+/// not do. The instance must have been created for Vulkan 1.3 (VkApplicationInfo::apiVersion). Throws
+/// Error{Usage} for null.
 ZVO_API DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
                            VkPhysicalDevice physical_device);
 

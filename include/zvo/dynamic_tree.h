@@ -23,7 +23,7 @@ struct DynamicTreeInfo
 {
     Coverage coverage = Coverage::Thin; // of the movers: as the static tree's
     MergeRule merge = MergeRule::DynamicWins;
-    std::uint32_t frames_in_flight = 2;       // that may be recorded before Context::frameDone() of the first
+    std::uint32_t frames_in_flight = 2;       // recorded before Context::frameDone() of the first; 1 to 16
     std::size_t history_steps = 1;            // updates that undo() can go back by, at least 1
     std::uint64_t history_bytes = UINT64_MAX; // that they may hold
     std::size_t strokes = 1024;               // that undoEdit() can go back by, at least 1
@@ -68,27 +68,27 @@ class ZVO_API DynamicTree
 {
 public:
     /// Takes over a static tree; records its move to buffers with room behind it. Throws Error{Usage} for attributes in
-    /// fewer than 8 bytes, for MergeRule::Average without kept sums and for another emission scale: the tree stays as
-    /// it is then. Throws Error{Memory}: the tree is used up.
+    /// fewer than 8 bytes, for MergeRule::Average without kept sums, for another emission scale and for numbers out of
+    /// range: the tree stays as it is then. Throws Error{Memory}: the tree is used up.
     DynamicTree(Recorder& recorder, Tree&& fixed, const DynamicTreeInfo& info);
     ~DynamicTree();
     DynamicTree(DynamicTree&&) noexcept;
     DynamicTree& operator=(DynamicTree&&) noexcept;
 
-    /// Adds a mover; shown from the next update() on, as all changes are. to_world: affine. Throws Error{Usage} for
-    /// more than 1024 movers and for another emission scale, Error{Memory}.
+    /// Adds a mover; shown from the next update() on, as all changes are. to_world: finite and affine, else
+    /// Error{Usage}, which it also throws for more than 1024 movers and for another emission scale; Error{Memory}.
     MoverId addMover(Recorder& recorder, const Model& model, const Mat4& to_world);
 
     /// Moves it. Records nothing and costs nothing until update(). Throws Error{Usage} for one that is not there, as
-    /// removeMover() does.
+    /// removeMover() does, and for transforms as addMover().
     void placeMover(MoverId mover, const Mat4& to_world);
     void removeMover(MoverId mover);
 
     /// Records an update: movers that changed are voxelized, all are merged with the static tree, and the result is
     /// shown. Under a budget of device time (which takes ContextInfo::timed_passes_per_frame), as much of it as is
     /// thought to fit, and the rest in the next calls. 0: no bound. Returns whether the update is complete. Work is
-    /// proportional to the voxels that move. Throws Error{Usage} for more updates than frames_in_flight allow,
-    /// Error{Memory}.
+    /// proportional to the voxels that move. Throws Error{Usage} for more updates than frames_in_flight allow and
+    /// for a budget that is negative or not finite, Error{Memory}.
     bool update(Recorder& recorder, double budget_ms = 0);
 
     /// Whether something has to be shown by another update(): one failed, was given up, was lost or had to wait.
@@ -102,7 +102,8 @@ public:
 
     /// Records a dab of a brush on what does not move. Dabs up to endStroke() are one stroke. False, and no dab, while
     /// the device has to tell first how much room there is: to be tried again in a later frame. Throws Error{Usage} for
-    /// a radius that is too large and for more than 32 dabs in a frame, Error{Memory}. Cost: the brush's volume.
+    /// a radius that is too large, a shape or action that there is not, and for more than 32 dabs in a frame,
+    /// Error{Memory}. Cost: the brush's volume.
     bool edit(Recorder& recorder, const BrushInfo& brush);
     void endStroke();
 

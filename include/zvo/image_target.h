@@ -18,6 +18,7 @@ struct ImageTarget
     VkOffset2D offset{0, 0}; // of the picture's top left pixel in the mip level, which has room for all of it
     std::uint32_t mip_level = 0;
     std::uint32_t array_layer = 0;
+    VkExtent2D extent{0, 0}; // of the mip level: the picture must fit. 0: zvo does not look
 };
 
 } // namespace zvo

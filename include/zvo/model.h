@@ -74,8 +74,9 @@ class ZVO_API Model
 {
 public:
     /// Records the upload. Takes as much memory again for staging until the frame is done. Throws Error{Usage} for
-    /// indices out of range, arrays of unequal length and transforms that are not affine, Error{Memory}, and
-    /// Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
+    /// indices and enumerations out of range, arrays of unequal length, transforms that are not finite and affine, and
+    /// an emission scale that is negative or not finite, Error{Memory}, and Error{Input} for more than 2^32 - 1 of
+    /// anything that has a 32-bit number.
     /// First and last stage: ALL_TRANSFER; what zvo does with it afterwards is ordered.
     Model(Recorder& recorder, const ModelInfo& info);
     ~Model();

@@ -46,7 +46,8 @@ struct TraceInfo
 struct DepthTarget
 {
     ImageTarget image; // D32_SFLOAT, D32_SFLOAT_S8_UINT or R32_SFLOAT
-    /// From world to clip space, columns as Mat4's, depth in [0, 1] after the division: of the same camera.
+    /// From world to clip space, finite, the last row not 0: columns as Mat4's, depth in [0, 1] after the division: of
+    /// the same camera.
     DMat4 view_projection{};
     float miss = 1.0F; // where rays hit nothing: the far end's depth, 0 where depth is reversed
 };
@@ -73,8 +74,9 @@ public:
     /// in ImageTarget::layout; images need VK_IMAGE_USAGE_TRANSFER_DST_BIT. Cost: pixels that are near something, and
     /// the copies.
     ///
-    /// Throws Error{Usage} for formats, layouts, offsets and cameras that will not do, and what making a kernel throws:
-    /// then no image is written.
+    /// Throws Error{Usage} for images that are null, formats, layouts, offsets, extents, cameras, depth and numbers of
+    /// TraceInfo that will not do (negative, not finite, no direction of the sun): then nothing is recorded. Throws
+    /// what making a kernel throws: then no image is written.
     void trace(Recorder& recorder, const Tree& tree, const CameraInfo& camera, const TraceInfo& info,
                const ImageTarget& color, const DepthTarget* depth = nullptr);
     void trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,
@@ -95,7 +97,7 @@ struct CameraRays
     Vec3 step_y{};
 };
 
-/// Throws Error{Usage} as Tracer::trace().
+/// Throws Error{Usage} as Tracer::trace(), and for grids as TreeBuild.
 ZVO_API CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height);
 
 } // namespace zvo

@@ -80,8 +80,8 @@ struct TreeBuildInfo
 class ZVO_API TreeBuild
 {
 public:
-    /// Throws Error{Usage} for a depth out of range, for attributes of a model that was uploaded without, and for one
-    /// that was lost.
+    /// Throws Error{Usage} for a depth out of range, a grid whose corners are not finite, voxels of no finite size
+    /// above 0, for attributes of a model that was uploaded without, and for one that was lost.
     TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info);
     ~TreeBuild();
     TreeBuild(TreeBuild&&) noexcept;

@@ -673,12 +673,13 @@ typedef struct ZvoImageTarget
     VkOffset2D offset;
     uint32_t mip_level;
     uint32_t array_layer;
+    VkExtent2D extent;
 } ZvoImageTarget;
 
 #define ZVO_IMAGE_TARGET_INIT                                                                                          \
     {                                                                                                                  \
         sizeof(ZvoImageTarget), VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, {0, 0}, 0,  \
-            0                                                                                                          \
+            0, {0, 0}                                                                                                  \
     }
 
 /// As zvo::DepthTarget.

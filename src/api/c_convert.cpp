@@ -2,6 +2,7 @@
 #include "api/c_convert.h"
 
 #include "api/c_struct.h"
+#include "api/checked.h"
 
 #include <algorithm>
 #include <array>
@@ -56,16 +57,6 @@ ZVO_SAME(ZVO_ALPHA_MODE_BLEND, AlphaMode::Blend);
 #undef ZVO_SAME
 static_assert(ZVO_NO_TEXTURE == kNoTexture);
 
-// The enumerations that hosts give begin at 0, without gaps.
-template <typename Enum> Enum enumOf(std::uint32_t value, Enum last, const char* name)
-{
-    if (value > static_cast<std::uint32_t>(last))
-    {
-        throw Error(ErrorCode::Usage, std::string(name) + " has no value " + std::to_string(value));
-    }
-    return static_cast<Enum>(value);
-}
-
 // Elements of To, of which each is a few of From.
 template <typename To, typename From> std::span<const To> spanOf(const From* first, std::size_t count, const char* name)
 {
@@ -73,6 +64,11 @@ template <typename To, typename From> std::span<const To> spanOf(const From* fir
     if (count == 0)
     {
         return {};
+    }
+    if (count > PTRDIFF_MAX / sizeof(To))
+    {
+        throw Error(ErrorCode::Usage,
+                    std::string(name) + " has more elements than any memory: " + std::to_string(count));
     }
     return {reinterpret_cast<const To*>(&at(first, name)), count};
 }
@@ -140,8 +136,8 @@ TextureInfo ofC(const ZvoTextureInfo& info)
     result.width = info.width;
     result.height = info.height;
     result.rgba = spanOf<std::uint8_t>(info.rgba, info.rgba_bytes, "ZvoTextureInfo::rgba");
-    result.wrap_u = enumOf(info.wrap_u, WrapMode::ClampToEdge, "ZvoTextureInfo::wrap_u");
-    result.wrap_v = enumOf(info.wrap_v, WrapMode::ClampToEdge, "ZvoTextureInfo::wrap_v");
+    result.wrap_u = checkedEnum(info.wrap_u, WrapMode::ClampToEdge, "ZvoTextureInfo::wrap_u");
+    result.wrap_v = checkedEnum(info.wrap_v, WrapMode::ClampToEdge, "ZvoTextureInfo::wrap_v");
     return result;
 }
 
@@ -152,7 +148,7 @@ MaterialInfo ofC(const ZvoMaterialInfo& info)
     result.base_color_texture = info.base_color_texture;
     result.emission = arrayOf(info.emission);
     result.emission_texture = info.emission_texture;
-    result.alpha_mode = enumOf(info.alpha_mode, AlphaMode::Blend, "ZvoMaterialInfo::alpha_mode");
+    result.alpha_mode = checkedEnum(info.alpha_mode, AlphaMode::Blend, "ZvoMaterialInfo::alpha_mode");
     result.alpha_cutoff = info.alpha_cutoff;
     return result;
 }
@@ -201,8 +197,8 @@ TreeBuildInfo ofC(const ZvoTreeBuildInfo& info)
 {
     TreeBuildInfo result;
     result.grid = ofC(info.grid);
-    result.coverage = enumOf(info.coverage, Coverage::Thin, "ZvoTreeBuildInfo::coverage");
-    result.form = enumOf(info.form, AttributeForm::Blocks, "ZvoTreeBuildInfo::form");
+    result.coverage = checkedEnum(info.coverage, Coverage::Thin, "ZvoTreeBuildInfo::coverage");
+    result.form = checkedEnum(info.form, AttributeForm::Blocks, "ZvoTreeBuildInfo::form");
     result.keep_sums = info.keep_sums != VK_FALSE;
     return result;
 }
@@ -210,8 +206,8 @@ TreeBuildInfo ofC(const ZvoTreeBuildInfo& info)
 DynamicTreeInfo ofC(const ZvoDynamicTreeInfo& info)
 {
     DynamicTreeInfo result;
-    result.coverage = enumOf(info.coverage, Coverage::Thin, "ZvoDynamicTreeInfo::coverage");
-    result.merge = enumOf(info.merge, MergeRule::StaticWins, "ZvoDynamicTreeInfo::merge");
+    result.coverage = checkedEnum(info.coverage, Coverage::Thin, "ZvoDynamicTreeInfo::coverage");
+    result.merge = checkedEnum(info.merge, MergeRule::StaticWins, "ZvoDynamicTreeInfo::merge");
     result.frames_in_flight = info.frames_in_flight;
     result.history_steps = info.history_steps;
     result.history_bytes = info.history_bytes;
@@ -224,8 +220,8 @@ DynamicTreeInfo ofC(const ZvoDynamicTreeInfo& info)
 BrushInfo ofC(const ZvoBrushInfo& info)
 {
     BrushInfo result;
-    result.shape = enumOf(info.shape, BrushShape::Box, "ZvoBrushInfo::shape");
-    result.action = enumOf(info.action, BrushAction::Paint, "ZvoBrushInfo::action");
+    result.shape = checkedEnum(info.shape, BrushShape::Box, "ZvoBrushInfo::shape");
+    result.action = checkedEnum(info.action, BrushAction::Paint, "ZvoBrushInfo::action");
     result.center = arrayOf(info.center);
     result.radius = info.radius;
     result.color = info.color;
@@ -247,7 +243,7 @@ CameraInfo ofC(const ZvoCameraInfo& info)
 TraceInfo ofC(const ZvoTraceInfo& info)
 {
     TraceInfo result;
-    result.view = enumOf(info.view, View::Origin, "ZvoTraceInfo::view");
+    result.view = checkedEnum(info.view, View::Origin, "ZvoTraceInfo::view");
     result.shadows = info.shadows != VK_FALSE;
     result.to_sun = arrayOf(info.to_sun);
     result.sun = info.sun;
@@ -267,6 +263,7 @@ ImageTarget ofC(const ZvoImageTarget& target)
     result.offset = target.offset;
     result.mip_level = target.mip_level;
     result.array_layer = target.array_layer;
+    result.extent = target.extent;
     return result;
 }
 

@@ -44,7 +44,7 @@ ZVO_C_STRUCT(ZvoBrushInfo, reserved, ZVO_BRUSH_INFO_INIT);
 ZVO_C_STRUCT(ZvoUpdateFacts, reserved, ZVO_UPDATE_FACTS_INIT);
 ZVO_C_STRUCT(ZvoCameraInfo, reserved, ZVO_CAMERA_INFO_INIT);
 ZVO_C_STRUCT(ZvoTraceInfo, reserved, ZVO_TRACE_INFO_INIT);
-ZVO_C_STRUCT(ZvoImageTarget, array_layer, ZVO_IMAGE_TARGET_INIT);
+ZVO_C_STRUCT(ZvoImageTarget, extent, ZVO_IMAGE_TARGET_INIT);
 ZVO_C_STRUCT(ZvoDepthTarget, reserved, ZVO_DEPTH_TARGET_INIT);
 
 #undef ZVO_C_STRUCT

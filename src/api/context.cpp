@@ -32,6 +32,28 @@ void recordBarrier(const vk::Device& device, VkCommandBuffer commands, const VkM
     device.fn().vkCmdPipelineBarrier2(commands, &info);
 }
 
+// Of which none runs a shader. Those of extensions that zvo does not know may.
+constexpr VkPipelineStageFlags2 kStagesWithoutShaders =
+    VK_PIPELINE_STAGE_2_TOP_OF_PIPE_BIT | VK_PIPELINE_STAGE_2_BOTTOM_OF_PIPE_BIT |
+    VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
+    VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT | VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
+    VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
+    VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_RESOLVE_BIT |
+    VK_PIPELINE_STAGE_2_BLIT_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
+
+// Three timestamps each, at the most, whose number has 32 bits.
+constexpr std::uint32_t kTimedPassesMax = 1U << 16;
+
+const ContextInfo& checked(const ContextInfo& info)
+{
+    if (info.timed_passes_per_frame > kTimedPassesMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("ContextInfo::timed_passes_per_frame is {}: it must be at most {}",
+                                                  info.timed_passes_per_frame, kTimedPassesMax));
+    }
+    return info;
+}
+
 VkMemoryBarrier2 memoryBarrier()
 {
     VkMemoryBarrier2 barrier{};
@@ -64,7 +86,8 @@ vk::DeviceHandles handlesOf(const ContextInfo& info)
 } // namespace
 
 Context::Impl::Impl(const ContextInfo& info)
-    : device(handlesOf(info), zvoKernels()), uploads(device, retired), timed_passes(info.timed_passes_per_frame)
+    : device(handlesOf(checked(info)), zvoKernels()), uploads(device, retired),
+      timed_passes(info.timed_passes_per_frame)
 {
 }
 
@@ -210,6 +233,10 @@ MemoryUse Context::memory() const
 Recorder::Recorder(Context& context, VkCommandBuffer commands, std::uint64_t frame, VkPipelineStageFlags2 readers)
 {
     Context::Impl& impl = context.impl();
+    if (commands == VK_NULL_HANDLE)
+    {
+        throw Error(ErrorCode::Usage, "a Recorder needs a command buffer: it got null");
+    }
     if (impl.is_recording)
     {
         throw Error(ErrorCode::Usage, "a context has one Recorder at a time");
@@ -238,6 +265,16 @@ Recorder::~Recorder()
 
 void Recorder::makeVisible(VkPipelineStageFlags2 stages)
 {
+    if (stages == 0) // nobody reads
+    {
+        return;
+    }
+    if ((stages & ~kStagesWithoutShaders) == 0)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("trees are made visible to stages that run shaders: none of {:#x} "
+                                                  "does",
+                                                  stages));
+    }
     VkMemoryBarrier2 barrier = memoryBarrier();
     barrier.srcStageMask = kStages;
     barrier.srcAccessMask = kWrites;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "zvo/dynamic_tree.h"
 
+#include "api/checked.h"
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/model_impl.h"
@@ -18,7 +19,7 @@ namespace
 DynamicOptions optionsOf(const DynamicTreeInfo& info)
 {
     DynamicOptions options;
-    options.coverage = info.coverage;
+    options.coverage = checked(info).coverage;
     options.merge = info.merge;
     options.frames_in_flight = info.frames_in_flight;
     options.history = {info.history_steps, info.history_bytes};
@@ -29,7 +30,7 @@ DynamicOptions optionsOf(const DynamicTreeInfo& info)
 
 Pose poseOf(const MoverMesh& mesh, const Mat4& to_world)
 {
-    return poseAt(mesh.scene, 0.0, glm::dmat4(toGlm(to_world)));
+    return poseAt(mesh.scene, 0.0, glm::dmat4(toGlm(checkedPlacement(to_world, "a mover"))));
 }
 
 UpdateFacts factsOf(const UpdateReport& report)
@@ -136,6 +137,7 @@ MoverId DynamicTree::addMover(Recorder& recorder, const Model& model, const Mat4
     Impl& impl = usable(*this);
     const Model::Impl& mover_impl = usable(model);
     requireSame(impl.context, mover_impl.context);
+    checkedPlacement(to_world, "a mover");
     impl.enter(recorder.impl());
     const auto& mesh = mover_impl.mesh;
     const MoverId mover =
@@ -161,6 +163,7 @@ void DynamicTree::removeMover(MoverId mover)
 
 bool DynamicTree::update(Recorder& recorder, double budget_ms)
 {
+    checkedAmount(budget_ms, "budget_ms");
     return usable(*this).change(recorder, [&](DynamicOctree& octree, vk::FrameGraph& graph)
                                 { return octree.update(graph, budget_ms); });
 }
@@ -187,7 +190,7 @@ bool DynamicTree::redo(Recorder& recorder)
 bool DynamicTree::edit(Recorder& recorder, const BrushInfo& info)
 {
     Brush brush;
-    brush.shape = info.shape;
+    brush.shape = checked(info).shape;
     brush.action = info.action;
     brush.center = {info.center[0], info.center[1], info.center[2]};
     brush.radius = info.radius;

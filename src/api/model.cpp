@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "zvo/model.h"
 
+#include "api/checked.h"
 #include "api/convert.h"
 #include "api/model_impl.h"
 #include "core/scene.h"
@@ -66,7 +67,7 @@ Material materialOf(const MaterialInfo& info, std::size_t texture_count, std::si
     material.base_color_texture = textureIndex(info.base_color_texture, texture_count, number);
     material.emission = toGlm(info.emission);
     material.emission_texture = textureIndex(info.emission_texture, texture_count, number);
-    material.alpha_mode = info.alpha_mode;
+    material.alpha_mode = checkedEnum(info.alpha_mode, AlphaMode::Blend, "MaterialInfo::alpha_mode");
     material.alpha_cutoff = info.alpha_cutoff;
     return material;
 }
@@ -74,6 +75,12 @@ Material materialOf(const MaterialInfo& info, std::size_t texture_count, std::si
 Primitive primitiveOf(const MeshInfo& info, std::size_t material_count, std::size_t number)
 {
     const std::size_t vertex_count = info.positions.size();
+    if (std::max(vertex_count, info.triangles.size()) > UINT32_MAX) // and none of them is looked at
+    {
+        throw Error(ErrorCode::Input, fmt::format("a model cannot be uploaded: mesh {} has more than 2^32 - 1 vertices "
+                                                  "or triangles",
+                                                  number));
+    }
     for (const std::size_t count : {info.normals.size(), info.uvs.size(), info.colors.size()})
     {
         if (count != 0 && count != vertex_count)
@@ -111,14 +118,9 @@ Instance instanceOf(const InstanceInfo& info, std::size_t mesh_count, std::size_
     {
         refuse(fmt::format("instance {} has mesh {} of {}", number, info.mesh, mesh_count));
     }
-    if (info.transform[3] != 0 || info.transform[7] != 0 || info.transform[11] != 0 || info.transform[15] != 1)
-    {
-        refuse(fmt::format("the transform of instance {} is not affine: its last row is ({}, {}, {}, {})", number,
-                           info.transform[3], info.transform[7], info.transform[11], info.transform[15]));
-    }
     Instance instance;
     instance.primitive = info.mesh;
-    instance.transform = toGlm(info.transform);
+    instance.transform = toGlm(checkedPlacement(info.transform, fmt::format("instance {}", number)));
     return instance;
 }
 
@@ -129,7 +131,9 @@ Scene sceneOf(const ModelInfo& info)
     {
         const TextureInfo& texture = info.textures[i];
         scene.images.push_back(imageOf(texture, i));
-        scene.textures.push_back({static_cast<std::uint32_t>(i), texture.wrap_u, texture.wrap_v});
+        scene.textures.push_back({static_cast<std::uint32_t>(i),
+                                  checkedEnum(texture.wrap_u, WrapMode::ClampToEdge, "TextureInfo::wrap_u"),
+                                  checkedEnum(texture.wrap_v, WrapMode::ClampToEdge, "TextureInfo::wrap_v")});
     }
     for (std::size_t i = 0; i < info.materials.size(); ++i)
     {
@@ -168,7 +172,8 @@ Model::Model(Recorder& recorder, const ModelInfo& info)
     Scene scene = sceneOf(info);
     m_impl = std::make_shared<Impl>(recorder.impl().context, recorder.impl().frame);
     m_impl->bounds = scene.bounds();
-    const float scale = info.emission_scale.value_or(info.attributes ? brightestEmission(scene) : 0.0F);
+    const float scale = checkedAmount(info.emission_scale.value_or(info.attributes ? brightestEmission(scene) : 0.0F),
+                                      "the emission scale");
     recording(recorder, [&](Recorder::Impl& impl)
               { m_impl->mesh = uploadMover(impl.context.uploads, std::move(scene), info.attributes, scale); });
 }

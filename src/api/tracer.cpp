@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "zvo/tracer.h"
 
+#include "api/checked.h"
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/tree_impl.h"
@@ -64,13 +65,8 @@ ViewCamera viewOf(const CameraInfo& info)
 
 TraceOptions optionsOf(const TraceInfo& info)
 {
-    if (info.occlusion_rays > kOcclusionRaysMax)
-    {
-        throw Error(ErrorCode::Usage, fmt::format("{} occlusion rays are more than the {} that there can be",
-                                                  info.occlusion_rays, kOcclusionRaysMax));
-    }
     TraceOptions options;
-    options.view = info.view;
+    options.view = checked(info).view;
     options.shadows = info.shadows;
     options.to_sun = toGlm(info.to_sun);
     options.sun = info.sun;
@@ -79,6 +75,14 @@ TraceOptions optionsOf(const TraceInfo& info)
     options.occlusion_reach = info.occlusion_reach;
     options.detail_pixels = info.detail_pixels;
     return options;
+}
+
+void requireImage(const ImageTarget& target, const char* name)
+{
+    if (target.image == VK_NULL_HANDLE)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} has no image: it is null", name));
+    }
 }
 
 Vec3 arrayOf(const gpu::vec3& v)
@@ -133,6 +137,13 @@ struct ZVO_LOCAL Tracer::Impl
         {
             throw Error(ErrorCode::Usage, "this Tracer makes pictures for images of another format: make one with "
                                           "the format of the image");
+        }
+        requireImage(color, "color");
+        requireCopyable(*buffers, color);
+        if (depth != nullptr)
+        {
+            requireImage(checked(*depth).image, "DepthTarget::image");
+            requireDepthCopyable(context.device, {buffers->width, buffers->height}, depth->image);
         }
         const Grid& grid = tree.octree().grid;
         const TraceCamera camera = traceCamera(viewOf(camera_info), grid, buffers->height);
@@ -217,7 +228,7 @@ void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& came
 
 CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height)
 {
-    const gpu::CameraRays rays = traceCamera(viewOf(camera), toGrid(grid), checkedEdge(height)).rays;
+    const gpu::CameraRays rays = traceCamera(viewOf(camera), checkedGrid(grid), checkedEdge(height)).rays;
     return {arrayOf(rays.origin), arrayOf(rays.forward), arrayOf(rays.step_x), arrayOf(rays.step_y)};
 }
 

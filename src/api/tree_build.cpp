@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "api/convert.h"
+#include "api/checked.h"
 #include "api/model_impl.h"
 #include "api/step_job.h"
 #include "api/tree_impl.h"
@@ -18,12 +18,8 @@ namespace
 
 BuildOptions optionsOf(const TreeBuildInfo& info)
 {
-    if (info.keep_sums && info.form != AttributeForm::Bytes8)
-    {
-        throw Error(ErrorCode::Usage, "sums are kept only beside attributes of 8 bytes");
-    }
     BuildOptions options;
-    options.coverage = info.coverage;
+    options.coverage = checked(info).coverage;
     options.attributes = info.form != AttributeForm::None;
     options.keep_sums = info.keep_sums;
     return options;
@@ -63,8 +59,8 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
 {
     Impl(Context::Impl& context_impl, const Model::Impl& model, const TreeBuildInfo& info)
         : TreeJob(context_impl, model.made_in, "model"), mesh(model.mesh), form(info.form),
-          builder(
-              std::make_unique<OctreeBuilder>(context_impl.device, mesh->uploaded, toGrid(info.grid), optionsOf(info)))
+          builder(std::make_unique<OctreeBuilder>(context_impl.device, mesh->uploaded, checkedGrid(info.grid),
+                                                  optionsOf(info)))
     {
     }
 

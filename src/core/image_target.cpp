@@ -94,6 +94,16 @@ vk::ImageRegion regionOf(const ImageTarget& target, VkImageAspectFlags aspect, s
                                                   "more",
                                                   target.offset.x, target.offset.y));
     }
+    const auto fits = [](std::int32_t first, std::uint32_t edge, std::uint32_t room)
+    { return room == 0 || std::uint64_t{edge} + static_cast<std::uint32_t>(first) <= room; };
+    if (!fits(target.offset.x, size.width, target.extent.width) ||
+        !fits(target.offset.y, size.height, target.extent.height))
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("a picture of {} x {} pixels at ({}, {}) does not fit into an image of {} x {}",
+                                size.width, size.height, target.offset.x, target.offset.y, target.extent.width,
+                                target.extent.height));
+    }
     return {target.image,     target.layout,     aspect, texel_bytes, target.offset, {size.width, size.height},
             target.mip_level, target.array_layer};
 }
@@ -105,7 +115,10 @@ TexelForm texelForm(VkFormat format)
     return entryFor(kColorFormats, format, "a picture").form;
 }
 
-void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const ImageTarget& target)
+namespace
+{
+
+vk::ImageRegion colorRegion(const TraceBuffers& buffers, const ImageTarget& target)
 {
     const ColorFormat& format = entryFor(kColorFormats, target.format, "a picture");
     if (format.form != buffers.texels)
@@ -116,15 +129,36 @@ void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const Image
                                 wordsFor(buffers.texels), format.name, wordsFor(format.form)));
     }
     const std::uint32_t texel_bytes = texelWords(format.form) * static_cast<std::uint32_t>(sizeof(gpu::uint));
-    vk::copyToImage(graph, buffers.image,
-                    regionOf(target, VK_IMAGE_ASPECT_COLOR_BIT, texel_bytes, {buffers.width, buffers.height}));
+    return regionOf(target, VK_IMAGE_ASPECT_COLOR_BIT, texel_bytes, {buffers.width, buffers.height});
+}
+
+vk::ImageRegion depthRegion(PictureSize size, const ImageTarget& target)
+{
+    const DepthFormat& format = entryFor(kDepthFormats, target.format, "depth");
+    return regionOf(target, format.aspect, sizeof(float), size);
+}
+
+} // namespace
+
+void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const ImageTarget& target)
+{
+    vk::copyToImage(graph, buffers.image, colorRegion(buffers, target));
+}
+
+void requireCopyable(const TraceBuffers& buffers, const ImageTarget& target)
+{
+    colorRegion(buffers, target);
 }
 
 void copyDepthToImage(vk::FrameGraph& graph, const vk::BufferOf<float>& depth, PictureSize size,
                       const ImageTarget& target)
 {
-    const DepthFormat& format = entryFor(kDepthFormats, target.format, "depth");
-    vk::copyToImage(graph, depth, regionOf(target, format.aspect, sizeof(float), size));
+    vk::copyToImage(graph, depth, depthRegion(size, target));
+}
+
+void requireDepthCopyable(const vk::Device& device, PictureSize size, const ImageTarget& target)
+{
+    vk::requireCopyable(device, depthRegion(size, target).aspect);
 }
 
 } // namespace zvo

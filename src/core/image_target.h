@@ -30,9 +30,12 @@ namespace zvo
 TexelForm texelForm(VkFormat format);
 
 /// Records the copy of buffers.image, all of it, to target. Its only access to the image is the one above. Throws
-/// Error{Usage} when target's format does not take the form of buffers' texels, or its layout or offset will not do;
-/// then nothing is recorded. Cost: pixels.
+/// Error{Usage} when target's format does not take the form of buffers' texels, or its layout, offset or extent will
+/// not do; then nothing is recorded. Cost: pixels.
 void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const ImageTarget& target);
+
+/// Throws what copyToImage() throws, before there is anything to copy.
+void requireCopyable(const TraceBuffers& buffers, const ImageTarget& target);
 
 /// The same for depth[size.width * size.height] of traceDepth(): into the depth aspect of an image in D32_SFLOAT or
 /// D32_SFLOAT_S8_UINT, whose stencil stays, or into one in R32_SFLOAT. Throws Error{Usage} for others, and for the
@@ -40,5 +43,8 @@ void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const Image
 /// has fewer elements.
 void copyDepthToImage(vk::FrameGraph& graph, const vk::BufferOf<float>& depth, PictureSize size,
                       const ImageTarget& target);
+
+/// Throws what copyDepthToImage() throws of target.
+void requireDepthCopyable(const vk::Device& device, PictureSize size, const ImageTarget& target);
 
 } // namespace zvo

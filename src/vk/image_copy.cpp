@@ -10,6 +10,17 @@
 namespace zvo::vk
 {
 
+void requireCopyable(const Device& device, VkImageAspectFlags aspect)
+{
+    if ((aspect & VK_IMAGE_ASPECT_COLOR_BIT) == 0 && (device.queueFlags() & VK_QUEUE_GRAPHICS_BIT) == 0)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("queue family {} cannot draw, and only those that can copy into depth images: give "
+                                "zvo one with VK_QUEUE_GRAPHICS_BIT, or copy depth into an image in R32_SFLOAT",
+                                device.handles().queue_family));
+    }
+}
+
 void copyToImage(FrameGraph& graph, const Buffer& from, const ImageRegion& region)
 {
     const Device& device = graph.device();
@@ -21,13 +32,7 @@ void copyToImage(FrameGraph& graph, const Buffer& from, const ImageRegion& regio
                     fmt::format("frame graph: {} x {} texels of {} bytes are more than buffer {} has",
                                 region.extent.width, region.extent.height, region.texel_bytes, from.name()));
     }
-    if ((region.aspect & VK_IMAGE_ASPECT_COLOR_BIT) == 0 && (device.queueFlags() & VK_QUEUE_GRAPHICS_BIT) == 0)
-    {
-        throw Error(ErrorCode::Usage,
-                    fmt::format("queue family {} cannot draw, and only those that can copy into depth images: give "
-                                "zvo one with VK_QUEUE_GRAPHICS_BIT, or copy depth into an image in R32_SFLOAT",
-                                device.handles().queue_family));
-    }
+    requireCopyable(device, region.aspect);
     if (bytes == 0)
     {
         return;

@@ -9,6 +9,7 @@ namespace zvo::vk
 {
 
 class Buffer;
+class Device;
 class FrameGraph;
 
 /// A rectangle in one mip level and layer of an image that somebody else owns.
@@ -30,5 +31,8 @@ struct ImageRegion
 /// Error{Other} when from is too small, and Error{Usage} for a depth aspect when the queue family of the device's
 /// handles cannot draw, without which Vulkan forbids the copy.
 void copyToImage(FrameGraph& graph, const Buffer& from, const ImageRegion& region);
+
+/// Throws Error{Usage} as copyToImage() does.
+void requireCopyable(const Device& device, VkImageAspectFlags aspect);
 
 } // namespace zvo::vk

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which physical devices will do, and why the others will not.
 #include "vk/device.h"
+#include "zvo/error.h"
 
 #include <fmt/format.h>
 
@@ -201,6 +202,11 @@ namespace zvo
 DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
                    VkPhysicalDevice physical_device)
 {
+    if (get_instance_proc_addr == nullptr || instance == VK_NULL_HANDLE || physical_device == VK_NULL_HANDLE)
+    {
+        throw Error(ErrorCode::Usage, "zvo::query() needs vkGetInstanceProcAddr, a VkInstance and a VkPhysicalDevice: "
+                                      "one of them is null");
+    }
     DeviceReport report;
     report.physical_device = physical_device;
     const vk::Functions fn = vk::Functions::ofInstance(get_instance_proc_addr, instance);

@@ -278,6 +278,8 @@ void expectSame(const ImageTarget& a, const ImageTarget& b)
     EXPECT_EQ(a.offset.y, b.offset.y);
     EXPECT_EQ(a.mip_level, b.mip_level);
     EXPECT_EQ(a.array_layer, b.array_layer);
+    EXPECT_EQ(a.extent.width, b.extent.width);
+    EXPECT_EQ(a.extent.height, b.extent.height);
 }
 
 TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
@@ -416,8 +418,8 @@ TEST(CStructs, EveryMemberOfTheOthersIsPassedOn)
     expectSame(ofC(ZvoTraceInfo{sizeof(ZvoTraceInfo), {1, 2, 3}, ZVO_VIEW_BRICKS, VK_FALSE, 4, 5, 6, 7, 8, 0}),
                {View::Bricks, false, {1, 2, 3}, 4, 5, 6, 7, 8});
     const ZvoImageTarget image = {
-        sizeof(image), handle<VkImage>(8), VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4};
-    const ImageTarget cpp_image = {image.image, VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4};
+        sizeof(image), handle<VkImage>(8), VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4, {5, 6}};
+    const ImageTarget cpp_image = {image.image, VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4, {5, 6}};
     expectSame(ofC(image), cpp_image);
     ZvoDepthTarget depth = ZVO_DEPTH_TARGET_INIT;
     depth.image = &image;
