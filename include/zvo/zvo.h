@@ -3,10 +3,11 @@
 // each function does, which errors it knows, and what is recorded between which stages stands at the class of the same
 // name in the C++ headers (zvo/zvo.hpp); docs/c-interface.md has the rules of this one and an example.
 //
-// Structs have their size first, which ZVO_..._INIT sets along with every default. A smaller size, of an older
-// header: members that are missing are as ZVO_..._INIT sets them. A larger one, of a newer header: whatever is beyond
-// the members that the library knows must be 0, and is made 0 where zvo fills the struct. Members called reserved are
-// 0. In an array all elements have the size of the first, which is the distance from one to the next.
+// Structs have their size first, which ZVO_..._INIT sets along with every default: begin with it, those that zvo fills
+// too. A size over 4096 bytes, or no multiple of 4, is ZVO_ERROR_USAGE. A smaller size, of an older header: members
+// that are missing are as ZVO_..._INIT sets them. A larger one, of a newer header: whatever is beyond the members that
+// the library knows must be 0, and is made 0 where zvo fills the struct. Members called reserved are 0, else
+// ZVO_ERROR_USAGE. In an array all elements have the size of the first, which is the distance from one to the next.
 //
 // Functions return ZVO_OK or why they failed, and then zvoLastError() says more. What is given back comes last, and is
 // left alone where a function fails. Pointers may be null where it says so, and in the functions that destroy.
@@ -679,7 +680,10 @@ typedef struct ZvoImageTarget
 #define ZVO_IMAGE_TARGET_INIT                                                                                          \
     {                                                                                                                  \
         sizeof(ZvoImageTarget), VK_NULL_HANDLE, VK_FORMAT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, {0, 0}, 0,  \
-            0, {0, 0}                                                                                                  \
+            0,                                                                                                         \
+        {                                                                                                              \
+            0, 0                                                                                                       \
+        }                                                                                                              \
     }
 
 /// As zvo::DepthTarget.

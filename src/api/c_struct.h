@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 #include <vector>
@@ -49,20 +50,27 @@ ZVO_C_STRUCT(ZvoDepthTarget, reserved, ZVO_DEPTH_TARGET_INIT);
 
 #undef ZVO_C_STRUCT
 
-/// The size that a host gave a struct. Throws Error{Usage} for null and for a size that is none.
+/// No struct grows beyond. What a host forgot to set is larger, more often than not.
+inline constexpr std::size_t kStructBytesMax = 4096;
+
+/// Members end at multiples of it.
+inline constexpr std::size_t kMemberBytes = 4;
+
+/// The size that a host gave a struct. Throws Error{Usage} for null and for a size that no version of it can have.
 template <typename Struct> std::size_t sizeOf(const Struct* given, const char* name)
 {
     std::size_t size = 0;
     std::memcpy(&size, &at(given, name), sizeof(size));
-    if (size < sizeof(size))
+    if (size < sizeof(size) || size > kStructBytesMax || size % kMemberBytes != 0)
     {
-        throw Error(ErrorCode::Usage, std::string(name) + " has no struct_size: begin with ZVO_..._INIT");
+        throw Error(ErrorCode::Usage, std::string(name) + " has no struct_size, but " + std::to_string(size) +
+                                          ": begin with ZVO_..._INIT");
     }
     return size;
 }
 
 /// What a host gave, with the defaults of members that it does not know. Throws Error{Usage} for null, for a size that
-/// is none, and for members beyond the struct that are not 0.
+/// is none, and for members that are reserved, or beyond the struct, and not 0.
 template <typename Struct> Struct readStruct(const Struct* given, const char* name)
 {
     const std::size_t size = sizeOf(given, name);
@@ -78,6 +86,13 @@ template <typename Struct> Struct readStruct(const Struct* given, const char* na
     Struct result = initial<Struct>();
     std::memcpy(&result, given, std::min(size, sizeof(Struct)));
     result.struct_size = sizeof(Struct);
+    if constexpr (requires { result.reserved; })
+    {
+        if (result.reserved != 0)
+        {
+            throw Error(ErrorCode::Usage, std::string(name) + " has a reserved member that is not 0");
+        }
+    }
     return result;
 }
 
@@ -86,6 +101,11 @@ template <typename Struct> std::vector<Struct> readStructs(const Struct* given, 
 {
     std::vector<Struct> result;
     const std::size_t stride = count == 0 ? 0 : sizeOf(given, name);
+    if (stride != 0 && count > PTRDIFF_MAX / stride)
+    {
+        throw Error(ErrorCode::Usage,
+                    std::string(name) + " has more elements than any memory: " + std::to_string(count));
+    }
     for (std::size_t i = 0; i < count; ++i)
     {
         const auto* const element =

@@ -45,6 +45,17 @@ protected:
         return bytes;
     }
 
+    // As far as the host has it, what is reserved is 0.
+    static void clearReserved(Bytes& bytes)
+    {
+        if constexpr (requires(Struct value) { value.reserved; })
+        {
+            const auto first = std::min(offsetof(Struct, reserved), bytes.size());
+            std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(first),
+                        std::min(sizeof(Struct::reserved), bytes.size() - first), 0);
+        }
+    }
+
     static Struct* in(Bytes& bytes) { return reinterpret_cast<Struct*>(bytes.data()); }
 
     static Bytes bytesOf(const Struct& value)
@@ -65,9 +76,10 @@ TYPED_TEST_SUITE(CStruct, Structs);
 TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
 {
     const auto defaults = this->bytesOf(initial<TypeParam>());
-    for (std::size_t size = this->kSizeBytes; size <= this->kSize; ++size)
+    for (std::size_t size = this->kSizeBytes; size <= this->kSize; size += kMemberBytes)
     {
         auto bytes = this->given(size, 0x5A); // exactly as many: sanitizers see what is read behind them
+        this->clearReserved(bytes);
         const auto read = this->bytesOf(readStruct(this->in(bytes), "it"));
         EXPECT_TRUE(std::equal(bytes.begin() + this->kSizeBytes, bytes.end(), read.begin() + this->kSizeBytes));
         EXPECT_TRUE(std::equal(read.begin() + static_cast<std::ptrdiff_t>(size), read.end(),
@@ -77,7 +89,7 @@ TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
 
 TYPED_TEST(CStruct, MembersOfANewerHostMustBeZero)
 {
-    auto bytes = this->given(this->kSize + 9, 0);
+    auto bytes = this->given(this->kSize + 12, 0);
     EXPECT_NO_THROW(readStruct(this->in(bytes), "it"));
     for (std::size_t i = this->kSize; i < bytes.size(); ++i)
     {
@@ -87,11 +99,28 @@ TYPED_TEST(CStruct, MembersOfANewerHostMustBeZero)
     }
 }
 
+TYPED_TEST(CStruct, WhatIsReservedMustBeZero)
+{
+    if constexpr (requires(TypeParam value) { value.reserved; })
+    {
+        auto value = initial<TypeParam>();
+        EXPECT_NO_THROW(readStruct(&value, "it"));
+        value.reserved = 1;
+        expectUsage([&] { readStruct(&value, "it"); }, "it has a reserved member");
+    }
+}
+
 TYPED_TEST(CStruct, NoSizeIsAnError)
 {
+    std::vector<std::size_t> sizes = {this->kSize + 1, this->kSize - 2, 4100, std::size_t{1} << 40, SIZE_MAX};
     for (std::size_t size = 0; size < this->kSizeBytes; ++size)
     {
-        auto bytes = this->given(size, 0);
+        sizes.push_back(size);
+    }
+    for (const std::size_t size : sizes)
+    {
+        auto bytes = this->given(this->kSize, 0); // whatever it says: nothing behind it is touched
+        std::memcpy(bytes.data(), &size, this->kSizeBytes);
         expectUsage([&] { readStruct(this->in(bytes), "it"); }, "struct_size");
         expectUsage([&] { writeStruct(this->in(bytes), "it", initial<TypeParam>()); }, "struct_size");
     }
@@ -103,7 +132,7 @@ TYPED_TEST(CStruct, AsMuchIsFilledAsTheHostKnowsAndTheRestIsZero)
 {
     TypeParam value;
     std::memset(&value, 0x5A, sizeof(value));
-    for (std::size_t size = this->kSizeBytes; size < this->kSize + 9; ++size)
+    for (std::size_t size = this->kSizeBytes; size < this->kSize + 9; size += kMemberBytes)
     {
         auto bytes = this->given(size, 0xEE);
         writeStruct(this->in(bytes), "it", value);
@@ -125,13 +154,14 @@ TYPED_TEST(CStruct, AnArraysFirstSizeIsItsStride)
     {
         auto element = this->given(stride, 0);
         std::fill(element.begin() + this->kSizeBytes, element.begin() + this->kSize, value);
+        this->clearReserved(element);
         bytes.insert(bytes.end(), element.begin(), element.end());
     }
     const std::vector<TypeParam> read = readStructs(this->in(bytes), 3, "it");
     ASSERT_EQ(read.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i)
     {
-        EXPECT_EQ(this->bytesOf(read[i]).back(), i + 1);
+        EXPECT_EQ(this->bytesOf(read[i])[this->kSizeBytes], i + 1);
     }
     bytes[stride] = static_cast<unsigned char>(stride - 8); // the lowest byte of the second one's size, below 256
     if (stride < 256)
@@ -280,6 +310,26 @@ void expectSame(const ImageTarget& a, const ImageTarget& b)
     EXPECT_EQ(a.array_layer, b.array_layer);
     EXPECT_EQ(a.extent.width, b.extent.width);
     EXPECT_EQ(a.extent.height, b.extent.height);
+}
+
+TEST(CStructs, CountsThatNoMemoryHasAreRefused)
+{
+    const float floats[12] = {};
+    const std::uint32_t vertices[3] = {};
+    auto mesh = initial<ZvoMeshInfo>();
+    mesh.positions = floats;
+    mesh.vertex_count = 3;
+    mesh.triangles = vertices;
+    mesh.triangle_count = std::size_t{1} << 62;
+    expectUsage([&] { ofC(mesh); }, "ZvoMeshInfo::triangles has more elements");
+    mesh.triangle_count = 1;
+    mesh.vertex_count = SIZE_MAX;
+    expectUsage([&] { ofC(mesh); }, "ZvoMeshInfo::positions has more elements");
+    mesh.vertex_count = 3;
+    auto model = initial<ZvoModelInfo>();
+    model.meshes = &mesh;
+    model.mesh_count = std::size_t{1} << 62;
+    expectUsage([&] { ModelOfC{model}; }, "ZvoModelInfo::meshes has more elements");
 }
 
 TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
