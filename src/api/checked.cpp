@@ -24,7 +24,7 @@ template <typename Values> bool areFinite(const Values& values)
 }
 
 // Row 3 of a matrix of columns.
-template <typename Matrix> Matrix::value_type lastRow(const Matrix& matrix, std::size_t column)
+template <typename Matrix> typename Matrix::value_type lastRow(const Matrix& matrix, std::size_t column)
 {
     return matrix[4 * column + 3];
 }

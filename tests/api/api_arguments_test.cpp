@@ -6,8 +6,11 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace zvo
 {
