@@ -85,10 +85,10 @@ public:
     void removeMover(MoverId mover);
 
     /// Records an update: movers that changed are voxelized, all are merged with the static tree, and the result is
-    /// shown. Under a budget of device time (which takes ContextInfo::timed_passes_per_frame), as much of it as is
-    /// thought to fit, and the rest in the next calls. 0: no bound. Returns whether the update is complete. Work is
-    /// proportional to the voxels that move. Throws Error{Usage} for more updates than frames_in_flight allow and
-    /// for a budget that is negative or not finite, Error{Memory}.
+    /// shown. Under a budget of device time, as much of it as is thought to fit, and the rest in the next calls; 0: no
+    /// bound. What fits is learnt from ContextInfo::timed_passes_per_frame: without, it is a guess that nothing puts
+    /// right. Returns whether the update is complete. Work is proportional to the voxels that move. Throws Error{Usage}
+    /// for more updates than frames_in_flight allow and for a budget that is negative or not finite, Error{Memory}.
     bool update(Recorder& recorder, double budget_ms = 0);
 
     /// Whether something has to be shown by another update(): one failed, was given up, was lost or had to wait.
