@@ -28,9 +28,9 @@ struct ContextInfo
 
     // What was enabled, which Vulkan cannot be asked: as it was given to vkCreateInstance and vkCreateDevice, the chain
     // as patchFeatures() left it. Looked at by the constructor only.
-    std::uint32_t instance_api_version = 0;                // VkApplicationInfo::apiVersion
-    std::span<const char* const> instance_extensions = {}; // VK_EXT_debug_utils: objects get names
-    std::span<const char* const> device_extensions = {};
+    std::uint32_t instance_api_version = 0;                          // VkApplicationInfo::apiVersion
+    std::span<const char* const> instance_extensions = {};           // VK_EXT_debug_utils: objects get names
+    std::span<const char* const> device_extensions = {};             // none makes a difference as yet
     const void* enabled_features = nullptr;                          // VkDeviceCreateInfo::pNext
     const VkPhysicalDeviceFeatures* enabled_core_features = nullptr; // VkDeviceCreateInfo::pEnabledFeatures
 
@@ -40,6 +40,8 @@ struct ContextInfo
     MemoryCallbacks memory = {};                                 // in place of vkAllocateMemory
     std::uint64_t memory_budget_bytes = UINT64_MAX;              // of device memory that zvo holds
     LogCallback log = {};
+    std::uint32_t subgroup_size = 0; // of kernels, from DeviceReport::min_subgroup_size to max_subgroup_size, a power
+                                     // of two; takes OptionalFeatures::subgroup_sizes. 0: the driver chooses
     std::uint32_t timed_passes_per_frame = 0; // passes of a frame whose times passTimes() tells, at most 65536; 0:
                                               // none. Without OptionalFeatures::pass_times there are none either
 };

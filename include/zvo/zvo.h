@@ -299,7 +299,7 @@ typedef struct ZvoContextInfo
     uint64_t memory_budget_bytes;
     ZvoLogCallback log;
     uint32_t timed_passes_per_frame;
-    uint32_t reserved;
+    uint32_t subgroup_size;
 } ZvoContextInfo;
 
 #define ZVO_CONTEXT_INFO_INIT                                                                                          \

@@ -122,6 +122,7 @@ ContextInfo ofC(const ZvoContextInfo& info)
     result.pipeline_cache = info.pipeline_cache;
     result.memory_budget_bytes = info.memory_budget_bytes;
     result.timed_passes_per_frame = info.timed_passes_per_frame;
+    result.subgroup_size = info.subgroup_size;
     return result;
 }
 

@@ -28,7 +28,7 @@ template <typename Struct> Struct initial();
 
 ZVO_C_STRUCT(ZvoOptionalFeatures, subgroup_sizes, ZVO_OPTIONAL_FEATURES_INIT);
 ZVO_C_STRUCT(ZvoDeviceFacts, reserved, ZVO_DEVICE_FACTS_INIT);
-ZVO_C_STRUCT(ZvoContextInfo, reserved, ZVO_CONTEXT_INFO_INIT);
+ZVO_C_STRUCT(ZvoContextInfo, subgroup_size, ZVO_CONTEXT_INFO_INIT);
 ZVO_C_STRUCT(ZvoMemoryUse, peak_held, ZVO_MEMORY_USE_INIT);
 ZVO_C_STRUCT(ZvoPassTime, ms, ZVO_PASS_TIME_INIT);
 ZVO_C_STRUCT(ZvoTextureInfo, wrap_v, ZVO_TEXTURE_INFO_INIT);

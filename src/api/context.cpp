@@ -80,6 +80,7 @@ vk::DeviceHandles handlesOf(const ContextInfo& info)
     handles.memory_budget_bytes = info.memory_budget_bytes;
     handles.memory_budget_name = "ContextInfo::memory_budget_bytes";
     handles.log = info.log;
+    handles.overrides.subgroup_size = info.subgroup_size;
     return handles;
 }
 

@@ -4,6 +4,7 @@
 #include "core/attribute_packer.h"
 #include "core/tree_download.h"
 #include "core/zvo_file.h"
+#include "support/errors.h"
 
 #include <gtest/gtest.h>
 
@@ -133,6 +134,31 @@ TEST(ApiPicture, WithoutOptionalFeaturesItIsTheSame)
         EXPECT_EQ(host.context.passTimes().empty(), !optional);
     }
     EXPECT_EQ(pictures[0], pictures[1]);
+}
+
+TEST(ApiPicture, SubgroupsOfAnySizeGiveTheSame)
+{
+    const vk::DeviceReport& report = engine().device().report();
+    if (report.min_subgroup_size == 0)
+    {
+        GTEST_SKIP() << "the device's subgroups have one size";
+    }
+    std::set<std::vector<std::uint32_t>> pictures;
+    for (std::uint32_t size = report.min_subgroup_size; size <= report.max_subgroup_size; size *= 2)
+    {
+        test::HostOptions options;
+        options.optional.subgroup_sizes = true;
+        test::EmbeddingHost host(options, [&](ContextInfo& info) { info.subgroup_size = size; });
+        const test::HostModel model(test::apiScene());
+        const Tree tree = host.build(host.upload(model.info()), {.grid = test::apiGrid()});
+        pictures.insert(host.picture(tree, test::apiCamera()));
+    }
+    EXPECT_EQ(pictures.size(), 1U);
+    test::HostOptions without;
+    without.optional.subgroup_sizes = false;
+    const auto begin = [&]
+    { test::EmbeddingHost host(without, [&](ContextInfo& info) { info.subgroup_size = report.min_subgroup_size; }); };
+    test::expectParts(test::messageOf(begin, ErrorCode::Device), {"subgroupSizeControl"});
 }
 
 TEST(ApiPicture, TwoContextsDoNotKnowOfEachOther)

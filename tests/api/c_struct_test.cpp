@@ -197,6 +197,7 @@ void expectSame(const ContextInfo& a, const ContextInfo& b)
     EXPECT_EQ(a.log.function, b.log.function);
     EXPECT_EQ(a.log.user, b.log.user);
     EXPECT_EQ(a.timed_passes_per_frame, b.timed_passes_per_frame);
+    EXPECT_EQ(a.subgroup_size, b.subgroup_size);
 }
 
 void expectSame(const GridInfo& a, const GridInfo& b)
@@ -392,7 +393,7 @@ TEST(CStructs, EveryMemberOfADeclarationIsPassedOn)
                               77,
                               {},
                               5,
-                              0};
+                              8};
     ContextInfo cpp;
     cpp.get_instance_proc_addr = function;
     cpp.instance = c.instance;
@@ -408,6 +409,7 @@ TEST(CStructs, EveryMemberOfADeclarationIsPassedOn)
     cpp.pipeline_cache = c.pipeline_cache;
     cpp.memory_budget_bytes = 77;
     cpp.timed_passes_per_frame = 5;
+    cpp.subgroup_size = 8;
     expectSame(ofC(c), cpp);
 }
 
