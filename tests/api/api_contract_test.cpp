@@ -87,33 +87,6 @@ TEST(ApiContract, ZvoNeitherSubmitsNorWaits)
     EXPECT_EQ(test::liveObjects(), std::vector<std::string>());
 }
 
-TEST(ApiContract, ValidationSpeaksWhereTheHostLeavesOutItsBarrier)
-{
-    if (!test::hasValidationLayer())
-    {
-        GTEST_SKIP() << "needs the validation layer";
-    }
-    for (const bool without_barrier : {false, true})
-    {
-        test::HostOptions options;
-        options.validation = true;
-        options.message_counter = nullptr;
-        test::EmbeddingHost host(options);
-        const test::HostModel description(test::boxScene(glm::vec3(2), glm::vec3(6)));
-        const Tree tree = host.build(host.upload(description.info()), {.grid = test::apiGrid(4)});
-        Tracer tracer(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
-        test::TargetImage image(host.device, VK_FORMAT_R8G8B8A8_UNORM, host.kWidth, host.kHeight);
-        host.frame(
-            [&](Recorder& recorder, VkCommandBuffer commands)
-            {
-                image.beginCopies(commands);
-                tracer.trace(recorder, tree, test::apiCamera(), {}, image.target());
-                image.read(commands, without_barrier);
-            });
-        EXPECT_EQ(host.device.messageCount() != 0, without_barrier);
-    }
-}
-
 // What every program of these tests shows.
 const std::vector<std::vector<std::uint32_t>>& expectedPictures()
 {
