@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <numeric>
 
@@ -65,7 +66,9 @@ PFN_vkVoidFunction fakeInstanceProcAddr(VkInstance, const char* name)
 
 TEST(Query, ListsEveryReasonOfADeviceThatLacksEverything)
 {
-    const vk::DeviceReport report = vk::query(fakeInstanceProcAddr, VK_NULL_HANDLE, VK_NULL_HANDLE);
+    const auto instance = reinterpret_cast<VkInstance>(std::uintptr_t{8}); // that nobody looks into
+    const auto physical_device = reinterpret_cast<VkPhysicalDevice>(std::uintptr_t{16});
+    const vk::DeviceReport report = vk::query(fakeInstanceProcAddr, instance, physical_device);
     EXPECT_FALSE(report.usable());
     EXPECT_EQ(report.name, "Toaster");
     EXPECT_EQ(report.type, "other");
