@@ -100,7 +100,7 @@ TEST(RepeatedSteps, GiveTheSameBytes)
     grid.depth = 13; // the scene lies in a corner; keys of the brick table are of 64 bits, which leaves least room
     const Outcome expected = outcome(scene, grid, UINT64_MAX);
     ASSERT_EQ(expected.failures, 0U);
-    constexpr std::uint64_t kStep = 3; // a new device takes its time; 15 is one of those that number nodes
+    constexpr std::uint64_t kStep = 5; // a new device takes its time; 15 is one of those that number nodes
     std::uint64_t number = 0;
     for (std::uint32_t failures = 1; failures == 1; number += kStep)
     {
