@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Arguments that make no sense are Error{Usage}, before anything is recorded.
 #include "api_scene.h"
+#include "expect_usage.h"
 
 #include <gtest/gtest.h>
 
@@ -18,23 +19,11 @@ namespace zvo
 namespace
 {
 
+using test::expectUsage;
+
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kOddNumbers[] = {-1.0F, kInf, -kInf, kNan}; // for what is finite and not negative
-
-void expectUsage(const std::function<void()>& action, const std::string& word)
-{
-    try
-    {
-        action();
-        ADD_FAILURE() << "no error, expected one about " << word;
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Usage) << error.what();
-        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
-}
 
 // As a host gets a value of an enumeration by a cast, or from a file.
 template <typename Enum> Enum numbered(int value)

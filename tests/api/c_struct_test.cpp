@@ -3,6 +3,7 @@
 #include "api/c_convert.h"
 #include "api/c_struct.h"
 #include "c_host.h"
+#include "expect_usage.h"
 
 #include <gtest/gtest.h>
 
@@ -15,19 +16,7 @@ namespace zvo
 namespace
 {
 
-void expectUsage(const std::function<void()>& action, const std::string& word)
-{
-    try
-    {
-        action();
-        ADD_FAILURE() << "no error, expected one about " << word;
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Usage) << error.what();
-        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
-}
+using test::expectUsage;
 
 template <typename Struct> class CStruct : public testing::Test
 {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "zvo/error.h"
-
-#include <gtest/gtest.h>
+#include "support/errors.h"
 
 #include <functional>
 #include <string>
@@ -14,16 +12,7 @@ namespace zvo::test
 /// action throws Error{Usage}, and word is in its message.
 inline void expectUsage(const std::function<void()>& action, const std::string& word)
 {
-    try
-    {
-        action();
-        ADD_FAILURE() << "no error, expected one about " << word;
-    }
-    catch (const Error& error)
-    {
-        EXPECT_EQ(error.code(), ErrorCode::Usage) << error.what();
-        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
+    expectParts(messageOf(action, ErrorCode::Usage), {word.c_str()});
 }
 
 } // namespace zvo::test
