@@ -137,11 +137,10 @@ MoverId DynamicTree::addMover(Recorder& recorder, const Model& model, const Mat4
     Impl& impl = usable(*this);
     const Model::Impl& mover_impl = usable(model);
     requireSame(impl.context, mover_impl.context);
-    checkedPlacement(to_world, "a mover");
-    impl.enter(recorder.impl());
     const auto& mesh = mover_impl.mesh;
-    const MoverId mover =
-        recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, poseOf(*mesh, to_world)); });
+    Pose pose = poseOf(*mesh, to_world); // looks at to_world before anything is recorded
+    impl.enter(recorder.impl());
+    const MoverId mover = recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, std::move(pose)); });
     impl.new_movers.push_back({recorder.impl().frame, mover});
     return mover;
 }
