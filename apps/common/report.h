@@ -3,8 +3,8 @@
 #pragma once
 
 #include "common/scene_options.h"
+#include "core/headless/pipeline.h"
 #include "core/merge_rule.h"
-#include "core/pipeline.h"
 #include "vk/device.h"
 
 #include <nlohmann/json.hpp>

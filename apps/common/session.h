@@ -4,7 +4,7 @@
 
 #include "common/scene_options.h"
 #include "core/grid.h"
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 #include "core/scene.h"
 #include "io/stage.h"
 #include "vk/headless.h"

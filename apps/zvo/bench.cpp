@@ -13,16 +13,16 @@
 #include "common/session.h"
 #include "common/view.h"
 #include "core/gpu_scene.h"
+#include "core/headless/pipeline.h"
+#include "core/headless/tree_download.h"
 #include "core/kernels.h"
-#include "core/pipeline.h"
 #include "core/svdag.h"
 #include "core/trace.h"
-#include "core/tree_download.h"
 #include "zvo/error.h"
 
 #ifdef ZVO_EMBREE
 #include "bench_embree.h"
-#include "core/compress.h"
+#include "core/headless/compress.h"
 #endif
 
 #include <fmt/format.h>

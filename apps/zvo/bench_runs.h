@@ -5,7 +5,7 @@
 #include "bench_table.h"
 #include "core/gpu_scene.h"
 #include "core/grid.h"
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 
 #include <cstdint>
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/report.h"
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 #include "core/svdag.h"
 #include "core/svdag_builder.h"
 #include "core/tree_data.h"

@@ -5,7 +5,6 @@
 #include "core/mover_set.h"
 #include "core/octree.h"
 #include "core/overlay_octree.h"
-#include "core/pipeline.h"
 #include "core/root_history.h"
 #include "core/tree_view.h"
 #include "core/update.h"

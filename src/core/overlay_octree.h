@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/octree_builder.h"
 #include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
-#include "core/pipeline.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/retired.h"

@@ -3,7 +3,7 @@
 
 #include "core/dynamic_octree.h"
 #include "core/grid.h"
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 #include "core/tree_data.h"
 #include "io/stage.h"
 #include "vk/headless.h"

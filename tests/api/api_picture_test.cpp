@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a host gets of models that stand still.
 #include "api_scene.h"
-#include "core/attribute_packer.h"
-#include "core/tree_download.h"
+#include "core/headless/attribute_packer.h"
+#include "core/headless/tree_download.h"
 #include "core/zvo_file.h"
 #include "support/errors.h"
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "core/camera.h"
-#include "core/compress.h"
 #include "core/gpu_scene.h"
+#include "core/headless/compress.h"
+#include "core/headless/pipeline.h"
 #include "core/kernels.h"
-#include "core/pipeline.h"
 #include "core/trace.h"
 #include "support/device.h"
 #include "support/embedding_host.h"

@@ -4,7 +4,7 @@
 #include "api_scene.h"
 #include "c_host.h"
 #include "c_program.h"
-#include "core/tree_download.h"
+#include "core/headless/tree_download.h"
 #include "core/zvo_file.h"
 #include "support/host_memory.h"
 

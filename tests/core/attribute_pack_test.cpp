@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Attributes in fewer bytes: what the device packs is what the oracle packs, and what is read is what was packed.
 #include "core/attribute_pack.h"
-#include "core/attribute_packer.h"
+#include "core/headless/attribute_packer.h"
 
-#include "core/compress.h"
+#include "core/headless/compress.h"
 #include "core/kernels.h"
 #include "core/svdag.h"
 #include "oracle/attribute_forms.h"

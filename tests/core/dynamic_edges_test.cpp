@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dynamic updates at their limits: a result that is defined, or an error that says what is wrong.
-#include "core/attribute_packer.h"
 #include "core/dynamic_octree.h"
+#include "core/headless/attribute_packer.h"
 #include "core/kernels.h"
 #include "support/ballast.h"
 #include "support/device.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What is shown as an octree of its own.
-#include "core/flatten.h"
+#include "core/headless/flatten.h"
 
+#include "core/headless/tree_download.h"
 #include "core/kernels.h"
 #include "core/tree_check.h"
-#include "core/tree_download.h"
 #include "support/device.h"
 #include "support/edit_machine.h"
 #include "support/mover_scenery.h"

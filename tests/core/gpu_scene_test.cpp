@@ -2,8 +2,8 @@
 #include "core/gpu_scene.h"
 
 #include "core/draws.h"
+#include "core/headless/pipeline.h"
 #include "core/kernels.h"
-#include "core/pipeline.h"
 #include "support/device.h"
 #include "support/moved_scene.h"
 #include "support/octree_access.h"

@@ -3,9 +3,9 @@
 #include "core/mover.h"
 
 #include "core/animation.h"
+#include "core/headless/pipeline.h"
 #include "core/kernels.h"
 #include "core/octree_build.h"
-#include "core/pipeline.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 #include "support/moved_scene.h"

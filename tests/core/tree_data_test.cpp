@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree_data.h"
 
+#include "core/headless/pipeline.h"
+#include "core/headless/tree_download.h"
 #include "core/kernels.h"
-#include "core/pipeline.h"
 #include "core/tree_check.h"
-#include "core/tree_download.h"
 #include "io/octree_sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"

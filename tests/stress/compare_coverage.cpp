@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "stress/compare_coverage.h"
 
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 #include "core/texture_pool.h"
 #include "oracle/attributes.h"
 #include "oracle/fragments.h"

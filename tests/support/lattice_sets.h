@@ -2,7 +2,7 @@
 // Sets of voxels of lattice triangles, and the symmetries of the grid.
 #pragma once
 
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 #include "oracle/morton.h"
 #include "stress/lattice_triangles.h"
 #include "support/octree_access.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/moved_scene.h"
 
+#include "core/headless/pipeline.h"
 #include "core/kernels.h"
 #include "core/octree_build.h"
-#include "core/pipeline.h"
 #include "io/octree_sha256.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"

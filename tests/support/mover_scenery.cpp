@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/mover_scenery.h"
 
-#include "core/compress.h"
-#include "core/pipeline.h"
+#include "core/headless/compress.h"
+#include "core/headless/pipeline.h"
 #include "support/deforming_scenes.h"
 #include "support/materials_scene.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/grid.h"
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 #include "core/scene.h"
 #include "vk/headless.h"
 #include "zvo/types.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/tiled_build.h"
+#include "core/headless/tiled_build.h"
 
-#include "core/attribute_packer.h"
-#include "core/compress.h"
-#include "core/pipeline.h"
-#include "core/svdag_forest.h"
-#include "core/tile_nodes.h"
-#include "core/tree_download.h"
+#include "core/headless/attribute_packer.h"
+#include "core/headless/compress.h"
+#include "core/headless/pipeline.h"
+#include "core/headless/svdag_forest.h"
+#include "core/headless/tile_nodes.h"
+#include "core/headless/tree_download.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

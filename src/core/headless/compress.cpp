@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/compress.h"
+#include "core/headless/compress.h"
 
 #include <utility>
 

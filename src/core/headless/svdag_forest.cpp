@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/svdag_forest.h"
+#include "core/headless/svdag_forest.h"
 
-#include "core/compress.h"
 #include "core/divide_up.h"
+#include "core/headless/compress.h"
 #include "svdag/svdag.h"
 #include "zvo/error.h"
 

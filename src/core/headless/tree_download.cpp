@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree_download.h"
+#include "core/headless/tree_download.h"
 
 #include "zvo/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tile_nodes.h"
+#include "core/headless/tile_nodes.h"
 
 #include "core/octree.h"
 #include "core/octree_build.h"

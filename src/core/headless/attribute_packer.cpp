@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/attribute_packer.h"
+#include "core/headless/attribute_packer.h"
 
 #include "attributes/attributes.h"
 #include "core/attribute_pack.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/flatten.h"
+#include "core/headless/flatten.h"
 
 #include "core/divide_up.h"
 #include "core/svdag_lists.h"

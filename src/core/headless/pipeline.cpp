@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/pipeline.h"
+#include "core/headless/pipeline.h"
 
 #include <bit>
 #include <utility>
