@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/scene.h"
 #include "io/stage.h"

@@ -5,7 +5,7 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "common/view.h"
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

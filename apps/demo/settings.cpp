@@ -4,7 +4,7 @@
 #include "common/environment.h"
 #include "common/progress.h"
 #include "common/view.h"
-#include "core/read_file.h"
+#include "core/base/read_file.h"
 #include "io/atomic_file.h"
 #include "io/image_io.h"
 #include "io/json_cursor.h"

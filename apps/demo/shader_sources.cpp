@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "demo/shader_sources.h"
 
-#include "core/read_file.h"
+#include "core/base/read_file.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "common/view.h"
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/trace.h"
 #include "io/stage_octree.h"
 #include "table.h"

@@ -3,8 +3,8 @@
 // with.
 #pragma once
 
+#include "core/base/grid.h"
 #include "core/camera.h"
-#include "core/grid.h"
 #include "core/scene.h"
 
 #include <cstdint>

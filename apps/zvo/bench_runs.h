@@ -3,8 +3,8 @@
 #pragma once
 
 #include "bench_table.h"
+#include "core/base/grid.h"
 #include "core/gpu_scene.h"
-#include "core/grid.h"
 #include "core/headless/pipeline.h"
 
 #include <cstdint>

@@ -3,8 +3,8 @@
 
 #include "common/output.h"
 #include "common/report.h"
-#include "core/input_error.h"
-#include "core/read_file.h"
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "core/tree_stats.h"
 #include "core/zvo_file.h"
 #include "io/sha256.h"

@@ -3,7 +3,7 @@
 // interface comes by here too.
 #pragma once
 
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "zvo/dynamic_tree.h"
 #include "zvo/error.h"
 #include "zvo/tracer.h"

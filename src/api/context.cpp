@@ -2,7 +2,7 @@
 #include "zvo/context.h"
 
 #include "api/context_impl.h"
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 
 #include <fmt/format.h>
 

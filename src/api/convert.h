@@ -2,7 +2,7 @@
 // From the types of public headers to those of the engine, and back.
 #pragma once
 
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "zvo/types.h"
 
 #include <glm/glm.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/attribute_form.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 
 #include <cassert>
 #include <cstddef>

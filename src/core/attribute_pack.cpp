@@ -2,7 +2,7 @@
 #include "core/attribute_pack.h"
 
 #include "attributes/attributes.h"
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "vk/device.h"
 
 namespace zvo

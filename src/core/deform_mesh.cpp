@@ -2,8 +2,8 @@
 #include "core/deform_mesh.h"
 
 #include "core/animation.h"
+#include "core/base/divide_up.h"
 #include "core/deform.h"
-#include "core/divide_up.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/edit.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "core/svdag.h"
 #include "edit/compact.h"
 #include "octree/octree.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/grid.h"
 #include "core/brush.h"
-#include "core/grid.h"
 #include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
 #include "edit/edit.h"

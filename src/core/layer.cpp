@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/layer.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 
 #include <fmt/format.h>
 

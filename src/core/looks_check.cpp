@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/looks_check.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 
 #include <bit>
 #include <cmath>

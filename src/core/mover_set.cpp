@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/mover_set.h"
 
-#include "core/with_slack.h"
+#include "core/base/with_slack.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

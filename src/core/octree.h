@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/attribute_form.h"
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "shared/octree.h"
 #include "vk/buffer.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/octree_build.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 
 namespace zvo
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/overlay_arena.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 
 #include <algorithm>
 #include <cassert>

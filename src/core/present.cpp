@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/present.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "present/present.h"
 
 namespace zvo

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "core/rig.h"
 #include "zvo/types.h"
 

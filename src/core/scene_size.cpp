@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene_size.h"
 
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 
 #include <algorithm>
 #include <fmt/format.h>

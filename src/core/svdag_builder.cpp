@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/svdag_builder.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "vk/device.h"
 #include "zvo/error.h"
 

@@ -2,7 +2,7 @@
 // How the lists of a DAG's pool are packed (shaders/shared/svdag.h).
 #pragma once
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "shared/svdag.h"
 
 #include <cstdint>

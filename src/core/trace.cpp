@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "core/trace_beam.h"
 #include "core/trace_passes.h"
 #include "core/trace_ranks.h"

@@ -2,7 +2,7 @@
 // What the files that record the tracer's passes share.
 #pragma once
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "core/trace.h"
 #include "core/tree_view.h"
 

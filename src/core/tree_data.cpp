@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree_data.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "vk/device.h"
 
 #include <algorithm>

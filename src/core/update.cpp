@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/update.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/update_sizes.h"
 
-#include "core/divide_up.h"
-#include "core/with_slack.h"
+#include "core/base/divide_up.h"
+#include "core/base/with_slack.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/voxelize.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "core/octree.h"
 #include "octree/octree.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/grid.h"
 #include "core/gpu_scene.h"
-#include "core/grid.h"
 #include "core/mover.h"
 #include "shared/bricks.h"
 #include "vk/frame_graph.h"

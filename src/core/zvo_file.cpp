@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/zvo_file.h"
 
-#include "core/crc64.h"
+#include "core/base/crc64.h"
 
 #include <algorithm>
 #include <bit>

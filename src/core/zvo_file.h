@@ -5,7 +5,7 @@
 //     ZvoHeader 128 bytes | ZvoSection 48 bytes each | zeros up to 64 | section | zeros up to 64 | section ...
 #pragma once
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "core/tree_data.h"
 
 #include <array>

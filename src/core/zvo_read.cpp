@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/byte_source.h"
-#include "core/crc64.h"
-#include "core/divide_up.h"
-#include "core/input_error.h"
-#include "core/read_file.h"
+#include "core/base/byte_source.h"
+#include "core/base/crc64.h"
+#include "core/base/divide_up.h"
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "core/tree_check.h"
 #include "core/zvo_file.h"
 

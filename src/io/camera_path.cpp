@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/camera_path.h"
 
-#include "core/read_file.h"
+#include "core/base/read_file.h"
 #include "io/json_cursor.h"
 #include "zvo/error.h"
 

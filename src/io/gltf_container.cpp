@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_container.h"
 
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 #include "io/gltf_document.h"
 
 #include <algorithm>

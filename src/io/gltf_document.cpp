@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_document.h"
 
-#include "core/input_error.h"
-#include "core/read_file.h"
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "core/scene_size.h"
 #include "io/folder_bounds.h"
 #include "io/gltf_container.h"

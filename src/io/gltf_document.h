@@ -2,7 +2,7 @@
 // What the glTF loader's parts share; gltf_loader.h is its face.
 #pragma once
 
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 #include "io/gltf_rig_source.h"
 #include "io/third_party_tinygltf.h"
 #include "zvo/error.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_loader.h"
 
-#include "core/read_file.h"
+#include "core/base/read_file.h"
 #include "io/gltf_document.h"
 #include "io/gltf_geometry.h"
 #include "io/gltf_materials.h"

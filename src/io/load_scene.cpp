@@ -2,8 +2,8 @@
 #include "io/load_scene.h"
 
 #include "core/animation.h"
-#include "core/input_error.h"
-#include "core/read_file.h"
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "core/zvo_file.h"
 #include "io/gltf_loader.h"
 #include "io/mesh_import.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/obj_assimp_files.h"
 
-#include "core/read_file.h"
+#include "core/base/read_file.h"
 #include "io/folder_bounds.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/obj_file.h"
 
-#include "core/input_error.h"
-#include "core/read_file.h"
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "core/scene_size.h"
 #include "io/image_io.h"
 #include "io/obj_assimp_files.h"

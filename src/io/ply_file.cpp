@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/ply_file.h"
 
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 #include "core/scene_size.h"
 #include "io/ply_header.h"
 #include "io/srgb.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/ply_header.h"
 
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Loading of stages (core/stage.h): files are found and loaded, and divided into what stands still and what moves.
 #include "core/animation.h"
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "core/deform.h"
-#include "core/input_error.h"
-#include "core/read_file.h"
 #include "core/scene_size.h"
 #include "io/folder_bounds.h"
 #include "io/load_scene.h"

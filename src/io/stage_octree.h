@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/grid.h"
 #include "core/dynamic_octree.h"
-#include "core/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/tree_data.h"
 #include "io/stage.h"

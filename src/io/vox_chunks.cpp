@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/vox_chunks.h"
 
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 #include "io/text_cursor.h"
 
 #include <cstdlib>

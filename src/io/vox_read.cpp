@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 #include "core/tree_build.h"
 #include "io/vox_chunks.h"
 #include "io/vox_file.h"

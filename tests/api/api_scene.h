@@ -2,11 +2,11 @@
 // What the tests of the API show, and the same pictures by the engine alone.
 #pragma once
 
+#include "core/base/kernels.h"
 #include "core/camera.h"
 #include "core/gpu_scene.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/trace.h"
 #include "support/device.h"
 #include "support/embedding_host.h"

@@ -2,9 +2,9 @@
 // What the program gives when all goes well: files, reports, tables.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
+#include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/svdag.h"
 #include "io/gltf_loader.h"
 #include "io/image_io.h"

@@ -3,8 +3,8 @@
 #include "core/attribute_pack.h"
 #include "core/headless/attribute_packer.h"
 
+#include "core/base/kernels.h"
 #include "core/headless/compress.h"
-#include "core/kernels.h"
 #include "core/svdag.h"
 #include "oracle/attribute_forms.h"
 #include "support/dag_compare.h"

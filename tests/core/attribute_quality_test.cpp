@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What packed attributes lose on whole scenes: colours in dB, normals in degrees, pictures in dB. The disabled test
 // makes the tables of docs/attributes.md.
+#include "core/base/kernels.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "io/gltf_loader.h"
 #include "support/device.h"
 #include "support/octree_access.h"

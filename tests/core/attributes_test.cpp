@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Colours, normals and emission of voxels and inner nodes.
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/texture_pool.h"
 #include "io/gltf_loader.h"
 #include "io/octree_sha256.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How much work big triangles are, in columns of the row blocks that are listed for them: counted, not timed.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/voxelize.h"
 #include "support/device.h"
 #include "support/param_names.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Coverage where the numbers become largest.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "stress/compare_coverage.h"
 #include "support/device.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Laws of the device's voxel sets (docs/voxelization.md, "Laws").
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "io/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "oracle/snap.h"

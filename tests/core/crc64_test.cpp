@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/crc64.h"
+#include "core/base/crc64.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Grids of depth 13 to 17, sparsely filled: brick keys of two words, lattice coordinates up to 2^25, long rows.
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "io/octree_sha256.h"
 #include "oracle/morton.h"
 #include "support/device.h"

@@ -3,8 +3,8 @@
 #include "core/deform_mesh.h"
 
 #include "core/animation.h"
+#include "core/base/kernels.h"
 #include "core/deform.h"
-#include "core/kernels.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 #include "zvo/error.h"

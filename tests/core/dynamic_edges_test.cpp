@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Dynamic updates at their limits: a result that is defined, or an error that says what is wrong.
+#include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
-#include "core/kernels.h"
 #include "support/ballast.h"
 #include "support/device.h"
 #include "support/dynamic_updates.h"

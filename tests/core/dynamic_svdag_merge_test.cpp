@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Movers merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it was.
+#include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
 #include "core/headless/compress.h"
-#include "core/kernels.h"
 #include "support/device.h"
 #include "support/dynamic_updates.h"
 #include "support/mover_scenery.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Movers above a DAG: everything looks as if the DAG were the octree that it was made of.
+#include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
 #include "core/headless/compress.h"
-#include "core/kernels.h"
 #include "oracle/dag.h"
 #include "oracle/morton.h"
 #include "support/device.h"

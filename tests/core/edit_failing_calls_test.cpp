@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Vulkan calls that fail, and memory that does not suffice, while a brush is at work: an error comes out, what was
 // shown still is, and the octree goes on.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "support/ballast.h"
 #include "support/device.h"
 #include "support/edit_model.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
 // memory than was asked for.
+#include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
 #include "core/headless/compress.h"
-#include "core/kernels.h"
 #include "core/svdag.h"
 #include "core/tree_build.h"
 #include "io/gltf_loader.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Movers above what brushes have left, case by case.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "oracle/morton.h"
 #include "support/device.h"
 #include "support/edit_machine.h"

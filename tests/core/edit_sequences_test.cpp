@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Whatever brushes do, in whatever order and with whatever room: what is shown is what a model has that edits voxel by
 // voxel, and undo and redo lead to what was there.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "support/device.h"
 #include "support/edit_machine.h"
 #include "support/properties.h"

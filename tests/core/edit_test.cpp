@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A brush on voxels, case by case.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "support/device.h"
 #include "support/edit_machine.h"
 #include "zvo/error.h"

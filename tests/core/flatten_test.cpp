@@ -2,8 +2,8 @@
 // What is shown as an octree of its own.
 #include "core/headless/flatten.h"
 
+#include "core/base/kernels.h"
 #include "core/headless/tree_download.h"
-#include "core/kernels.h"
 #include "core/tree_check.h"
 #include "support/device.h"
 #include "support/edit_machine.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Files that somebody made to do harm: nothing leaves the document's folder, unfolds without end or runs out of stack.
 // gltf_errors_test.cpp has the mistakes that happen.
-#include "core/read_file.h"
+#include "core/base/read_file.h"
 #include "core/scene_size.h"
 #include "gltf_builder.h"
 #include "io/gltf_document.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 
 #include <gtest/gtest.h>
 

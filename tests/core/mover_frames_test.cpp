@@ -3,8 +3,8 @@
 #include "core/mover.h"
 
 #include "core/animation.h"
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/octree_build.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures in another size.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/present.h"
 #include "support/device.h"
 

@@ -2,8 +2,8 @@
 // A step of a build whose recording fails half way reaches the device as far as it was recorded, and comes again: the
 // result is that of a build in which nothing failed. Kernels fail to be made, one by one, as these are made between
 // passes.
+#include "core/base/kernels.h"
 #include "core/headless/tree_download.h"
-#include "core/kernels.h"
 #include "core/octree_builder.h"
 #include "core/svdag_builder.h"
 #include "core/zvo_file.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Voxels of closed surfaces keep inside and outside apart: no path along faces of uncovered voxels leads through.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "io/gltf_loader.h"
 #include "oracle/winding.h"
 #include "support/device.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Structs that C++ and GLSL share lie in memory alike.
 #include "attributes/attributes.h"
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "deform/deform.h"
 #include "edit/compact.h"
 #include "edit/edit.h"

@@ -2,8 +2,8 @@
 // The scenes that come with zvo, as time goes by: updated octrees and their pictures against ones built anew. By
 // default some frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and ZVO_TEST_STAGE_FRAMES ask for more
 // (scripts/check-dynamic).
+#include "core/base/kernels.h"
 #include "core/camera.h"
-#include "core/kernels.h"
 #include "core/trace.h"
 #include "io/stage_octree.h"
 #include "support/device.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // DAGs of tiles become, byte for byte, the DAG of the whole.
+#include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
-#include "core/kernels.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/morton_place.h"

@@ -2,9 +2,9 @@
 // Compression against the oracle, byte for byte: so the result does not depend on threads, subgroups or tables either.
 #include "core/svdag.h"
 
+#include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "io/gltf_loader.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures in all texel forms: the same picture, as exactly as each form can hold it.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/trace.h"
 #include "support/device.h"
 #include "support/pictures.h"

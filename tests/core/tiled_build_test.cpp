@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A DAG that was built tile by tile is the DAG of the whole: nodes, lists, attributes, averages, emission.
+#include "core/base/kernels.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
-#include "core/kernels.h"
 #include "core/svdag.h"
 #include "support/device.h"
 #include "support/materials_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tiles of a grid are slices of it: voxels and attributes, bit for bit.
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/morton_place.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Depth of pictures in a host's convention, against projections in double precision, and composited with planes.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/trace_depth.h"
 #include "support/device.h"
 #include "support/errors.h"

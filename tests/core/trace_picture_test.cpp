@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures: what may change how they are made but not what they show.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/trace.h"
 #include "oracle/trace.h"
 #include "support/device.h"

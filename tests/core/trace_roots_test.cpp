@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Roots that a dynamic update makes: their nodes stand behind those of the octree that it changed, or there are none.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/trace.h"
 #include "oracle/morton.h"
 #include "support/device.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rays through the octrees of whole scenes against the reference, bit for bit.
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "io/gltf_loader.h"
 #include "support/device.h"
 #include "support/param_names.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A DAG looks like the octree that it was made from.
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/trace.h"
 #include "io/gltf_loader.h"
 #include "oracle/morton.h"

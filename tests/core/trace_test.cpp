@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lists of rays on the device against the reference, bit for bit.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/trace.h"
 #include "oracle/morton.h"
 #include "oracle/trace.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Views that show how voxels are stored, and what is told of one pixel.
 #include "core/animation.h"
+#include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
 #include "core/gpu_scene.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/mover_set.h"
 #include "core/svdag.h"
 #include "core/trace.h"

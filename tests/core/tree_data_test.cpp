@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree_data.h"
 
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/kernels.h"
 #include "core/tree_check.h"
 #include "io/octree_sha256.h"
 #include "support/device.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The voxels of the device against the exact oracle, bit for bit.
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "io/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "oracle/voxelizer.h"

@@ -2,7 +2,7 @@
 // docs/file-format.md, and what becomes of files that are not as it says. tree_check_test has the trees.
 #include "core/zvo_file.h"
 
-#include "core/crc64.h"
+#include "core/base/crc64.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
 #include "support/zvo_parts.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "examples/composite.h"
 
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "core/scene.h"
 #include "io/load_scene.h"
 #include "oracle/trace.h"

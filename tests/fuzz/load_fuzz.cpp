@@ -3,8 +3,8 @@
 // 16^3, in a pose where something moves. A file that the loader refuses must give an Error{Input} of one line;
 // everything else must hold what Scene promises and voxelize.
 #include "core/animation.h"
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "fuzz/gltf_mutator.h"
 #include "fuzz/mesh_mutator.h"
 #include "io/image_io.h"

@@ -2,7 +2,7 @@
 // A libFuzzer target: the bytes of a .zvo file. What the reader refuses must give an Error{Input} of one line; what it
 // accepts must be written as it was read, and is traced: each hit must have a number that the tree's attributes have.
 // ZVO_FUZZ_SEEDS names a folder that gets the trees of the tests as seeds.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "core/zvo_file.h"
 #include "fuzz/tree_mutator.h"
 #include "support/tree_probe.h"

@@ -2,14 +2,14 @@
 // Every kernel of the library, run once on work so small that a tool which slows programs down a hundredfold can watch:
 // valgrind, instrumented kernels, poisoned memory.
 #include "core/animation.h"
+#include "core/base/grid.h"
+#include "core/base/kernels.h"
 #include "core/deform_mesh.h"
 #include "core/dynamic_octree.h"
-#include "core/grid.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
-#include "core/kernels.h"
 #include "core/present.h"
 #include "core/svdag.h"
 #include "core/trace.h"

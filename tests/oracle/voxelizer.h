@@ -3,7 +3,7 @@
 // minute).
 #pragma once
 
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "core/scene.h"
 #include "zvo/types.h"
 

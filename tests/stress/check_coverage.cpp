@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // check_coverage: millions of triangles and whole meshes, device against oracle, both coverages. Ends with 1 when
 // anything differs.
-#include "core/kernels.h"
+#include "core/base/kernels.h"
 #include "io/gltf_loader.h"
 #include "stress/compare_coverage.h"
 #include "support/device.h"

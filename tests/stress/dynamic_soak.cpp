@@ -4,8 +4,8 @@
 //
 //   zvo_dynamic_soak [--frames N]
 #include "core/animation.h"
+#include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
-#include "core/kernels.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/octree_contents.h"

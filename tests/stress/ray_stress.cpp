@@ -3,8 +3,8 @@
 // pictures made in every way. Ends with a checksum of all hits: it must not depend on stack or subgroup size.
 //
 //   zvo_ray_stress [--rays N] [--seed S]    N random rays, N aimed ones, N / 4 out of closed shells
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/trace.h"
 #include "io/sha256.h"
 #include "stress/ray_judge.h"

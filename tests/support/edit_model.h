@@ -2,8 +2,8 @@
 // What brushes do to voxels, voxel by voxel, on the host.
 #pragma once
 
+#include "core/base/grid.h"
 #include "core/brush.h"
-#include "core/grid.h"
 #include "core/merge_rule.h"
 #include "support/octree_contents.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/moved_scene.h"
 
+#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/kernels.h"
 #include "core/octree_build.h"
 #include "io/octree_sha256.h"
 #include "support/deforming_scenes.h"

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/animation.h"
+#include "core/base/grid.h"
 #include "core/deform_mesh.h"
 #include "core/gpu_scene.h"
-#include "core/grid.h"
 #include "core/mover.h"
 #include "core/scene.h"
 #include "vk/headless.h"

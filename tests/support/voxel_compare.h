@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/grid.h"
+#include "core/base/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/scene.h"
 #include "vk/headless.h"

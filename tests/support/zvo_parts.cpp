@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/zvo_parts.h"
 
-#include "core/crc64.h"
+#include "core/base/crc64.h"
 
 #include <algorithm>
 #include <cstring>

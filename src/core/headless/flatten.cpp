@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/headless/flatten.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "core/svdag_lists.h"
 #include "zvo/error.h"
 

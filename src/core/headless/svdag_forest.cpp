@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/headless/svdag_forest.h"
 
-#include "core/divide_up.h"
+#include "core/base/divide_up.h"
 #include "core/headless/compress.h"
 #include "svdag/svdag.h"
 #include "zvo/error.h"

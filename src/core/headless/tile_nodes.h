@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/grid.h"
 #include "core/gpu_scene.h"
-#include "core/grid.h"
 #include "shared/octree.h"
 #include "vk/headless.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/byte_source.h"
+#include "core/base/byte_source.h"
 
-#include "core/input_error.h"
-#include "core/read_file.h"
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/grid.h"
+#include "core/base/grid.h"
 
 #include "zvo/error.h"
 
