@@ -3,7 +3,7 @@
 // value of the kind asked for is an Error{Usage} that names the option.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "core/tree_data.h"
 #include "io/load_scene.h"
 #include "zvo/types.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/attribute_form.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "io/load_scene.h"
 #include "zvo/types.h"
 

@@ -5,7 +5,7 @@
 #include "common/scene_options.h"
 #include "core/base/grid.h"
 #include "core/headless/pipeline.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "io/stage.h"
 #include "vk/headless.h"
 

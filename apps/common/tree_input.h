@@ -2,7 +2,7 @@
 // Files that hold voxels already.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "core/tree_data.h"
 #include "vk/headless.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/camera.h"
+#include "core/scene/camera.h"
 #include "core/trace.h"
 #include "io/stage.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "demo/renderer.h"
 
-#include "core/camera.h"
+#include "core/scene/camera.h"
 
 #include <utility>
 

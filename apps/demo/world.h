@@ -2,8 +2,8 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/camera.h"
 #include "core/dynamic_octree.h"
+#include "core/scene/camera.h"
 #include "core/trace.h"
 #include "core/tree_data.h"
 #include "core/tree_view.h"

@@ -2,7 +2,7 @@
 // Scenes that try the balance of load, made for a grid with its corner at the origin and voxels of size 1.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 
 #include <cstdint>
 

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/camera.h"
-#include "core/scene.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>

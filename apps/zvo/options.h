@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "core/trace.h"
 #include "core/tree_data.h"
 #include "io/load_scene.h"

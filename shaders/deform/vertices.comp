@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Morph targets and linear blend skinning, one vertex a thread, by the rule of docs/deformation.md. deformVertices()
-// (core/deform.cpp) gives the same bits.
+// (core/scene/deform.cpp) gives the same bits.
 #extension GL_GOOGLE_include_directive : require
 #include "deform/exact.glsl"
 #include "lib/dispatch.glsl"

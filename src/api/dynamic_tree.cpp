@@ -5,7 +5,7 @@
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/model_impl.h"
-#include "core/animation.h"
+#include "core/scene/animation.h"
 #include "core/tree_table.h"
 
 #include <span>

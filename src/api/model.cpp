@@ -4,7 +4,7 @@
 #include "api/checked.h"
 #include "api/convert.h"
 #include "api/model_impl.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/tree_impl.h"
-#include "core/camera.h"
 #include "core/image_target.h"
+#include "core/scene/camera.h"
 #include "core/trace.h"
 #include "core/trace_depth.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/deform_mesh.h"
 
-#include "core/animation.h"
 #include "core/base/divide_up.h"
-#include "core/deform.h"
+#include "core/scene/animation.h"
+#include "core/scene/deform.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 // the two.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "deform/deform.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"

@@ -2,7 +2,7 @@
 // The instances of a scene as the device sees them (shaders/shared/scene.h), on the host.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "shared/scene.h"
 
 #include <cstddef>

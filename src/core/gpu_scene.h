@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "shared/scene.h"
 #include "vk/device.h"
 #include "vk/uploader.h"

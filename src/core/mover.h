@@ -4,7 +4,7 @@
 
 #include "core/deform_mesh.h"
 #include "core/gpu_scene.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/uploader.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/animation.h"
 #include "core/deform_mesh.h"
 #include "core/layer.h"
 #include "core/mover.h"
 #include "core/root_history.h"
+#include "core/scene/animation.h"
 #include "core/update_step.h"
 #include "vk/device.h"
 #include "vk/retired.h"

@@ -6,7 +6,7 @@
 //         {"time": 2.5, "eye": [1, 2, 5], "target": [0, 1, 0]}]}
 #pragma once
 
-#include "core/camera.h"
+#include "core/scene/camera.h"
 
 #include <filesystem>
 #include <string>

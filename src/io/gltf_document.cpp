@@ -3,7 +3,7 @@
 
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "io/folder_bounds.h"
 #include "io/gltf_container.h"
 #include "io/gltf_meshopt.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_materials.h"
 
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "io/image_io.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/rig.h"
+#include "core/scene/rig.h"
 #include "io/gltf_document.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "io/gltf_document.h"
 #include "io/gltf_nodes.h"
 

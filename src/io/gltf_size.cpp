@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf_size.h"
 
-#include "core/scene.h"
-#include "core/scene_size.h"
+#include "core/scene/scene.h"
+#include "core/scene/scene_size.h"
 #include "io/gltf_rig.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ SceneSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
     return size;
 }
 
-/// Bytes of a node, and of what a pose (core/animation.h) has for its instances.
+/// Bytes of a node, and of what a pose (core/scene/animation.h) has for its instances.
 double nodeBytes(const GltfDocument& document, const tinygltf::Node& node)
 {
     double bytes = sizeof(Node);

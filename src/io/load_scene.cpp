@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "io/load_scene.h"
 
-#include "core/animation.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
+#include "core/scene/animation.h"
 #include "core/zvo_file.h"
 #include "io/gltf_loader.h"
 #include "io/mesh_import.h"

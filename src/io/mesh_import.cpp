@@ -2,7 +2,7 @@
 #include "io/mesh_import.h"
 
 #include "core/base/input_error.h"
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "io/obj_file.h"
 #include "io/ply_file.h"
 #include "io/stl_file.h"

@@ -3,7 +3,7 @@
 
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "io/image_io.h"
 #include "io/obj_assimp_files.h"
 #include "io/srgb.h"

@@ -2,7 +2,7 @@
 #include "io/ply_file.h"
 
 #include "core/base/input_error.h"
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "io/ply_header.h"
 #include "io/srgb.h"
 #include "io/text_cursor.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/animation.h"
-#include "core/motion.h"
-#include "core/scene.h"
+#include "core/scene/animation.h"
+#include "core/scene/motion.h"
+#include "core/scene/scene.h"
 #include "io/load_scene.h"
 #include "io/stage_file.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Loading of stages (core/stage.h): files are found and loaded, and divided into what stands still and what moves.
-#include "core/animation.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
-#include "core/deform.h"
-#include "core/scene_size.h"
+#include "core/scene/animation.h"
+#include "core/scene/deform.h"
+#include "core/scene/scene_size.h"
 #include "io/folder_bounds.h"
 #include "io/load_scene.h"
 #include "io/scene_part.h"

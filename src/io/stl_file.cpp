@@ -2,7 +2,7 @@
 #include "io/stl_file.h"
 
 #include "core/base/input_error.h"
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "io/text_cursor.h"
 
 #include <array>

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "core/base/kernels.h"
-#include "core/camera.h"
 #include "core/gpu_scene.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
+#include "core/scene/camera.h"
 #include "core/trace.h"
 #include "support/device.h"
 #include "support/embedding_host.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Interpolation between keys against formulas other than the ones in use: rotation matrices from an axis and an angle,
 // Hermite splines as Bezier curves.
-#include "core/animation.h"
+#include "core/scene/animation.h"
 
 #include "animation_scenes.h"
 #include "gltf_builder.h"

@@ -2,7 +2,7 @@
 // What tests of animations share.
 #pragma once
 
-#include "core/animation.h"
+#include "core/scene/animation.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Poses against values that were worked out by hand; animation_curves_test.cpp has what happens between keys.
-#include "core/animation.h"
+#include "core/scene/animation.h"
 
 #include "animation_scenes.h"
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "gltf_builder.h"
 #include "rig_documents.h"
 #include "support/scenes.h"

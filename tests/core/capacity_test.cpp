@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Buffers that are too small, and memory that does not suffice: the same bytes in the end, or one clear error.
 #include "core/base/kernels.h"
-#include "core/camera.h"
 #include "core/headless/pipeline.h"
+#include "core/scene/camera.h"
 #include "core/trace.h"
 #include "io/gltf_loader.h"
 #include "io/octree_sha256.h"

@@ -2,9 +2,9 @@
 // The device deforms vertices to the bits that deformVertices() gives.
 #include "core/deform_mesh.h"
 
-#include "core/animation.h"
 #include "core/base/kernels.h"
-#include "core/deform.h"
+#include "core/scene/animation.h"
+#include "core/scene/deform.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 #include "zvo/error.h"

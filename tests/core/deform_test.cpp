@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The rule of docs/deformation.md on the CPU: by hand, and against double precision.
-#include "core/deform.h"
+#include "core/scene/deform.h"
 #include "oracle/deform.h"
 #include "support/deforming_scenes.h"
 #include "zvo/error.h"

@@ -2,7 +2,7 @@
 // Whatever is done to movers, in whatever order: what is shown is what voxelizing everything anew gives, undo and redo
 // show what was shown, and the static octree stays what it was. scripts/check-dynamic runs thousands of sequences.
 #include "core/base/kernels.h"
-#include "core/deform.h"
+#include "core/scene/deform.h"
 #include "oracle/deform.h"
 #include "support/device.h"
 #include "support/dynamic_machine.h"

@@ -2,7 +2,7 @@
 // Files that somebody made to do harm: nothing leaves the document's folder, unfolds without end or runs out of stack.
 // gltf_errors_test.cpp has the mistakes that happen.
 #include "core/base/read_file.h"
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "gltf_builder.h"
 #include "io/gltf_document.h"
 #include "io/gltf_loader.h"

@@ -3,7 +3,7 @@
 // the mesh stands as it was modelled; what contradicts the file's own structure is an error, as everywhere.
 #include "io/gltf_loader.h"
 
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 #include "gltf_builder.h"
 #include "rig_documents.h"
 

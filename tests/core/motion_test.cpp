@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/motion.h"
+#include "core/scene/motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 // Movers in command buffers, frame after frame: what waits for what, what takes memory, what is refused.
 #include "core/mover.h"
 
-#include "core/animation.h"
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/octree_build.h"
+#include "core/scene/animation.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 #include "support/moved_scene.h"

@@ -2,10 +2,10 @@
 // What moves is voxelized from buffers that change in place: the bytes are those of a scene uploaded anew.
 #include "core/mover.h"
 
-#include "core/animation.h"
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/octree_build.h"
+#include "core/scene/animation.h"
 #include "oracle/morton.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/scene.h"
+#include "core/scene/scene.h"
 
 #include <gtest/gtest.h>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Work that is split over many submissions gives the same bytes.
 #include "core/base/kernels.h"
-#include "core/camera.h"
 #include "core/headless/pipeline.h"
+#include "core/scene/camera.h"
 #include "core/trace.h"
 #include "io/gltf_loader.h"
 #include "io/octree_sha256.h"

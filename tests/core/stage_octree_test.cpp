@@ -3,7 +3,7 @@
 // default some frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and ZVO_TEST_STAGE_FRAMES ask for more
 // (scripts/check-dynamic).
 #include "core/base/kernels.h"
-#include "core/camera.h"
+#include "core/scene/camera.h"
 #include "core/trace.h"
 #include "io/stage_octree.h"
 #include "support/device.h"

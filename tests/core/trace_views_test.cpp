@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Views that show how voxels are stored, and what is told of one pixel.
-#include "core/animation.h"
 #include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
 #include "core/gpu_scene.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/mover_set.h"
+#include "core/scene/animation.h"
 #include "core/svdag.h"
 #include "core/trace.h"
 #include "core/tree_data.h"

@@ -2,7 +2,7 @@
 #include "examples/composite.h"
 
 #include "core/base/grid.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "io/load_scene.h"
 #include "oracle/trace.h"
 #include "oracle/voxelizer.h"

@@ -2,9 +2,9 @@
 // A libFuzzer target: the bytes of a scene file (what it is its content tells) are loaded, checked and voxelized at
 // 16^3, in a pose where something moves. A file that the loader refuses must give an Error{Input} of one line;
 // everything else must hold what Scene promises and voxelize.
-#include "core/animation.h"
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
+#include "core/scene/animation.h"
 #include "fuzz/gltf_mutator.h"
 #include "fuzz/mesh_mutator.h"
 #include "io/image_io.h"

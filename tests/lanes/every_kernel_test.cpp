@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every kernel of the library, run once on work so small that a tool which slows programs down a hundredfold can watch:
 // valgrind, instrumented kernels, poisoned memory.
-#include "core/animation.h"
 #include "core/base/grid.h"
 #include "core/base/kernels.h"
 #include "core/deform_mesh.h"
@@ -11,6 +10,7 @@
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
 #include "core/present.h"
+#include "core/scene/animation.h"
 #include "core/svdag.h"
 #include "core/trace.h"
 #include "core/trace_depth.h"

@@ -2,7 +2,7 @@
 // The fragments of a scene, after docs/voxelization.md: one triangle's share of one voxel each.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "oracle/coverage.h"
 #include "oracle/texture.h"
 

@@ -2,7 +2,7 @@
 // Small inputs for the oracles' own tests.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "oracle/coverage.h"
 
 #include <random>

@@ -2,7 +2,7 @@
 // Texture lookup in integers, after docs/voxelization.md.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 
 #include <array>
 #include <cstdint>

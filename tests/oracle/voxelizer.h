@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "zvo/types.h"
 
 #include <cstdint>

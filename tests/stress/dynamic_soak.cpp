@@ -3,9 +3,9 @@
 // the same whenever it comes again; memory stays what it was after the first periods. Ends with 1 when that is not so.
 //
 //   zvo_dynamic_soak [--frames N]
-#include "core/animation.h"
 #include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
+#include "core/scene/animation.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/octree_contents.h"

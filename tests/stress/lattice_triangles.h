@@ -2,7 +2,7 @@
 // Triangles on the lattice (1/256 voxel) for comparing coverage: every shape that has its own way to go wrong.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "oracle/coverage.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/animation.h"
-#include "core/scene.h"
+#include "core/scene/animation.h"
+#include "core/scene/scene.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Scenes of the tests as a host describes them.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "zvo/model.h"
 
 #include <vector>

@@ -2,12 +2,12 @@
 // Scenes on the device that move, and what voxelizing them gives.
 #pragma once
 
-#include "core/animation.h"
 #include "core/base/grid.h"
 #include "core/deform_mesh.h"
 #include "core/gpu_scene.h"
 #include "core/mover.h"
-#include "core/scene.h"
+#include "core/scene/animation.h"
+#include "core/scene/scene.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/tree_probe.h"
 
-#include "core/camera.h"
+#include "core/scene/camera.h"
 #include "core/tree_stats.h"
 #include "core/tree_view.h"
 

@@ -3,7 +3,7 @@
 
 #include "core/base/grid.h"
 #include "core/headless/pipeline.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Scenes in motion: key frames and node hierarchies (core/rig.h) evaluated at a time, after the glTF 2.0 specification
-// (Khronos Group, 2021), sections "Skins", "Morph Targets" and "Animations" and appendix C, "Interpolation Modes".
+// Scenes in motion: key frames and node hierarchies (core/scene/rig.h) evaluated at a time, after the glTF 2.0
+// specification (Khronos Group, 2021), sections "Skins", "Morph Targets" and "Animations" and appendix C,
+// "Interpolation Modes".
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -49,9 +50,9 @@ std::vector<bool> animatedInstances(const Scene& scene);
 
 /// The scene as it stands in a pose, without nodes, skins, animations and morph targets: each instance that deforms
 /// (isDeformed()) has a primitive of its own, with the positions and normals that the device makes of it
-/// (core/deform.h), bit for bit; such normals have any length. Instances and cameras keep their order, cameras their
-/// place. pose: of this scene.
-/// Throws Error{Memory} where these primitives take more than half of this machine's memory.
+/// (core/scene/deform.h), bit for bit; such normals have any length. Instances and cameras keep their order, cameras
+/// their place. pose: of this scene. Throws Error{Memory} where these primitives take more than half of this machine's
+/// memory.
 Scene posedScene(const Scene& scene, const Pose& pose);
 
 } // namespace zvo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/scene_size.h"
+#include "core/scene/scene_size.h"
 
 #include "core/base/input_error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compiled without contraction (zvo_options): no product and sum are fused.
-#include "core/deform.h"
+#include "core/scene/deform.h"
 
 #include "deform/deform.h"
 #include "zvo/error.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/rig.h"
+#include "core/scene/rig.h"
 #include "zvo/types.h"
 
 #include <cstdint>

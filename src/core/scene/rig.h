@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves a scene: nodes, skins and key frames, as glTF has them; core/animation.h evaluates them.
+// What moves a scene: nodes, skins and key frames, as glTF has them; core/scene/animation.h evaluates them.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Morph targets and skins on the CPU: the rule of docs/deformation.md, which the device follows with the same bits.
 #pragma once
 
-#include "core/scene.h"
+#include "core/scene/scene.h"
 
 #include <cstddef>
 #include <glm/glm.hpp>

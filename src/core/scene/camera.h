@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/scene.h"
+#include "core/scene/scene.h"
 #include "trace/trace.h"
 
 #include <cstdint>

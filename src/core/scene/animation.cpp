@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/animation.h"
+#include "core/scene/animation.h"
 
-#include "core/deform.h"
-#include "core/scene_size.h"
+#include "core/scene/deform.h"
+#include "core/scene/scene_size.h"
 #include "zvo/error.h"
 
 #include <algorithm>

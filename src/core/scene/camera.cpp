@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/camera.h"
+#include "core/scene/camera.h"
 
 #include "zvo/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/rig.h"
+#include "core/scene/rig.h"
 
 #include <cmath>
 
