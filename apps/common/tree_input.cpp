@@ -4,9 +4,9 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "core/base/read_file.h"
-#include "core/gpu_scene.h"
 #include "core/octree_build.h"
 #include "core/tree_build.h"
+#include "core/upload/gpu_scene.h"
 #include "io/vox_file.h"
 
 #include <fmt/format.h>

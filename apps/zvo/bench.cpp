@@ -13,11 +13,11 @@
 #include "common/session.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
-#include "core/gpu_scene.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "core/svdag.h"
 #include "core/trace.h"
+#include "core/upload/gpu_scene.h"
 #include "zvo/error.h"
 
 #ifdef ZVO_EMBREE

@@ -8,7 +8,7 @@
 #include "common/progress.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
-#include "core/gpu_scene.h"
+#include "core/upload/gpu_scene.h"
 #include "table.h"
 #include "zvo/version.h"
 

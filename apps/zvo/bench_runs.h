@@ -4,8 +4,8 @@
 
 #include "bench_table.h"
 #include "core/base/grid.h"
-#include "core/gpu_scene.h"
 #include "core/headless/pipeline.h"
+#include "core/upload/gpu_scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/gpu_scene.h"
 #include "core/update_step.h"
+#include "core/upload/gpu_scene.h"
 #include "core/voxelize.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/mover.h"
 
-#include "core/draws.h"
 #include "core/scene/animation.h"
 #include "core/scene/deform.h"
+#include "core/upload/draws.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

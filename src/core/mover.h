@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/deform_mesh.h"
-#include "core/gpu_scene.h"
 #include "core/scene/scene.h"
+#include "core/upload/gpu_scene.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/uploader.h"

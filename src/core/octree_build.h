@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/gpu_scene.h"
 #include "core/octree.h"
+#include "core/upload/gpu_scene.h"
 #include "core/voxelize.h"
 #include "octree/octree.h"
 #include "vk/frame_graph.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/gpu_scene.h"
 #include "core/octree.h"
 #include "core/octree_build.h"
+#include "core/upload/gpu_scene.h"
 #include "core/voxelize.h"
 #include "vk/readback.h"
 #include "vk/timer.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/gpu_scene.h"
 #include "core/mover.h"
+#include "core/upload/gpu_scene.h"
 #include "shared/bricks.h"
 #include "vk/frame_graph.h"
 #include "zvo/types.h"

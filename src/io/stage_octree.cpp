@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/stage_octree.h"
 
-#include "core/gpu_scene.h"
 #include "core/headless/compress.h"
+#include "core/upload/gpu_scene.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

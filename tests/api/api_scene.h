@@ -3,11 +3,11 @@
 #pragma once
 
 #include "core/base/kernels.h"
-#include "core/gpu_scene.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
 #include "core/trace.h"
+#include "core/upload/gpu_scene.h"
 #include "support/device.h"
 #include "support/embedding_host.h"
 #include "support/host_model.h"

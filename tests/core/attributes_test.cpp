@@ -2,7 +2,7 @@
 // Colours, normals and emission of voxels and inner nodes.
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/texture_pool.h"
+#include "core/upload/texture_pool.h"
 #include "io/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "oracle/attributes.h"

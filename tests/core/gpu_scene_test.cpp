@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/gpu_scene.h"
+#include "core/upload/gpu_scene.h"
 
 #include "core/base/kernels.h"
-#include "core/draws.h"
 #include "core/headless/pipeline.h"
+#include "core/upload/draws.h"
 #include "support/device.h"
 #include "support/moved_scene.h"
 #include "support/octree_access.h"

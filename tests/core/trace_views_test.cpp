@@ -2,7 +2,6 @@
 // Views that show how voxels are stored, and what is told of one pixel.
 #include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
-#include "core/gpu_scene.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/mover_set.h"
@@ -10,6 +9,7 @@
 #include "core/svdag.h"
 #include "core/trace.h"
 #include "core/tree_data.h"
+#include "core/upload/gpu_scene.h"
 #include "support/dags.h"
 #include "support/device.h"
 #include "support/pictures.h"

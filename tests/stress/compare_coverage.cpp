@@ -2,7 +2,7 @@
 #include "stress/compare_coverage.h"
 
 #include "core/headless/pipeline.h"
-#include "core/texture_pool.h"
+#include "core/upload/texture_pool.h"
 #include "oracle/attributes.h"
 #include "oracle/fragments.h"
 #include "oracle/morton.h"

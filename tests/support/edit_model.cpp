@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/edit_model.h"
 
-#include "core/texture_pool.h"
 #include "core/tree_build.h"
+#include "core/upload/texture_pool.h"
 #include "oracle/morton.h"
 
 #include <algorithm>

@@ -4,10 +4,10 @@
 
 #include "core/base/grid.h"
 #include "core/deform_mesh.h"
-#include "core/gpu_scene.h"
 #include "core/mover.h"
 #include "core/scene/animation.h"
 #include "core/scene/scene.h"
+#include "core/upload/gpu_scene.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

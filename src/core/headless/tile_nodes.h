@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/gpu_scene.h"
+#include "core/upload/gpu_scene.h"
 #include "shared/octree.h"
 #include "vk/headless.h"
 

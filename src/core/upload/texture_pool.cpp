@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/texture_pool.h"
+#include "core/upload/texture_pool.h"
 
 #include "zvo/error.h"
 

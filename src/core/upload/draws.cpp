@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/draws.h"
+#include "core/upload/draws.h"
 
 #include "zvo/error.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/gpu_scene.h"
+#include "core/upload/gpu_scene.h"
 
-#include "core/draws.h"
-#include "core/texture_pool.h"
+#include "core/upload/draws.h"
+#include "core/upload/texture_pool.h"
 
 #include <algorithm>
 #include <cmath>
