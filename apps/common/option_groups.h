@@ -3,7 +3,7 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 #include <CLI/CLI.hpp>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 #include "io/load_scene.h"
 #include "zvo/types.h"
 

@@ -2,8 +2,8 @@
 // What the programs are asked for in the same way: devices, scenes, places of results.
 #pragma once
 
-#include "core/attribute_form.h"
 #include "core/scene/scene.h"
+#include "core/tree/attribute_form.h"
 #include "io/load_scene.h"
 #include "zvo/types.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 #include "vk/headless.h"
 
 #include <filesystem>

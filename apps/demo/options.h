@@ -4,7 +4,7 @@
 #include "common/scene_options.h"
 #include "core/present.h"
 #include "core/trace.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 #include "demo/elapsed.h"
 #include "vk/swapchain.h"
 

@@ -10,7 +10,7 @@
 #include "core/headless/flatten.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "core/upload/gpu_scene.h"
 #include "core/zvo_file.h"
 #include "io/stage_octree.h"

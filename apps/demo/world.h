@@ -5,8 +5,8 @@
 #include "core/dynamic_octree.h"
 #include "core/scene/camera.h"
 #include "core/trace.h"
-#include "core/tree_data.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_data.h"
+#include "core/tree/tree_view.h"
 #include "io/stage.h"
 #include "vk/headless.h"
 

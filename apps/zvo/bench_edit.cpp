@@ -10,7 +10,7 @@
 #include "core/base/kernels.h"
 #include "core/dynamic_octree.h"
 #include "core/headless/compress.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "core/upload/gpu_scene.h"
 #include "morton.h"
 #include "table.h"

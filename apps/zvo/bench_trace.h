@@ -4,7 +4,7 @@
 
 #include "bench_table.h"
 #include "core/trace.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 #include "vk/headless.h"
 
 #include <cstdint>

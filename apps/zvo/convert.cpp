@@ -9,7 +9,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/tree_download.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "core/zvo_file.h"
 #include "io/glb_write.h"
 #include "io/nvdb_write.h"

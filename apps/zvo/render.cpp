@@ -10,7 +10,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 #include "core/upload/gpu_scene.h"
 #include "core/zvo_file.h"
 #include "io/camera_path.h"

@@ -4,9 +4,9 @@
 
 #include "common/report.h"
 #include "core/headless/pipeline.h"
-#include "core/svdag.h"
 #include "core/svdag_builder.h"
-#include "core/tree_data.h"
+#include "core/tree/svdag.h"
+#include "core/tree/tree_data.h"
 #include "io/stage.h"
 #include "io/stage_octree.h"
 #include "options.h"

@@ -3,7 +3,7 @@
 
 #include "core/scene/camera.h"
 #include "core/trace.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 #include "options.h"
 #include "vk/headless.h"
 

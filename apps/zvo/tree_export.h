@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/output.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 namespace zvo::cli
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes out of any form, in integers: src/core/attribute_form.cpp is the same for the host.
+// Attributes out of any form, in integers: src/core/tree/attribute_form.cpp is the same for the host.
 #include "lib/normal_code.glsl"
 #include "shared/attribute_forms.h"
 

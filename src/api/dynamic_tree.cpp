@@ -6,7 +6,7 @@
 #include "api/dynamic_tree_impl.h"
 #include "api/model_impl.h"
 #include "core/scene/animation.h"
-#include "core/tree_table.h"
+#include "core/tree/tree_table.h"
 
 #include <span>
 

@@ -3,8 +3,8 @@
 
 #include "api/convert.h"
 #include "api/tree_impl.h"
-#include "core/tree_data.h"
-#include "core/tree_table.h"
+#include "core/tree/tree_data.h"
+#include "core/tree/tree_table.h"
 #include "core/zvo_file.h"
 
 #include <variant>

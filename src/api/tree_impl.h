@@ -3,7 +3,7 @@
 
 #include "api/context_impl.h"
 #include "core/overlay_octree.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 #include "shared/tree_table.h"
 #include "zvo/tree.h"
 

@@ -2,7 +2,7 @@
 // Attributes in fewer bytes (docs/attributes.md).
 #pragma once
 
-#include "core/octree.h"
+#include "core/tree/octree.h"
 #include "vk/frame_graph.h"
 
 namespace zvo

@@ -3,10 +3,10 @@
 
 #include "core/edits.h"
 #include "core/mover_set.h"
-#include "core/octree.h"
 #include "core/overlay_octree.h"
 #include "core/root_history.h"
-#include "core/tree_view.h"
+#include "core/tree/octree.h"
+#include "core/tree/tree_view.h"
 #include "core/update.h"
 #include "core/update_sizes.h"
 #include "vk/device.h"

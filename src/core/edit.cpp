@@ -2,7 +2,7 @@
 #include "core/edit.h"
 
 #include "core/base/divide_up.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "edit/compact.h"
 #include "octree/octree.h"
 #include "update/update.h"

@@ -3,8 +3,8 @@
 
 #include "core/base/grid.h"
 #include "core/brush.h"
-#include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
+#include "core/tree/overlaid_tree.h"
 #include "edit/edit.h"
 #include "shared/scene.h"
 #include "vk/frame_graph.h"

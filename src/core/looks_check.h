@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 #include <optional>
 #include <string>

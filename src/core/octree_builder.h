@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
 #include "core/octree_build.h"
+#include "core/tree/octree.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize.h"
 #include "vk/readback.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/octree_builder.h"
-#include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
+#include "core/tree/overlaid_tree.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/retired.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/svdag.h"
 #include "core/svdag_classes.h"
+#include "core/tree/svdag.h"
 #include "vk/readback.h"
 #include "vk/timer.h"
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which nodes of a tree are equal, subtrees included: the first half of compression. core/svdag.h is what programs use.
+// Which nodes of a tree are equal, subtrees included: the first half of compression. core/tree/svdag.h is what programs
+// use.
 #pragma once
 
-#include "core/octree.h"
+#include "core/tree/octree.h"
 #include "svdag/svdag.h"
 #include "vk/frame_graph.h"
 

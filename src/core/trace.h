@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/camera.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 #include "trace/trace.h"
 #include "vk/frame_graph.h"
 #include "zvo/types.h"

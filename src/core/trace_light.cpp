@@ -55,7 +55,7 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
 }
 
 // The indices of attributes from which on they are those of overlays, as bits. Of nodes, the static root's is behind
-// the static ones (core/overlaid_tree.h).
+// the static ones (core/tree/overlaid_tree.h).
 gpu::vec3 originBounds(const TreeView& tree)
 {
     const std::uint32_t node_count =

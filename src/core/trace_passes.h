@@ -4,7 +4,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/trace.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 
 #include <cstdint>
 #include <initializer_list>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/trace.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 
 namespace zvo
 {

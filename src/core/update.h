@@ -4,8 +4,8 @@
 #include "core/layer.h"
 #include "core/merge_rule.h"
 #include "core/octree_build.h"
-#include "core/overlaid_tree.h"
 #include "core/overlay_arena.h"
+#include "core/tree/overlaid_tree.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"
 

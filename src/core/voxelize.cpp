@@ -2,7 +2,7 @@
 #include "core/voxelize.h"
 
 #include "core/base/divide_up.h"
-#include "core/octree.h"
+#include "core/tree/octree.h"
 #include "octree/octree.h"
 
 #include <algorithm>

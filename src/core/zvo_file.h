@@ -6,7 +6,7 @@
 #pragma once
 
 #include "core/base/divide_up.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/glb_write.h"
 
-#include "core/tree_build.h"
+#include "core/tree/tree_build.h"
 #include "io/srgb.h"
 #include "zvo/error.h"
 

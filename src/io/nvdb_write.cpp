@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/nvdb_write.h"
 
-#include "core/tree_build.h"
+#include "core/tree/tree_build.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
+#include "core/tree/octree.h"
 #include "vk/headless.h"
 
 #include <string>

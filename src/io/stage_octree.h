@@ -4,7 +4,7 @@
 #include "core/base/grid.h"
 #include "core/dynamic_octree.h"
 #include "core/headless/pipeline.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 #include "io/stage.h"
 #include "vk/headless.h"
 #include "zvo/types.h"

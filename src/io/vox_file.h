@@ -5,7 +5,7 @@
 // MagicaVoxel's z points up. Its voxel (X, Y, Z) is zvo's cell (X, Z, -1 - Y): nothing is mirrored.
 #pragma once
 
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/input_error.h"
-#include "core/tree_build.h"
+#include "core/tree/tree_build.h"
 #include "io/vox_chunks.h"
 #include "io/vox_file.h"
 

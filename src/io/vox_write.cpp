@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree_build.h"
+#include "core/tree/tree_build.h"
 #include "io/quantize.h"
 #include "io/vox_file.h"
 #include "zvo/error.h"

@@ -5,7 +5,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "io/gltf_loader.h"
 #include "io/image_io.h"
 #include "io/octree_sha256.h"

@@ -5,7 +5,7 @@
 
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "oracle/attribute_forms.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"

@@ -4,7 +4,7 @@
 #include "core/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
 #include "core/trace_passes.h"
-#include "core/tree_table.h"
+#include "core/tree/tree_table.h"
 #include "glsl/host_kernels.h"
 #include "oracle/morton.h"
 #include "oracle/trace.h"

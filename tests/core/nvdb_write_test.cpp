@@ -2,7 +2,7 @@
 // NanoVDB files, read with NanoVDB's own reader.
 #include "io/nvdb_write.h"
 
-#include "core/tree_build.h"
+#include "core/tree/tree_build.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
 #include "zvo/error.h"

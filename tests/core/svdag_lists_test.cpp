@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/svdag_lists.h"
+#include "core/tree/svdag_lists.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compression against the oracle, byte for byte: so the result does not depend on threads, subgroups or tables either.
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"

@@ -6,7 +6,7 @@
 #include "core/headless/pipeline.h"
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"

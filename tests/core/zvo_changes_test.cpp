@@ -5,7 +5,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "core/zvo_file.h"
 #include "io/gltf_loader.h"
 #include "support/dags.h"

@@ -2,7 +2,7 @@
 // DAGs in device memory that the oracle has made.
 #pragma once
 
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "oracle/dag.h"
 #include "vk/headless.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/edit_model.h"
 
-#include "core/tree_build.h"
+#include "core/tree/tree_build.h"
 #include "core/upload/texture_pool.h"
 #include "oracle/morton.h"
 

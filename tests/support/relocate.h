@@ -2,7 +2,7 @@
 // Octrees whose nodes stand where those of a dynamic update do.
 #pragma once
 
-#include "core/octree.h"
+#include "core/tree/octree.h"
 #include "vk/headless.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Small octrees for tracing, made on the host from sets of voxels.
 #pragma once
 
-#include "core/octree.h"
+#include "core/tree/octree.h"
 #include "vk/headless.h"
 
 #include <cstdint>

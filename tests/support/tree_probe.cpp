@@ -2,8 +2,8 @@
 #include "support/tree_probe.h"
 
 #include "core/scene/camera.h"
+#include "core/tree/tree_view.h"
 #include "core/tree_stats.h"
-#include "core/tree_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Trees in the host's memory, made the direct way: maps instead of hash tables, recursion instead of passes.
 #pragma once
 
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 #include <cstdint>
 #include <span>

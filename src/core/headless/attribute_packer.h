@@ -2,7 +2,7 @@
 // Attributes in fewer bytes (docs/attributes.md), for those who wait for the device.
 #pragma once
 
-#include "core/octree.h"
+#include "core/tree/octree.h"
 #include "vk/headless.h"
 
 #include <cstdint>

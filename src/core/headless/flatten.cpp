@@ -2,7 +2,7 @@
 #include "core/headless/flatten.h"
 
 #include "core/base/divide_up.h"
-#include "core/svdag_lists.h"
+#include "core/tree/svdag_lists.h"
 #include "zvo/error.h"
 
 #include <bit>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree_data.h"
-#include "core/tree_view.h"
+#include "core/tree/tree_data.h"
+#include "core/tree/tree_view.h"
 #include "vk/headless.h"
 
 namespace zvo

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
 #include "core/octree_builder.h"
+#include "core/tree/octree.h"
 #include "vk/headless.h"
 
 #include <cstdint>

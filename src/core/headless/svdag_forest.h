@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "vk/headless.h"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/headless/tile_nodes.h"
 
-#include "core/octree.h"
 #include "core/octree_build.h"
+#include "core/tree/octree.h"
 
 #include <algorithm>
 #include <bit>

@@ -3,7 +3,7 @@
 
 #include "core/base/grid.h"
 #include "core/mover.h"
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

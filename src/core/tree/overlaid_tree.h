@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 #include "shared/svdag.h"
 #include "vk/buffer.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree_view.h"
+#include "core/tree/tree_view.h"
 #include "shared/tree_table.h"
 
 namespace zvo

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
-#include "core/overlaid_tree.h"
-#include "core/svdag.h"
+#include "core/tree/octree.h"
+#include "core/tree/overlaid_tree.h"
+#include "core/tree/svdag.h"
 
 namespace zvo
 {

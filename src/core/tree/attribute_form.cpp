@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/attribute_form.h"
+#include "core/tree/attribute_form.h"
 
 #include "core/base/divide_up.h"
 

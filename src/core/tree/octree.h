@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/attribute_form.h"
 #include "core/base/grid.h"
+#include "core/tree/attribute_form.h"
 #include "shared/octree.h"
 #include "vk/buffer.h"
 

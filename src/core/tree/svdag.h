@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
-#include "core/svdag_lists.h"
+#include "core/tree/octree.h"
+#include "core/tree/svdag_lists.h"
 #include "shared/svdag.h"
 #include "vk/buffer.h"
 #include "vk/frame_graph.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree.h"
-#include "core/svdag.h"
+#include "core/tree/octree.h"
+#include "core/tree/svdag.h"
 #include "vk/uploader.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Trees from lists of voxels, on the host.
 #pragma once
 
-#include "core/tree_data.h"
+#include "core/tree/tree_data.h"
 
 #include <cstdint>
 #include <span>

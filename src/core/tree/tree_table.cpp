@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree_table.h"
+#include "core/tree/tree_table.h"
 
 namespace zvo
 {
@@ -42,7 +42,7 @@ gpu::TreeTable treeTable(const TreeView& tree)
         table.overlay_ranks = {overlaid->ranks.address() - overlaid->ranksSkipped()};
         table.attribute_offset = overlaid->attributeOffset();
     }
-    // Of nodes, the static root's is behind the static ones (core/overlaid_tree.h).
+    // Of nodes, the static root's is behind the static ones (core/tree/overlaid_tree.h).
     table.first_dynamic_voxel = octree.voxel_count;
     table.first_dynamic_node = static_node_count + 1;
     table.depth = octree.grid.depth;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/svdag.h"
+#include "core/tree/svdag.h"
 
 namespace zvo
 {
