@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/deform_mesh.h"
+#include "core/deform/deform_mesh.h"
+#include "core/deform/mover.h"
 #include "core/layer.h"
-#include "core/mover.h"
 #include "core/root_history.h"
 #include "core/scene/animation.h"
 #include "core/update_step.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/mover.h"
+#include "core/deform/mover.h"
 #include "core/upload/gpu_scene.h"
 #include "shared/bricks.h"
 #include "vk/frame_graph.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The device deforms vertices to the bits that deformVertices() gives.
-#include "core/deform_mesh.h"
+#include "core/deform/deform_mesh.h"
 
 #include "core/base/kernels.h"
 #include "core/scene/animation.h"

@@ -2,12 +2,12 @@
 // Vulkan calls of a small run are made to fail: an error that says so, and nothing left behind. On a new device every
 // seventh one, all of them in scripts/check-sanitizers; on a device that goes on, every one.
 #include "core/base/kernels.h"
+#include "core/deform/mover.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
-#include "core/mover.h"
 #include "core/scene/animation.h"
 #include "core/scene/camera.h"
 #include "core/trace.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Movers in command buffers, frame after frame: what waits for what, what takes memory, what is refused.
-#include "core/mover.h"
+#include "core/deform/mover.h"
 
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What moves is voxelized from buffers that change in place: the bytes are those of a scene uploaded anew.
-#include "core/mover.h"
+#include "core/deform/mover.h"
 
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"

@@ -3,7 +3,7 @@
 // valgrind, instrumented kernels, poisoned memory.
 #include "core/base/grid.h"
 #include "core/base/kernels.h"
-#include "core/deform_mesh.h"
+#include "core/deform/deform_mesh.h"
 #include "core/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"

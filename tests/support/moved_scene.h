@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/deform_mesh.h"
-#include "core/mover.h"
+#include "core/deform/deform_mesh.h"
+#include "core/deform/mover.h"
 #include "core/scene/animation.h"
 #include "core/scene/scene.h"
 #include "core/upload/gpu_scene.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/mover.h"
+#include "core/deform/mover.h"
 #include "core/tree/tree_data.h"
 #include "vk/headless.h"
 #include "zvo/types.h"

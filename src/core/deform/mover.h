@@ -2,7 +2,7 @@
 // A scene that moves: what of it changes from frame to frame, and how that gets to the device without waiting.
 #pragma once
 
-#include "core/deform_mesh.h"
+#include "core/deform/deform_mesh.h"
 #include "core/scene/scene.h"
 #include "core/upload/gpu_scene.h"
 #include "vk/device.h"

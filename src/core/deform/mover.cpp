@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/mover.h"
+#include "core/deform/mover.h"
 
 #include "core/scene/animation.h"
 #include "core/scene/deform.h"

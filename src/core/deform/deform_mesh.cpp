@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/deform_mesh.h"
+#include "core/deform/deform_mesh.h"
 
 #include "core/base/divide_up.h"
 #include "core/scene/animation.h"
