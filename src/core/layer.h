@@ -4,7 +4,7 @@
 #include "core/base/grid.h"
 #include "core/update_step.h"
 #include "core/upload/gpu_scene.h"
-#include "core/voxelize.h"
+#include "core/voxelize/voxelize.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"
 #include "zvo/types.h"

@@ -3,7 +3,7 @@
 
 #include "core/tree/octree.h"
 #include "core/upload/gpu_scene.h"
-#include "core/voxelize.h"
+#include "core/voxelize/voxelize.h"
 #include "octree/octree.h"
 #include "vk/frame_graph.h"
 

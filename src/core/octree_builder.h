@@ -4,7 +4,7 @@
 #include "core/octree_build.h"
 #include "core/tree/octree.h"
 #include "core/upload/gpu_scene.h"
-#include "core/voxelize.h"
+#include "core/voxelize/voxelize.h"
 #include "vk/readback.h"
 #include "vk/timer.h"
 #include "zvo/types.h"

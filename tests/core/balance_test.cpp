@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How much work big triangles are, in columns of the row blocks that are listed for them: counted, not timed.
 #include "core/base/kernels.h"
-#include "core/voxelize.h"
+#include "core/voxelize/voxelize.h"
 #include "support/device.h"
 #include "support/param_names.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/voxelize.h"
+#include "core/voxelize/voxelize.h"
 
 #include "core/base/divide_up.h"
 #include "core/tree/octree.h"
