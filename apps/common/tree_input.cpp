@@ -4,7 +4,7 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "core/base/read_file.h"
-#include "core/octree_build.h"
+#include "core/octree/octree_build.h"
 #include "core/tree/tree_build.h"
 #include "core/upload/gpu_scene.h"
 #include "io/vox_file.h"

@@ -4,7 +4,7 @@
 #include "api/step_job.h"
 #include "api/tree_impl.h"
 #include "core/attribute_pack.h"
-#include "core/octree_builder.h"
+#include "core/octree/octree_builder.h"
 #include "core/svdag_builder.h"
 #include "zvo/tree.h"
 

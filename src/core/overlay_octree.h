@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree_builder.h"
+#include "core/octree/octree_builder.h"
 #include "core/overlay_arena.h"
 #include "core/tree/overlaid_tree.h"
 #include "vk/device.h"

@@ -3,7 +3,7 @@
 
 #include "core/layer.h"
 #include "core/merge_rule.h"
-#include "core/octree_build.h"
+#include "core/octree/octree_build.h"
 #include "core/overlay_arena.h"
 #include "core/tree/overlaid_tree.h"
 #include "update/update.h"

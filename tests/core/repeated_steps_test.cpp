@@ -4,7 +4,7 @@
 // passes.
 #include "core/base/kernels.h"
 #include "core/headless/tree_download.h"
-#include "core/octree_builder.h"
+#include "core/octree/octree_builder.h"
 #include "core/svdag_builder.h"
 #include "core/zvo_file.h"
 #include "io/sha256.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree_builder.h"
+#include "core/octree/octree_builder.h"
 #include "core/tree/octree.h"
 #include "vk/headless.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/headless/tile_nodes.h"
 
-#include "core/octree_build.h"
+#include "core/octree/octree_build.h"
 #include "core/tree/octree.h"
 
 #include <algorithm>

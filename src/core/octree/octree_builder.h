@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree_build.h"
+#include "core/octree/octree_build.h"
 #include "core/tree/octree.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/octree_build.h"
+#include "core/octree/octree_build.h"
 
 #include "core/base/divide_up.h"
 

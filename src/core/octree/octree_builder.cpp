@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/octree_builder.h"
+#include "core/octree/octree_builder.h"
 
 #include "core/base/divide_up.h"
 #include "zvo/error.h"
