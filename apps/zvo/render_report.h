@@ -4,7 +4,7 @@
 
 #include "common/report.h"
 #include "core/headless/pipeline.h"
-#include "core/svdag_builder.h"
+#include "core/svdag/svdag_builder.h"
 #include "core/tree/svdag.h"
 #include "core/tree/tree_data.h"
 #include "io/stage.h"

@@ -5,7 +5,7 @@
 #include "api/tree_impl.h"
 #include "core/attribute_pack.h"
 #include "core/octree/octree_builder.h"
-#include "core/svdag_builder.h"
+#include "core/svdag/svdag_builder.h"
 #include "zvo/tree.h"
 
 #include <optional>

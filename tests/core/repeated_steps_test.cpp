@@ -5,7 +5,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/tree_download.h"
 #include "core/octree/octree_builder.h"
-#include "core/svdag_builder.h"
+#include "core/svdag/svdag_builder.h"
 #include "core/zvo_file.h"
 #include "io/sha256.h"
 #include "support/device.h"

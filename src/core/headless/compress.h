@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/svdag_builder.h"
+#include "core/svdag/svdag_builder.h"
 #include "vk/headless.h"
 
 namespace zvo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/svdag_builder.h"
+#include "core/svdag/svdag_builder.h"
 
 #include "core/base/divide_up.h"
 #include "vk/device.h"

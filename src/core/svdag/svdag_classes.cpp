@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/svdag_classes.h"
+#include "core/svdag/svdag_classes.h"
 
 #include "core/base/divide_up.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/svdag_classes.h"
+#include "core/svdag/svdag_classes.h"
 #include "core/tree/svdag.h"
 #include "vk/readback.h"
 #include "vk/timer.h"
