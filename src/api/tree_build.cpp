@@ -3,7 +3,7 @@
 #include "api/model_impl.h"
 #include "api/step_job.h"
 #include "api/tree_impl.h"
-#include "core/attribute_pack.h"
+#include "core/attributes/attribute_pack.h"
 #include "core/octree/octree_builder.h"
 #include "core/svdag/svdag_builder.h"
 #include "zvo/tree.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Attributes in fewer bytes: what the device packs is what the oracle packs, and what is read is what was packed.
-#include "core/attribute_pack.h"
+#include "core/attributes/attribute_pack.h"
 #include "core/headless/attribute_packer.h"
 
 #include "core/base/kernels.h"

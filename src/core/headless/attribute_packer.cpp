@@ -2,7 +2,7 @@
 #include "core/headless/attribute_packer.h"
 
 #include "attributes/attributes.h"
-#include "core/attribute_pack.h"
+#include "core/attributes/attribute_pack.h"
 
 #include <algorithm>
 #include <iterator>

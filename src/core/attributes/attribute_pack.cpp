@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/attribute_pack.h"
+#include "core/attributes/attribute_pack.h"
 
 #include "attributes/attributes.h"
 #include "core/base/divide_up.h"
