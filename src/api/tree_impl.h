@@ -2,7 +2,7 @@
 #pragma once
 
 #include "api/context_impl.h"
-#include "core/overlay_octree.h"
+#include "core/overlay/overlay_octree.h"
 #include "core/tree/tree_view.h"
 #include "shared/tree_table.h"
 #include "zvo/tree.h"

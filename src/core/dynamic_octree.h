@@ -3,8 +3,8 @@
 
 #include "core/edits.h"
 #include "core/mover_set.h"
-#include "core/overlay_octree.h"
-#include "core/root_history.h"
+#include "core/overlay/overlay_octree.h"
+#include "core/overlay/root_history.h"
 #include "core/tree/octree.h"
 #include "core/tree/tree_view.h"
 #include "core/update.h"

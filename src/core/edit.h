@@ -3,7 +3,7 @@
 
 #include "core/base/grid.h"
 #include "core/brush.h"
-#include "core/overlay_arena.h"
+#include "core/overlay/overlay_arena.h"
 #include "core/tree/overlaid_tree.h"
 #include "edit/edit.h"
 #include "shared/scene.h"

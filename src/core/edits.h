@@ -4,8 +4,8 @@
 #include "core/brush.h"
 #include "core/edit.h"
 #include "core/edit_history.h"
-#include "core/overlay_octree.h"
-#include "core/root_history.h"
+#include "core/overlay/overlay_octree.h"
+#include "core/overlay/root_history.h"
 #include "vk/device.h"
 #include "vk/retired.h"
 

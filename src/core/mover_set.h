@@ -4,7 +4,7 @@
 #include "core/deform/deform_mesh.h"
 #include "core/deform/mover.h"
 #include "core/layer.h"
-#include "core/root_history.h"
+#include "core/overlay/root_history.h"
 #include "core/scene/animation.h"
 #include "core/update_step.h"
 #include "vk/device.h"

@@ -4,7 +4,7 @@
 #include "core/layer.h"
 #include "core/merge_rule.h"
 #include "core/octree/octree_build.h"
-#include "core/overlay_arena.h"
+#include "core/overlay/overlay_arena.h"
 #include "core/tree/overlaid_tree.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"

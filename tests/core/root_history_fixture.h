@@ -2,7 +2,7 @@
 // What tests of the history share.
 #pragma once
 
-#include "core/root_history.h"
+#include "core/overlay/root_history.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The history of roots while frames are in flight.
-#include "core/root_history.h"
+#include "core/overlay/root_history.h"
 
 #include "root_history_fixture.h"
 

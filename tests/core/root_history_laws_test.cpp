@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Whatever happens to a history, in whatever order: it is what a model that does it the long way round says.
-#include "core/root_history.h"
+#include "core/overlay/root_history.h"
 
 #include "support/history_machine.h"
 #include "support/properties.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/root_history.h"
+#include "core/overlay/root_history.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model of the history of roots (core/root_history.h) that knows nothing of regions.
+// A model of the history of roots (core/overlay/root_history.h) that knows nothing of regions.
 #pragma once
 
 #include <rapidcheck.h>

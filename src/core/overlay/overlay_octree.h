@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/octree/octree_builder.h"
-#include "core/overlay_arena.h"
+#include "core/overlay/overlay_arena.h"
 #include "core/tree/overlaid_tree.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/overlay_arena.h"
+#include "core/overlay/overlay_arena.h"
 
 #include <algorithm>
 #include <cstddef>

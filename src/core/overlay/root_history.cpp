@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/root_history.h"
+#include "core/overlay/root_history.h"
 
 #include <algorithm>
 #include <cassert>

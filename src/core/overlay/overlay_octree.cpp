@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/overlay_octree.h"
+#include "core/overlay/overlay_octree.h"
 
 #include "core/base/divide_up.h"
 #include "zvo/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/overlay_arena.h"
+#include "core/overlay/overlay_arena.h"
 
 #include "core/base/divide_up.h"
 
