@@ -4,7 +4,7 @@
 
 #include "common/scene_options.h"
 #include "core/headless/pipeline.h"
-#include "core/merge_rule.h"
+#include "core/update/merge_rule.h"
 #include "vk/device.h"
 
 #include <nlohmann/json.hpp>

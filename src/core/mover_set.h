@@ -3,10 +3,10 @@
 
 #include "core/deform/deform_mesh.h"
 #include "core/deform/mover.h"
-#include "core/layer.h"
 #include "core/overlay/root_history.h"
 #include "core/scene/animation.h"
-#include "core/update_step.h"
+#include "core/update/layer.h"
+#include "core/update/update_step.h"
 #include "vk/device.h"
 #include "vk/retired.h"
 #include "vk/uploader.h"

@@ -2,10 +2,10 @@
 // Scene files (*.scene.json) as they are written: docs/input.md has their schema. core/stage.h loads what they name.
 #pragma once
 
-#include "core/merge_rule.h"
 #include "core/scene/animation.h"
 #include "core/scene/camera.h"
 #include "core/scene/motion.h"
+#include "core/update/merge_rule.h"
 #include "io/load_scene.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How updates are spread over frames, simulated: the budget knows neither device nor clock.
-#include "core/update_budget.h"
+#include "core/update/update_budget.h"
 
 #include "support/properties.h"
 

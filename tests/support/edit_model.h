@@ -4,7 +4,7 @@
 
 #include "core/base/grid.h"
 #include "core/brush.h"
-#include "core/merge_rule.h"
+#include "core/update/merge_rule.h"
 #include "support/octree_contents.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/layer.h"
+#include "core/update/layer.h"
 
 #include "core/base/divide_up.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/update_step.h"
+#include "core/update/update_step.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"
 #include "update/update.h"

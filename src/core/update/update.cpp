@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/update.h"
+#include "core/update/update.h"
 
 #include "core/base/divide_up.h"
 

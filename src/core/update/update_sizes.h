@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/overlay/overlay_arena.h"
-#include "core/update.h"
+#include "core/update/update.h"
 
 #include <cstdint>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/layer.h"
-#include "core/merge_rule.h"
 #include "core/octree/octree_build.h"
 #include "core/overlay/overlay_arena.h"
 #include "core/tree/overlaid_tree.h"
+#include "core/update/layer.h"
+#include "core/update/merge_rule.h"
 #include "update/update.h"
 #include "vk/frame_graph.h"
 

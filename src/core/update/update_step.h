@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/update_budget.h"
+#include "core/update/update_budget.h"
 #include "vk/frame_graph.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/update_budget.h"
+#include "core/update/update_budget.h"
 
 #include "core/base/divide_up.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/update_sizes.h"
+#include "core/update/update_sizes.h"
 
 #include "core/base/divide_up.h"
 #include "core/base/with_slack.h"
