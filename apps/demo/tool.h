@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/brush.h"
+#include "core/edit/brush.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/edits.h"
+#include "core/edit/edits.h"
 #include "core/mover_set.h"
 #include "core/overlay/overlay_octree.h"
 #include "core/overlay/root_history.h"

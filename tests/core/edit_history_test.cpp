@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The line of strokes, without a device.
-#include "core/edit_history.h"
+#include "core/edit/edit_history.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/brush.h"
+#include "core/edit/brush.h"
 #include "core/update/merge_rule.h"
 #include "support/octree_contents.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/edit.h"
+#include "core/edit/edit.h"
 
 #include "core/base/divide_up.h"
 #include "core/tree/svdag.h"

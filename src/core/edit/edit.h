@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/brush.h"
+#include "core/edit/brush.h"
 #include "core/overlay/overlay_arena.h"
 #include "core/tree/overlaid_tree.h"
 #include "edit/edit.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/edits.h"
+#include "core/edit/edits.h"
 
 #include "core/base/divide_up.h"
 #include "zvo/error.h"

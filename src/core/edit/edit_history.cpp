@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/edit_history.h"
+#include "core/edit/edit_history.h"
 
 #include <algorithm>
 

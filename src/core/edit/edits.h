@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/brush.h"
-#include "core/edit.h"
-#include "core/edit_history.h"
+#include "core/edit/brush.h"
+#include "core/edit/edit.h"
+#include "core/edit/edit_history.h"
 #include "core/overlay/overlay_octree.h"
 #include "core/overlay/root_history.h"
 #include "vk/device.h"
