@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/scene/camera.h"
 #include "core/trace.h"
 #include "core/tree/tree_data.h"

@@ -8,7 +8,7 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "core/tree/svdag.h"
 #include "core/upload/gpu_scene.h"

@@ -3,7 +3,7 @@
 
 #include "api/context_impl.h"
 #include "api/tree_impl.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "zvo/dynamic_tree.h"
 
 #include <cstdint>

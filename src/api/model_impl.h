@@ -2,7 +2,7 @@
 #pragma once
 
 #include "api/context_impl.h"
-#include "core/mover_set.h"
+#include "core/dynamic/mover_set.h"
 #include "zvo/model.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dynamic updates at their limits: a result that is defined, or an error that says what is wrong.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
 #include "support/ballast.h"
 #include "support/device.h"

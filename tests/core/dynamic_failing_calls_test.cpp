@@ -2,7 +2,7 @@
 // Vulkan calls that fail while movers are added, moved and shown: an error comes out, what was shown still is, and the
 // octree goes on.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "support/ballast.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"

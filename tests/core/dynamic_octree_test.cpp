@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Merging movers gives what voxelizing everything anew gives.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "support/device.h"
 #include "support/dynamic_updates.h"
 #include "support/materials_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Movers merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it was.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "support/device.h"
 #include "support/dynamic_updates.h"

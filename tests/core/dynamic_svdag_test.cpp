@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Movers above a DAG: everything looks as if the DAG were the octree that it was made of.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "oracle/dag.h"
 #include "oracle/morton.h"

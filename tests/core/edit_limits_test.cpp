@@ -2,7 +2,7 @@
 // A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
 // memory than was asked for.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "core/tree/svdag.h"
 #include "core/tree/tree_build.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Kernels of a host that trace with zvo/trace.glsl (tests/glsl) see what zvo's own kernels see.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
 #include "core/trace_passes.h"
 #include "core/tree/tree_table.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Views that show how voxels are stored, and what is told of one pixel.
 #include "core/base/kernels.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
+#include "core/dynamic/mover_set.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/mover_set.h"
 #include "core/scene/animation.h"
 #include "core/trace.h"
 #include "core/tree/svdag.h"

@@ -4,7 +4,7 @@
 #include "core/base/grid.h"
 #include "core/base/kernels.h"
 #include "core/deform/deform_mesh.h"
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"

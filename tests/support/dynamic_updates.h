@@ -2,7 +2,7 @@
 // Updates of dynamic octrees one at a time, each in a frame that is waited for.
 #pragma once
 
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "vk/headless.h"
 
 namespace zvo::test

@@ -2,7 +2,7 @@
 // A small scene with things to move in it, and what voxelizing all of it at once gives.
 #pragma once
 
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 #include "support/octree_contents.h"
 #include "support/shots.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 
 #include "zvo/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/mover_set.h"
+#include "core/dynamic/mover_set.h"
 
 #include "core/base/with_slack.h"
 #include "zvo/error.h"

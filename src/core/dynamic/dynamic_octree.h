@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/dynamic/mover_set.h"
 #include "core/edit/edits.h"
-#include "core/mover_set.h"
 #include "core/overlay/overlay_octree.h"
 #include "core/overlay/root_history.h"
 #include "core/tree/octree.h"

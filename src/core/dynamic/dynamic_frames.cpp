@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // DynamicOctree: what becomes of frames, and what is learnt from them.
-#include "core/dynamic_octree.h"
+#include "core/dynamic/dynamic_octree.h"
 
 #include <algorithm>
 #include <bit>
