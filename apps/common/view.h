@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/camera.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "io/stage.h"
 
 #include <span>

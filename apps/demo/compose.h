@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/present.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "vk/headless.h"
 #include "vk/image.h"
 #include "vk/swapchain.h"

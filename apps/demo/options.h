@@ -3,7 +3,7 @@
 
 #include "common/scene_options.h"
 #include "core/present.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "demo/elapsed.h"
 #include "vk/swapchain.h"

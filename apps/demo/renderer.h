@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/present.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "demo/compose.h"
 #include "demo/view_state.h"
 #include "demo/world.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "demo/integrator.h"
 #include "vk/swapchain.h"
 

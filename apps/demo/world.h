@@ -4,7 +4,7 @@
 #include "common/scene_options.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/scene/camera.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "core/tree/tree_view.h"
 #include "io/stage.h"

@@ -15,7 +15,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/svdag.h"
 #include "core/upload/gpu_scene.h"
 #include "zvo/error.h"

@@ -9,7 +9,7 @@
 #include "common/session.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "io/stage_octree.h"
 #include "table.h"
 #include "zvo/version.h"

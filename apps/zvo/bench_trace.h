@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench_table.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_view.h"
 #include "vk/headless.h"
 

@@ -3,7 +3,7 @@
 
 #include "common/scene_options.h"
 #include "core/scene/scene.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "io/load_scene.h"
 #include "zvo/types.h"

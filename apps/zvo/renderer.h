@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/camera.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_view.h"
 #include "options.h"
 #include "vk/headless.h"

@@ -2,7 +2,7 @@
 #include "api/checked.h"
 
 #include "api/convert.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 #include "api/tree_impl.h"
 #include "core/image_target.h"
 #include "core/scene/camera.h"
-#include "core/trace.h"
-#include "core/trace_depth.h"
+#include "core/trace/trace.h"
+#include "core/trace/trace_depth.h"
 
 #include <fmt/format.h>
 

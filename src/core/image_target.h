@@ -15,7 +15,7 @@
 #pragma once
 
 #include "core/present.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "vk/functions.h"
 #include "zvo/image_target.h"
 

@@ -6,7 +6,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/upload/gpu_scene.h"
 #include "support/device.h"
 #include "support/embedding_host.h"

@@ -3,7 +3,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "io/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "support/device.h"

@@ -10,7 +10,7 @@
 #include "core/headless/tree_download.h"
 #include "core/scene/animation.h"
 #include "core/scene/camera.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/svdag.h"
 #include "core/zvo_file.h"
 #include "io/octree_sha256.h"

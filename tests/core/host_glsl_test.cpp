@@ -3,7 +3,7 @@
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
-#include "core/trace_passes.h"
+#include "core/trace/trace_passes.h"
 #include "core/tree/tree_table.h"
 #include "glsl/host_kernels.h"
 #include "oracle/morton.h"

@@ -3,7 +3,7 @@
 // changes.
 #include "core/base/kernels.h"
 #include "core/image_target.h"
-#include "core/trace_depth.h"
+#include "core/trace/trace_depth.h"
 #include "support/device.h"
 #include "support/errors.h"
 #include "support/host_image.h"

@@ -4,7 +4,7 @@
 // (scripts/check-dynamic).
 #include "core/base/kernels.h"
 #include "core/scene/camera.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "io/stage_octree.h"
 #include "support/device.h"
 #include "support/octree_contents.h"

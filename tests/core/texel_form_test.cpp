@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures in all texel forms: the same picture, as exactly as each form can hold it.
 #include "core/base/kernels.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "support/device.h"
 #include "support/pictures.h"
 #include "support/trace_octrees.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Depth of pictures in a host's convention, against projections in double precision, and composited with planes.
 #include "core/base/kernels.h"
-#include "core/trace_depth.h"
+#include "core/trace/trace_depth.h"
 #include "support/device.h"
 #include "support/errors.h"
 #include "support/trace_octrees.h"
@@ -23,7 +23,7 @@ namespace
 {
 
 constexpr double kUnit = 1.0 / (1 << 24);       // a rounding's share of a single precision number
-constexpr double kDepthError = 1.0 / (1 << 19); // what core/trace_depth.h states
+constexpr double kDepthError = 1.0 / (1 << 19); // what core/trace/trace_depth.h states
 
 vk::HeadlessDevice& device()
 {

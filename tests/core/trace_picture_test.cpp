@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures: what may change how they are made but not what they show.
 #include "core/base/kernels.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "oracle/trace.h"
 #include "support/device.h"
 #include "support/pictures.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Roots that a dynamic update makes: their nodes stand behind those of the octree that it changed, or there are none.
 #include "core/base/kernels.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "oracle/morton.h"
 #include "support/device.h"
 #include "support/pictures.h"

@@ -2,7 +2,7 @@
 // A DAG looks like the octree that it was made from.
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "io/gltf_loader.h"
 #include "oracle/morton.h"
 #include "support/dags.h"

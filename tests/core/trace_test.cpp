@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lists of rays on the device against the reference, bit for bit.
 #include "core/base/kernels.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "oracle/morton.h"
 #include "oracle/trace.h"
 #include "support/device.h"

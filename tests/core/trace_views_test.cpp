@@ -6,7 +6,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/svdag.h"
 #include "core/tree/tree_data.h"
 #include "core/upload/gpu_scene.h"

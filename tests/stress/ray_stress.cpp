@@ -5,7 +5,7 @@
 //   zvo_ray_stress [--rays N] [--seed S]    N random rays, N aimed ones, N / 4 out of closed shells
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "io/sha256.h"
 #include "stress/ray_judge.h"
 #include "stress/stress_rays.h"

@@ -2,7 +2,7 @@
 // Pictures of octrees, and cameras to take them with.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "vk/headless.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Small pictures of octrees that are taken again and again, also of frames in flight.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "vk/headless.h"
 
 #include <array>

@@ -2,7 +2,7 @@
 // Lists of rays on the device, and their comparison with the reference.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "oracle/trace.h"
 #include "support/trace_octrees.h"
 #include "vk/headless.h"

@@ -2,7 +2,7 @@
 // Two trees that have to look alike, by pictures and by rays.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "support/pictures.h"
 #include "support/trace_octrees.h"
 #include "vk/headless.h"

@@ -2,7 +2,7 @@
 // What must hold of every tree that checkTree accepts, wherever its bytes are from.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "vk/headless.h"
 

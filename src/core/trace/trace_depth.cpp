@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/trace_depth.h"
+#include "core/trace/trace_depth.h"
 
-#include "core/trace_passes.h"
+#include "core/trace/trace_passes.h"
 #include "zvo/error.h"
 
 #include <bit>

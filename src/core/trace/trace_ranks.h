@@ -2,7 +2,7 @@
 // From hits in a DAG to the indices of their attributes.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_view.h"
 
 namespace zvo

@@ -2,7 +2,7 @@
 // The beam grid, by which primary rays skip what is empty.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 
 namespace zvo
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/trace_passes.h"
+#include "core/trace/trace_passes.h"
 
 #include <algorithm>
 #include <cmath>

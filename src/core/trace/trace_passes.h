@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/divide_up.h"
-#include "core/trace.h"
+#include "core/trace/trace.h"
 #include "core/tree/tree_view.h"
 
 #include <cstdint>

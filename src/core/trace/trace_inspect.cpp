@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What one pixel's ray met.
-#include "core/trace_passes.h"
+#include "core/trace/trace_passes.h"
 
 namespace zvo
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/trace_beam.h"
+#include "core/trace/trace_beam.h"
 
-#include "core/trace_passes.h"
-#include "core/trace_ranks.h"
+#include "core/trace/trace_passes.h"
+#include "core/trace/trace_ranks.h"
 
 #include <algorithm>
 #include <numeric>

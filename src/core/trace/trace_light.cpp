@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From hits to colours.
-#include "core/trace_passes.h"
+#include "core/trace/trace_passes.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/trace_ranks.h"
+#include "core/trace/trace_ranks.h"
 
 namespace zvo
 {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/trace.h"
+#include "core/trace/trace.h"
 
 #include "core/base/divide_up.h"
-#include "core/trace_beam.h"
-#include "core/trace_passes.h"
-#include "core/trace_ranks.h"
+#include "core/trace/trace_beam.h"
+#include "core/trace/trace_passes.h"
+#include "core/trace/trace_ranks.h"
 #include "vk/device.h"
 
 namespace zvo

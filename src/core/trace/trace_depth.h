@@ -2,7 +2,7 @@
 // The depth of a picture in a host's own convention, to composite it with what the host draws.
 #pragma once
 
-#include "core/trace.h"
+#include "core/trace/trace.h"
 
 #include <glm/glm.hpp>
 
