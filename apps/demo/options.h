@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "core/present.h"
+#include "core/present/present.h"
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "demo/elapsed.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/output.h"
-#include "core/present.h"
+#include "core/present/present.h"
 #include "shared/gpu.h"
 #include "vk/buffer.h"
 #include "vk/device.h"

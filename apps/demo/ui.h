@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/present.h"
+#include "core/present/present.h"
 #include "demo/compose.h"
 #include "demo/input_event.h"
 #include "vk/headless.h"

@@ -46,7 +46,7 @@ const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);
 
-/// All but its image: core/image_target.h.
+/// All but its image: core/present/image_target.h.
 const DepthTarget& checked(const DepthTarget& target);
 
 } // namespace zvo

@@ -5,7 +5,7 @@
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/tree_impl.h"
-#include "core/image_target.h"
+#include "core/present/image_target.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"

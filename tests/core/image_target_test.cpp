@@ -2,7 +2,7 @@
 // Pictures and depth in a host's images: what was made in a buffer arrives where it was asked for, and nothing else
 // changes.
 #include "core/base/kernels.h"
-#include "core/image_target.h"
+#include "core/present/image_target.h"
 #include "core/trace/trace_depth.h"
 #include "support/device.h"
 #include "support/errors.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures in another size.
 #include "core/base/kernels.h"
-#include "core/present.h"
+#include "core/present/present.h"
 #include "support/device.h"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
-#include "core/present.h"
+#include "core/present/present.h"
 #include "core/scene/animation.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"

@@ -25,7 +25,8 @@ public:
     [[nodiscard]] VkExtent2D extentOf(std::uint32_t mip_level) const;
     [[nodiscard]] std::uint32_t texelWords() const;
 
-    /// The barrier that comes before a copy, as core/image_target.h states it: into layout, keeping what is there.
+    /// The barrier that comes before a copy, as core/present/image_target.h states it: into layout, keeping what is
+    /// there.
     void beginCopies(vk::FrameGraph& graph, VkImageLayout layout);
 
     /// The one that comes after: for copies from the image.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/image_target.h"
+#include "core/present/image_target.h"
 
 #include "vk/image_copy.h"
 #include "zvo/error.h"

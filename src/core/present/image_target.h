@@ -14,7 +14,7 @@
 // before it may run while the image is still in use. The image belongs to the queue family that records, or is shared.
 #pragma once
 
-#include "core/present.h"
+#include "core/present/present.h"
 #include "core/trace/trace.h"
 #include "vk/functions.h"
 #include "zvo/image_target.h"

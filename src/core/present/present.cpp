@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/present.h"
+#include "core/present/present.h"
 
 #include "core/base/divide_up.h"
 #include "present/present.h"
