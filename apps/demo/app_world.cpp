@@ -5,7 +5,7 @@
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/view.h"
-#include "core/zvo_file.h"
+#include "core/file/zvo_file.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -6,12 +6,12 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
 #include "core/upload/gpu_scene.h"
-#include "core/zvo_file.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

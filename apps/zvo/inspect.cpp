@@ -5,8 +5,8 @@
 #include "common/report.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
-#include "core/tree_stats.h"
-#include "core/zvo_file.h"
+#include "core/file/tree_stats.h"
+#include "core/file/zvo_file.h"
 #include "io/sha256.h"
 
 #include <fmt/format.h>

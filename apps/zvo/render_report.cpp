@@ -3,8 +3,8 @@
 
 #include "common/progress.h"
 #include "common/session.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/compress.h"
-#include "core/zvo_file.h"
 #include "io/octree_sha256.h"
 #include "zvo/version.h"
 

@@ -3,9 +3,9 @@
 
 #include "api/convert.h"
 #include "api/tree_impl.h"
+#include "core/file/zvo_file.h"
 #include "core/tree/tree_data.h"
 #include "core/tree/tree_table.h"
-#include "core/zvo_file.h"
 
 #include <variant>
 

@@ -3,8 +3,8 @@
 
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
+#include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
-#include "core/zvo_file.h"
 #include "io/gltf_loader.h"
 #include "io/mesh_import.h"
 #include "io/stl_file.h"

@@ -2,8 +2,8 @@
 // When objects of zvo go, and what is left of those whose frame was lost, that were taken over or moved from.
 #include "api/c_handles.h"
 #include "api_scene.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/tree_download.h"
-#include "core/zvo_file.h"
 #include "expect_usage.h"
 #include "support/failing_vulkan.h"
 

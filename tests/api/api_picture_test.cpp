@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a host gets of models that stand still.
 #include "api_scene.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/tree_download.h"
-#include "core/zvo_file.h"
 #include "support/errors.h"
 
 #include <gtest/gtest.h>

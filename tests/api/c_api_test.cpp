@@ -4,8 +4,8 @@
 #include "api_scene.h"
 #include "c_host.h"
 #include "c_program.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/tree_download.h"
-#include "core/zvo_file.h"
 #include "support/host_memory.h"
 
 #include <gtest/gtest.h>

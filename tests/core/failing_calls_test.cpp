@@ -3,6 +3,7 @@
 // seventh one, all of them in scripts/check-sanitizers; on a device that goes on, every one.
 #include "core/base/kernels.h"
 #include "core/deform/mover.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
@@ -12,7 +13,6 @@
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "core/tree/svdag.h"
-#include "core/zvo_file.h"
 #include "io/octree_sha256.h"
 #include "io/sha256.h"
 #include "support/device.h"

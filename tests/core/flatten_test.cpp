@@ -3,8 +3,8 @@
 #include "core/headless/flatten.h"
 
 #include "core/base/kernels.h"
+#include "core/file/tree_check.h"
 #include "core/headless/tree_download.h"
-#include "core/tree_check.h"
 #include "support/device.h"
 #include "support/edit_machine.h"
 #include "support/mover_scenery.h"

@@ -3,10 +3,10 @@
 // result is that of a build in which nothing failed. Kernels fail to be made, one by one, as these are made between
 // passes.
 #include "core/base/kernels.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/tree_download.h"
 #include "core/octree/octree_builder.h"
 #include "core/svdag/svdag_builder.h"
-#include "core/zvo_file.h"
 #include "io/sha256.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What keeps a tree from the device: each fault alone, by its message, in trees that are right otherwise.
-#include "core/tree_check.h"
+#include "core/file/tree_check.h"
 
 #include "support/tree_samples.h"
 

@@ -2,9 +2,9 @@
 #include "core/tree/tree_data.h"
 
 #include "core/base/kernels.h"
+#include "core/file/tree_check.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/tree_check.h"
 #include "io/octree_sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree_stats.h"
+#include "core/file/tree_stats.h"
 
 #include "support/tree_samples.h"
 

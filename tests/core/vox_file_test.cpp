@@ -2,8 +2,8 @@
 // MagicaVoxel's files: made here chunk by chunk as the format's author documents it, and read back.
 #include "io/vox_file.h"
 
+#include "core/file/tree_check.h"
 #include "core/tree/tree_build.h"
-#include "core/tree_check.h"
 #include "support/mesh_files.h"
 #include "support/tree_samples.h"
 #include "zvo/error.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Single bytes of a file that change: noticed by a checksum; where that was made to fit, refused or a sound tree.
 #include "core/base/kernels.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "core/tree/svdag.h"
-#include "core/zvo_file.h"
 #include "io/gltf_loader.h"
 #include "support/dags.h"
 #include "support/device.h"

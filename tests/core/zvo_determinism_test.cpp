@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // One file, byte for byte, for a scene whose triangles and instances come in any order, in each form of attributes.
 #include "core/base/kernels.h"
+#include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
-#include "core/zvo_file.h"
 #include "io/sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // docs/file-format.md, and what becomes of files that are not as it says. tree_check_test has the trees.
-#include "core/zvo_file.h"
+#include "core/file/zvo_file.h"
 
 #include "core/base/crc64.h"
 #include "support/temp_dir.h"

@@ -3,7 +3,7 @@
 // accepts must be written as it was read, and is traced: each hit must have a number that the tree's attributes have.
 // ZVO_FUZZ_SEEDS names a folder that gets the trees of the tests as seeds.
 #include "core/base/kernels.h"
-#include "core/zvo_file.h"
+#include "core/file/zvo_file.h"
 #include "fuzz/tree_mutator.h"
 #include "support/tree_probe.h"
 #include "support/tree_samples.h"

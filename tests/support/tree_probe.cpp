@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support/tree_probe.h"
 
+#include "core/file/tree_stats.h"
 #include "core/scene/camera.h"
 #include "core/tree/tree_view.h"
-#include "core/tree_stats.h"
 
 #include <algorithm>
 #include <cmath>

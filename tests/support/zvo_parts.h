@@ -3,7 +3,7 @@
 // it then is what was changed.
 #pragma once
 
-#include "core/zvo_file.h"
+#include "core/file/zvo_file.h"
 
 #include <cstddef>
 #include <optional>

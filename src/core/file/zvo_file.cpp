@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/zvo_file.h"
+#include "core/file/zvo_file.h"
 
 #include "core/base/crc64.h"
 

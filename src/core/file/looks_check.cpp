@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/looks_check.h"
+#include "core/file/looks_check.h"
 
 #include "core/base/divide_up.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree_check.h"
+#include "core/file/tree_check.h"
 
 #include "core/base/divide_up.h"
-#include "core/looks_check.h"
+#include "core/file/looks_check.h"
 
 #include <bit>
 #include <cmath>

@@ -131,8 +131,8 @@ struct ZvoFile
 /// Whether a file, by its first bytes, or else its name, means to be one of these.
 bool isZvoFile(const std::filesystem::path& path);
 
-/// Reads a file and checks everything in it: sizes, checksums, and the tree (core/tree_check.h). Takes memory only for
-/// what the file has. Throws Error{Input}, one line with the path.
+/// Reads a file and checks everything in it: sizes, checksums, and the tree (core/file/tree_check.h). Takes memory only
+/// for what the file has. Throws Error{Input}, one line with the path.
 ZvoFile readZvo(const std::filesystem::path& path);
 
 /// The same for a file that is in memory; name: what messages call it.

@@ -4,8 +4,8 @@
 #include "core/base/divide_up.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
-#include "core/tree_check.h"
-#include "core/zvo_file.h"
+#include "core/file/tree_check.h"
+#include "core/file/zvo_file.h"
 
 #include <algorithm>
 #include <bit>
