@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/scene_options.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 #include <cstddef>
 #include <memory>

@@ -2,7 +2,7 @@
 #include "common/signals.h"
 
 #include "common/progress.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 #include <csignal>
 #include <unistd.h>

@@ -5,7 +5,7 @@
 #include "common/progress.h"
 #include "common/view.h"
 #include "demo/reload_shaders.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

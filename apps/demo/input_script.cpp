@@ -2,7 +2,7 @@
 #include "demo/input_script.h"
 
 #include "core/base/read_file.h"
-#include "io/json_cursor.h"
+#include "io/file/json_cursor.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "demo/screenshot.h"
 
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 #include "io/image_io.h"
 #include "zvo/error.h"
 

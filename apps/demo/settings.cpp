@@ -5,9 +5,9 @@
 #include "common/progress.h"
 #include "common/view.h"
 #include "core/base/read_file.h"
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
+#include "io/file/json_cursor.h"
 #include "io/image_io.h"
-#include "io/json_cursor.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include "core/base/read_file.h"
 #include "core/file/tree_stats.h"
 #include "core/file/zvo_file.h"
-#include "io/sha256.h"
+#include "io/file/sha256.h"
 
 #include <fmt/format.h>
 

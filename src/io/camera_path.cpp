@@ -2,7 +2,7 @@
 #include "io/camera_path.h"
 
 #include "core/base/read_file.h"
-#include "io/json_cursor.h"
+#include "io/file/json_cursor.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
-#include "io/folder_bounds.h"
+#include "io/file/folder_bounds.h"
 #include "io/gltf_container.h"
 #include "io/gltf_meshopt.h"
 #include "io/gltf_schema.h"

@@ -2,7 +2,7 @@
 #include "io/obj_assimp_files.h"
 
 #include "core/base/read_file.h"
-#include "io/folder_bounds.h"
+#include "io/file/folder_bounds.h"
 
 #include <algorithm>
 #include <assimp/IOStream.hpp>

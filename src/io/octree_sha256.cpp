@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/octree_sha256.h"
 
-#include "io/sha256.h"
+#include "io/file/sha256.h"
 
 #include <algorithm>
 #include <span>

@@ -3,9 +3,9 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/scene_size.h"
+#include "io/file/text_cursor.h"
 #include "io/ply_header.h"
 #include "io/srgb.h"
-#include "io/text_cursor.h"
 
 #include <algorithm>
 #include <array>

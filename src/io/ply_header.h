@@ -2,7 +2,7 @@
 // What a PLY file says of its data, which ply_file.h reads.
 #pragma once
 
-#include "io/text_cursor.h"
+#include "io/file/text_cursor.h"
 #include "zvo/error.h"
 
 #include <cstdint>

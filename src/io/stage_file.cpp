@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/stage_file.h"
 
-#include "io/json_cursor.h"
+#include "io/file/json_cursor.h"
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "core/scene/animation.h"
 #include "core/scene/deform.h"
 #include "core/scene/scene_size.h"
-#include "io/folder_bounds.h"
+#include "io/file/folder_bounds.h"
 #include "io/load_scene.h"
 #include "io/scene_part.h"
 #include "io/stage.h"

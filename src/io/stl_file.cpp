@@ -3,7 +3,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/scene_size.h"
-#include "io/text_cursor.h"
+#include "io/file/text_cursor.h"
 
 #include <array>
 #include <bit>

@@ -2,7 +2,7 @@
 #include "io/vox_chunks.h"
 
 #include "core/base/input_error.h"
-#include "io/text_cursor.h"
+#include "io/file/text_cursor.h"
 
 #include <cstdlib>
 #include <fmt/format.h>

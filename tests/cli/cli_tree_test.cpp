@@ -2,7 +2,7 @@
 // .zvo files by way of the program: build, inspect, validate, render, convert; and what is refused.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
-#include "io/sha256.h"
+#include "io/file/sha256.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include "core/headless/tree_download.h"
 #include "core/octree/octree_builder.h"
 #include "core/svdag/svdag_builder.h"
-#include "io/sha256.h"
+#include "io/file/sha256.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"
 #include "support/materials_scene.h"

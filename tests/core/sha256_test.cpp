@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/sha256.h"
+#include "io/file/sha256.h"
 
 #include <gtest/gtest.h>
 #include <string>

@@ -7,7 +7,7 @@
 #include "core/headless/pipeline.h"
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
-#include "io/sha256.h"
+#include "io/file/sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 

@@ -6,7 +6,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/trace/trace.h"
-#include "io/sha256.h"
+#include "io/file/sha256.h"
 #include "stress/ray_judge.h"
 #include "stress/stress_rays.h"
 #include "support/device.h"

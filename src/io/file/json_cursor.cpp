@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/json_cursor.h"
+#include "io/file/json_cursor.h"
 
 #include "core/base/input_error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/folder_bounds.h"
+#include "io/file/folder_bounds.h"
 
 #include <algorithm>
 #include <system_error>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/atomic_file.h"
+#include "io/file/atomic_file.h"
 
 #include "zvo/error.h"
 
