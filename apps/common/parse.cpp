@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/parse.h"
 
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

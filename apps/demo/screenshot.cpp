@@ -2,7 +2,7 @@
 #include "demo/screenshot.h"
 
 #include "io/file/atomic_file.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include "core/base/read_file.h"
 #include "io/file/atomic_file.h"
 #include "io/file/json_cursor.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "renderer.h"
 
 #include "common/report.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

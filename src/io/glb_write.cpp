@@ -2,7 +2,7 @@
 #include "io/glb_write.h"
 
 #include "core/tree/tree_build.h"
-#include "io/srgb.h"
+#include "io/image/srgb.h"
 #include "zvo/error.h"
 
 #include <algorithm>

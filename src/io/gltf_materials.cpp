@@ -2,7 +2,7 @@
 #include "io/gltf_materials.h"
 
 #include "core/scene/scene_size.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include <cmath>
 #include <fmt/format.h>

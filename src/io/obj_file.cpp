@@ -4,9 +4,9 @@
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
+#include "io/image/srgb.h"
 #include "io/obj_assimp_files.h"
-#include "io/srgb.h"
 
 #include <algorithm>
 #include <assimp/BaseImporter.h>

@@ -4,8 +4,8 @@
 #include "core/base/input_error.h"
 #include "core/scene/scene_size.h"
 #include "io/file/text_cursor.h"
+#include "io/image/srgb.h"
 #include "io/ply_header.h"
-#include "io/srgb.h"
 
 #include <algorithm>
 #include <array>

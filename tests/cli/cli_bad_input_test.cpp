@@ -2,7 +2,7 @@
 // Scenes that were made to do harm end in one line and exit code 3; what can be used of a scene is, with a warning.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "support/temp_dir.h"
 
 #include <functional>

@@ -2,7 +2,7 @@
 // Scene files on the command line: pictures and voxels of a scene in which something moves.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "support/temp_dir.h"
 
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "gltf_builder.h"
 #include "io/gltf_document.h"
 #include "io/gltf_loader.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -3,7 +3,7 @@
 #include "io/gltf_loader.h"
 
 #include "gltf_builder.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include <functional>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "io/gltf_uri.h"
 
 #include "gltf_builder.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Images that would harm their decoder are refused before it sees them.
-#include "io/image_check.h"
+#include "io/image/image_check.h"
 
 #include "gltf_builder.h"
 #include "io/gltf_uri.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>

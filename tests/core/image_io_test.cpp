@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
 #include "gltf_builder.h"
 #include "io/gltf_uri.h"

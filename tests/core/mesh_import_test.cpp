@@ -2,7 +2,7 @@
 #include "io/mesh_import.h"
 
 #include "gltf_builder.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "io/load_scene.h"
 #include "support/mesh_files.h"
 

@@ -6,7 +6,7 @@
 #include "cli/run_zvo.h"
 #include "demo/input_script.h"
 #include "demo/xvfb.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "support/device.h"
 #include "support/temp_dir.h"
 

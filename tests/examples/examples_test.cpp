@@ -3,7 +3,7 @@
 #include "cli/run_zvo.h"
 #include "common/mesh.h"
 #include "examples/composite.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "support/device.h"
 #include "support/temp_dir.h"
 

@@ -7,7 +7,7 @@
 #include "core/scene/animation.h"
 #include "fuzz/gltf_mutator.h"
 #include "fuzz/mesh_mutator.h"
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 #include "io/load_scene.h"
 #include "support/scene_check.h"
 #include "support/temp_dir.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "io/image_io.h"
+#include "io/image/image_io.h"
 
-#include "io/image_check.h"
+#include "io/image/image_check.h"
 #include "zvo/error.h"
 
 #include <algorithm>

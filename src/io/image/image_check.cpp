@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // After ISO/IEC 10918-1 (JPEG), annex B, and the PNG specification (W3C, second edition, 2003).
-#include "io/image_check.h"
+#include "io/image/image_check.h"
 
 #include <algorithm>
 #include <fmt/format.h>
