@@ -5,7 +5,7 @@
 #include "core/base/read_file.h"
 #include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "io/mesh_import.h"
 #include "io/stl_file.h"
 

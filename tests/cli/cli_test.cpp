@@ -6,7 +6,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/tree/svdag.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "io/image/image_io.h"
 #include "io/octree_sha256.h"
 #include "support/device.h"

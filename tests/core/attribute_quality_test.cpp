@@ -4,7 +4,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/pipeline.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "support/device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"

@@ -3,7 +3,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/upload/texture_pool.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "oracle/attributes.h"
 #include "support/device.h"

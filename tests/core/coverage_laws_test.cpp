@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Laws of the device's voxel sets (docs/voxelization.md, "Laws").
 #include "core/base/kernels.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "oracle/snap.h"
 #include "support/device.h"

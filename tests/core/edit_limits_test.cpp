@@ -6,7 +6,7 @@
 #include "core/headless/compress.h"
 #include "core/tree/svdag.h"
 #include "core/tree/tree_build.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "support/device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"

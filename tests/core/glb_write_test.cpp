@@ -3,7 +3,7 @@
 #include "io/glb_write.h"
 
 #include "core/tree/tree_build.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
 

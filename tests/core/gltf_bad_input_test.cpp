@@ -4,8 +4,8 @@
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
 #include "gltf_builder.h"
-#include "io/gltf_document.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_loader.h"
 #include "io/image/image_io.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // glTF documents made in memory, for the loader's tests.
 #pragma once
 
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "support/scene_check.h"
 #include "support/temp_dir.h"
 #include "zvo/error.h"

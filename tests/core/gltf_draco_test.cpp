@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // KHR_draco_mesh_compression: what Draco's encoder packs loads as the same triangles.
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
 

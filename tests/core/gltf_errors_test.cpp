@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every way in which a file can be broken has an error that says what, where and what to do.
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
 #include "io/image/image_io.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // EXT_meshopt_compression: what meshoptimizer's encoders pack loads as it was, or within what the filter rounds.
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Skins, morph targets and animations with mistakes in them: what does not make sense is left out with a warning, and
 // the mesh stands as it was modelled; what contradicts the file's own structure is an error, as everywhere.
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "core/scene/scene_size.h"
 #include "gltf_builder.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Nodes, skins, morph targets and animations as they are loaded; gltf_rig_errors_test.cpp has what is wrong with them.
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
 #include "io/load_scene.h"

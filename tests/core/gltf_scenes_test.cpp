@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Real scenes, where they are at hand: counts and boxes as their makers measured them.
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "support/scenes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sparse accessors, against the same values written out in full.
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
 

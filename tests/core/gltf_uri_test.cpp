@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_uri.h"
+#include "io/gltf/gltf_uri.h"
 
 #include "gltf_builder.h"
 #include "io/image/image_io.h"

@@ -3,7 +3,7 @@
 #include "io/image/image_check.h"
 
 #include "gltf_builder.h"
-#include "io/gltf_uri.h"
+#include "io/gltf/gltf_uri.h"
 #include "io/image/image_io.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "io/image/image_io.h"
 
 #include "gltf_builder.h"
-#include "io/gltf_uri.h"
+#include "io/gltf/gltf_uri.h"
 #include "zvo/error.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Voxels of closed surfaces keep inside and outside apart: no path along faces of uncovered voxels leads through.
 #include "core/base/kernels.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "oracle/winding.h"
 #include "support/device.h"
 #include "support/lattice_sets.h"

@@ -4,7 +4,7 @@
 #include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"

@@ -5,7 +5,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
 #include "support/device.h"

@@ -2,7 +2,7 @@
 // Rays through the octrees of whole scenes against the reference, bit for bit.
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "support/device.h"
 #include "support/param_names.h"
 #include "support/scenes.h"

@@ -3,7 +3,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/trace/trace.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "oracle/morton.h"
 #include "support/dags.h"
 #include "support/device.h"

@@ -2,7 +2,7 @@
 // The voxels of the device against the exact oracle, bit for bit.
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "io/octree_sha256.h"
 #include "oracle/voxelizer.h"
 #include "support/device.h"

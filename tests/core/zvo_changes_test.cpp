@@ -7,7 +7,7 @@
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "core/tree/svdag.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "support/dags.h"
 #include "support/device.h"
 #include "support/scenes.h"

@@ -2,7 +2,7 @@
 // check_coverage: millions of triangles and whole meshes, device against oracle, both coverages. Ends with 1 when
 // anything differs.
 #include "core/base/kernels.h"
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 #include "stress/compare_coverage.h"
 #include "support/device.h"
 #include "support/scenes.h"

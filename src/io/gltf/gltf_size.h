@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/gltf_document.h"
-#include "io/gltf_nodes.h"
+#include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_nodes.h"
 
 #include <span>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_rig.h"
+#include "io/gltf/gltf_rig.h"
 
-#include "io/gltf_accessor.h"
+#include "io/gltf/gltf_accessor.h"
 
 #include <algorithm>
 #include <array>

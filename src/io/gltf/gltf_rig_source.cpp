@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_rig_source.h"
+#include "io/gltf/gltf_rig_source.h"
 
-#include "io/gltf_document.h"
-#include "io/gltf_schema.h"
+#include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_schema.h"
 
 #include <cstdint>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/rig.h"
-#include "io/gltf_document.h"
+#include "io/gltf/gltf_document.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>

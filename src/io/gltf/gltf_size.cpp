@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_size.h"
+#include "io/gltf/gltf_size.h"
 
 #include "core/scene/scene.h"
 #include "core/scene/scene_size.h"
-#include "io/gltf_rig.h"
+#include "io/gltf/gltf_rig.h"
 
 #include <algorithm>
 #include <map>

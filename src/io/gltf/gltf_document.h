@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/base/input_error.h"
-#include "io/gltf_rig_source.h"
-#include "io/third_party_tinygltf.h"
+#include "io/gltf/gltf_rig_source.h"
+#include "io/gltf/third_party_tinygltf.h"
 #include "zvo/error.h"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "io/gltf_document.h"
-#include "io/gltf_nodes.h"
+#include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_nodes.h"
 
 #include <cstdint>
 #include <map>

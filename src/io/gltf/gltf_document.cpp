@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_document.h"
+#include "io/gltf/gltf_document.h"
 
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
 #include "io/file/folder_bounds.h"
-#include "io/gltf_container.h"
-#include "io/gltf_meshopt.h"
-#include "io/gltf_schema.h"
-#include "io/gltf_uri.h"
+#include "io/gltf/gltf_container.h"
+#include "io/gltf/gltf_meshopt.h"
+#include "io/gltf/gltf_schema.h"
+#include "io/gltf/gltf_uri.h"
 
 #include <algorithm>
 #include <array>

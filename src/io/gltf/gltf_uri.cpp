@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_uri.h"
+#include "io/gltf/gltf_uri.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // After the JSON schema of the glTF 2.0 specification (Khronos Group, 2021), as far as the loader reads the document.
-#include "io/gltf_schema.h"
+#include "io/gltf/gltf_schema.h"
 
-#include "io/gltf_document.h"
+#include "io/gltf/gltf_document.h"
 
 #include <algorithm>
 #include <cstdint>

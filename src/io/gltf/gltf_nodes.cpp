@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_nodes.h"
+#include "io/gltf/gltf_nodes.h"
 
 #include <algorithm>
 #include <cmath>

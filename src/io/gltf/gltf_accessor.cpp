@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_accessor.h"
+#include "io/gltf/gltf_accessor.h"
 
 #include <algorithm>
 #include <cassert>

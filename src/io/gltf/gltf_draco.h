@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/gltf_accessor.h"
-#include "io/gltf_document.h"
+#include "io/gltf/gltf_accessor.h"
+#include "io/gltf/gltf_document.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_materials.h"
+#include "io/gltf/gltf_materials.h"
 
 #include "core/scene/scene_size.h"
 #include "io/image/image_io.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "io/gltf_document.h"
-#include "io/gltf_materials.h"
+#include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_materials.h"
 
 #include <optional>
 

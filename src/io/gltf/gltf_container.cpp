@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_container.h"
+#include "io/gltf/gltf_container.h"
 
 #include "core/base/input_error.h"
-#include "io/gltf_document.h"
+#include "io/gltf/gltf_document.h"
 
 #include <algorithm>
 #include <bit>

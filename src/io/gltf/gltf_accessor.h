@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "io/gltf_document.h"
+#include "io/gltf/gltf_document.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_geometry.h"
+#include "io/gltf/gltf_geometry.h"
 
-#include "io/gltf_accessor.h"
-#include "io/gltf_draco.h"
+#include "io/gltf/gltf_accessor.h"
+#include "io/gltf/gltf_draco.h"
 
 #include <algorithm>
 #include <cmath>

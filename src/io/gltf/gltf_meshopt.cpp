@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_meshopt.h"
+#include "io/gltf/gltf_meshopt.h"
 
-#include "io/gltf_schema.h"
+#include "io/gltf/gltf_schema.h"
 
 #include <algorithm>
 #include <fmt/format.h>

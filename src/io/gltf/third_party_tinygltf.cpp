@@ -2,4 +2,4 @@
 #include <fstream> // tinygltf's writers use it even without a file system
 
 #define TINYGLTF_IMPLEMENTATION
-#include "io/third_party_tinygltf.h"
+#include "io/gltf/third_party_tinygltf.h"

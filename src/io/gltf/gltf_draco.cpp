@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_draco.h"
+#include "io/gltf/gltf_draco.h"
 
 #include <cstring>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>

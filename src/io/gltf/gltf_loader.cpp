@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_loader.h"
+#include "io/gltf/gltf_loader.h"
 
 #include "core/base/read_file.h"
-#include "io/gltf_document.h"
-#include "io/gltf_geometry.h"
-#include "io/gltf_materials.h"
-#include "io/gltf_nodes.h"
-#include "io/gltf_rig.h"
-#include "io/gltf_size.h"
+#include "io/gltf/gltf_document.h"
+#include "io/gltf/gltf_geometry.h"
+#include "io/gltf/gltf_materials.h"
+#include "io/gltf/gltf_nodes.h"
+#include "io/gltf/gltf_rig.h"
+#include "io/gltf/gltf_size.h"
 
 #include <algorithm>
 #include <cmath>
