@@ -6,8 +6,8 @@
 #include "core/file/zvo_file.h"
 #include "core/scene/animation.h"
 #include "io/gltf/gltf_loader.h"
-#include "io/mesh_import.h"
-#include "io/stl_file.h"
+#include "io/mesh/mesh_import.h"
+#include "io/mesh/stl_file.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/mesh_import.h"
+#include "io/mesh/mesh_import.h"
 
 #include "gltf_builder.h"
 #include "io/image/image_io.h"

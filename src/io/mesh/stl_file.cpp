@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stl_file.h"
+#include "io/mesh/stl_file.h"
 
 #include "core/base/input_error.h"
 #include "core/scene/scene_size.h"

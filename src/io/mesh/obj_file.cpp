@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/obj_file.h"
+#include "io/mesh/obj_file.h"
 
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
 #include "io/image/image_io.h"
 #include "io/image/srgb.h"
-#include "io/obj_assimp_files.h"
+#include "io/mesh/obj_assimp_files.h"
 
 #include <algorithm>
 #include <assimp/BaseImporter.h>

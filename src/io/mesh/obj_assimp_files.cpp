@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/obj_assimp_files.h"
+#include "io/mesh/obj_assimp_files.h"
 
 #include "core/base/read_file.h"
 #include "io/file/folder_bounds.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/ply_file.h"
+#include "io/mesh/ply_file.h"
 
 #include "core/base/input_error.h"
 #include "core/scene/scene_size.h"
 #include "io/file/text_cursor.h"
 #include "io/image/srgb.h"
-#include "io/ply_header.h"
+#include "io/mesh/ply_header.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/ply_header.h"
+#include "io/mesh/ply_header.h"
 
 #include "core/base/input_error.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/mesh_import.h"
+#include "io/mesh/mesh_import.h"
 
 #include "core/base/input_error.h"
 #include "core/scene/scene_size.h"
-#include "io/obj_file.h"
-#include "io/ply_file.h"
-#include "io/stl_file.h"
+#include "io/mesh/obj_file.h"
+#include "io/mesh/ply_file.h"
+#include "io/mesh/stl_file.h"
 
 #include <string>
 
