@@ -7,7 +7,7 @@
 #include "core/octree/octree_build.h"
 #include "core/tree/tree_build.h"
 #include "core/upload/gpu_scene.h"
-#include "io/vox_file.h"
+#include "io/voxel/vox_file.h"
 
 #include <fmt/format.h>
 

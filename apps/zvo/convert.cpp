@@ -11,9 +11,9 @@
 #include "core/headless/compress.h"
 #include "core/headless/tree_download.h"
 #include "core/tree/svdag.h"
-#include "io/glb_write.h"
-#include "io/nvdb_write.h"
-#include "io/vox_file.h"
+#include "io/voxel/glb_write.h"
+#include "io/voxel/nvdb_write.h"
+#include "io/voxel/vox_file.h"
 #include "tree_export.h"
 #include "zvo/error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes of voxels, taken apart without the loader: each face between a voxel and an empty cell once, and no other.
-#include "io/glb_write.h"
+#include "io/voxel/glb_write.h"
 
 #include "core/tree/tree_build.h"
 #include "io/gltf/gltf_loader.h"

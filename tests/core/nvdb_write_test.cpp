@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // NanoVDB files, read with NanoVDB's own reader.
-#include "io/nvdb_write.h"
+#include "io/voxel/nvdb_write.h"
 
 #include "core/tree/tree_build.h"
 #include "support/temp_dir.h"

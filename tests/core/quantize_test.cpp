@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/quantize.h"
+#include "io/voxel/quantize.h"
 
 #include <gtest/gtest.h>
 

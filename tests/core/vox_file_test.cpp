@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // MagicaVoxel's files: made here chunk by chunk as the format's author documents it, and read back.
-#include "io/vox_file.h"
+#include "io/voxel/vox_file.h"
 
 #include "core/file/tree_check.h"
 #include "core/tree/tree_build.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/nvdb_write.h"
+#include "io/voxel/nvdb_write.h"
 
 #include "core/tree/tree_build.h"
 #include "zvo/error.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/input_error.h"
 #include "core/tree/tree_build.h"
-#include "io/vox_chunks.h"
-#include "io/vox_file.h"
+#include "io/voxel/vox_chunks.h"
+#include "io/voxel/vox_file.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree/tree_build.h"
-#include "io/quantize.h"
-#include "io/vox_file.h"
+#include "io/voxel/quantize.h"
+#include "io/voxel/vox_file.h"
 #include "zvo/error.h"
 
 #include <algorithm>

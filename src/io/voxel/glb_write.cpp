@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/glb_write.h"
+#include "io/voxel/glb_write.h"
 
 #include "core/tree/tree_build.h"
 #include "io/image/srgb.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/vox_chunks.h"
+#include "io/voxel/vox_chunks.h"
 
 #include "core/base/input_error.h"
 #include "io/file/text_cursor.h"
