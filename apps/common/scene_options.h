@@ -4,7 +4,7 @@
 
 #include "core/scene/scene.h"
 #include "core/tree/attribute_form.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 #include "zvo/types.h"
 
 #include <cstdint>

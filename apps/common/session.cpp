@@ -4,7 +4,7 @@
 #include "common/environment.h"
 #include "common/progress.h"
 #include "common/report.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "core/base/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/scene.h"
-#include "io/stage.h"
+#include "io/scene/stage.h"
 #include "vk/headless.h"
 
 #include <cstdint>

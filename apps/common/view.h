@@ -3,7 +3,7 @@
 
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
-#include "io/stage.h"
+#include "io/scene/stage.h"
 
 #include <span>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "demo/camera_control.h"
 #include "demo/elapsed.h"
-#include "io/camera_path.h"
+#include "io/scene/camera_path.h"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "demo/elapsed.h"
-#include "io/stage.h"
+#include "io/scene/stage.h"
 
 #include <optional>
 

@@ -7,7 +7,7 @@
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "core/tree/tree_view.h"
-#include "io/stage.h"
+#include "io/scene/stage.h"
 #include "vk/headless.h"
 
 #include <cstddef>

@@ -5,7 +5,7 @@
 #include "core/scene/scene.h"
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 #include "zvo/types.h"
 
 #include <cstdint>

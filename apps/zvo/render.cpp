@@ -13,7 +13,7 @@
 #include "core/headless/pipeline.h"
 #include "core/tree/tree_view.h"
 #include "core/upload/gpu_scene.h"
-#include "io/camera_path.h"
+#include "io/scene/camera_path.h"
 #include "io/stage_octree.h"
 #include "pictures.h"
 #include "render_report.h"

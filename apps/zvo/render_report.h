@@ -7,7 +7,7 @@
 #include "core/svdag/svdag_builder.h"
 #include "core/tree/svdag.h"
 #include "core/tree/tree_data.h"
-#include "io/stage.h"
+#include "io/scene/stage.h"
 #include "io/stage_octree.h"
 #include "options.h"
 #include "renderer.h"

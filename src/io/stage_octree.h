@@ -5,7 +5,7 @@
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/pipeline.h"
 #include "core/tree/tree_data.h"
-#include "io/stage.h"
+#include "io/scene/stage.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Flights of a camera: what they pass, and files of them.
-#include "io/camera_path.h"
+#include "io/scene/camera_path.h"
 
 #include "zvo/error.h"
 

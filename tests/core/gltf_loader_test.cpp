@@ -2,7 +2,7 @@
 #include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 #include "rig_documents.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 
 #include "gltf_builder.h"
 #include "support/mesh_files.h"

@@ -3,7 +3,7 @@
 
 #include "gltf_builder.h"
 #include "io/image/image_io.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 #include "support/mesh_files.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stages of files with animations: which of them play, and what of a file is a mover.
-#include "io/stage.h"
+#include "io/scene/stage.h"
 
 #include "gltf_builder.h"
 #include "stage_fixture.h"

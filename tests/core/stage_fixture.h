@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gltf_builder.h"
-#include "io/stage.h"
+#include "io/scene/stage.h"
 #include "support/scenes.h"
 
 #include <filesystem>

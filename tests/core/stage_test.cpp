@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stage.h"
+#include "io/scene/stage.h"
 
 #include "gltf_builder.h"
 #include "stage_fixture.h"

@@ -3,7 +3,7 @@
 
 #include "core/base/grid.h"
 #include "core/scene/scene.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 #include "oracle/trace.h"
 #include "oracle/voxelizer.h"
 

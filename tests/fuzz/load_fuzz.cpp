@@ -8,7 +8,7 @@
 #include "fuzz/gltf_mutator.h"
 #include "fuzz/mesh_mutator.h"
 #include "io/image/image_io.h"
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 #include "support/scene_check.h"
 #include "support/temp_dir.h"
 #include "zvo/error.h"

@@ -4,8 +4,8 @@
 #include "core/scene/animation.h"
 #include "core/scene/motion.h"
 #include "core/scene/scene.h"
-#include "io/load_scene.h"
-#include "io/stage_file.h"
+#include "io/scene/load_scene.h"
+#include "io/scene/stage_file.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stage_file.h"
+#include "io/scene/stage_file.h"
 
 #include "io/file/json_cursor.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stage.h"
+#include "io/scene/stage.h"
 
 #include <algorithm>
 #include <cmath>

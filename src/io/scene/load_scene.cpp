@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/load_scene.h"
+#include "io/scene/load_scene.h"
 
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"

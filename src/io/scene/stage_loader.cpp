@@ -6,9 +6,9 @@
 #include "core/scene/deform.h"
 #include "core/scene/scene_size.h"
 #include "io/file/folder_bounds.h"
-#include "io/load_scene.h"
-#include "io/scene_part.h"
-#include "io/stage.h"
+#include "io/scene/load_scene.h"
+#include "io/scene/scene_part.h"
+#include "io/scene/stage.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/scene_part.h"
+#include "io/scene/scene_part.h"
 
 #include <cassert>
 #include <cstddef>

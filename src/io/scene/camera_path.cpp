@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/camera_path.h"
+#include "io/scene/camera_path.h"
 
 #include "core/base/read_file.h"
 #include "io/file/json_cursor.h"
