@@ -13,7 +13,7 @@
 #include "core/headless/tree_download.h"
 #include "core/tree/svdag.h"
 #include "core/upload/gpu_scene.h"
-#include "io/stage_octree.h"
+#include "runtime/stage_octree.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

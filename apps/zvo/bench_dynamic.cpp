@@ -10,7 +10,7 @@
 #include "common/view.h"
 #include "core/base/kernels.h"
 #include "core/trace/trace.h"
-#include "io/stage_octree.h"
+#include "runtime/stage_octree.h"
 #include "table.h"
 #include "zvo/version.h"
 

@@ -14,10 +14,10 @@
 #include "core/tree/tree_view.h"
 #include "core/upload/gpu_scene.h"
 #include "io/scene/camera_path.h"
-#include "io/stage_octree.h"
 #include "pictures.h"
 #include "render_report.h"
 #include "renderer.h"
+#include "runtime/stage_octree.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

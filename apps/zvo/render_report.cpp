@@ -5,7 +5,7 @@
 #include "common/session.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/compress.h"
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>

@@ -8,9 +8,9 @@
 #include "core/tree/svdag.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/stage.h"
-#include "io/stage_octree.h"
 #include "options.h"
 #include "renderer.h"
+#include "runtime/stage_octree.h"
 #include "vk/headless.h"
 
 #include <cstdint>

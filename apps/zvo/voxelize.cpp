@@ -9,7 +9,7 @@
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "core/upload/gpu_scene.h"
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 #include "tree_export.h"
 #include "zvo/error.h"
 

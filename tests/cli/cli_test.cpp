@@ -8,7 +8,7 @@
 #include "core/tree/svdag.h"
 #include "io/gltf/gltf_loader.h"
 #include "io/image/image_io.h"
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/temp_dir.h"
 

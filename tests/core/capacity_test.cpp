@@ -5,7 +5,7 @@
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "io/gltf/gltf_loader.h"
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"

@@ -2,8 +2,8 @@
 // Laws of the device's voxel sets (docs/voxelization.md, "Laws").
 #include "core/base/kernels.h"
 #include "io/gltf/gltf_loader.h"
-#include "io/octree_sha256.h"
 #include "oracle/snap.h"
+#include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/lattice_sets.h"
 #include "support/param_names.h"

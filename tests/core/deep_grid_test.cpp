@@ -2,8 +2,8 @@
 // Grids of depth 13 to 17, sparsely filled: brick keys of two words, lattice coordinates up to 2^25, long rows.
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "io/octree_sha256.h"
 #include "oracle/morton.h"
+#include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"

@@ -14,7 +14,7 @@
 #include "core/trace/trace.h"
 #include "core/tree/svdag.h"
 #include "io/file/sha256.h"
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"
 #include "support/materials_scene.h"

@@ -5,7 +5,7 @@
 #include "core/base/kernels.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
-#include "io/stage_octree.h"
+#include "runtime/stage_octree.h"
 #include "support/device.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"

@@ -5,7 +5,7 @@
 #include "core/file/tree_check.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/materials_scene.h"
 #include "support/tree_samples.h"

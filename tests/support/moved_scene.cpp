@@ -4,7 +4,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/octree/octree_build.h"
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/octree_sha256.h"
+#include "runtime/octree_sha256.h"
 
 #include "io/file/sha256.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stage_octree.h"
+#include "runtime/stage_octree.h"
 
 #include "core/headless/compress.h"
 #include "core/upload/gpu_scene.h"
