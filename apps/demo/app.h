@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/camera_control.h"
-#include "demo/camera_flight.h"
 #include "demo/compose.h"
 #include "demo/editor.h"
 #include "demo/frame_stats.h"
-#include "demo/input_script.h"
-#include "demo/keys.h"
+#include "demo/input/camera_control.h"
+#include "demo/input/camera_flight.h"
+#include "demo/input/input_script.h"
+#include "demo/input/keys.h"
+#include "demo/input/timeline.h"
 #include "demo/loading.h"
 #include "demo/notices.h"
 #include "demo/options.h"
@@ -17,7 +18,6 @@
 #include "demo/screenshot.h"
 #include "demo/settings.h"
 #include "demo/shader_sources.h"
-#include "demo/timeline.h"
 #include "demo/ui.h"
 #include "demo/view_state.h"
 #include "demo/window.h"

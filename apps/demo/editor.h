@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/input_event.h"
-#include "demo/keys.h"
+#include "demo/input/input_event.h"
+#include "demo/input/keys.h"
+#include "demo/input/pointer_ray.h"
 #include "demo/panels.h"
-#include "demo/pointer_ray.h"
 #include "demo/stroke.h"
 #include "demo/tool.h"
 #include "demo/world.h"

@@ -5,7 +5,7 @@
 #include "core/present/present.h"
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
-#include "demo/elapsed.h"
+#include "demo/input/elapsed.h"
 #include "vk/swapchain.h"
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/keys.h"
+#include "demo/input/keys.h"
 #include "demo/panels.h"
 
 #include <imgui.h>

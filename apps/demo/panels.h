@@ -4,9 +4,9 @@
 #pragma once
 
 #include "demo/frame_stats.h"
+#include "demo/input/timeline.h"
 #include "demo/loading.h"
 #include "demo/notices.h"
-#include "demo/timeline.h"
 #include "demo/tool.h"
 #include "demo/view_state.h"
 #include "demo/world.h"

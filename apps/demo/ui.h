@@ -3,7 +3,7 @@
 
 #include "core/present/present.h"
 #include "demo/compose.h"
-#include "demo/input_event.h"
+#include "demo/input/input_event.h"
 #include "vk/headless.h"
 
 #include <array>

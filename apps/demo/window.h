@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/present/present.h"
-#include "demo/input_event.h"
+#include "demo/input/input_event.h"
 #include "vk/window_support.h"
 
 #include <cstdint>

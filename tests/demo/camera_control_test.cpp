@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The camera under mouse and keyboard.
-#include "demo/camera_control.h"
+#include "demo/input/camera_control.h"
 
 #include "common/view.h"
-#include "demo/camera_flight.h"
+#include "demo/input/camera_flight.h"
 
 #include <gtest/gtest.h>
 

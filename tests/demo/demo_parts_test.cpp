@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Parts of the demo window that need no window: keys, settings, statistics, time, resolution, shaders' sources.
-#include "demo/elapsed.h"
 #include "demo/frame_stats.h"
-#include "demo/keys.h"
+#include "demo/input/elapsed.h"
+#include "demo/input/keys.h"
+#include "demo/input/timeline.h"
 #include "demo/notices.h"
 #include "demo/resolution_ladder.h"
 #include "demo/settings.h"
 #include "demo/shader_sources.h"
-#include "demo/timeline.h"
 #include "support/temp_dir.h"
 #include "zvo/error.h"
 

@@ -4,7 +4,7 @@
 
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
-#include "demo/input_script.h"
+#include "demo/input/input_script.h"
 #include "demo/xvfb.h"
 #include "io/image/image_io.h"
 #include "support/device.h"

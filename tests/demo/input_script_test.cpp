@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scripts of input events.
-#include "demo/input_script.h"
+#include "demo/input/input_script.h"
 
 #include "zvo/error.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which voxels under the pointer become dabs, when they are known some frames late.
-#include "demo/pointer_ray.h"
+#include "demo/input/pointer_ray.h"
 #include "demo/stroke.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // The table of keys: what they do, and what F1 and the README say that they do.
 #pragma once
 
-#include "demo/input_event.h"
+#include "demo/input/input_event.h"
 
 #include <array>
 #include <optional>

@@ -15,7 +15,7 @@
 // Frames never go down; modifiers may be left out. Files are looked for from the working folder on.
 #pragma once
 
-#include "demo/input_event.h"
+#include "demo/input/input_event.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/input_event.h"
+#include "demo/input/input_event.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/elapsed.h"
+#include "demo/input/elapsed.h"
 #include "io/scene/stage.h"
 
 #include <optional>

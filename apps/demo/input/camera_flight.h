@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/camera_control.h"
-#include "demo/elapsed.h"
+#include "demo/input/camera_control.h"
+#include "demo/input/elapsed.h"
 #include "io/scene/camera_path.h"
 
 #include <optional>

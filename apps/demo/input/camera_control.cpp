@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/camera_control.h"
+#include "demo/input/camera_control.h"
 
 #include "common/parse.h"
 #include "common/view.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/camera_flight.h"
+#include "demo/input/camera_flight.h"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/input_script.h"
+#include "demo/input/input_script.h"
 
 #include "core/base/read_file.h"
 #include "io/file/json_cursor.h"

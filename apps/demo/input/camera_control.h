@@ -3,7 +3,7 @@
 
 #include "core/scene/camera.h"
 #include "core/scene/scene.h"
-#include "demo/input_event.h"
+#include "demo/input/input_event.h"
 
 #include <array>
 #include <optional>
