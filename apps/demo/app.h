@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/compose.h"
 #include "demo/editor.h"
 #include "demo/frame_stats.h"
 #include "demo/input/camera_control.h"
@@ -9,19 +8,20 @@
 #include "demo/input/input_script.h"
 #include "demo/input/keys.h"
 #include "demo/input/timeline.h"
-#include "demo/loading.h"
 #include "demo/notices.h"
 #include "demo/options.h"
 #include "demo/panels.h"
-#include "demo/renderer.h"
-#include "demo/resolution_ladder.h"
 #include "demo/screenshot.h"
 #include "demo/settings.h"
 #include "demo/shader_sources.h"
 #include "demo/ui.h"
-#include "demo/view_state.h"
 #include "demo/window.h"
-#include "demo/world.h"
+#include "demo/world/compose.h"
+#include "demo/world/loading.h"
+#include "demo/world/renderer.h"
+#include "demo/world/resolution_ladder.h"
+#include "demo/world/view_state.h"
+#include "demo/world/world.h"
 #include "vk/headless.h"
 #include "vk/swapchain.h"
 

@@ -5,9 +5,9 @@
 #include "demo/input/keys.h"
 #include "demo/input/pointer_ray.h"
 #include "demo/panels.h"
-#include "demo/stroke.h"
-#include "demo/tool.h"
-#include "demo/world.h"
+#include "demo/world/stroke.h"
+#include "demo/world/tool.h"
+#include "demo/world/world.h"
 
 #include <cstdint>
 #include <optional>

@@ -2,7 +2,7 @@
 #include "common/view.h"
 #include "demo/panel_text.h"
 #include "demo/panels.h"
-#include "demo/resolution_ladder.h"
+#include "demo/world/resolution_ladder.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

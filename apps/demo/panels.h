@@ -5,11 +5,11 @@
 
 #include "demo/frame_stats.h"
 #include "demo/input/timeline.h"
-#include "demo/loading.h"
 #include "demo/notices.h"
-#include "demo/tool.h"
-#include "demo/view_state.h"
-#include "demo/world.h"
+#include "demo/world/loading.h"
+#include "demo/world/tool.h"
+#include "demo/world/view_state.h"
+#include "demo/world/world.h"
 #include "vk/device.h"
 
 #include <optional>

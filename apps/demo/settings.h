@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/present/present.h"
-#include "demo/view_state.h"
+#include "demo/world/view_state.h"
 
 #include <filesystem>
 #include <optional>

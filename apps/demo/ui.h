@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/present/present.h"
-#include "demo/compose.h"
 #include "demo/input/input_event.h"
+#include "demo/world/compose.h"
 #include "vk/headless.h"
 
 #include <array>

@@ -5,9 +5,9 @@
 #include "demo/input/keys.h"
 #include "demo/input/timeline.h"
 #include "demo/notices.h"
-#include "demo/resolution_ladder.h"
 #include "demo/settings.h"
 #include "demo/shader_sources.h"
+#include "demo/world/resolution_ladder.h"
 #include "support/temp_dir.h"
 #include "zvo/error.h"
 

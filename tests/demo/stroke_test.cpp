@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which voxels under the pointer become dabs, when they are known some frames late.
 #include "demo/input/pointer_ray.h"
-#include "demo/stroke.h"
+#include "demo/world/stroke.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/loading.h"
+#include "demo/world/loading.h"
 
 #include <chrono>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/compose.h"
+#include "demo/world/compose.h"
 
 #include "vk/check.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/trace/trace.h"
-#include "demo/integrator.h"
+#include "demo/world/integrator.h"
 #include "vk/swapchain.h"
 
 #include <cstdint>

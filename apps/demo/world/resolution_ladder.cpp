@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/resolution_ladder.h"
+#include "demo/world/resolution_ladder.h"
 
 #include <algorithm>
 #include <cmath>

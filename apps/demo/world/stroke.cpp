@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/stroke.h"
+#include "demo/world/stroke.h"
 
 namespace zvo::demo
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/renderer.h"
+#include "demo/world/renderer.h"
 
 #include "core/scene/camera.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/world.h"
+#include "demo/world/world.h"
 #include "vk/headless.h"
 
 #include <functional>

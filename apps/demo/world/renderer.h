@@ -3,9 +3,9 @@
 
 #include "core/present/present.h"
 #include "core/trace/trace.h"
-#include "demo/compose.h"
-#include "demo/view_state.h"
-#include "demo/world.h"
+#include "demo/world/compose.h"
+#include "demo/world/view_state.h"
+#include "demo/world/world.h"
 #include "vk/headless.h"
 #include "vk/retired.h"
 #include "vk/swapchain.h"

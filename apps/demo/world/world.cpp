@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/world.h"
+#include "demo/world/world.h"
 
 #include "common/progress.h"
 #include "common/report.h"
