@@ -2,15 +2,15 @@
 #pragma once
 
 #include "demo/editor.h"
-#include "demo/frame_stats.h"
 #include "demo/input/camera_control.h"
 #include "demo/input/camera_flight.h"
 #include "demo/input/input_script.h"
 #include "demo/input/keys.h"
 #include "demo/input/timeline.h"
-#include "demo/notices.h"
 #include "demo/options.h"
-#include "demo/panels.h"
+#include "demo/panels/frame_stats.h"
+#include "demo/panels/notices.h"
+#include "demo/panels/panels.h"
 #include "demo/screenshot.h"
 #include "demo/settings.h"
 #include "demo/shader_sources.h"

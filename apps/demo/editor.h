@@ -4,7 +4,7 @@
 #include "demo/input/input_event.h"
 #include "demo/input/keys.h"
 #include "demo/input/pointer_ray.h"
-#include "demo/panels.h"
+#include "demo/panels/panels.h"
 #include "demo/world/stroke.h"
 #include "demo/world/tool.h"
 #include "demo/world/world.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Parts of the demo window that need no window: keys, settings, statistics, time, resolution, shaders' sources.
-#include "demo/frame_stats.h"
 #include "demo/input/elapsed.h"
 #include "demo/input/keys.h"
 #include "demo/input/timeline.h"
-#include "demo/notices.h"
+#include "demo/panels/frame_stats.h"
+#include "demo/panels/notices.h"
 #include "demo/settings.h"
 #include "demo/shader_sources.h"
 #include "demo/world/resolution_ladder.h"

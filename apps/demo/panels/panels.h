@@ -3,9 +3,9 @@
 // are given, and change what the user changes.
 #pragma once
 
-#include "demo/frame_stats.h"
 #include "demo/input/timeline.h"
-#include "demo/notices.h"
+#include "demo/panels/frame_stats.h"
+#include "demo/panels/notices.h"
 #include "demo/world/loading.h"
 #include "demo/world/tool.h"
 #include "demo/world/view_state.h"

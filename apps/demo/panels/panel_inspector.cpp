@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/normal.h"
-#include "demo/panel_text.h"
-#include "demo/panels.h"
+#include "demo/panels/panel_text.h"
+#include "demo/panels/panels.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

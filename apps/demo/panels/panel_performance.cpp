@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "demo/panel_text.h"
-#include "demo/panels.h"
+#include "demo/panels/panel_text.h"
+#include "demo/panels/panels.h"
 
 #include <fmt/format.h>
 #include <imgui.h>

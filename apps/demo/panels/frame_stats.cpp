@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/frame_stats.h"
+#include "demo/panels/frame_stats.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/panels.h"
+#include "demo/panels/panels.h"
 
 #include <imgui.h>
 

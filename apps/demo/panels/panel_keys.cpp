@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "demo/input/keys.h"
-#include "demo/panels.h"
+#include "demo/panels/panels.h"
 
 #include <imgui.h>
 

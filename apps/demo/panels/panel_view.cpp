@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/view.h"
-#include "demo/panel_text.h"
-#include "demo/panels.h"
+#include "demo/panels/panel_text.h"
+#include "demo/panels/panels.h"
 #include "demo/world/resolution_ladder.h"
 
 #include <fmt/format.h>
