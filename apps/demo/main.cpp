@@ -4,8 +4,8 @@
 #include "common/progress.h"
 #include "common/run_program.h"
 #include "common/signals.h"
-#include "demo/app.h"
-#include "demo/options.h"
+#include "demo/app/app.h"
+#include "demo/app/options.h"
 
 #include <chrono>
 #include <string>

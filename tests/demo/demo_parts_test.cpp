@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Parts of the demo window that need no window: keys, settings, statistics, time, resolution, shaders' sources.
+#include "demo/app/settings.h"
+#include "demo/app/shader_sources.h"
 #include "demo/input/elapsed.h"
 #include "demo/input/keys.h"
 #include "demo/input/timeline.h"
 #include "demo/panels/frame_stats.h"
 #include "demo/panels/notices.h"
-#include "demo/settings.h"
-#include "demo/shader_sources.h"
 #include "demo/world/resolution_ladder.h"
 #include "support/temp_dir.h"
 #include "zvo/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/reload_shaders.h"
+#include "demo/app/reload_shaders.h"
 
 #include "zvo/error.h"
 

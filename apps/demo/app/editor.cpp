@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/editor.h"
+#include "demo/app/editor.h"
 
 #include <algorithm>
 #include <utility>

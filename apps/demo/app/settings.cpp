@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/settings.h"
+#include "demo/app/settings.h"
 
 #include "common/environment.h"
 #include "common/progress.h"

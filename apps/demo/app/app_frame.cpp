@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // App: frames on their way through the device, and what is learnt from them.
-#include "demo/app.h"
+#include "demo/app/app.h"
 
 #include "common/progress.h"
 #include "common/report.h"

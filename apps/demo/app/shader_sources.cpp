@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/shader_sources.h"
+#include "demo/app/shader_sources.h"
 
 #include "core/base/read_file.h"
 #include "zvo/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/screenshot.h"
+#include "demo/app/screenshot.h"
 
 #include "io/file/atomic_file.h"
 #include "io/image/image_io.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/app.h"
+#include "demo/app/app.h"
 
 #include "common/progress.h"
 #include "common/report.h"

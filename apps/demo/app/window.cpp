@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/window.h"
+#include "demo/app/window.h"
 
 #include "vk/check.h"
 #include "zvo/error.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // App: what keys do.
-#include "demo/app.h"
+#include "demo/app/app.h"
 
 #include "common/progress.h"
 #include "common/view.h"
-#include "demo/reload_shaders.h"
+#include "demo/app/reload_shaders.h"
 #include "io/file/atomic_file.h"
 #include "zvo/error.h"
 

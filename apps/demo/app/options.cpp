@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "demo/options.h"
+#include "demo/app/options.h"
 
 #include "common/option_groups.h"
 #include "common/parse.h"

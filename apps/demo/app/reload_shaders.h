@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "demo/shader_sources.h"
+#include "demo/app/shader_sources.h"
 #include "vk/kernel.h"
 
 #include <cstddef>

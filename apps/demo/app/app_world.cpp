@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // App: which world is shown, and what becomes of it.
-#include "demo/app.h"
+#include "demo/app/app.h"
 
 #include "common/output.h"
 #include "common/progress.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "demo/ui.h"
+#include "demo/app/ui.h"
 
-#include "demo/window.h"
+#include "demo/app/window.h"
 #include "vk/check.h"
 #include "zvo/error.h"
 
