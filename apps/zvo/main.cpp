@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // zvo: the command line program. Standard output is data, standard error is talk.
-#include "bench.h"
+#include "bench/bench.h"
 #include "build.h"
 #include "common/output.h"
 #include "common/run_program.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "bench/bench_options.h"
 #include "common/scene_options.h"
 #include "core/scene/scene.h"
 #include "core/trace/trace.h"
@@ -78,25 +79,6 @@ struct InfoOptions
 {
     std::string device;
     bool json = false;
-};
-
-struct BenchOptions
-{
-    std::vector<std::filesystem::path> scenes;         // empty: the usual ones in scene_folder
-    std::optional<std::filesystem::path> scene_folder; // not given: scenes
-    LoadOptions load;
-    std::optional<std::vector<std::uint32_t>> depths; // not given: 8, 9, 10, with balance 9, 10, 11, with edit 9
-    std::uint32_t run_count = 5;
-    Coverage coverage = Coverage::Thin;
-    bool attributes = true;
-    std::string camera; // as in RenderOptions
-    bool passes = false;
-    bool balance = false; // balance of load on generated scenes, and on scenes if any were named
-    bool dynamic = false; // scenes in which something moves: update against rebuild
-    bool edit = false;    // strokes of a brush
-    TreeStructure structure = TreeStructure::Svo; // of what stands still or is edited; with dynamic or edit
-    DeviceOptions device;
-    OutputOptions output; // path: unused
 };
 
 /// What the command line asks for: one command's options, or text to print and nothing more (help, version).

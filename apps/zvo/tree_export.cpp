@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tree_export.h"
 
+#include "common/morton.h"
 #include "common/normal.h"
-#include "morton.h"
 
 #include <fmt/format.h>
 

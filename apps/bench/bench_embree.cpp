@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "bench_embree.h"
+#include "bench/bench_embree.h"
 
-#include "bench_table.h"
-#include "morton.h"
+#include "bench/bench_table.h"
+#include "common/morton.h"
 #include "zvo/error.h"
 
 #include <embree3/rtcore.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench_scenes.h"
+#include "bench/bench_scenes.h"
 
 #include "common/progress.h"
 #include "common/session.h"

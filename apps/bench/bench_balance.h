@@ -2,7 +2,7 @@
 // Balance of load: what a voxel costs, whatever the triangles are like that cover it.
 #pragma once
 
-#include "options.h"
+#include "bench/bench_options.h"
 
 namespace zvo::cli
 {

@@ -2,7 +2,7 @@
 // The runs of a measurement.
 #pragma once
 
-#include "bench_table.h"
+#include "bench/bench_table.h"
 #include "core/base/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/upload/gpu_scene.h"

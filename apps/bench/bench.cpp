@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "bench.h"
+#include "bench/bench.h"
 
-#include "bench_balance.h"
-#include "bench_dynamic.h"
-#include "bench_edit.h"
-#include "bench_runs.h"
-#include "bench_scenes.h"
-#include "bench_table.h"
-#include "bench_trace.h"
+#include "bench/bench_balance.h"
+#include "bench/bench_dynamic.h"
+#include "bench/bench_edit.h"
+#include "bench/bench_runs.h"
+#include "bench/bench_scenes.h"
+#include "bench/bench_table.h"
+#include "bench/bench_trace.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/session.h"
@@ -21,7 +21,7 @@
 #include "zvo/error.h"
 
 #ifdef ZVO_EMBREE
-#include "bench_embree.h"
+#include "bench/bench_embree.h"
 #include "core/headless/compress.h"
 #endif
 

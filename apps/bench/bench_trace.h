@@ -2,7 +2,7 @@
 // Primary rays through octrees and DAGs.
 #pragma once
 
-#include "bench_table.h"
+#include "bench/bench_table.h"
 #include "core/trace/trace.h"
 #include "core/tree/tree_view.h"
 #include "vk/headless.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "balance_scenes.h"
+#include "bench/balance_scenes.h"
 
 #include <algorithm>
 #include <cmath>

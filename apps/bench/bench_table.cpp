@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "bench_table.h"
+#include "bench/bench_table.h"
 
-#include "table.h"
+#include "bench/table.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>

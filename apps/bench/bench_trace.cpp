@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "bench_trace.h"
+#include "bench/bench_trace.h"
 
-#include "bench_runs.h"
+#include "bench/bench_runs.h"
 
 #include <utility>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "bench_dynamic.h"
+#include "bench/bench_dynamic.h"
 
-#include "bench_runs.h"
-#include "bench_table.h"
+#include "bench/bench_runs.h"
+#include "bench/bench_table.h"
+#include "bench/table.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
@@ -11,7 +12,6 @@
 #include "core/base/kernels.h"
 #include "core/trace/trace.h"
 #include "runtime/stage_octree.h"
-#include "table.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench_runs.h"
+#include "bench/bench_runs.h"
 
 #include <utility>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "bench_balance.h"
+#include "bench/bench_balance.h"
 
-#include "balance_scenes.h"
-#include "bench_runs.h"
-#include "bench_scenes.h"
+#include "bench/balance_scenes.h"
+#include "bench/bench_runs.h"
+#include "bench/bench_scenes.h"
+#include "bench/table.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
 #include "core/upload/gpu_scene.h"
-#include "table.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>

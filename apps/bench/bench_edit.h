@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "options.h"
+#include "bench/bench_options.h"
 
 namespace zvo::cli
 {

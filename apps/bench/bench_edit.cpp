@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench_edit.h"
+#include "bench/bench_edit.h"
 
-#include "bench_runs.h"
-#include "bench_scenes.h"
+#include "bench/bench_runs.h"
+#include "bench/bench_scenes.h"
+#include "bench/table.h"
+#include "common/morton.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
@@ -12,8 +14,6 @@
 #include "core/headless/compress.h"
 #include "core/tree/svdag.h"
 #include "core/upload/gpu_scene.h"
-#include "morton.h"
-#include "table.h"
 #include "zvo/error.h"
 #include "zvo/version.h"
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "bench/bench_options.h"
+
+#include "common/option_groups.h"
+#include "common/parse.h"
+
+#include <CLI/CLI.hpp>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr const char* kBenchFooter = R"(
+Each row is one scene at one resolution: a warm-up, then N runs on the device's timers. Its octree is compressed to a
+DAG; 3 N pictures of either are traced in turns, and "ratio" is the DAG's time over the octree's. Where zvo was built with
+Embree, the same rays are also traced by Embree on all processors, through the same voxels and through the triangles.
+Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
+--balance: each row is voxelization and octree construction alone; ratios of them follow the table.
+--dynamic: the scenes are scene files (.scene.json), what they name lies beside them or in the folder of --scenes.
+--edit: N strokes for each radius and action, each undone and redone; then what a stroke takes after 10, 100 and 1000.
+
+Examples:
+  zvo bench scenes/knot.glb --resolutions 256 --runs 3
+  zvo bench --scenes ../models --json bench.json --passes
+  zvo bench --balance scenes/knot.glb scenes/atrium.glb
+  zvo bench --dynamic scenes/atrium_knot.scene.json
+  zvo bench --edit scenes/atrium.glb --structure svdag)";
+
+} // namespace
+
+CLI::App* addBench(CLI::App& app, BenchOptions& options)
+{
+    CLI::App* bench =
+        app.add_subcommand("bench", "measure voxelization, octree construction, compression and ray tracing");
+    bench->add_option("SCENE", options.scenes, "glTF 2.0, OBJ, PLY and STL files, each measured on its own")
+        ->type_name("FILE");
+    addFolder(*bench, "--scenes", options.scene_folder,
+              "where the usual scenes are (default scenes), or what scene files name");
+    addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
+             "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048, "
+             "with --dynamic and --edit 512)");
+    addValue(
+        *bench, "--runs", options.run_count,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1000)); },
+        "N", "measured runs of each row (default 5)");
+    addLoadOptions(*bench, options.load);
+    addCoverageOption(*bench, options.coverage);
+    addAttributesOption(*bench, options.attributes);
+    addCameraOption(*bench, options.camera);
+    bench->add_flag("--passes", options.passes, "also tell the time of each pass");
+    bench
+        ->add_flag("--balance", options.balance,
+                   "measure instead how the time of a voxel depends on the triangles: one large triangle, a patch of "
+                   "small ones, slivers, crowds, and the scenes that were named")
+        ->excludes("--passes")
+        ->excludes("--camera");
+    bench
+        ->add_flag("--dynamic", options.dynamic,
+                   "measure instead scenes in which something moves: update of the octree against a full rebuild")
+        ->excludes("--balance")
+        ->excludes("--up")
+        ->excludes("--scale");
+    addValue(*bench, "--structure", options.structure, parseStructure, "svo|svdag",
+             "with --dynamic and --edit, what stands still, or is edited, is an octree or a DAG (default svo)");
+    bench
+        ->add_flag("--edit", options.edit,
+                   "measure instead strokes of a brush: dabs, undo and redo, by radius and by number of strokes")
+        ->excludes("--balance")
+        ->excludes("--dynamic")
+        ->excludes("--passes")
+        ->excludes("--camera");
+    addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
+        ->group("Output");
+    bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");
+    addDeviceOptions(*bench, options.device);
+    bench->footer(kBenchFooter);
+    return bench;
+}
+
+} // namespace zvo::cli

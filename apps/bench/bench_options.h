@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "common/scene_options.h"
+#include "io/scene/load_scene.h"
+#include "zvo/types.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI
+{
+class App;
+}
+
+namespace zvo::cli
+{
+
+struct BenchOptions
+{
+    std::vector<std::filesystem::path> scenes;         // empty: the usual ones in scene_folder
+    std::optional<std::filesystem::path> scene_folder; // not given: scenes
+    LoadOptions load;
+    std::optional<std::vector<std::uint32_t>> depths; // not given: 8, 9, 10, with balance 9, 10, 11, with edit 9
+    std::uint32_t run_count = 5;
+    Coverage coverage = Coverage::Thin;
+    bool attributes = true;
+    std::string camera; // as in RenderOptions
+    bool passes = false;
+    bool balance = false; // balance of load on generated scenes, and on scenes if any were named
+    bool dynamic = false; // scenes in which something moves: update against rebuild
+    bool edit = false;    // strokes of a brush
+    TreeStructure structure = TreeStructure::Svo; // of what stands still or is edited; with dynamic or edit
+    DeviceOptions device;
+    OutputOptions output; // path: unused
+};
+
+/// Adds the command `zvo bench` to app: parsing fills options.
+CLI::App* addBench(CLI::App& app, BenchOptions& options);
+
+} // namespace zvo::cli
