@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 // What tests of stages share.
 #pragma once
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 #include "io/scene/stage.h"
 #include "support/scenes.h"
 

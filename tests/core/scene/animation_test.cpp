@@ -4,8 +4,8 @@
 
 #include "animation_scenes.h"
 #include "core/scene/scene_size.h"
-#include "gltf_builder.h"
-#include "rig_documents.h"
+#include "io/gltf/gltf_builder.h"
+#include "io/gltf/rig_documents.h"
 #include "support/scenes.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh/mesh_import.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 #include "io/image/image_io.h"
 #include "io/scene/load_scene.h"
 #include "support/mesh_files.h"

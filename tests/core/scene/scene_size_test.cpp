@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/scene_size.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/stage_file.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 
 #include <array>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "core/scene/animation.h"
 
 #include "animation_scenes.h"
-#include "gltf_builder.h"
-#include "rig_documents.h"
+#include "io/gltf/gltf_builder.h"
+#include "io/gltf/rig_documents.h"
 
 #include <cmath>
 #include <gtest/gtest.h>

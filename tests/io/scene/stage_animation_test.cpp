@@ -2,7 +2,7 @@
 // Stages of files with animations: which of them play, and what of a file is a mover.
 #include "io/scene/stage.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 #include "stage_fixture.h"
 
 #include <gtest/gtest.h>

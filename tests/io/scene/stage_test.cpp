@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/stage.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 #include "stage_fixture.h"
 #include "support/param_names.h"
 #include "support/scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/image/image_io.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 #include "io/gltf/gltf_uri.h"
 #include "zvo/error.h"
 

@@ -2,7 +2,7 @@
 // Images that would harm their decoder are refused before it sees them.
 #include "io/image/image_check.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 #include "io/gltf/gltf_uri.h"
 #include "io/image/image_io.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/load_scene.h"
 
-#include "gltf_builder.h"
+#include "io/gltf/gltf_builder.h"
 #include "support/mesh_files.h"
 
 #include <gtest/gtest.h>
