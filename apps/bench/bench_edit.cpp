@@ -13,6 +13,7 @@
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "core/tree/svdag.h"
+#include "core/tree/tree_data.h"
 #include "core/upload/gpu_scene.h"
 #include "zvo/error.h"
 #include "zvo/version.h"

@@ -20,7 +20,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "zvo.input/1";
+constexpr const char* kInputSchema = "zvo.input/1";
 constexpr std::uint32_t kFrameMax = 1'000'000'000;
 constexpr std::uint32_t kEdgeMax = 16384; // of a window
 constexpr double kWheelMax = 1000;
@@ -249,7 +249,7 @@ std::vector<ScriptedEvent> parseInputScript(std::string_view text, const std::fi
     const nlohmann::json document = parseJsonStrictly(text, file);
     const JsonCursor script(document, file);
     script.allowKeys({"schema", "events"});
-    static_cast<void>(script.at("schema").oneOf({kSchema}));
+    static_cast<void>(script.at("schema").oneOf({kInputSchema}));
     std::vector<ScriptedEvent> events;
     for (const JsonCursor& event : script.at("events").items())
     {
@@ -268,7 +268,7 @@ std::vector<ScriptedEvent> readInputScript(const std::filesystem::path& file)
 std::string inputScriptText(std::span<const ScriptedEvent> events)
 {
     // A line for each event.
-    std::string text = fmt::format("{{\"schema\": \"{}\", \"events\": [", kSchema);
+    std::string text = fmt::format("{{\"schema\": \"{}\", \"events\": [", kInputSchema);
     for (const ScriptedEvent& event : events)
     {
         Json json = {{"frame", event.frame}};

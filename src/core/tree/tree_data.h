@@ -18,6 +18,9 @@ namespace zvo
 /// "svo" or "svdag".
 const char* structureName(TreeStructure structure);
 
+/// The colour that voxels without attributes are shown in: sRGB red | green << 8 | blue << 16.
+inline constexpr std::uint32_t kPlainColor = 203 * 0x10101U;
+
 /// A whole octree or DAG in the host's memory: what files hold. Arrays are those of Octree and Svdag, whose layout
 /// shaders/shared/octree.h and svdag.h document; nodes and lists of a DAG's pool are apart.
 struct TreeData

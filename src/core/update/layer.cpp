@@ -14,7 +14,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kBricksMin = 256;
+constexpr std::uint64_t kLayerBricksMin = 256;
 constexpr std::uint64_t kRowsMin = 256; // bands, and row blocks
 
 } // namespace
@@ -28,7 +28,7 @@ LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& gri
     LayerCapacities result;
     result.leaves = clamped(likely.leaves * 1.25, 64, 1 << 22);
     result.voxels = result.leaves * 24; // of 64 in a leaf: a plane through it sets 16
-    result.voxelize.bricks = std::bit_ceil(std::max(2 * result.leaves, kBricksMin));
+    result.voxelize.bricks = std::bit_ceil(std::max(2 * result.leaves, kLayerBricksMin));
     result.voxelize.big_triangles = clamped(likely.big_triangles * 1.5, kRowsMin, 1 << 20);
     result.voxelize.row_blocks = clamped(likely.row_blocks * 1.5, kRowsMin, 1 << 23);
     return result;

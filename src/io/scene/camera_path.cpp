@@ -20,7 +20,7 @@ namespace
 {
 
 constexpr const char* kSchema = "zvo.camera_path/1";
-constexpr double kSecondsMax = 1e6;
+constexpr double kPathSecondsMax = 1e6;
 constexpr double kFovMax = 180; // degrees, not reached
 
 // Why keys make no path; nothing: they do.
@@ -33,9 +33,9 @@ std::optional<std::string> faultOf(const std::vector<CameraKey>& keys)
     for (std::size_t i = 0; i < keys.size(); ++i)
     {
         const CameraKey& key = keys[i];
-        if (!(key.seconds >= 0 && key.seconds <= kSecondsMax) || (i != 0 && !(key.seconds > keys[i - 1].seconds)))
+        if (!(key.seconds >= 0 && key.seconds <= kPathSecondsMax) || (i != 0 && !(key.seconds > keys[i - 1].seconds)))
         {
-            return fmt::format("the times of a camera path's keys must go up, from 0 to {} seconds", kSecondsMax);
+            return fmt::format("the times of a camera path's keys must go up, from 0 to {} seconds", kPathSecondsMax);
         }
         if (!(key.fov_degrees > 0 && key.fov_degrees < kFovMax))
         {

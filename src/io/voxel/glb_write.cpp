@@ -24,7 +24,6 @@ namespace
 static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
 
 constexpr std::uint32_t kColorMask = 0xffffffU;
-constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without attributes
 constexpr std::uint64_t kVerticesOfQuad = 4;
 constexpr std::uint64_t kIndicesOfQuad = 6;
 

@@ -20,8 +20,6 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without attributes
-
 nanovdb::Rgba8 rgbaOf(std::uint32_t color)
 {
     return {static_cast<std::uint8_t>(color), static_cast<std::uint8_t>(color >> 8),

@@ -22,7 +22,6 @@ constexpr std::uint32_t kPaletteSize = 255;
 constexpr std::uint32_t kVersion = 200;
 constexpr std::uint64_t kChunkHeaderBytes = 12;
 constexpr std::uint64_t kSizeMax = INT32_MAX;
-constexpr std::uint32_t kPlainColor = 203 * 0x10101U; // what zvo shows without attributes
 
 std::uint32_t colorOf(const TreeData& tree, std::size_t voxel)
 {
