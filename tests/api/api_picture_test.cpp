@@ -4,6 +4,7 @@
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/tree_download.h"
+#include "support/engine_device.h"
 #include "support/errors.h"
 
 #include <gtest/gtest.h>
@@ -17,10 +18,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& engine()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 TEST(ApiPicture, AllViewsAreThoseOfTheEngineOfOctreesAndDags)
 {
@@ -29,7 +27,7 @@ TEST(ApiPicture, AllViewsAreThoseOfTheEngineOfOctreesAndDags)
     const Model uploaded = host.upload(model.info());
     EXPECT_EQ(uploaded.triangleCount(), test::apiScene().triangleCount());
     Tree octree = host.build(uploaded, {.grid = test::apiGrid()});
-    const Octree expected = test::engineOctree(engine(), test::apiScene(), test::apiGrid());
+    const Octree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
     EXPECT_EQ(octree.facts().voxel_count, expected.voxel_count);
     EXPECT_EQ(octree.facts().node_count, expected.node_count);
     EXPECT_EQ(octree.facts().bytes, expected.geometryBytes() + expected.attributeBytes());
@@ -38,7 +36,7 @@ TEST(ApiPicture, AllViewsAreThoseOfTheEngineOfOctreesAndDags)
     {
         const std::vector<std::uint32_t> picture =
             host.picture(octree, test::apiCamera(), {.view = static_cast<View>(view)});
-        EXPECT_EQ(picture, test::pictureOf(engine(), expected, static_cast<View>(view))) << view;
+        EXPECT_EQ(picture, test::pictureOf(device(), expected, static_cast<View>(view))) << view;
         different.insert(picture);
     }
     EXPECT_GE(different.size(), 8U); // the level of all hits is the voxels'
@@ -65,8 +63,8 @@ TEST(ApiPicture, EveryFormOfAttributesIsBuiltAndTraced)
         EXPECT_EQ(tree.facts().form, form);
         EXPECT_LT(tree.facts().bytes, bytes);
         bytes = tree.facts().bytes;
-        Octree expected = test::engineOctree(engine(), test::apiScene(), test::apiGrid());
-        packTree(engine(), form, expected);
+        Octree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
+        packTree(device(), form, expected);
         if (form == AttributeForm::None)
         {
             expected.voxel_attributes = {};
@@ -74,20 +72,20 @@ TEST(ApiPicture, EveryFormOfAttributesIsBuiltAndTraced)
             expected.emission_words = {};
             expected.emission = {};
         }
-        EXPECT_EQ(host.picture(tree, test::apiCamera()), test::pictureOf(engine(), expected, View::Color));
+        EXPECT_EQ(host.picture(tree, test::apiCamera()), test::pictureOf(device(), expected, View::Color));
     }
 }
 
 TEST(ApiPicture, ATreeFromAFileIsTheTree)
 {
     test::EmbeddingHost host;
-    const Octree octree = test::engineOctree(engine(), test::apiScene(), test::apiGrid());
+    const Octree octree = test::engineOctree(device(), test::apiScene(), test::apiGrid());
     std::vector<std::byte> bytes;
-    writeZvo(downloadTree(engine(), octree),
+    writeZvo(downloadTree(device(), octree),
              [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
     std::optional<Tree> tree;
     host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.emplace(recorder, std::span<const std::byte>(bytes)); });
-    EXPECT_EQ(host.picture(*tree, test::apiCamera()), test::pictureOf(engine(), octree, View::Color));
+    EXPECT_EQ(host.picture(*tree, test::apiCamera()), test::pictureOf(device(), octree, View::Color));
     bytes[200] ^= std::byte{1};
     host.frame(
         [&](Recorder& recorder, VkCommandBuffer)
@@ -138,7 +136,7 @@ TEST(ApiPicture, WithoutOptionalFeaturesItIsTheSame)
 
 TEST(ApiPicture, SubgroupsOfAnySizeGiveTheSame)
 {
-    const vk::DeviceReport& report = engine().device().report();
+    const vk::DeviceReport& report = device().device().report();
     if (report.min_subgroup_size == 0)
     {
         GTEST_SKIP() << "the device's subgroups have one size";

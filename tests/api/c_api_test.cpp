@@ -6,6 +6,7 @@
 #include "c_program.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/tree_download.h"
+#include "support/engine_device.h"
 #include "support/host_memory.h"
 
 #include <gtest/gtest.h>
@@ -21,10 +22,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& engine()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 // What c_program.c does, by the C++ interface.
 std::vector<std::vector<std::uint32_t>> picturesInCpp()
@@ -178,8 +176,8 @@ TEST(CApi, FilesAreReadAndBrokenOnesAreInputErrors)
 {
     test::CEmbeddingHost host;
     std::vector<std::byte> bytes;
-    const Octree octree = test::engineOctree(engine(), test::apiScene(), test::apiGrid());
-    writeZvo(downloadTree(engine(), octree),
+    const Octree octree = test::engineOctree(device(), test::apiScene(), test::apiGrid());
+    writeZvo(downloadTree(device(), octree),
              [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
     ZvoTree* tree = nullptr;
     host.frame([&](ZvoRecorder* recorder)
@@ -196,7 +194,7 @@ TEST(CApi, FilesAreReadAndBrokenOnesAreInputErrors)
     std::uint64_t address = 0;
     EXPECT_EQ(zvoTreeAddress(tree, &address), ZVO_OK);
     EXPECT_NE(address, 0U);
-    EXPECT_EQ(host.picture(tree), test::pictureOf(engine(), octree, View::Color));
+    EXPECT_EQ(host.picture(tree), test::pictureOf(device(), octree, View::Color));
     zvoTreeDestroy(tree);
     bytes[200] ^= std::byte{1};
     host.frame(

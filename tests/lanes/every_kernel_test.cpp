@@ -17,8 +17,8 @@
 #include "oracle/voxelizer.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
-#include "support/device.h"
 #include "support/edit_model.h"
+#include "support/engine_device.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
 
@@ -38,10 +38,7 @@ namespace
 // The way down to a voxel's rank in a DAG goes below the table of ranks, over every kind of list.
 constexpr std::uint32_t kDepthOfRankSums = 11;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 // Names of the kernels that have run.
 using Names = std::set<std::string>;

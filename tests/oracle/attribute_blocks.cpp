@@ -274,8 +274,8 @@ Vector vectorOf(Point p, const Frame& frame, std::int64_t one)
     return v;
 }
 
-constexpr std::int64_t kOne = 4095; // of vectors while they are packed
-constexpr std::int64_t kStep = 65;  // between the ends 0 to 126 of scales, counted from -1
+constexpr std::int64_t kVectorOne = 4095; // of vectors while they are packed
+constexpr std::int64_t kStep = 65;        // between the ends 0 to 126 of scales, counted from -1
 
 /// A scale of one coordinate.
 struct Scale
@@ -291,7 +291,8 @@ struct Scale
     }
 };
 
-// coordinates: from 0 to 2 * kOne. The step is (coordinate - first) * (7 / length), the latter in 1/2^18, cut off.
+// coordinates: from 0 to 2 * kVectorOne. The step is (coordinate - first) * (7 / length), the latter in 1/2^18, cut
+// off.
 void chooseSteps(const std::array<std::int64_t, kVoxels>& coordinates, Scale& scale)
 {
     const std::int64_t length = (scale.second - scale.first) * kStep;
@@ -333,9 +334,9 @@ Vector normalOf(std::uint32_t code)
     const auto coordinate = [](std::uint32_t bits)
     {
         const std::int64_t v = std::max<std::int64_t>(static_cast<std::int16_t>(bits), -32767);
-        return v < 0 ? -rounded(-v * kOne, 32767) : rounded(v * kOne, 32767);
+        return v < 0 ? -rounded(-v * kVectorOne, 32767) : rounded(v * kVectorOne, 32767);
     };
-    return vectorOf({coordinate(code), coordinate(code >> 16)}, {2, false, false}, kOne);
+    return vectorOf({coordinate(code), coordinate(code >> 16)}, {2, false, false}, kVectorOne);
 }
 
 void packNormals(const std::array<Vector, kVoxels>& normals, Block& block)
@@ -351,9 +352,9 @@ void packNormals(const std::array<Vector, kVoxels>& normals, Block& block)
                 std::array<std::array<std::int64_t, kVoxels>, 2> coordinates{};
                 for (std::size_t i = 0; i < kVoxels; ++i)
                 {
-                    const Point p = pointOf(normals[i], frame, kOne);
-                    coordinates[0][i] = p[0] + kOne;
-                    coordinates[1][i] = p[1] + kOne;
+                    const Point p = pointOf(normals[i], frame, kVectorOne);
+                    coordinates[0][i] = p[0] + kVectorOne;
+                    coordinates[1][i] = p[1] + kVectorOne;
                 }
                 const Scale x = fitScale(coordinates[0]);
                 const Scale y = fitScale(coordinates[1]);
@@ -361,7 +362,8 @@ void packNormals(const std::array<Vector, kVoxels>& normals, Block& block)
                 Block tried{};
                 for (std::size_t i = 0; i < kVoxels; ++i)
                 {
-                    const Vector v = vectorOf({x.at(x.steps[i]) - kOne, y.at(y.steps[i]) - kOne}, frame, kOne);
+                    const Vector v =
+                        vectorOf({x.at(x.steps[i]) - kVectorOne, y.at(y.steps[i]) - kVectorOne}, frame, kVectorOne);
                     for (std::size_t c = 0; c < 3; ++c)
                     {
                         error += (v[c] - normals[i][c]) * (v[c] - normals[i][c]);

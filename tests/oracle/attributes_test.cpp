@@ -14,21 +14,20 @@ namespace zvo::oracle
 namespace
 {
 
-const Grid kUnitGrid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 2};
-
 /// Small enough to lie in voxel (0, 0, 0), and around the middle of its lower face's column.
 const std::vector<glm::vec3> kSmallTriangle{{0.1F, 0.1F, 0.3F}, {0.9F, 0.1F, 0.3F}, {0.1F, 0.9F, 0.3F}};
 
 TEST(OracleColors, EmptySceneHasNone)
 {
-    EXPECT_TRUE(voxelColors(Scene{}, kUnitGrid, Coverage::Thin).empty());
+    EXPECT_TRUE(voxelColors(Scene{}, test::kUnitGrid, Coverage::Thin).empty());
 }
 
 TEST(OracleColors, FactorIsTheColorOfEachFragment)
 {
     Scene scene = zvo::test::triangleSoup(kSmallTriangle);
     scene.materials[0].base_color = glm::vec4(0.25F, 0.5F, 1.0F, 0.0F);
-    EXPECT_EQ(voxelColors(scene, kUnitGrid, Coverage::Thin), (std::vector<VoxelColor>{{0, 16384, 32768, 65535, 1}}));
+    EXPECT_EQ(voxelColors(scene, test::kUnitGrid, Coverage::Thin),
+              (std::vector<VoxelColor>{{0, 16384, 32768, 65535, 1}}));
 }
 
 TEST(OracleColors, FragmentsOfOneVoxelAddUp)
@@ -39,7 +38,7 @@ TEST(OracleColors, FragmentsOfOneVoxelAddUp)
     scene.primitives[1].material = 1;
     scene.instances.emplace_back().primitive = 1;
     scene.instances.emplace_back().primitive = 1;
-    EXPECT_EQ(voxelColors(scene, kUnitGrid, Coverage::Thin),
+    EXPECT_EQ(voxelColors(scene, test::kUnitGrid, Coverage::Thin),
               (std::vector<VoxelColor>{{0, 3 * 65535, 65535, 65535 + 2 * 16384, 3}}));
 }
 
@@ -51,7 +50,7 @@ TEST(OracleColors, FragmentsThatDoNotExistDoNotCount)
     scene.primitives.push_back(scene.primitives[0]);
     scene.primitives[1].material = 1;
     scene.instances.emplace_back().primitive = 1;
-    EXPECT_EQ(voxelColors(scene, kUnitGrid, Coverage::Thin), (std::vector<VoxelColor>{{0, 0, 0, 0, 1}}));
+    EXPECT_EQ(voxelColors(scene, test::kUnitGrid, Coverage::Thin), (std::vector<VoxelColor>{{0, 0, 0, 0, 1}}));
 }
 
 TEST(OracleColors, VertexColorsAreInterpolatedAndMultiplied)
@@ -60,7 +59,7 @@ TEST(OracleColors, VertexColorsAreInterpolatedAndMultiplied)
     scene.primitives[0].colors = {glm::vec4(1.0F, 0.0F, 0.0F, 1.0F), glm::vec4(0.0F, 1.0F, 0.0F, 1.0F),
                                   glm::vec4(0.0F, 0.0F, 1.0F, 1.0F)};
     scene.materials[0].base_color = glm::vec4(1.0F, 1.0F, 0.5F, 1.0F);
-    const std::vector<VoxelColor> voxels = voxelColors(scene, kUnitGrid, Coverage::Thin);
+    const std::vector<VoxelColor> voxels = voxelColors(scene, test::kUnitGrid, Coverage::Thin);
     // Weights (1/2, 1/4, 1/4) at the first voxel's centre: 65535 / 2 and 65535 / 4, rounded down.
     EXPECT_EQ(voxels.at(0), (VoxelColor{0, 32767, 16383, mul16(32768, 16383), 1}));
 }
@@ -72,9 +71,9 @@ TEST(OracleColors, TextureIsReadInLinearLight)
     scene.textures.push_back({});
     scene.materials[0].base_color_texture = 0;
     // Without texture coordinates there is no texture.
-    EXPECT_EQ(voxelColors(scene, kUnitGrid, Coverage::Thin).at(0), (VoxelColor{0, 65535, 65535, 65535, 1}));
+    EXPECT_EQ(voxelColors(scene, test::kUnitGrid, Coverage::Thin).at(0), (VoxelColor{0, 65535, 65535, 65535, 1}));
     scene.primitives[0].uvs = {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}};
-    EXPECT_EQ(voxelColors(scene, kUnitGrid, Coverage::Thin).at(0),
+    EXPECT_EQ(voxelColors(scene, test::kUnitGrid, Coverage::Thin).at(0),
               (VoxelColor{0, linear16(188), linear16(55), 65535, 1}));
 }
 

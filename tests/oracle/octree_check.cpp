@@ -14,7 +14,7 @@ std::uint32_t nodeLevels(std::uint32_t depth)
     return (depth + 1) / 2;
 }
 
-std::uint64_t maskOf(const gpu::Node& node)
+std::uint64_t cellsOf(const gpu::Node& node)
 {
     return node.mask_lo | std::uint64_t{node.mask_hi} << 32;
 }
@@ -89,13 +89,13 @@ OctreeContents checkOctree(std::span<const gpu::Node> nodes, std::span<const Nod
             const std::uint32_t index = levels[level].first_node + i;
             const gpu::Node& node = nodes[index];
             const std::string name = "node " + std::to_string(index) + " (" + level_name + ")";
-            checker.expect(maskOf(node) != 0, name + " is empty");
+            checker.expect(cellsOf(node) != 0, name + " is empty");
             checker.expectEqual(node.base_lo, next, name + ": base_lo");
             next += static_cast<std::uint64_t>(std::popcount(node.mask_lo));
             checker.expectEqual(node.base_hi, next, name + ": base_hi");
             next += static_cast<std::uint64_t>(std::popcount(node.mask_hi));
             for (std::uint64_t cell = 0; cell < 64; ++cell)
-                if ((maskOf(node) >> cell & 1) != 0)
+                if ((cellsOf(node) >> cell & 1) != 0)
                     children.push_back(codes[i] << 6 | cell);
         }
         codes = std::move(children);

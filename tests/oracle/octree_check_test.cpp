@@ -11,7 +11,7 @@ namespace zvo::oracle
 namespace
 {
 
-std::vector<std::uint64_t> pickCodes(test::Random& random, std::uint32_t depth, std::size_t count)
+std::vector<std::uint64_t> pickOctreeCodes(test::Random& random, std::uint32_t depth, std::size_t count)
 {
     std::vector<std::uint64_t> codes;
     for (std::size_t i = 0; i < count; ++i)
@@ -45,7 +45,7 @@ TEST(OracleOctree, ReferenceExpandsToItsVoxels)
     {
         for (const std::size_t count : {1U, 27U, 2049U, 10201U})
         {
-            const std::vector<std::uint64_t> codes = pickCodes(random, depth, count);
+            const std::vector<std::uint64_t> codes = pickOctreeCodes(random, depth, count);
             const ReferenceOctree octree = referenceOctree(codes, depth);
             const OctreeContents contents = checkOctree(octree.nodes, octree.levels, depth);
             EXPECT_EQ(contents.violations, std::vector<std::string>{});
@@ -57,7 +57,7 @@ TEST(OracleOctree, ReferenceExpandsToItsVoxels)
 TEST(OracleOctree, EveryChangedWordIsNoticed)
 {
     test::Random random(10);
-    const std::vector<std::uint64_t> codes = pickCodes(random, 5, 200);
+    const std::vector<std::uint64_t> codes = pickOctreeCodes(random, 5, 200);
     const ReferenceOctree octree = referenceOctree(codes, 5);
     for (std::size_t i = 0; i < octree.nodes.size(); ++i)
     {
@@ -75,7 +75,7 @@ TEST(OracleOctree, EveryChangedWordIsNoticed)
 TEST(OracleOctree, BrokenLevelsAreNoticed)
 {
     test::Random random(11);
-    const ReferenceOctree octree = referenceOctree(pickCodes(random, 5, 200), 5);
+    const ReferenceOctree octree = referenceOctree(pickOctreeCodes(random, 5, 200), 5);
     const auto violations = [&](std::vector<NodeRange> levels)
     { return checkOctree(octree.nodes, levels, 5).violations.size(); };
     std::vector<NodeRange> levels = octree.levels;

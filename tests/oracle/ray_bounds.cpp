@@ -58,7 +58,7 @@ struct Line
     }
 };
 
-bool isFinite(const Ray& ray)
+bool isFiniteRay(const Ray& ray)
 {
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis]) || !std::isfinite(ray.inv[axis]))
@@ -140,7 +140,7 @@ bool BitPyramid::isSet(std::uint32_t level, const glm::uvec3& cell) const
 
 RayBounds BitPyramid::classify(const Ray& ray, double t_max) const
 {
-    if (!isFinite(ray) || !isSet(0, glm::uvec3(0U)))
+    if (!isFiniteRay(ray) || !isSet(0, glm::uvec3(0U)))
         return {};
     Search search(*this, ray, t_max);
     search.visit(0, glm::uvec3(0U));
@@ -151,7 +151,7 @@ RayBounds BitPyramid::classify(const Ray& ray, double t_max) const
 
 std::optional<std::string> BitPyramid::objection(const Ray& ray, double t_max, const glm::uvec3& voxel, float t) const
 {
-    if (!isFinite(ray))
+    if (!isFiniteRay(ray))
         return "a ray with numbers that are not finite";
     if (!isSet(m_depth, voxel))
         return "the voxel is empty";

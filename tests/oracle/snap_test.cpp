@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "oracle/snap.h"
 
-#include <cmath>
+#include "oracle/test_scenes.h"
+
 #include <gtest/gtest.h>
+
+#include <cmath>
 #include <limits>
 
 namespace zvo::oracle
@@ -12,16 +15,14 @@ namespace
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-const Grid kUnitGrid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 2};
-
-SnappedTriangle snapped(const std::array<glm::vec3, 3>& corners, const Grid& grid = kUnitGrid,
+SnappedTriangle snapped(const std::array<glm::vec3, 3>& corners, const Grid& grid = test::kUnitGrid,
                         Coverage coverage = Coverage::Conservative)
 {
     return snapTriangle(corners, glm::mat4(1.0F), grid, coverage);
 }
 
 /// x of a point at this world x, in lattice units.
-std::int64_t latticeX(float x, const Grid& grid = kUnitGrid)
+std::int64_t latticeX(float x, const Grid& grid = test::kUnitGrid)
 {
     const glm::vec3 p(x, 0.0F, 0.0F);
     return static_cast<std::int64_t>(snapped({p, p, p}, grid).triangle[0][0]);
@@ -64,7 +65,7 @@ TEST(OracleSnap, TransformsByColumns)
     transform[1][0] = 2.0F;                           // x += 2 y
     transform[3] = glm::vec4(0.0F, 0.0F, 3.0F, 1.0F); // z += 3
     const glm::vec3 p(0.25F, 0.5F, 0.125F);
-    const SnappedTriangle result = snapTriangle({p, p, p}, transform, kUnitGrid, Coverage::Conservative);
+    const SnappedTriangle result = snapTriangle({p, p, p}, transform, test::kUnitGrid, Coverage::Conservative);
     EXPECT_EQ(result.triangle[0], (Vec{320, 128, 800}));
 }
 
@@ -82,16 +83,16 @@ TEST(OracleSnap, NamesWhyATriangleIsDropped)
     EXPECT_STREQ(snapped({right, right, right}).dropped, "outside");
     const glm::vec3 end(4.0F);
     EXPECT_EQ(snapped({end, end, end}).dropped, nullptr);
-    EXPECT_STREQ(snapped({end, end, o}, kUnitGrid, Coverage::Thin).dropped, "zero_area");
+    EXPECT_STREQ(snapped({end, end, o}, test::kUnitGrid, Coverage::Thin).dropped, "zero_area");
 }
 
 TEST(OracleSnap, TheFirstReasonOfTheListCounts)
 {
     const glm::vec3 far(3e38F, -1.0F, 0.0F);
-    EXPECT_STREQ(snapped({far, far, glm::vec3(kNan)}, kUnitGrid, Coverage::Thin).dropped, "nonfinite");
-    EXPECT_STREQ(snapped({far, far, far}, kUnitGrid, Coverage::Thin).dropped, "out_of_range");
+    EXPECT_STREQ(snapped({far, far, glm::vec3(kNan)}, test::kUnitGrid, Coverage::Thin).dropped, "nonfinite");
+    EXPECT_STREQ(snapped({far, far, far}, test::kUnitGrid, Coverage::Thin).dropped, "out_of_range");
     const glm::vec3 left(-1.0F);
-    EXPECT_STREQ(snapped({left, left, left}, kUnitGrid, Coverage::Thin).dropped, "outside");
+    EXPECT_STREQ(snapped({left, left, left}, test::kUnitGrid, Coverage::Thin).dropped, "outside");
 }
 
 } // namespace

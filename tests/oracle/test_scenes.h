@@ -13,6 +13,9 @@ namespace zvo::oracle::test
 
 using Random = std::mt19937;
 
+/// Four unit voxels an edge.
+inline const Grid kUnitGrid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 2};
+
 inline std::int64_t pick(Random& random, std::int64_t low, std::int64_t high)
 {
     return std::uniform_int_distribution<std::int64_t>(low, high)(random);

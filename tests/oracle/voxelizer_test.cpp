@@ -12,8 +12,6 @@ namespace zvo::oracle
 namespace
 {
 
-const Grid kUnitGrid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 2};
-
 /// Two triangles in the plane z = height over the whole unit grid; texture coordinates 0 .. 1 with v = y / 4.
 Scene floorScene(float height)
 {
@@ -44,7 +42,7 @@ std::vector<std::uint64_t> codesWhere(const std::function<bool(const glm::uvec3&
 
 TEST(OracleVoxelizer, EmptySceneHasNoVoxels)
 {
-    const OracleVoxels voxels = voxelize(Scene{}, kUnitGrid, Coverage::Thin);
+    const OracleVoxels voxels = voxelize(Scene{}, test::kUnitGrid, Coverage::Thin);
     EXPECT_TRUE(voxels.codes.empty());
     EXPECT_TRUE(voxels.dropped.empty());
 }
@@ -52,10 +50,11 @@ TEST(OracleVoxelizer, EmptySceneHasNoVoxels)
 TEST(OracleVoxelizer, FloorIsOneLayerThinAndTwoLayersConservative)
 {
     const Scene scene = floorScene(2.0F);
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes, codesWhere([](auto v) { return v.z == 2; }));
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Conservative).codes,
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes, codesWhere([](auto v) { return v.z == 2; }));
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Conservative).codes,
               codesWhere([](auto v) { return v.z == 1 || v.z == 2; }));
-    EXPECT_EQ(voxelize(floorScene(4.0F), kUnitGrid, Coverage::Thin).codes, codesWhere([](auto v) { return v.z == 3; }));
+    EXPECT_EQ(voxelize(floorScene(4.0F), test::kUnitGrid, Coverage::Thin).codes,
+              codesWhere([](auto v) { return v.z == 3; }));
 }
 
 TEST(OracleVoxelizer, InstancesAreUnited)
@@ -63,7 +62,7 @@ TEST(OracleVoxelizer, InstancesAreUnited)
     Scene scene = floorScene(0.5F);
     scene.instances.push_back(scene.instances[0]);
     scene.instances[1].transform[3].z = 3.0F;
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes,
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes,
               codesWhere([](auto v) { return v.z == 0 || v.z == 3; }));
 }
 
@@ -74,9 +73,9 @@ TEST(OracleVoxelizer, CountsDroppedTrianglesByReason)
         zvo::test::triangleSoup({o, o, glm::vec3(NAN), o, o, glm::vec3(1e30F), o, o, o, -glm::vec3(1.0F),
                                  -glm::vec3(1.0F), -glm::vec3(2.0F), o, o, glm::vec3(4.0F)});
     using Dropped = std::map<std::string, std::uint64_t>;
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).dropped,
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).dropped,
               (Dropped{{"nonfinite", 1}, {"out_of_range", 1}, {"outside", 1}, {"zero_area", 2}}));
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Conservative).dropped,
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Conservative).dropped,
               (Dropped{{"nonfinite", 1}, {"out_of_range", 1}, {"outside", 1}}));
 }
 
@@ -87,15 +86,15 @@ TEST(OracleVoxelizer, MaskTakesAlphaFromTheTexture)
     scene.materials[0].alpha_mode = AlphaMode::Mask;
     // Texel centres lie at x = 1 and x = 3; at the voxels' centres alpha is 0, 1/4, 3/4, 1. The level of detail is the
     // whole image: a texel is larger than a voxel.
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes,
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes,
               codesWhere([](auto v) { return v.z == 0 && v.x >= 2; }));
     scene.materials[0].alpha_cutoff = 0.2F;
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes,
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes,
               codesWhere([](auto v) { return v.z == 0 && v.x >= 1; }));
     scene.materials[0].alpha_cutoff = 1.5F;
-    EXPECT_TRUE(voxelize(scene, kUnitGrid, Coverage::Thin).codes.empty());
+    EXPECT_TRUE(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes.empty());
     scene.materials[0].alpha_mode = AlphaMode::Opaque;
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes, codesWhere([](auto v) { return v.z == 0; }));
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes, codesWhere([](auto v) { return v.z == 0; }));
 }
 
 TEST(OracleVoxelizer, MaskMultipliesTextureFactorAndVertexAlpha)
@@ -105,9 +104,9 @@ TEST(OracleVoxelizer, MaskMultipliesTextureFactorAndVertexAlpha)
     scene.materials[0].alpha_mode = AlphaMode::Mask;
     scene.materials[0].base_color.a = 0.8F;
     scene.primitives[0].colors.assign(6, glm::vec4(1.0F, 1.0F, 1.0F, 0.6F)); // 0.48 in all
-    EXPECT_TRUE(voxelize(scene, kUnitGrid, Coverage::Thin).codes.empty());
+    EXPECT_TRUE(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes.empty());
     scene.materials[0].alpha_cutoff = 0.47F;
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes.size(), 16U);
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes.size(), 16U);
 }
 
 TEST(OracleVoxelizer, BlendKeepsTheVoxelsOfLowRank)
@@ -115,12 +114,12 @@ TEST(OracleVoxelizer, BlendKeepsTheVoxelsOfLowRank)
     Scene scene = floorScene(0.5F);
     scene.materials[0].alpha_mode = AlphaMode::Blend;
     scene.materials[0].base_color.a = 0.25F; // ranks 0 to 15: x_0 = y_0 and y_0 = z_0... with z = 0: x_0 = 0, y_0 = 0
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes,
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes,
               codesWhere([](auto v) { return v.z == 0 && v.x % 2 == 0 && v.y % 2 == 0; }));
     scene.materials[0].base_color.a = 0.0F;
-    EXPECT_TRUE(voxelize(scene, kUnitGrid, Coverage::Thin).codes.empty());
+    EXPECT_TRUE(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes.empty());
     scene.materials[0].base_color.a = 1.0F;
-    EXPECT_EQ(voxelize(scene, kUnitGrid, Coverage::Thin).codes.size(), 16U);
+    EXPECT_EQ(voxelize(scene, test::kUnitGrid, Coverage::Thin).codes.size(), 16U);
 }
 
 TEST(OracleVoxelizer, CodesAreSortedAndUniqueAndThinIsASubset)

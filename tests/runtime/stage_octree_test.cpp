@@ -2,11 +2,10 @@
 // The scenes that come with zvo, as time goes by: updated octrees and their pictures against ones built anew. By
 // default some frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and ZVO_TEST_STAGE_FRAMES ask for more
 // (scripts/check-dynamic).
-#include "core/base/kernels.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "runtime/stage_octree.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
 
@@ -24,10 +23,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 std::uint32_t numberFrom(const char* variable, std::uint32_t otherwise)
 {

@@ -5,6 +5,7 @@
 //   zvo_dynamic_soak [--frames N]
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
+#include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
 #include "support/device.h"
 #include "support/materials_scene.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/dynamic_machine.h"
 
+#include "support/machine_limits.h"
+
 #include "zvo/error.h"
 
 #include <rapidcheck.h>
@@ -18,9 +20,6 @@ namespace zvo::test
 namespace
 {
 
-constexpr int kAttemptsMax = 64;
-constexpr std::uint32_t kUpdatesPerFrame = 4; // that DynamicOctree takes
-constexpr double kTinyBudgetMs = 1e-6;
 constexpr std::array kActionNames = {"add",  "place", "bend",   "remove", "update", "slice",
                                      "undo", "redo",  "submit", "lose",   "wait",   "settle"};
 

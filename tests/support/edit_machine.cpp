@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/edit_machine.h"
 
+#include "support/machine_limits.h"
+
 #include "zvo/error.h"
 
 #include <rapidcheck.h>
@@ -18,11 +20,9 @@ namespace zvo::test
 namespace
 {
 
-constexpr int kAttemptsMax = 64;
-constexpr std::ptrdiff_t kUpdatesPerFrame = 4; // that DynamicOctree takes
-constexpr double kTinyBudgetMs = 1e-6;
-constexpr std::array kActionNames = {"dab",    "end of stroke", "undo",   "redo", "add",           "place",  "remove",
-                                     "update", "slice",         "submit", "lose", "lose what ran", "compare"};
+constexpr std::array kEditActionNames = {"dab",   "end of stroke", "undo",   "redo",  "add",
+                                         "place", "remove",        "update", "slice", "submit",
+                                         "lose",  "lose what ran", "compare"};
 constexpr std::array kBrushNames = {"carve", "fill", "paint"};
 
 bool isUpdate(const EditCommand& command)
@@ -34,7 +34,7 @@ bool isUpdate(const EditCommand& command)
 
 std::ostream& operator<<(std::ostream& out, const EditCommand& command)
 {
-    out << kActionNames.at(static_cast<std::size_t>(command.action));
+    out << kEditActionNames.at(static_cast<std::size_t>(command.action));
     if (command.action == EditCommand::Action::Dab)
     {
         const Brush& brush = command.brush;

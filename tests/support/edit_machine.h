@@ -42,6 +42,14 @@ struct EditCommand
     Item item = {};          // Add; Place: only the place and the bend
 };
 
+/// A dab, blue where it fills or paints.
+inline EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32_t radius,
+                       BrushShape shape = BrushShape::Sphere)
+{
+    constexpr std::uint32_t kBlue = 0xFF0000;
+    return {.action = EditCommand::Action::Dab, .brush = {shape, action, center, radius, kBlue}};
+}
+
 std::ostream& operator<<(std::ostream& out, const EditCommand& command);
 
 /// Runs commands, and compares what is shown with a model that edits voxel by voxel, in which a voxel that a mover has

@@ -63,7 +63,7 @@ void submit(VkDevice device, VkQueue queue, VkSemaphore wait, VkSemaphore signal
     real<PFN_vkQueueSubmit2>(device, "vkQueueSubmit2")(queue, 1, &info, VK_NULL_HANDLE);
 }
 
-VkDevice g_device = VK_NULL_HANDLE; // that made the last swapchain
+VkDevice g_swapchain_device = VK_NULL_HANDLE; // that made the last swapchain
 
 template <typename Value> VkResult enumerate(const std::vector<Value>& all, std::uint32_t* count, Value* values)
 {
@@ -122,7 +122,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(VkDevice device, const VkSwapchai
     {
         return result;
     }
-    g_device = device;
+    g_swapchain_device = device;
     g_fake.last = *info;
     ++g_fake.swapchains_made;
     ++g_fake.swapchains_alive;
@@ -183,7 +183,7 @@ VKAPI_ATTR VkResult VKAPI_CALL acquireNextImage(VkDevice device, VkSwapchainKHR 
 VKAPI_ATTR VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKHR* info)
 {
     ++g_fake.presented;
-    submit(g_device, queue, info->pWaitSemaphores[0], VK_NULL_HANDLE); // whatever becomes of the image
+    submit(g_swapchain_device, queue, info->pWaitSemaphores[0], VK_NULL_HANDLE); // whatever becomes of the image
     return take(g_fake.present);
 }
 
@@ -195,7 +195,7 @@ VKAPI_ATTR VkResult VKAPI_CALL setName(VkDevice, const VkDebugUtilsObjectNameInf
 
 PFN_vkVoidFunction fakeOf(const char* name);
 
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceProcAddr(VkDevice device, const char* name)
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fakeDeviceProcAddr(VkDevice device, const char* name)
 {
     const PFN_vkVoidFunction fake = fakeOf(name);
     return fake != nullptr ? fake : g_device_proc_addr(device, name);
@@ -209,7 +209,7 @@ template <typename Function> PFN_vkVoidFunction plain(Function function)
 PFN_vkVoidFunction fakeOf(const char* name)
 {
     static const std::map<std::string_view, PFN_vkVoidFunction> kFakes = {
-        {"vkGetDeviceProcAddr", plain(deviceProcAddr)},
+        {"vkGetDeviceProcAddr", plain(fakeDeviceProcAddr)},
         {"vkDestroySurfaceKHR", plain(destroySurface)},
         {"vkGetPhysicalDeviceSurfaceSupportKHR", plain(surfaceSupport)},
         {"vkGetPhysicalDeviceSurfaceCapabilitiesKHR", plain(surfaceCapabilities)},
@@ -226,7 +226,7 @@ PFN_vkVoidFunction fakeOf(const char* name)
     return found != kFakes.end() ? found->second : nullptr;
 }
 
-VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProcAddr(VkInstance instance, const char* name)
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL fakeInstanceProcAddr(VkInstance instance, const char* name)
 {
     const PFN_vkGetInstanceProcAddr get = vk::loadVulkan();
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
@@ -252,7 +252,7 @@ FakeSurfaces& fakeSurfaces()
 
 PFN_vkGetInstanceProcAddr vulkanWithFakeSurfaces()
 {
-    return instanceProcAddr;
+    return fakeInstanceProcAddr;
 }
 
 vk::WindowSupport fakeWindow()

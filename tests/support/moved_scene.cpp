@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/moved_scene.h"
 
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/octree/octree_build.h"
 #include "runtime/octree_sha256.h"
 #include "support/deforming_scenes.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -16,11 +15,6 @@ namespace zvo::test
 
 namespace
 {
-
-vk::HeadlessDevice& device()
-{
-    return sharedDevice(zvoKernels());
-}
 
 } // namespace
 

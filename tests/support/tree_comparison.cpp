@@ -15,10 +15,10 @@ namespace zvo::test
 namespace
 {
 
-constexpr std::array kViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
-                               View::Level, View::Iterations, View::Voxel,  View::Bricks};
-constexpr std::uint32_t kWidth = 53;
-constexpr std::uint32_t kHeight = 41;
+constexpr std::array kComparedViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
+                                       View::Level, View::Iterations, View::Voxel,  View::Bricks};
+constexpr std::uint32_t kComparedWidth = 53;
+constexpr std::uint32_t kComparedHeight = 41;
 
 bool showsAttributes(View view)
 {
@@ -69,7 +69,7 @@ TreeComparison::Subject::Subject(vk::HeadlessDevice& device, const TreeView& vie
 
 TreeComparison::TreeComparison(vk::HeadlessDevice& device, const TreeView& expected, const TreeView& tree)
     : m_device(device), m_expected(device, expected), m_subject(device, tree),
-      m_buffers(device.device(), kWidth, kHeight)
+      m_buffers(device.device(), kComparedWidth, kComparedHeight)
 {
 }
 
@@ -78,7 +78,7 @@ void TreeComparison::pictures(const ViewCamera& close)
     const std::vector<ViewCamera> views = manyCameras(m_subject.tree.octree().grid);
     TraceOptions options;
     options.occlusion_rays = 2;
-    for (const View shown : kViews)
+    for (const View shown : kComparedViews)
     {
         options.view = shown;
         picture(views.front(), options);
@@ -137,7 +137,7 @@ Picture TreeComparison::take(const Subject& subject, const TraceCamera& camera, 
 void TreeComparison::picture(const ViewCamera& view, const TraceOptions& options)
 {
     const Grid& grid = m_subject.tree.octree().grid;
-    const TraceCamera camera = traceCamera(view, grid, kHeight);
+    const TraceCamera camera = traceCamera(view, grid, kComparedHeight);
     const Picture expected = take(m_expected, camera, options);
     const Picture picture = take(m_subject, camera, options);
     EXPECT_EQ(picture.image, expected.image);

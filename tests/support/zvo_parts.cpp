@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/zvo_parts.h"
 
+#include "io/file/sha256.h"
+
 #include "core/base/crc64.h"
 
 #include <algorithm>
@@ -136,6 +138,11 @@ Bytes zvoBytes(const TreeData& tree)
     Bytes bytes;
     writeZvo(tree, [&bytes](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
     return bytes;
+}
+
+std::string zvoSha256(const TreeData& tree)
+{
+    return sha256Hex(zvoBytes(tree));
 }
 
 } // namespace zvo::test

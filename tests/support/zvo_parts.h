@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace zvo::test
@@ -44,7 +45,8 @@ void fixHeadChecksums(Bytes& file);
 /// is left out.
 void fixChecksums(Bytes& file);
 
-/// What writeZvo writes.
+/// What writeZvo writes, and its SHA-256.
 Bytes zvoBytes(const TreeData& tree);
+std::string zvoSha256(const TreeData& tree);
 
 } // namespace zvo::test

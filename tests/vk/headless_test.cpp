@@ -13,6 +13,7 @@ namespace
 {
 
 using namespace zvo;
+using test::counting;
 using test::device;
 
 vk::BufferOf<gpu::uint> iota(vk::HeadlessDevice& target, std::uint64_t count)
@@ -25,13 +26,6 @@ vk::BufferOf<gpu::uint> iota(vk::HeadlessDevice& target, std::uint64_t count)
             const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(count)};
             pass.dispatch(count, params);
         });
-    return values;
-}
-
-std::vector<gpu::uint> counting(std::uint64_t count)
-{
-    std::vector<gpu::uint> values(count);
-    std::iota(values.begin(), values.end(), 0u);
     return values;
 }
 

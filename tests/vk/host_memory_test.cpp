@@ -19,9 +19,8 @@ namespace
 {
 
 using namespace zvo;
+using test::kMiB;
 using test::messageOf;
-
-constexpr std::uint64_t kMiB = 1 << 20;
 
 /// Makes what zvo makes on a device: small and big buffers of each kind, an image, kernels; and runs these.
 void work(test::HostDevice& host, vk::Device& device)

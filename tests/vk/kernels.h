@@ -5,6 +5,10 @@
 #include "support/device.h"
 #include "vk/frame_graph.h"
 
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
 namespace zvo
 {
 
@@ -22,6 +26,16 @@ inline vk::HeadlessDevice& device()
 }
 
 using Words = vk::BufferOf<gpu::uint>;
+
+inline constexpr std::uint64_t kMiB = 1 << 20;
+
+/// 0, 1, 2 and so on.
+inline std::vector<gpu::uint> counting(std::uint64_t count)
+{
+    std::vector<gpu::uint> values(count);
+    std::iota(values.begin(), values.end(), 0U);
+    return values;
+}
 
 /// Records the pass that sets values to 0, 1, 2 and so on.
 inline void iota(vk::FrameGraph& graph, Words& values)

@@ -11,10 +11,9 @@ namespace
 {
 
 using namespace zvo;
+using test::kMiB;
 using vk::MemoryAllocator;
 using vk::MemoryBlock;
-
-constexpr std::uint64_t kMiB = 1 << 20;
 
 MemoryBlock allocate(MemoryAllocator& memory, std::uint64_t bytes, std::uint64_t alignment = 1)
 {

@@ -13,15 +13,9 @@ namespace
 {
 
 using namespace zvo;
+using test::counting;
 using test::device;
 using test::iota;
-
-std::vector<gpu::uint> counting(std::uint64_t count)
-{
-    std::vector<gpu::uint> values(count);
-    std::iota(values.begin(), values.end(), 0U);
-    return values;
-}
 
 std::string refusalOf(const vk::DeviceOverrides& overrides)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene/scene.h"
 
+#include "core/base/finite.h"
+
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -24,11 +26,6 @@ void shift(std::uint32_t& index, std::size_t count)
     {
         index += static_cast<std::uint32_t>(count);
     }
-}
-
-bool isFinite(const glm::vec3& point)
-{
-    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/gltf/gltf_geometry.h"
 
+#include "core/base/finite.h"
 #include "io/gltf/gltf_accessor.h"
 #include "io/gltf/gltf_draco.h"
 
@@ -33,11 +34,6 @@ constexpr std::initializer_list<int> kJointTypes = {TINYGLTF_COMPONENT_TYPE_UNSI
 constexpr std::initializer_list<int> kIndexTypes = {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
                                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
                                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
-
-bool isFinite(const glm::vec3& vector)
-{
-    return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
-}
 
 /// Makes the sum of a vertex's weights 1 and lets joints of weight 0, which may name anything, repeat one that counts.
 /// Returns false where no weights make sense: the vertex follows joint 0.
@@ -300,7 +296,7 @@ private:
         checkCount(accessor);
         accessor.normalized = accessor.normalized || attribute == "NORMAL";
         std::vector<glm::vec3> deltas = readVectors<3>(accessor);
-        if (!std::all_of(deltas.begin(), deltas.end(), isFinite))
+        if (!std::all_of(deltas.begin(), deltas.end(), [](const glm::vec3& delta) { return isFinite(delta); }))
         {
             m_warnings.add("vertices that a morph target moves by what is not finite stay where they are", where);
             std::replace_if(

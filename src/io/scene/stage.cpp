@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/stage.h"
 
+#include "core/base/finite.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,11 +18,6 @@ constexpr double kSamplesMin = 64.0; // of an animation
 constexpr double kSamplesMax = 256.0;
 constexpr double kFrameCountTolerance = 1e-9; // relative
 constexpr double kRoundingMargin = 1e-6;      // of the largest coordinate: a few units in the last place
-
-bool isFinite(const glm::vec3& point)
-{
-    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
-}
 
 /// The finite positions of a scene, those that a triangle uses.
 class Points

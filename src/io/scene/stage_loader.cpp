@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Loading of stages (core/stage.h): files are found and loaded, and divided into what stands still and what moves.
+#include "core/base/finite.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/animation.h"
@@ -29,17 +30,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kShownAnimations = 8;                       // more are only counted
 constexpr std::size_t kStageFileBytesMax = std::size_t{4} << 20U; // many times what 4096 objects take
-
-bool isFinite(const glm::vec3& point)
-{
-    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
-}
-
-bool isFinite(const glm::mat4& matrix)
-{
-    return isFinite(glm::vec3(matrix[0])) && isFinite(glm::vec3(matrix[1])) && isFinite(glm::vec3(matrix[2])) &&
-           isFinite(glm::vec3(matrix[3]));
-}
 
 /// The product in double precision, rounded once.
 glm::mat4 placed(const glm::dmat4& place, const glm::mat4& transform)

@@ -172,8 +172,10 @@ public:
 
     template <typename T> void add(const T& value)
     {
-        const auto bytes = std::as_bytes(std::span(&value, 1));
-        m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
+        for (const std::byte byte : std::as_bytes(std::span(&value, 1)))
+        {
+            m_bytes.push_back(byte);
+        }
         if (m_bytes.size() >= kPieceBytes)
         {
             flush();
@@ -182,8 +184,10 @@ public:
 
     void addText(const std::string& text)
     {
-        const auto bytes = std::as_bytes(std::span(text));
-        m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
+        for (const char character : text)
+        {
+            m_bytes.push_back(static_cast<std::byte>(character));
+        }
     }
 
     void flush()

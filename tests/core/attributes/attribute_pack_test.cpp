@@ -10,6 +10,7 @@
 #include "support/dag_compare.h"
 #include "support/dags.h"
 #include "support/device.h"
+#include "support/engine_device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"
 #include "support/pictures.h"
@@ -35,10 +36,7 @@ constexpr std::array kForms = {AttributeForm::Bytes4, AttributeForm::Blocks};
 using Attributes = std::vector<gpu::Attribute>;
 using Words = std::vector<gpu::uint>;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 // Anything: also codes that no kernel makes.
 Attributes randomAttributes(std::size_t count, std::uint32_t seed)

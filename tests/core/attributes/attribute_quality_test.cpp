@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What packed attributes lose on whole scenes: colours in dB, normals in degrees, pictures in dB. The disabled test
 // makes the tables of docs/attributes.md.
-#include "core/base/kernels.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"
 #include "support/pictures.h"
@@ -27,10 +26,7 @@ namespace
 constexpr std::uint32_t kWidth = 1280;
 constexpr std::uint32_t kHeight = 720;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 // Peak signal to noise ratio of 8-bit channels whose errors have this sum of squares.
 double decibels(double squares, double channels)

@@ -7,6 +7,7 @@
 #include "core/scene/deform.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
+#include "support/engine_device.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -24,10 +25,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// Vertices of all instances, and how the buffers of the device came about.
 struct Deformed

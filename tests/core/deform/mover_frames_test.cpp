@@ -8,6 +8,7 @@
 #include "core/scene/animation.h"
 #include "support/deforming_scenes.h"
 #include "support/device.h"
+#include "support/engine_device.h"
 #include "support/moved_scene.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
@@ -33,10 +34,7 @@ using test::makeOctree;
 using test::mixedScene;
 using test::MovedScene;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
 {

@@ -2,13 +2,12 @@
 // What moves is voxelized from buffers that change in place: the bytes are those of a scene uploaded anew.
 #include "core/deform/mover.h"
 
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/octree/octree_build.h"
 #include "core/scene/animation.h"
 #include "oracle/morton.h"
 #include "support/deforming_scenes.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/moved_scene.h"
 #include "support/octree_access.h"
@@ -37,10 +36,7 @@ using test::makeOctree;
 using test::mixedScene;
 using test::MovedScene;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 TEST(Mover, OfAllSortsOfInstancesEqualsAnUploadInEveryPose)
 {

@@ -3,9 +3,11 @@
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
+#include "core/headless/pipeline.h"
 #include "support/ballast.h"
 #include "support/device.h"
 #include "support/dynamic_updates.h"
+#include "support/engine_device.h"
 #include "support/mover_scenery.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
@@ -39,10 +41,7 @@ using Kind = Place::Kind;
 
 constexpr std::uint64_t kLimitBytes = 256 << 20;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 vk::HeadlessOptions limitedOptions()
 {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Merging movers gives what voxelizing everything anew gives.
-#include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "support/device.h"
 #include "support/dynamic_updates.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
@@ -23,18 +22,15 @@ namespace
 
 using test::Cell;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 constexpr float kExtent = 16.0F;
 
 // A static scene, movers, and an octree that follows them.
-class World
+class MovingWorld
 {
 public:
-    explicit World(std::uint32_t depth, DynamicOptions options = {})
+    explicit MovingWorld(std::uint32_t depth, DynamicOptions options = {})
         : m_grid{.origin = glm::vec3(0.0F),
                  .voxel_size = kExtent / static_cast<float>(1U << std::min(depth, 6U)),
                  .depth = depth},
@@ -106,7 +102,7 @@ glm::mat4 moved(float x, float y, float z)
 // What the tests compare updates by.
 TEST(DynamicOctree, IsMadeOfTheCellsThatItHas)
 {
-    const World world(6);
+    const MovingWorld world(6);
     const std::vector<Cell> cells = world.shown();
     ASSERT_GT(cells.size(), 1000U);
     const Octree octree = test::octreeOf(device(), cells, world.grid(), 1.0F);
@@ -116,7 +112,7 @@ TEST(DynamicOctree, IsMadeOfTheCellsThatItHas)
 
 TEST(DynamicOctree, ShowsTheStaticOctreeWithoutMovers)
 {
-    World world(6);
+    MovingWorld world(6);
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
@@ -124,7 +120,7 @@ TEST(DynamicOctree, ShowsTheStaticOctreeWithoutMovers)
 
 TEST(DynamicOctree, FollowsMoversThatComeMoveAndGo)
 {
-    World world(6);
+    MovingWorld world(6);
     const MoverId first = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(0, 0, 0)})), "");
@@ -148,7 +144,7 @@ TEST(DynamicOctree, FollowsMoversThatComeMoveAndGo)
 
 TEST(DynamicOctree, UndoAndRedoShowEarlierSteps)
 {
-    World world(6, {.history = {16, UINT64_MAX}});
+    MovingWorld world(6, {.history = {16, UINT64_MAX}});
     const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
     std::vector<std::vector<Cell>> shown = {world.shown()};
     for (int i = 0; i < 4; ++i)
@@ -176,7 +172,7 @@ TEST(DynamicOctree, UndoAndRedoShowEarlierSteps)
 
 TEST(DynamicOctree, SpreadsAnUpdateOverFramesAndShowsTheLastRootMeanwhile)
 {
-    World world(6);
+    MovingWorld world(6);
     const MoverId mover = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
     world.update();
     const std::vector<Cell> before = world.rebuilt({moved(3, 4, 5)});
@@ -204,7 +200,7 @@ TEST(DynamicOctree, SpreadsAnUpdateOverFramesAndShowsTheLastRootMeanwhile)
 
 TEST(DynamicOctree, KeepsSeveralFramesInFlight)
 {
-    World world(6, {.frames_in_flight = 3});
+    MovingWorld world(6, {.frames_in_flight = 3});
     const MoverId mover = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
     world.update();
     struct Flight
@@ -247,7 +243,7 @@ TEST(DynamicOctree, KeepsSeveralFramesInFlight)
 
 TEST(DynamicOctree, StartsWithRoomForOne)
 {
-    World world(6, {.minimal_capacities = true});
+    MovingWorld world(6, {.minimal_capacities = true});
     const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
     world.octree().place(mover, world.poseAt(moved(3, 4, 5)));
     world.update();
@@ -259,7 +255,7 @@ TEST(DynamicOctree, OneMoverGivesWhatARebuildGives)
     for (const std::uint32_t depth : {5U, 1U, 2U, 6U, 13U})
     {
         SCOPED_TRACE(depth);
-        World world(depth);
+        MovingWorld world(depth);
         const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
         world.octree().place(mover, world.poseAt(moved(3, 4, 5)));
         const UpdateReport report = world.update();

@@ -6,6 +6,7 @@
 #include "oracle/deform.h"
 #include "support/device.h"
 #include "support/dynamic_machine.h"
+#include "support/engine_device.h"
 #include "support/failing_vulkan.h"
 #include "support/properties.h"
 
@@ -31,10 +32,8 @@ using test::Shot;
 
 constexpr std::uint32_t kBendCount = 5;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using Kind = Place::Kind;
+using test::device;
 
 // From low to high - 1, each as often, also in small cases, to which rc::gen::inRange gives only the lowest.
 template <typename T> rc::Gen<T> anyBetween(T low, T high)
@@ -44,7 +43,6 @@ template <typename T> rc::Gen<T> anyBetween(T low, T high)
 
 rc::Gen<Place> anyPlace()
 {
-    using Kind = Place::Kind;
     return rc::gen::build<Place>(rc::gen::set(&Place::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
                                                                                             {2, Kind::Outside},
                                                                                             {1, Kind::Point},

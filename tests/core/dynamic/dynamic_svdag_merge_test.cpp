@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Movers merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it was.
-#include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
-#include "support/device.h"
 #include "support/dynamic_updates.h"
+#include "support/engine_device.h"
 #include "support/mover_scenery.h"
 #include "support/octree_contents.h"
 #include "support/trace_octrees.h"
@@ -32,16 +31,13 @@ using test::Item;
 using test::MoverScenery;
 using Kind = test::Place::Kind;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// A scenery with a DAG for its static part.
-class World
+class MergedWorld
 {
 public:
-    explicit World(const DynamicSetting& setting) : m_setting(setting), m_scenery(device(), true)
+    explicit MergedWorld(const DynamicSetting& setting) : m_setting(setting), m_scenery(device(), true)
     {
         m_setting.compressed = true;
         m_octree = std::make_unique<DynamicOctree>(device(), m_scenery.buildStatic(m_setting),
@@ -72,9 +68,9 @@ private:
     std::unique_ptr<DynamicOctree> m_octree;
 };
 
-constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
+constexpr Item kMergedMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 constexpr Item kTurned = {0, {Kind::Turned, {2, 1, 2}}};
-constexpr Item kBent = {2, {Kind::Inside, {1, 2, 1}}, 3};
+constexpr Item kMergedBent = {2, {Kind::Inside, {1, 2, 1}}, 3};
 
 TEST(DynamicSvdagMerge, AveragedMoversGiveWhatARebuildGives)
 {
@@ -82,21 +78,21 @@ TEST(DynamicSvdagMerge, AveragedMoversGiveWhatARebuildGives)
     {
         SCOPED_TRACE("depth " + std::to_string(depth));
         const bool with_pictures = depth > 4 && depth < 13;
-        World world({.depth = depth, .minimal_capacities = depth % 2 != 0});
+        MergedWorld world({.depth = depth, .minimal_capacities = depth % 2 != 0});
         world.expectRebuilt({}, with_pictures);
-        const MoverId first = world.add(kMiddle);
+        const MoverId first = world.add(kMergedMiddle);
         test::updateAll(device(), world.octree());
-        world.expectRebuilt({kMiddle}, false);
+        world.expectRebuilt({kMergedMiddle}, false);
         const MoverId second = world.add(kTurned);
-        world.add(kBent);
+        world.add(kMergedBent);
         test::updateAll(device(), world.octree());
-        world.expectRebuilt({kMiddle, kTurned, kBent}, with_pictures);
+        world.expectRebuilt({kMergedMiddle, kTurned, kMergedBent}, with_pictures);
         world.place(first, {0, {Kind::Mirrored, {0, 2, 1}}});
         world.octree().remove(second);
         test::updateAll(device(), world.octree());
-        world.expectRebuilt({{0, {Kind::Mirrored, {0, 2, 1}}}, kBent}, false);
+        world.expectRebuilt({{0, {Kind::Mirrored, {0, 2, 1}}}, kMergedBent}, false);
         EXPECT_TRUE(test::undo(device(), world.octree()));
-        world.expectRebuilt({kMiddle, kTurned, kBent}, false);
+        world.expectRebuilt({kMergedMiddle, kTurned, kMergedBent}, false);
         EXPECT_TRUE(test::undo(device(), world.octree()));
         EXPECT_TRUE(test::undo(device(), world.octree()));
         world.expectRebuilt({}, with_pictures);
@@ -143,7 +139,7 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
         EXPECT_EQ(shown.base_hi, root.base_hi);
     };
     expectUnchanged();
-    for (const Item& item : {kMiddle, kTurned, kBent})
+    for (const Item& item : {kMergedMiddle, kTurned, kMergedBent})
     {
         octree.add(scenery.mover(item.mesh, true), scenery.poseOf(item));
         test::updateAll(device(), octree);
@@ -155,8 +151,8 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
 
 TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
 {
-    World world({.depth = 6});
-    const MoverId mover = world.add(kMiddle);
+    MergedWorld world({.depth = 6});
+    const MoverId mover = world.add(kMergedMiddle);
     test::updateAll(device(), world.octree());
     const auto bytes = [&]
     {
@@ -193,7 +189,7 @@ TEST(DynamicSvdagMerge, OverlaysTakeEightBytesANodeMoreThanOnAnOctree)
         with.compressed = compressed;
         MoverScenery scenery(device(), true);
         DynamicOctree octree(device(), scenery.buildStatic(with), with.options(scenery.emissionScale()));
-        octree.add(scenery.mover(0, true), scenery.poseOf(kMiddle));
+        octree.add(scenery.mover(0, true), scenery.poseOf(kMergedMiddle));
         reports.at(compressed ? 1 : 0) = test::updateAll(device(), octree);
         bytes.at(compressed ? 1 : 0) = octree.history().stepBytes();
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Movers above a DAG: everything looks as if the DAG were the octree that it was made of.
-#include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "oracle/dag.h"
 #include "oracle/morton.h"
-#include "support/device.h"
 #include "support/dynamic_updates.h"
+#include "support/engine_device.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
@@ -35,10 +34,7 @@ constexpr float kBoxPart = 0.6F;                        // of the grid's edge, o
 constexpr float kBoxMax = 40.0F;                        // voxels, of a box
 constexpr glm::vec3 kBoxCorner = {0.13F, 0.21F, 0.09F}; // in parts of the grid's edge, of the first box
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// Boxes that move in an octree, and in the DAG that is made of it.
 class Pair

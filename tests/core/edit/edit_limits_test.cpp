@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
 // memory than was asked for.
-#include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
+#include "core/headless/pipeline.h"
 #include "core/tree/svdag.h"
 #include "core/tree/tree_build.h"
 #include "io/gltf/gltf_loader.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 
@@ -27,16 +27,13 @@ namespace
 {
 
 constexpr std::uint32_t kDepth = 9;
-constexpr std::uint32_t kStrokes = 1000;
+constexpr std::uint32_t kManyStrokes = 1000;
 constexpr std::uint32_t kStrokesPerFrame = 20;
 constexpr std::uint32_t kWidth = 160;
 constexpr std::uint32_t kHeight = 96;
 constexpr std::uint64_t kMiB = 1U << 20;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 // The atrium, with strokes around voxels of it.
 class World
@@ -164,24 +161,24 @@ TEST_P(EditLimits, AThousandStrokesAreUndoneAndRedone)
 {
     constexpr std::uint64_t kBytesMax = 64 * kMiB;
     vk::MemoryAllocator& memory = device().device().memory();
-    World world(GetParam(), {kStrokes, kBytesMax}, kStrokes);
+    World world(GetParam(), {kManyStrokes, kBytesMax}, kManyStrokes);
     const std::uint64_t used_before = memory.usedBytes();
     const std::vector<gpu::uint> words = world.staticWords();
     const std::vector<gpu::uint> first = world.picture();
     memory.resetPeak();
 
-    world.strokes(kStrokes);
-    EXPECT_EQ(world.octree().edits().undoCount(), kStrokes);
+    world.strokes(kManyStrokes);
+    EXPECT_EQ(world.octree().edits().undoCount(), kManyStrokes);
     EXPECT_LE(world.octree().edits().heldBytes(), kBytesMax);
     const std::vector<gpu::uint> last = world.picture();
     EXPECT_NE(last, first);
     const std::uint64_t used = memory.usedBytes();
 
-    world.move(true, kStrokes);
+    world.move(true, kManyStrokes);
     EXPECT_EQ(world.octree().edits().undoCount(), 0U);
     EXPECT_EQ(world.picture(), first);
     EXPECT_EQ(world.staticWords(), words);
-    world.move(false, kStrokes);
+    world.move(false, kManyStrokes);
     EXPECT_EQ(world.octree().edits().redoCount(), 0U);
     EXPECT_EQ(world.picture(), last);
     EXPECT_EQ(world.staticWords(), words);
@@ -197,7 +194,7 @@ TEST_P(EditLimits, WithLittleRoomStepsAreDroppedAndMemoryStaysBounded)
 {
     constexpr std::uint64_t kBytesMax = 2 * kMiB;
     vk::MemoryAllocator& memory = device().device().memory();
-    World world(GetParam(), {kStrokes, kBytesMax}, 12);
+    World world(GetParam(), {kManyStrokes, kBytesMax}, 12);
     const std::vector<gpu::uint> words = world.staticWords();
     world.strokes(200);
     const std::uint64_t used = memory.usedBytes();
@@ -211,7 +208,7 @@ TEST_P(EditLimits, WithLittleRoomStepsAreDroppedAndMemoryStaysBounded)
     }
     EXPECT_LE(memory.usedBytes(), used);
     EXPECT_LE(memory.peakBytes(), used + kBytesMax) << "but for what a compaction works in";
-    EXPECT_LT(edits.undoCount(), kStrokes);
+    EXPECT_LT(edits.undoCount(), kManyStrokes);
     EXPECT_GT(edits.undoCount(), 10U);
     const std::vector<gpu::uint> last = world.picture();
     const std::size_t undo_count = edits.undoCount();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Movers above what brushes have left, case by case.
-#include "core/base/kernels.h"
 #include "oracle/morton.h"
-#include "support/device.h"
 #include "support/edit_machine.h"
+#include "support/engine_device.h"
 
 #include <gtest/gtest.h>
 
@@ -28,18 +27,11 @@ using test::MoverScenery;
 using Action = EditCommand::Action;
 using Kind = test::Place::Kind;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::dab;
+using test::device;
 
 constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 constexpr Item kApart = {0, {Kind::Mirrored, {2, 0, 2}}};
-
-EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32_t radius)
-{
-    return {Action::Dab, {BrushShape::Sphere, action, center, radius, 0x30C0F0}};
-}
 
 EditCommand add(const Item& item)
 {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whatever brushes do, in whatever order and with whatever room: what is shown is what a model has that edits voxel by
 // voxel, and undo and redo lead to what was there.
-#include "core/base/kernels.h"
-#include "support/device.h"
 #include "support/edit_machine.h"
+#include "support/engine_device.h"
 #include "support/properties.h"
 
 #include <gtest/gtest.h>
@@ -22,10 +21,9 @@ using test::EditCommand;
 using test::MoverScenery;
 using test::Place;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using Action = EditCommand::Action;
+using Kind = Place::Kind;
+using test::device;
 
 template <typename T> rc::Gen<T> anyBetween(T low, T high)
 {
@@ -48,7 +46,6 @@ rc::Gen<Brush> anyBrush(const Grid& grid)
 
 rc::Gen<EditCommand> anyStroke(const Grid& grid)
 {
-    using Action = EditCommand::Action;
     return rc::gen::build<EditCommand>(
         rc::gen::set(&EditCommand::action, rc::gen::weightedElement<Action>({{12, Action::Dab},
                                                                              {4, Action::EndStroke},
@@ -63,8 +60,6 @@ rc::Gen<EditCommand> anyStroke(const Grid& grid)
 
 rc::Gen<EditCommand> anyMove()
 {
-    using Action = EditCommand::Action;
-    using Kind = Place::Kind;
     const rc::Gen<Place> place =
         rc::gen::build<Place>(rc::gen::set(&Place::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
                                                                                          {1, Kind::Outside},

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A brush on voxels, case by case.
-#include "core/base/kernels.h"
-#include "support/device.h"
 #include "support/edit_machine.h"
+#include "support/engine_device.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -17,23 +16,13 @@ using test::EditCommand;
 using test::EditMachine;
 using test::MoverScenery;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::dab;
+using test::device;
 
 MoverScenery& scenery()
 {
     static MoverScenery scenery(device(), true);
     return scenery;
-}
-
-constexpr std::uint32_t kBlue = 0xFF0000;
-
-EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32_t radius,
-                BrushShape shape = BrushShape::Sphere)
-{
-    return {EditCommand::Action::Dab, {shape, action, center, radius, kBlue}};
 }
 
 TEST(Edit, ExtentIsWhatTheBrushReachesOfTheGrid)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Single bytes of a file that change: noticed by a checksum; where that was made to fit, refused or a sound tree.
-#include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
@@ -9,7 +8,7 @@
 #include "core/tree/svdag.h"
 #include "io/gltf/gltf_loader.h"
 #include "support/dags.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/scenes.h"
 #include "support/tree_probe.h"
 #include "support/tree_samples.h"
@@ -30,11 +29,6 @@ namespace
 {
 
 constexpr std::size_t kChangeCount = 10000; // of the body
-
-vk::HeadlessDevice& device()
-{
-    return sharedDevice(zvoKernels());
-}
 
 // The project's own atrium as a DAG of 128^3, its attributes in blocks: all kinds of sections.
 const TreeData& atrium()

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // One file, byte for byte, for a scene whose triangles and instances come in any order, in each form of attributes.
-#include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
@@ -8,7 +7,7 @@
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
 #include "io/file/sha256.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 
 #include <gtest/gtest.h>
@@ -26,10 +25,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 std::string sha256Of(const TreeData& tree)
 {

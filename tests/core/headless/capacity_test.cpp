@@ -7,6 +7,7 @@
 #include "io/gltf/gltf_loader.h"
 #include "runtime/octree_sha256.h"
 #include "support/device.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
@@ -20,10 +21,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// What was built, and how.
 struct Built

@@ -13,12 +13,12 @@
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "core/tree/svdag.h"
-#include "io/file/sha256.h"
 #include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"
+#include "support/zvo_parts.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -112,13 +112,6 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
     }
     EXPECT_EQ(device.device().memory().usedBytes(), used_before);
     return result;
-}
-
-std::string zvoSha256(const TreeData& tree)
-{
-    std::vector<std::byte> file;
-    writeZvo(tree, [&file](std::span<const std::byte> more) { file.insert(file.end(), more.begin(), more.end()); });
-    return sha256Hex(file);
 }
 
 /// Builds, compresses with tables that grow, packs and downloads.
@@ -293,7 +286,7 @@ TEST_F(FailingCalls, SoItDoesWhenItMakesDags)
     const Scene scene = test::materialsScene(10.0F);
     const GpuScene gpu_scene = uploadScene(device, scene, true);
     const Grid grid = Grid::around(scene.bounds(), 5);
-    expectToGoOn([&] { return zvoSha256(makeDag(device, gpu_scene, grid)); }, 100);
+    expectToGoOn([&] { return test::zvoSha256(makeDag(device, gpu_scene, grid)); }, 100);
 }
 
 // Tiles as small as these are not taken in parts when memory is short: that is an error.
@@ -305,7 +298,7 @@ TEST_F(FailingCalls, SoItDoesWhenItBuildsInTiles)
     const GpuScene gpu_scene = uploadScene(device, scene, true);
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F / 32, .depth = 5};
     const TiledOptions tiled{.attributes = AttributeForm::Blocks, .tile_depth = 4};
-    expectToGoOn([&] { return zvoSha256(buildByTiles(device, gpu_scene, grid, tiled).tree); }, 200);
+    expectToGoOn([&] { return test::zvoSha256(buildByTiles(device, gpu_scene, grid, tiled).tree); }, 200);
 }
 
 } // namespace

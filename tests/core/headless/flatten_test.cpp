@@ -2,11 +2,10 @@
 // What is shown as an octree of its own.
 #include "core/headless/flatten.h"
 
-#include "core/base/kernels.h"
 #include "core/file/tree_check.h"
 #include "core/headless/tree_download.h"
-#include "support/device.h"
 #include "support/edit_machine.h"
+#include "support/engine_device.h"
 #include "support/mover_scenery.h"
 #include "support/tree_samples.h"
 
@@ -20,10 +19,7 @@ namespace
 using test::DynamicSetting;
 using test::MoverScenery;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 // Settings of octrees and DAGs, with and without attributes and emission.
 std::vector<DynamicSetting> settings()

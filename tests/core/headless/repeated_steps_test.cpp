@@ -7,10 +7,10 @@
 #include "core/headless/tree_download.h"
 #include "core/octree/octree_builder.h"
 #include "core/svdag/svdag_builder.h"
-#include "io/file/sha256.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"
 #include "support/materials_scene.h"
+#include "support/zvo_parts.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -26,13 +26,6 @@ namespace zvo
 
 namespace
 {
-
-std::string zvoSha256(const TreeData& tree)
-{
-    std::vector<std::byte> file;
-    writeZvo(tree, [&file](std::span<const std::byte> more) { file.insert(file.end(), more.begin(), more.end()); });
-    return sha256Hex(file);
-}
 
 // Takes the steps of a build; how many recordings failed.
 template <typename Builder> std::uint32_t takeSteps(vk::HeadlessDevice& device, Builder& builder)
@@ -82,14 +75,14 @@ Outcome outcome(const Scene& scene, const Grid& grid, std::uint64_t failing_kern
     OctreeBuilder octree(device.device(), uploaded, grid, {Coverage::Thin, true, {}});
     result.failures += takeSteps(device, octree);
     Octree built = octree.take().octree;
-    result.octree = zvoSha256(downloadTree(device, built));
+    result.octree = test::zvoSha256(downloadTree(device, built));
     if (result.failures != 0)
     {
         return result;
     }
     SvdagBuilder dag(device.device(), std::move(built), {});
     result.failures += takeSteps(device, dag);
-    result.dag = zvoSha256(downloadTree(device, dag.take().dag));
+    result.dag = test::zvoSha256(downloadTree(device, dag.take().dag));
     return result;
 }
 

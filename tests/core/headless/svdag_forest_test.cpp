@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // DAGs of tiles become, byte for byte, the DAG of the whole.
-#include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/morton_place.h"
 #include "support/scenes.h"
@@ -20,10 +19,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 template <typename T> void expectSame(const vk::BufferOf<T>& a, const vk::BufferOf<T>& b, const char* what)
 {

@@ -8,6 +8,7 @@
 #include "core/headless/tree_download.h"
 #include "core/tree/svdag.h"
 #include "support/device.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
@@ -23,10 +24,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 template <typename T> void expectSame(const std::vector<T>& a, const std::vector<T>& b, const char* what)
 {

@@ -4,7 +4,7 @@
 #include "core/base/kernels.h"
 #include "core/present/image_target.h"
 #include "core/trace/trace_depth.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/errors.h"
 #include "support/host_image.h"
 #include "support/trace_octrees.h"
@@ -39,10 +39,7 @@ constexpr VkExtent2D kExtent = {40, 28};
 constexpr std::uint32_t kMipLevels = 3;
 constexpr std::uint32_t kLayers = 2;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 // Sizes that are no multiples of a tile, up to the far corner of a mip level, or all of it.
 struct Place

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures in another size.
-#include "core/base/kernels.h"
 #include "core/present/present.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +13,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 TEST(ScalePicture, EveryPixelIsTheOneInWhichItsCentreLies)
 {

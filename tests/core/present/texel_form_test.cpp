@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures in all texel forms: the same picture, as exactly as each form can hold it.
-#include "core/base/kernels.h"
 #include "core/trace/trace.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/trace_octrees.h"
 
@@ -20,17 +19,14 @@ namespace
 
 using Words = std::vector<gpu::uint>;
 
-constexpr std::uint32_t kWidth = 83; // no multiples of a tile
-constexpr std::uint32_t kHeight = 61;
-constexpr View kViews[] = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
-                           View::Iterations, View::Voxel,  View::Bricks, View::Origin};
+constexpr std::uint32_t kTexelsWide = 83; // no multiples of a tile
+constexpr std::uint32_t kTexelsHigh = 61;
+constexpr View kTexelViews[] = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
+                                View::Iterations, View::Voxel,  View::Bricks, View::Origin};
 // Of a half float, half a step, or one where a device rounds down; and some single precision.
 constexpr double kHalfError = 1.0 / 1024 + 1e-5;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 struct Shown
 {
@@ -41,8 +37,8 @@ struct Shown
 Shown show(const Octree& octree, const ViewCamera& view, TexelForm form, const TraceOptions& options)
 {
     BeamGrid beam(device().device());
-    TraceBuffers buffers(device().device(), kWidth, kHeight, form);
-    const TraceCamera camera = traceCamera(view, octree.grid, kHeight);
+    TraceBuffers buffers(device().device(), kTexelsWide, kTexelsHigh, form);
+    const TraceCamera camera = traceCamera(view, octree.grid, kTexelsHigh);
     test::Picture picture = test::takePicture(device(), octree, beam, camera, buffers, options);
     return {std::move(picture.image), std::move(picture.hits)};
 }
@@ -102,7 +98,7 @@ ViewCamera sphereView()
 TEST(TexelForm, BlueFirstIsTheSamePictureWithItsBytesSwapped)
 {
     const Octree octree = coloredSphere();
-    for (const View view : kViews)
+    for (const View view : kTexelViews)
     {
         TraceOptions options;
         options.view = view;
@@ -118,7 +114,7 @@ TEST(TexelForm, BlueFirstIsTheSamePictureWithItsBytesSwapped)
 TEST(TexelForm, TenBitsShowWhatEightDo)
 {
     const Octree octree = coloredSphere();
-    for (const View view : kViews)
+    for (const View view : kTexelViews)
     {
         SCOPED_TRACE(static_cast<int>(view));
         TraceOptions options;
@@ -177,7 +173,7 @@ TEST(TexelForm, HalfFloatsToneMappedAreTheCodesOfThePicture)
 TEST(TexelForm, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
 {
     const Octree octree = coloredSphere();
-    for (const View view : kViews)
+    for (const View view : kTexelViews)
     {
         if (view == View::Color)
         {
@@ -235,7 +231,7 @@ TEST(TexelForm, HalfFloatsAreExposedRadiance)
     const std::vector<gpu::Attribute> attributes(codes.size(), {color, 0U}); // normal +z
     octree.voxel_attributes = device().makeBuffer<gpu::Attribute>("attributes", attributes);
     const ViewCamera front = ViewCamera::lookAt({8, 8, 24}, {8, 8, 0}, 0.2);
-    const std::size_t middle = kHeight / 2 * kWidth + kWidth / 2;
+    const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2;
     TraceOptions options;
     options.to_sun = {0.0, 3.0, 4.0};
     options.sun = 5.0F;
@@ -270,7 +266,7 @@ TEST(TexelForm, HalfFloatsAreExposedRadiance)
 TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
 {
     const Octree octree = test::octreeOf(device(), {}, 4);
-    const std::size_t middle = kHeight / 2 * kWidth + kWidth / 2; // sizes are odd: the ray along forward
+    const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2; // sizes are odd: the ray along forward
     TraceOptions options;
     options.exposure = 0.5F;
     options.to_sun = {-1.0, 0.6, 0.0};
@@ -290,8 +286,8 @@ TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
 TEST(TexelForm, ViewsWithoutSkyOfAnEmptyOctreeAreBlackInEveryForm)
 {
     const Octree octree = test::octreeOf(device(), {}, 5);
-    const std::size_t pixels = std::size_t{kWidth} * kHeight;
-    for (const View view : kViews)
+    const std::size_t pixels = std::size_t{kTexelsWide} * kTexelsHigh;
+    for (const View view : kTexelViews)
     {
         TraceOptions options;
         options.view = view;

@@ -9,6 +9,7 @@
 #include "support/dag_compare.h"
 #include "support/dags.h"
 #include "support/device.h"
+#include "support/engine_device.h"
 #include "support/octree_access.h"
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
@@ -34,10 +35,7 @@ namespace
 
 using test::Codes;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// octree compressed, checked against what the oracle makes of it.
 CompressResult compressedAsExpected(Octree octree, const CompressOptions& options = {})

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Depth of pictures in a host's convention, against projections in double precision, and composited with planes.
-#include "core/base/kernels.h"
 #include "core/trace/trace_depth.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/errors.h"
 #include "support/trace_octrees.h"
 #include "zvo/error.h"
@@ -25,10 +24,7 @@ namespace
 constexpr double kUnit = 1.0 / (1 << 24);       // a rounding's share of a single precision number
 constexpr double kDepthError = 1.0 / (1 << 19); // what core/trace/trace_depth.h states
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// A host's projection, built as hosts do.
 struct Projection
@@ -198,26 +194,26 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
 {
     constexpr std::uint32_t kWidth = 101; // no multiples of a tile
     constexpr std::uint32_t kHeight = 67;
-    struct Place
+    struct GridCase
     {
         std::uint32_t depth; // odd: the root has twice the grid's edge
         glm::vec3 origin;
         float voxel_size;
         std::uint32_t detail_level;
     };
-    for (const Place& place :
-         {Place{6, glm::vec3(0.0F), 1.0F, UINT32_MAX}, Place{5, glm::vec3(-37.5F, 1000.25F, 3.0F), 0.3F, UINT32_MAX},
-          Place{6, glm::vec3(500.0F, -20.0F, 7.0F), 1.7F, 2}})
+    for (const GridCase& grid_case : {GridCase{6, glm::vec3(0.0F), 1.0F, UINT32_MAX},
+                                      GridCase{5, glm::vec3(-37.5F, 1000.25F, 3.0F), 0.3F, UINT32_MAX},
+                                      GridCase{6, glm::vec3(500.0F, -20.0F, 7.0F), 1.7F, 2}})
     {
-        SCOPED_TRACE(place.depth);
-        SCOPED_TRACE(place.voxel_size);
-        Octree octree =
-            test::octreeOf(device(), test::sphereShell(place.depth, 0.4 * (1U << place.depth)), place.depth);
-        octree.grid.origin = place.origin;
-        octree.grid.voxel_size = place.voxel_size;
+        SCOPED_TRACE(grid_case.depth);
+        SCOPED_TRACE(grid_case.voxel_size);
+        Octree octree = test::octreeOf(device(), test::sphereShell(grid_case.depth, 0.4 * (1U << grid_case.depth)),
+                                       grid_case.depth);
+        octree.grid.origin = grid_case.origin;
+        octree.grid.voxel_size = grid_case.voxel_size;
         const Grid& grid = octree.grid;
-        const double edge = static_cast<double>(place.voxel_size) * grid.resolution();
-        const glm::dvec3 corner(place.origin);
+        const double edge = static_cast<double>(grid_case.voxel_size) * grid.resolution();
+        const glm::dvec3 corner(grid_case.origin);
         Projection projection = GetParam(); // for things 64 units large
         projection.near *= edge / 64.0;
         projection.far *= edge / 64.0;
@@ -225,7 +221,7 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
                                         corner + 0.5 * edge + glm::dvec3(0.1, 0.0, -0.2));
         const glm::dmat4 matrix = projection.matrix(view, double(kWidth) / kHeight);
         TraceOptions options;
-        options.detail_level = place.detail_level;
+        options.detail_level = grid_case.detail_level;
         const DepthPicture picture =
             take(octree, view, ClipDepth::of(matrix, projection.miss()), kWidth, kHeight, options);
         std::uint32_t hit_count = 0;
@@ -244,7 +240,7 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
                 const Entry entry = entryOf(grid, hit, ray);
                 // Rays are made in single precision: the origin in unit space, the direction by three roundings. What
                 // that moves the point along the ray grows where the face is seen edge-on.
-                const double unit_edge = double(place.voxel_size) * grid.rootResolution();
+                const double unit_edge = double(grid_case.voxel_size) * grid.rootResolution();
                 const double origin_size = glm::length((ray.origin - corner) / unit_edge) + 2.0;
                 const double moved = kUnit *
                                      (origin_size * unit_edge + 4.0 * entry.distance * glm::length(ray.direction)) /

@@ -3,7 +3,7 @@
 #include "core/base/kernels.h"
 #include "core/trace/trace.h"
 #include "oracle/trace.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/spirv_structs.h"
 #include "support/trace_octrees.h"
@@ -23,10 +23,7 @@ using test::hitCount;
 using test::manyCameras;
 using test::Picture;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 Picture takeAny(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
                 const TraceOptions& options)

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Roots that a dynamic update makes: their nodes stand behind those of the octree that it changed, or there are none.
-#include "core/base/kernels.h"
 #include "core/trace/trace.h"
 #include "oracle/morton.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/relocate.h"
 #include "support/trace_octrees.h"
@@ -28,14 +27,11 @@ using test::Relocated;
 using test::takePicture;
 
 constexpr std::uint32_t kFar = 100000; // nodes: more than 16 bits can number
-constexpr std::array kViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
-                               View::Level, View::Iterations, View::Voxel,  View::Bricks};
+constexpr std::array kRootViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
+                                   View::Level, View::Iterations, View::Voxel,  View::Bricks};
 constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 Octree withAttributes(const test::Codes& codes, std::uint32_t depth)
 {
@@ -136,7 +132,7 @@ TEST(TraceRoots, EveryViewOfARelocatedOctreeIsTheSame)
         const Octree octree = withAttributes(codes, depth);
         const std::vector<Relocated> relocated = relocations(octree);
         const ViewCamera view = test::manyCameras(octree.grid).front();
-        for (const View shown : kViews)
+        for (const View shown : kRootViews)
         {
             TraceOptions options;
             options.view = shown;
@@ -367,7 +363,7 @@ TEST(TraceRoots, ARootThatWasEmptyInBetweenIsTheSame)
             device().run([&](vk::FrameGraph& graph) { graph.update(octree.nodes, 0, std::span(&with, 1)); });
             return takePicture(device(), octree, beam, camera, buffers, options);
         };
-        for (const View view : kViews)
+        for (const View view : kRootViews)
         {
             for (const bool use_beam : {true, false})
             {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays through the octrees of whole scenes against the reference, bit for bit.
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/trace_rays.h"
@@ -17,10 +16,7 @@ namespace
 
 constexpr std::uint32_t kRayCount = 100000;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 class TraceScenes : public testing::TestWithParam<std::string>
 {

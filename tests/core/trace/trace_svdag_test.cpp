@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A DAG looks like the octree that it was made from.
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/trace/trace.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/morton.h"
 #include "support/dags.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
@@ -31,14 +30,11 @@ using test::hitCount;
 using test::Picture;
 using test::takePicture;
 
-constexpr std::array kViews = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
-                               View::Iterations, View::Voxel,  View::Bricks, View::Origin};
+constexpr std::array kDagViews = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
+                                  View::Iterations, View::Voxel,  View::Bricks, View::Origin};
 constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// An octree and its DAG.
 struct Pair
@@ -178,7 +174,7 @@ TEST(TraceSvdag, EveryViewIsTheSame)
     {
         const Pair pair(codes, depth);
         const ViewCamera view = test::manyCameras(pair.octree.grid).front();
-        for (const View shown : kViews)
+        for (const View shown : kDagViews)
         {
             TraceOptions options;
             options.view = shown;
@@ -194,7 +190,7 @@ TEST(TraceSvdag, EveryViewWithoutAttributesIsTheSame)
     {
         const Pair pair(codes, depth, false);
         const ViewCamera view = test::manyCameras(pair.octree.grid).front();
-        for (const View shown : kViews)
+        for (const View shown : kDagViews)
         {
             TraceOptions options;
             options.view = shown;
@@ -404,7 +400,7 @@ TEST_P(TraceSvdagScenes, LookTheSame)
                                   ViewCamera::lookAt(middle + glm::dvec3(0.1, 0.2, 0.3) * edges, middle, 1.0), flat};
     for (const ViewCamera& view : cameras)
     {
-        for (const View shown : kViews)
+        for (const View shown : kDagViews)
         {
             TraceOptions options;
             options.view = shown;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Lists of rays on the device against the reference, bit for bit.
-#include "core/base/kernels.h"
 #include "core/trace/trace.h"
 #include "oracle/morton.h"
 #include "oracle/trace.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/trace_octrees.h"
 #include "support/trace_rays.h"
 
@@ -29,10 +28,7 @@ using test::unpack;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 std::vector<gpu::Hit> traceOnDevice(const Octree& octree, const std::vector<gpu::Ray>& rays,
                                     const TraceOptions& options = {})

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Views that show how voxels are stored, and what is told of one pixel.
-#include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/dynamic/mover_set.h"
 #include "core/headless/compress.h"
@@ -11,7 +10,7 @@
 #include "core/tree/tree_data.h"
 #include "core/upload/gpu_scene.h"
 #include "support/dags.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/pictures.h"
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
@@ -39,22 +38,19 @@ namespace
 using test::DeviceHit;
 using test::Picture;
 
-constexpr std::uint32_t kWidth = 61;
-constexpr std::uint32_t kHeight = 47;
+constexpr std::uint32_t kViewWidth = 61;
+constexpr std::uint32_t kViewHeight = 47;
 constexpr gpu::uint kBackground = 255U << 24;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 Picture take(const TreeView& tree, const ViewCamera& camera, View view, float detail_pixels = 0)
 {
     TraceOptions options;
     options.view = view;
     options.detail_pixels = detail_pixels;
-    return test::takePicture(device(), tree, traceCamera(camera, tree.octree().grid, kHeight), kWidth, kHeight,
-                             options);
+    return test::takePicture(device(), tree, traceCamera(camera, tree.octree().grid, kViewHeight), kViewWidth,
+                             kViewHeight, options);
 }
 
 std::array<int, 3> rgb(gpu::uint pixel)
@@ -244,9 +240,9 @@ TEST(TraceViews, WhatAnUpdateMadeIsOrange)
 
 gpu::PixelReport inspect(const TreeView& tree, const ViewCamera& view, const TraceOptions& options, glm::uvec2 pixel)
 {
-    const TraceCamera camera = traceCamera(view, tree.octree().grid, kHeight);
+    const TraceCamera camera = traceCamera(view, tree.octree().grid, kViewHeight);
     BeamGrid beam(device().device(), tree.hasLists());
-    TraceBuffers buffers(device().device(), kWidth, kHeight);
+    TraceBuffers buffers(device().device(), kViewWidth, kViewHeight);
     vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1, vk::MemoryKind::Readback);
     device().run(
         [&](vk::FrameGraph& graph)
@@ -278,7 +274,7 @@ TEST(InspectPixel, TellsWhatThePictureShows)
                 TraceOptions options;
                 options.detail_pixels = detail;
                 const gpu::PixelReport report = inspect(octree, camera, options, pixel);
-                const gpu::Hit& stored = picture.hits[pixel.y * kWidth + pixel.x];
+                const gpu::Hit& stored = picture.hits[pixel.y * kViewWidth + pixel.x];
                 const std::optional<DeviceHit> hit = test::unpack(stored);
                 ASSERT_EQ(report.hit != 0, hit.has_value());
                 if (!hit)
@@ -318,11 +314,12 @@ TEST(InspectPixel, StepsAreThoseOfTheIterationsViewWithoutShortcuts)
     options.beam = false;
     for (const ViewCamera& camera : test::manyCameras(octree.grid))
     {
-        const Picture picture =
-            test::takePicture(device(), octree, traceCamera(camera, octree.grid, kHeight), kWidth, kHeight, options);
+        const Picture picture = test::takePicture(device(), octree, traceCamera(camera, octree.grid, kViewHeight),
+                                                  kViewWidth, kViewHeight, options);
         for (const glm::uvec2& pixel : kPixels)
         {
-            EXPECT_EQ(inspect(octree, camera, options, pixel).iterations, picture.light[pixel.y * kWidth + pixel.x]);
+            EXPECT_EQ(inspect(octree, camera, options, pixel).iterations,
+                      picture.light[pixel.y * kViewWidth + pixel.x]);
         }
     }
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree/tree_data.h"
 
-#include "core/base/kernels.h"
 #include "core/file/tree_check.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "runtime/octree_sha256.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/tree_samples.h"
 
@@ -19,11 +18,6 @@ namespace zvo::test
 {
 namespace
 {
-
-vk::HeadlessDevice& device()
-{
-    return sharedDevice(zvoKernels());
-}
 
 TEST(TreeData, ComesBackFromTheDeviceAsItWas)
 {

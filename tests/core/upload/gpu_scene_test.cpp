@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/upload/gpu_scene.h"
 
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/upload/draws.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/moved_scene.h"
 #include "support/octree_access.h"
 #include "support/scenes.h"
@@ -26,10 +25,7 @@ namespace
 using test::kGrid;
 using test::mixedScene;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// Emission of every emissive voxel, by Morton code.
 std::map<std::uint64_t, gpu::uint> emissionOf(const Octree& octree)

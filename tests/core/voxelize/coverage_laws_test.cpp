@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Laws of the device's voxel sets (docs/voxelization.md, "Laws").
-#include "core/base/kernels.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/snap.h"
 #include "runtime/octree_sha256.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/lattice_sets.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
@@ -27,10 +26,7 @@ using test::LatticeTriangles;
 using test::Symmetry;
 using test::VoxelSet;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 VoxelSet voxelsOf(std::span<const LatticeTriangle> triangles, std::uint32_t depth, Coverage coverage)
 {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Grids of depth 13 to 17, sparsely filled: brick keys of two words, lattice coordinates up to 2^25, long rows.
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "oracle/morton.h"
 #include "runtime/octree_sha256.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/octree_access.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
@@ -23,10 +22,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 Grid unitGrid(std::uint32_t depth)
 {

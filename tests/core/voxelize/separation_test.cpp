@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Voxels of closed surfaces keep inside and outside apart: no path along faces of uncovered voxels leads through.
-#include "core/base/kernels.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/winding.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/lattice_sets.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
@@ -21,10 +20,7 @@ namespace
 using stress::LatticeTriangle;
 using test::LatticeTriangles;
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// Triangles with shared corners, so that rounding the corners keeps it closed.
 struct Solid

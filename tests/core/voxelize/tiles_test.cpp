@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tiles of a grid are slices of it: voxels and attributes, bit for bit.
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/materials_scene.h"
 #include "support/morton_place.h"
 #include "support/scenes.h"
@@ -19,10 +18,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 /// What one can see of an octree, in Morton order.
 struct Contents

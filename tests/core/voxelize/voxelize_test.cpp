@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The voxels of the device against the exact oracle, bit for bit.
-#include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "io/gltf/gltf_loader.h"
 #include "oracle/voxelizer.h"
 #include "runtime/octree_sha256.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/voxel_compare.h"
@@ -19,10 +18,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 void expectEqualsOracle(const Scene& scene, const Grid& grid, Coverage coverage)
 {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cmath>
+
+namespace zvo
+{
+
+/// Whether no component is infinite or not a number; of a matrix, in its upper three rows.
+inline bool isFinite(const glm::vec3& vector)
+{
+    return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+}
+
+inline bool isFinite(const glm::mat4& matrix)
+{
+    return isFinite(glm::vec3(matrix[0])) && isFinite(glm::vec3(matrix[1])) && isFinite(glm::vec3(matrix[2])) &&
+           isFinite(glm::vec3(matrix[3]));
+}
+
+} // namespace zvo
