@@ -5,6 +5,7 @@
 #include "support/failing_vulkan.h"
 #include "support/host_allocator.h"
 #include "support/host_memory.h"
+#include "support/sweep.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -148,10 +149,12 @@ TEST(ApiContract, EveryAllocationOfTheDriverMayFail)
     {
         test::EmbeddingHost host(options);
         Program(host).run(); // kernels are made: of these, test::AllocationCallbacks has every allocation fail
-        for (std::uint64_t number = 0;; ++number)
+        test::Sweep sweep;
+        std::uint64_t run_count = 0;
+        for (std::uint64_t number = sweep.first();; number += sweep.step())
         {
             allocator.failCall(number);
-            host.submits_failed = number % 2 == 1;
+            host.submits_failed = run_count++ % 2 == 1;
             bool was_reached = false;
             failures += failOnce(host,
                                  [&]
@@ -167,16 +170,16 @@ TEST(ApiContract, EveryAllocationOfTheDriverMayFail)
             }
         }
     }
-    EXPECT_GT(failures, 100U);
+    EXPECT_GT(failures, test::Sweep().share(100));
     EXPECT_EQ(allocator.liveCount(), 0U);
 }
 
 TEST(ApiContract, AllocationsOfTheDriverMayFailWhileKernelsAreMade)
 {
-    constexpr std::uint64_t kStep = 61; // a new context takes its time
+    test::Sweep sweep(61); // a new context takes its time
     bool was_reached = true;
     std::uint64_t failures = 0;
-    for (std::uint64_t number = 0; was_reached; number += kStep)
+    for (std::uint64_t number = sweep.first(); was_reached; number += sweep.step())
     {
         test::HostAllocator allocator;
         test::HostOptions options;

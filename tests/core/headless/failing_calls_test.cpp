@@ -18,6 +18,7 @@
 #include "support/failing_vulkan.h"
 #include "support/materials_scene.h"
 #include "support/scenes.h"
+#include "support/sweep.h"
 #include "support/zvo_parts.h"
 #include "zvo/error.h"
 
@@ -163,8 +164,6 @@ protected:
         return std::nullopt;
     }
 
-    static void expectErrors(std::uint64_t step);
-
     static void expectCode(const std::optional<ErrorCode>& code, VkResult result)
     {
         const std::string function = test::failedFunction();
@@ -200,12 +199,14 @@ protected:
         EXPECT_EQ(run(), expected);
         const std::uint64_t call_count = test::fallibleCallCount();
         ASSERT_GT(call_count, call_count_min);
-        for (std::uint64_t number = 0; number < call_count; ++number)
+        test::Sweep sweep;
+        std::uint64_t run_count = 0;
+        for (std::uint64_t number = sweep.first(); number < call_count; number += sweep.step())
         {
             test::failCall(number, VK_ERROR_OUT_OF_HOST_MEMORY);
             expectCode(errorOf(run, expected), VK_ERROR_OUT_OF_HOST_MEMORY);
             ASSERT_EQ(sortedLiveObjects(), live) << "after " << test::failedFunction() << ", call " << number;
-            if (number % kWholeRunEach == 0 || number + 1 == call_count)
+            if (run_count++ % kWholeRunEach == 0 || number + sweep.step() >= call_count)
             {
                 test::failCall(UINT64_MAX);
                 ASSERT_EQ(run(), expected) << "after call " << number;
@@ -223,12 +224,12 @@ TEST_F(FailingCalls, TheRunHasManyCallsAndLeavesNothing)
     EXPECT_TRUE(test::liveObjects().empty()) << test::liveObjects().front();
 }
 
-// Every step-th call of a run on a new device fails.
-void FailingCalls::expectErrors(std::uint64_t step)
+TEST_F(FailingCalls, EachOutOfDeviceMemoryIsAnErrorAndLeavesNothing)
 {
+    test::Sweep sweep(7); // a new device takes its time
     std::uint64_t run_count = 0;
     std::uint64_t error_count = 0;
-    for (std::uint64_t number = 0; number < s_call_count; number += step)
+    for (std::uint64_t number = sweep.first(); number < s_call_count; number += sweep.step())
     {
         test::failCall(number, VK_ERROR_OUT_OF_DEVICE_MEMORY);
         const std::optional<ErrorCode> code = errorOf(workOnANewDevice, s_expected);
@@ -244,20 +245,10 @@ void FailingCalls::expectErrors(std::uint64_t step)
     EXPECT_EQ(workOnANewDevice(), s_expected);
 }
 
-TEST_F(FailingCalls, OfManyCallsEachOutOfDeviceMemoryIsAnErrorAndLeavesNothing)
-{
-    expectErrors(7);
-}
-
-// Minutes: scripts/check-sanitizers.
-TEST_F(FailingCalls, DISABLED_EveryCallOutOfDeviceMemoryIsAnErrorAndLeavesNothing)
-{
-    expectErrors(1);
-}
-
 TEST_F(FailingCalls, OtherResultsAndEverythingAfterThemToo)
 {
-    for (std::uint64_t number = 0; number < s_call_count; number += 23)
+    test::Sweep sweep(23);
+    for (std::uint64_t number = sweep.first(); number < s_call_count; number += sweep.step())
     {
         for (const VkResult result : {VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_DEVICE_LOST})
         {
