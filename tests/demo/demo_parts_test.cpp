@@ -32,10 +32,10 @@ std::string contentOf(const std::filesystem::path& file)
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-TEST(Keys, TheReadmeHasTheTableOfTheProgram)
+TEST(Keys, TheDocumentationHasTheTableOfTheProgram)
 {
-    const std::string readme = contentOf(ZVO_SOURCE_DIR "/README.md");
-    EXPECT_NE(readme.find("\n" + keyTableText() + "\n"), std::string::npos) << "it should have\n" << keyTableText();
+    const std::string page = contentOf(ZVO_SOURCE_DIR "/docs/window.md");
+    EXPECT_NE(page.find("\n" + keyTableText() + "\n"), std::string::npos) << "it should have\n" << keyTableText();
 }
 
 TEST(Keys, NoKeyDoesTwoThings)

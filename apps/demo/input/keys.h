@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of keys: what they do, and what F1 and the README say that they do.
+// The table of keys: what they do, and what F1 and docs/window.md say that they do.
 #pragma once
 
 #include "demo/input/input_event.h"
@@ -102,7 +102,7 @@ inline constexpr std::array kKeyBindings = {
 /// The row of the table that a press of a key names.
 const KeyBinding* bindingOf(const KeyEvent& event);
 
-/// The table in Markdown, as the README has it.
+/// The table in Markdown, as docs/window.md has it.
 std::string keyTableText();
 
 } // namespace zvo::demo
