@@ -32,9 +32,10 @@
 //
 // Define before the include, where it helps:
 //   ZVO_GROUP             threads of the workgroup: rays keep their stack in shared memory, 32 bytes a thread, in place
-//                         of a private array. Compute shaders only.
-//   ZVO_NODE_LEVELS       zvo_TreeTable::node_levels of all trees, a constant or a specialization constant: rays keep
-//                         their stack in registers. Other trees are traced wrongly.
+//                         of registers. Compute shaders only.
+//   ZVO_NODE_LEVELS       zvo_TreeTable::node_levels of all trees, a constant or a specialization constant: rays take
+//                         registers for so many levels, not for the most that there can be. Other trees are traced
+//                         wrongly.
 //   ZVO_ENTRIES_PER_WORD  zvo_TreeTable::entries_per_word of all trees, likewise; 0 leaves out what only DAGs need.
 //   ZVO_DETAIL            rays may stop at nodes that are small enough: zvo_traceDetail, zvo_traceRayDetail.
 //   ZVO_STEPS_MAX         iterations of a ray in one call, 40,000 by default: enough for any ray through 8192^3 voxels.
@@ -67,6 +68,7 @@
 const uint kNodeLevels = ZVO_NODE_LEVELS;
 #else
 uint kNodeLevels;
+#define TRAVERSE_LEVELS kNodeLevelsMax
 #endif
 #ifdef ZVO_ENTRIES_PER_WORD
 const uint kEntriesPerWord = ZVO_ENTRIES_PER_WORD;
@@ -76,10 +78,8 @@ uint kEntriesPerWord;
 #ifdef ZVO_GROUP
 #define TRAVERSE_GROUP ZVO_GROUP
 const uint kStack = kStackShared;
-#elif defined(ZVO_NODE_LEVELS)
-const uint kStack = kStackRegisters;
 #else
-const uint kStack = kStackPrivate;
+const uint kStack = kStackRegisters;
 #endif
 #ifdef ZVO_DETAIL
 const bool kDetail = true;

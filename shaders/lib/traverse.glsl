@@ -31,6 +31,8 @@
 //   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
 //   TRAVERSE_VARIABLES                 optional: then the includer declares what the five constants stand for, by their
 //                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
+//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, which must be defined where that is a variable:
+//                                      for the registers of kStackRegisters
 
 #ifndef TRAVERSE_VARIABLES
 #ifndef TRAVERSE_CONSTANT_ID
@@ -52,6 +54,9 @@ const uint kRootShift = kMantissaBits - 2u; // of the mantissa bits that number 
 const uint kLeafShift = kMantissaBits - 2u * kNodeLevels;
 #endif
 const uint kSavedMax = 8u; // levels of nodes above a leaf
+#ifndef TRAVERSE_LEVELS
+#define TRAVERSE_LEVELS kNodeLevels
+#endif
 
 struct Traversal
 {
@@ -93,7 +98,7 @@ void saveNode(uint shift, uint node)
 {
     uint level = (kRootShift - shift) >> 1;
     if (kStack == kStackRegisters)
-        [[unroll]] for (uint k = 1u; k + 1u < kNodeLevels; ++k)
+        [[unroll]] for (uint k = 1u; k + 1u < TRAVERSE_LEVELS; ++k)
             g_saved[k] = shift == kRootShift - 2u * k ? node : g_saved[k];
     else if (kStack == kStackPrivate)
         g_saved[level] = node;
@@ -109,7 +114,7 @@ uint savedNode(uint shift)
     uint level = min((kRootShift - shift) >> 1, kSavedMax - 1u);
     uint node = 0u;
     if (kStack == kStackRegisters)
-        [[unroll]] for (uint k = 1u; k + 1u < kNodeLevels; ++k)
+        [[unroll]] for (uint k = 1u; k + 1u < TRAVERSE_LEVELS; ++k)
             node = shift == kRootShift - 2u * k ? g_saved[k] : node;
     else if (kStack == kStackPrivate)
         node = g_saved[level];

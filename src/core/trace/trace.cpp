@@ -69,7 +69,7 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     const bool wants_ranks = tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options);
     const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
     const vk::Specialization constants =
-        withFlags(traverseConstants(tree, options),
+        withFlags(traverseConstants(graph.device(), tree, options),
                   {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree),
                    has_ranks && tree.overlaid() != nullptr});
     const std::uint32_t rounds = roundsFor(octree, options);
@@ -153,10 +153,10 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
         return params;
     };
     const std::uint64_t groups = divideUp(rays.count(), gpu::kRaysGroup);
-    addRounds<gpu::RaysParams>(graph, "trace/rays", traverseConstants(tree, options), roundsFor(octree, options),
-                               rounds, divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
-                               [&](vk::Pass& pass, const gpu::RaysParams& params)
-                               { pass.dispatch(rays.count(), params); });
+    addRounds<gpu::RaysParams>(
+        graph, "trace/rays", traverseConstants(graph.device(), tree, options), roundsFor(octree, options), rounds,
+        divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
+        [&](vk::Pass& pass, const gpu::RaysParams& params) { pass.dispatch(rays.count(), params); });
     if (tree.svdag() != nullptr && octree.hasAttributes())
     {
         rankHits(graph, tree, options, hits, rays.count());

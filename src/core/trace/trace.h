@@ -12,7 +12,8 @@
 namespace zvo
 {
 
-/// Where a ray keeps the nodes above the current one. The hits are the same.
+/// Where a ray keeps the nodes above the current one. The hits are the same. Private is for CPUs: rays on devices of
+/// other types keep their nodes in registers in its place.
 enum class TraceStack : std::uint32_t
 {
     Registers = gpu::kStackRegisters,

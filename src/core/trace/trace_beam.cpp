@@ -101,7 +101,7 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
     const PictureTiles tiles(buffers);
     const bool fine = hasFineBeam(octree);
     const vk::Specialization constants =
-        withFlags({gpu::kBeamLevels + (fine ? 1 : 0), static_cast<std::uint32_t>(options.stack), fine ? 1U : 0U,
+        withFlags({gpu::kBeamLevels + (fine ? 1 : 0), stackConstant(graph.device(), options), fine ? 1U : 0U,
                    gpu::kTraceStepsMax},
                   {false, camera.orthographic, options.beam, isEmpty(octree)});
     vk::Pass pass = graph.addPass("trace/beam", constants);

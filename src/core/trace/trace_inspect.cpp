@@ -16,8 +16,8 @@ void inspectPixel(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera
     }
     const std::uint32_t form =
         showsAttributes(options) ? formToRead(octree, options) : static_cast<std::uint32_t>(AttributeForm::None);
-    vk::Pass pass = graph.addPass(
-        "trace/inspect", withConstants(traverseConstants(tree, options), {camera.orthographic ? 1U : 0U, form}));
+    vk::Pass pass = graph.addPass("trace/inspect", withConstants(traverseConstants(graph.device(), tree, options),
+                                                                 {camera.orthographic ? 1U : 0U, form}));
     gpu::InspectParams params{};
     params.nodes = pass.read(octree.nodes);
     params.hits = pass.read(buffers.hits);

@@ -87,8 +87,8 @@ void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& 
                 TraceBuffers& buffers)
 {
     const Octree& octree = tree.octree();
-    const vk::Specialization constants =
-        withConstants(traverseConstants(tree, options), {camera.orthographic ? 1U : 0U, formToRead(octree, options)});
+    const vk::Specialization constants = withConstants(traverseConstants(graph.device(), tree, options),
+                                                       {camera.orthographic ? 1U : 0U, formToRead(octree, options)});
     if (options.shadows)
     {
         const gpu::vec3 to_sun = sunDirection(options);

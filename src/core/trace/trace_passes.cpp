@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_passes.h"
 
+#include "vk/device.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -41,9 +43,20 @@ std::uint32_t formToRead(const Octree& octree, const TraceOptions& options)
     return static_cast<std::uint32_t>(usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None);
 }
 
-vk::Specialization traverseConstants(const TreeView& tree, const TraceOptions& options)
+TraceStack stackOn(std::string_view device_type, TraceStack asked)
 {
-    return {tree.octree().grid.nodeLevels(), static_cast<std::uint32_t>(options.stack), options.hasDetail() ? 1U : 0U,
+    // A GPU keeps a private array that is indexed in device memory: each step of each ray would go there and back.
+    return asked == TraceStack::Private && device_type != "cpu" ? TraceStack::Registers : asked;
+}
+
+std::uint32_t stackConstant(const vk::Device& device, const TraceOptions& options)
+{
+    return static_cast<std::uint32_t>(stackOn(device.report().type, options.stack));
+}
+
+vk::Specialization traverseConstants(const vk::Device& device, const TreeView& tree, const TraceOptions& options)
+{
+    return {tree.octree().grid.nodeLevels(), stackConstant(device, options), options.hasDetail() ? 1U : 0U,
             options.steps_max, tree.entriesPerWord()};
 }
 

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <string_view>
 
 namespace zvo
 {
@@ -51,8 +52,14 @@ template <typename Params> void readAttributes(vk::Pass& pass, const Octree& oct
     params.node_attributes = pass.read(octree.node_attributes);
 }
 
+/// The stack of rays on a device of this DeviceReport::type: what was asked for, but Private on CPUs alone.
+TraceStack stackOn(std::string_view device_type, TraceStack asked);
+
+/// The value of kStack (lib/traverse.glsl) on this device.
+std::uint32_t stackConstant(const vk::Device& device, const TraceOptions& options);
+
 /// The constants that every kernel with lib/traverse.glsl begins with.
-vk::Specialization traverseConstants(const TreeView& tree, const TraceOptions& options);
+vk::Specialization traverseConstants(const vk::Device& device, const TreeView& tree, const TraceOptions& options);
 
 vk::Specialization withConstants(vk::Specialization constants, std::initializer_list<std::uint32_t> more);
 vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more);

@@ -2,6 +2,7 @@
 // Pictures: what may change how they are made but not what they show.
 #include "core/base/kernels.h"
 #include "core/trace/trace.h"
+#include "core/trace/trace_passes.h"
 #include "oracle/trace.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
@@ -141,6 +142,19 @@ TEST(TracePicture, EveryStackGivesTheSamePicture)
         options.stack = stack;
         expectSameHits(first, take(octree, camera, 120, 120, options));
     }
+}
+
+TEST(TracePicture, ThePrivateStackIsForCpusAlone)
+{
+    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
+    {
+        EXPECT_EQ(stackOn("cpu", stack), stack);
+        for (const char* const type : {"discrete", "integrated", "virtual", "other"})
+        {
+            EXPECT_EQ(stackOn(type, stack), stack == TraceStack::Private ? TraceStack::Registers : stack) << type;
+        }
+    }
+    EXPECT_EQ(TraceOptions{}.stack, TraceStack::Registers);
 }
 
 TEST(TracePicture, EveryStackSurvivesRaysThatLeaveAndReturn)
