@@ -3,6 +3,7 @@
 
 #include "vk/memory.h"
 
+#include <cstdint>
 #include <string>
 
 namespace zvo::vk
@@ -30,6 +31,7 @@ public:
     [[nodiscard]] VkFormat format() const { return m_format; }
     [[nodiscard]] std::uint32_t width() const { return m_width; }
     [[nodiscard]] std::uint32_t height() const { return m_height; }
+    [[nodiscard]] std::uint64_t bytes() const { return m_memory.bytes; } // of its memory
     [[nodiscard]] const std::string& name() const { return m_name; }
 
 private:

@@ -47,11 +47,8 @@ public:
     [[nodiscard]] PictureSize size() const { return m_size; }
     [[nodiscard]] bool encodesSrgb() const { return m_encodes_srgb; }
 
-    /// Device memory that it takes, about.
-    [[nodiscard]] std::uint64_t bytes() const
-    {
-        return std::uint64_t{m_size.width} * m_size.height * sizeof(gpu::uint) + m_scaled.bytes();
-    }
+    /// Device memory that it takes.
+    [[nodiscard]] std::uint64_t bytes() const { return m_image.bytes() + m_scaled.bytes(); }
 
     /// Records the passes that put a picture there, in any size.
     void fill(vk::FrameGraph& graph, const TraceBuffers& picture);

@@ -30,8 +30,7 @@ std::uint64_t Renderer::pictureBytes() const
     {
         return 0;
     }
-    return m_trace->starts.bytes() + m_trace->live.bytes() + m_trace->hits.bytes() + m_trace->light.bytes() +
-           m_trace->image.bytes() + m_compose->bytes();
+    return m_trace->bytes() + m_compose->bytes();
 }
 
 void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& picture)

@@ -59,6 +59,15 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
     image = {device, "image", pixel_count * texelWords(texels)};
 }
 
+std::uint64_t TraceBuffers::bytes() const
+{
+    // Every member has a name here, or this does not compile: none is forgotten.
+    const auto& [own_width, own_height, own_texels, starts_, live_, args_, rounds_, status_, hits_, light_, image_] =
+        *this;
+    return starts_.bytes() + live_.bytes() + args_.bytes() + rounds_.bytes() + status_.bytes() + hits_.bytes() +
+           light_.bytes() + image_.bytes();
+}
+
 void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers)
 {

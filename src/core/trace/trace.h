@@ -76,6 +76,9 @@ struct TraceBuffers
 {
     TraceBuffers(vk::Device& device, std::uint32_t width, std::uint32_t height, TexelForm texels = TexelForm::Rgba8);
 
+    /// Of all buffers together.
+    [[nodiscard]] std::uint64_t bytes() const;
+
     std::uint32_t width;
     std::uint32_t height;
     TexelForm texels;

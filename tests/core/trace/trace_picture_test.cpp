@@ -210,6 +210,22 @@ TEST(TracePicture, HitsEqualTheReference)
     }
 }
 
+TEST(TracePicture, ItsBuffersTellAllTheMemoryThatTheyTake)
+{
+    const vk::MemoryAllocator& memory = device().device().memory();
+    for (const auto& [width, height] : {std::pair{1U, 1U}, {300U, 201U}})
+    {
+        const std::uint64_t used = memory.usedBytes();
+        const TraceBuffers buffers(device().device(), width, height);
+        constexpr std::uint64_t kRoundingMax = std::uint64_t{8} * 256;
+        EXPECT_LE(buffers.bytes(), memory.usedBytes() - used);
+        EXPECT_GE(buffers.bytes() + kRoundingMax, memory.usedBytes() - used);
+        EXPECT_EQ(buffers.bytes(), buffers.starts.bytes() + buffers.live.bytes() + buffers.args.bytes() +
+                                       buffers.rounds.bytes() + buffers.status.bytes() + buffers.hits.bytes() +
+                                       buffers.light.bytes() + buffers.image.bytes());
+    }
+}
+
 TEST(TracePicture, SizesThatDoNotFillTilesLeaveNothingUnwritten)
 {
     const Octree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
