@@ -4,12 +4,12 @@
 #include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
 #include "bench/table.h"
-#include "common/morton.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
+#include "core/base/morton.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "core/tree/svdag.h"
@@ -215,7 +215,7 @@ public:
     double stroke(BrushAction action, std::uint32_t radius)
     {
         const std::uint64_t code = m_codes[m_random() % m_codes.size()];
-        const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(cellOf(code)), radius,
+        const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(cellOfCode(code)), radius,
                              static_cast<std::uint32_t>(m_random() & 0xFFFFFFU)};
         bool is_done = false;
         std::vector<vk::PassTime> passes;

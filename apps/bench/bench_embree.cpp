@@ -2,7 +2,7 @@
 #include "bench/bench_embree.h"
 
 #include "bench/bench_table.h"
-#include "common/morton.h"
+#include "core/base/morton.h"
 #include "zvo/error.h"
 
 #include <embree3/rtcore.h>
@@ -283,7 +283,7 @@ EmbreeResult traceVoxelsByEmbree(const Grid& grid, std::span<const std::uint64_t
     voxels.cells.reserve(codes.size());
     for (const std::uint64_t code : codes)
     {
-        voxels.cells.emplace_back(cellOf(code));
+        voxels.cells.emplace_back(cellOfCode(code));
     }
     const DeviceHandle device(rtcNewDevice(nullptr));
     const SceneHandle scene(rtcNewScene(device.get()));

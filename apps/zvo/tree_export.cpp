@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tree_export.h"
 
-#include "common/morton.h"
 #include "common/normal.h"
+#include "core/base/morton.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little); // numbers are writte
 
 glm::vec3 voxelCentre(const Grid& grid, std::uint64_t code)
 {
-    return glm::vec3(glm::dvec3(grid.origin) + (glm::dvec3(cellOf(code)) + 0.5) * double{grid.voxel_size});
+    return glm::vec3(glm::dvec3(grid.origin) + (glm::dvec3(cellOfCode(code)) + 0.5) * double{grid.voxel_size});
 }
 
 std::string plyHeader(const TreeData& tree)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/headless/tiled_build.h"
 
+#include "core/base/morton.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
@@ -29,20 +30,6 @@ constexpr std::uint32_t kTileDepthMin = 4; // smaller tiles would take no less m
 template <typename T> void append(std::vector<T>& to, const std::vector<T>& from)
 {
     to.insert(to.end(), from.begin(), from.end());
-}
-
-// The cube of a grid with a Morton code.
-glm::uvec3 placeOf(std::uint64_t code)
-{
-    glm::uvec3 place{0};
-    for (std::uint32_t bit = 0; code >> (3 * bit) != 0; ++bit)
-    {
-        for (std::uint32_t axis = 0; axis < 3; ++axis)
-        {
-            place[static_cast<int>(axis)] |= static_cast<std::uint32_t>(code >> (3 * bit + axis) & 1) << bit;
-        }
-    }
-    return place;
 }
 
 // What the voxels of a part of the grid look like, but for their attributes: those go to one place, since parts come in
@@ -177,7 +164,7 @@ std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     const auto last = m_capacities.find(depth);
     const VoxelizeCapacities capacities =
         last != m_capacities.end() ? last->second : likelyCapacities(m_scene.uploaded(), m_grid, depth);
-    BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, placeOf(code)},
+    BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, cellOfCode(code)},
                                     {m_options.coverage, hasAttributes(), capacities});
     m_capacities[depth] = built.capacities;
     m_result.dropped = built.dropped;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/tree/tree_build.h"
 
+#include "core/base/morton.h"
 #include "zvo/error.h"
 
 #include <bit>
@@ -45,29 +46,6 @@ bool hasVoxel(const TreeData& tree, const glm::ivec3& cell)
         }
     }
     return true;
-}
-
-glm::uvec3 cellOfCode(std::uint64_t code)
-{
-    glm::uvec3 cell(0U);
-    for (std::uint32_t bit = 0; code != 0; ++bit, code >>= 3)
-    {
-        cell |= glm::uvec3(code & 1U, code >> 1 & 1U, code >> 2 & 1U) << bit;
-    }
-    return cell;
-}
-
-std::uint64_t codeOfCell(const glm::uvec3& cell)
-{
-    const auto spread = [](std::uint64_t v) // two zeros between each two bits
-    {
-        v = (v | v << 32) & 0x1f00000000ffffU;
-        v = (v | v << 16) & 0x1f0000ff0000ffU;
-        v = (v | v << 8) & 0x100f00f00f00f00fU;
-        v = (v | v << 4) & 0x10c30c30c30c30c3U;
-        return (v | v << 2) & 0x1249249249249249U;
-    };
-    return spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2;
 }
 
 TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes)

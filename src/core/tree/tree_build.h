@@ -13,10 +13,6 @@ namespace zvo
 /// Whether tree has the voxel; cell: any coordinates, those outside of the grid have none.
 bool hasVoxel(const TreeData& tree, const glm::ivec3& cell);
 
-/// The coordinates of the voxel with that Morton code, x in bits 0, 3, 6 and so on; and back.
-glm::uvec3 cellOfCode(std::uint64_t code);
-std::uint64_t codeOfCell(const glm::uvec3& cell);
-
 /// The octree of codes, ascending and each once, below 8^grid.depth; without attributes. Throws Error{Memory} for 2^32
 /// voxels or nodes and more.
 TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes);

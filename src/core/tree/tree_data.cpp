@@ -2,6 +2,7 @@
 #include "core/tree/tree_data.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/morton.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -153,9 +154,7 @@ std::optional<CellBox> voxelBox(const TreeData& tree)
             for (std::uint64_t rest = cellMask(node); rest != 0; rest &= rest - 1, ++rank)
             {
                 const auto cell = static_cast<std::uint32_t>(std::countr_zero(rest));
-                const glm::uvec3 corner =
-                    edge * glm::uvec3((cell & 1U) | (cell >> 2 & 2U), (cell >> 1 & 1U) | (cell >> 3 & 2U),
-                                      (cell >> 2 & 1U) | (cell >> 4 & 2U));
+                const glm::uvec3 corner = edge * cellOfCode(cell);
                 CellBox inner = {glm::uvec3(0U), glm::uvec3(1U)};
                 if (!below.empty())
                 {

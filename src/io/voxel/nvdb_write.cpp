@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/voxel/nvdb_write.h"
 
-#include "core/tree/tree_build.h"
+#include "core/base/morton.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/base/input_error.h"
-#include "core/tree/tree_build.h"
+#include "core/base/morton.h"
 #include "io/voxel/vox_chunks.h"
 #include "io/voxel/vox_file.h"
 

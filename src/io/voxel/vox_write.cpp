@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree/tree_build.h"
+#include "core/base/morton.h"
 #include "io/voxel/quantize.h"
 #include "io/voxel/vox_file.h"
 #include "zvo/error.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
 // memory than was asked for.
+#include "core/base/morton.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/tree/svdag.h"
-#include "core/tree/tree_build.h"
 #include "io/gltf/gltf_loader.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"

@@ -2,7 +2,7 @@
 // Meshes of voxels, taken apart without the loader: each face between a voxel and an empty cell once, and no other.
 #include "io/voxel/glb_write.h"
 
-#include "core/tree/tree_build.h"
+#include "core/base/morton.h"
 #include "io/gltf/gltf_loader.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"

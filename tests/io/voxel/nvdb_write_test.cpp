@@ -2,7 +2,7 @@
 // NanoVDB files, read with NanoVDB's own reader.
 #include "io/voxel/nvdb_write.h"
 
-#include "core/tree/tree_build.h"
+#include "core/base/morton.h"
 #include "support/temp_dir.h"
 #include "support/tree_samples.h"
 #include "zvo/error.h"

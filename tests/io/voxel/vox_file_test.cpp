@@ -2,6 +2,7 @@
 // MagicaVoxel's files: made here chunk by chunk as the format's author documents it, and read back.
 #include "io/voxel/vox_file.h"
 
+#include "core/base/morton.h"
 #include "core/file/tree_check.h"
 #include "core/tree/tree_build.h"
 #include "support/mesh_files.h"
