@@ -40,6 +40,9 @@ GPU_BUFFER(Attribute, 8);
 
 const uint kAttributeEmissive = 1u; // flag: the voxel has an entry in the emission table
 
+/// Voxels whose bits share a word of the emission table (lib/emission.glsl).
+const uint kVoxelsPerEmissionWord = 32u;
+
 const uint kNodeLevelsMax = 9u; // two octree levels each: depth 18
 
 GPU_NAMESPACE_END

@@ -74,7 +74,7 @@ struct CompactBuffers
 
     vk::BufferOf<gpu::uint> marks;         // [region.node_capacity]
     vk::BufferOf<gpu::uint> numbers;       // [region.node_capacity]
-    vk::BufferOf<gpu::uint> voxel_bits;    // [region.voxel_capacity / 32], or empty
+    vk::BufferOf<gpu::uint> voxel_bits;    // [region.voxel_capacity / kVoxelBlock], or empty
     vk::BufferOf<gpu::uint> voxel_numbers; // likewise
     vk::BufferOf<gpu::uint> partials;      // for blocks of either
     vk::BufferOf<gpu::uint> total;         // [1]

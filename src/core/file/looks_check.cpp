@@ -117,7 +117,7 @@ Fault checkEmission(const TreeData& tree)
         return "there is emission without attributes";
     }
     const std::uint64_t word_count =
-        tree.emission_words.empty() ? 0 : divideUp(tree.voxel_count, kVoxelsPerEmissionWord);
+        tree.emission_words.empty() ? 0 : divideUp(tree.voxel_count, gpu::kVoxelsPerEmissionWord);
     if (tree.emission_words.size() != word_count)
     {
         return fmt::format("there are {} words that tell what emits, where there must be {}",
@@ -128,7 +128,7 @@ Fault checkEmission(const TreeData& tree)
         const bool flagged = (tree.voxel_attributes[i].color >> kFlagShift & gpu::kAttributeEmissive) != 0;
         const bool listed =
             !tree.emission_words.empty() &&
-            (tree.emission_words[i / kVoxelsPerEmissionWord].x >> (i % kVoxelsPerEmissionWord) & 1U) != 0;
+            (tree.emission_words[i / gpu::kVoxelsPerEmissionWord].x >> (i % gpu::kVoxelsPerEmissionWord) & 1U) != 0;
         if (flagged != listed)
         {
             return fmt::format("voxel {} emits by its {} alone", i,
@@ -145,7 +145,7 @@ Fault checkEmission(const TreeData& tree)
         }
         rank += static_cast<std::uint32_t>(std::popcount(tree.emission_words[i].x));
     }
-    const std::uint32_t used_bits = tree.voxel_count % kVoxelsPerEmissionWord;
+    const std::uint32_t used_bits = tree.voxel_count % gpu::kVoxelsPerEmissionWord;
     if (!tree.emission_words.empty() && used_bits != 0 && tree.emission_words.back().x >> used_bits != 0)
     {
         return "the emission table has bits behind the last voxel";

@@ -225,7 +225,7 @@ private:
         case ZvoSectionId::NodeAttributes:
             return readNodeAttributes(section);
         case ZvoSectionId::EmissionWords:
-            return readArray(section, tree.emission_words, divideUp(header.voxel_count, 32));
+            return readArray(section, tree.emission_words, divideUp(header.voxel_count, gpu::kVoxelsPerEmissionWord));
         case ZvoSectionId::Emission:
             return readArray(section, tree.emission, section.count);
         }

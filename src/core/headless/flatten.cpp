@@ -81,8 +81,8 @@ public:
     [[nodiscard]] std::uint32_t firstVoxel(const Place& leaf) const { return leaf.is_listed ? leaf.rank.voxels : 0; }
     [[nodiscard]] std::uint32_t emission(std::uint64_t index) const
     {
-        const gpu::uvec2& word = m_emission_words[index / kVoxelsPerEmissionWord];
-        const std::uint32_t below = (1U << index % kVoxelsPerEmissionWord) - 1;
+        const gpu::uvec2& word = m_emission_words[index / gpu::kVoxelsPerEmissionWord];
+        const std::uint32_t below = (1U << index % gpu::kVoxelsPerEmissionWord) - 1;
         return m_emission[word.y + static_cast<std::uint32_t>(std::popcount(word.x & below))];
     }
 
@@ -206,13 +206,13 @@ private:
         {
             const gpu::Attribute& look = m_source.voxel(index);
             m_tree.voxel_attributes.push_back(look);
-            if (m_voxel_count % kVoxelsPerEmissionWord == 0)
+            if (m_voxel_count % gpu::kVoxelsPerEmissionWord == 0)
             {
                 m_tree.emission_words.push_back({0, static_cast<std::uint32_t>(m_tree.emission.size())});
             }
             if ((look.color >> 24 & gpu::kAttributeEmissive) != 0)
             {
-                m_tree.emission_words.back().x |= 1U << m_voxel_count % kVoxelsPerEmissionWord;
+                m_tree.emission_words.back().x |= 1U << m_voxel_count % gpu::kVoxelsPerEmissionWord;
                 m_tree.emission.push_back(m_source.emission(index));
             }
         }

@@ -49,7 +49,7 @@ public:
         append(emission, more.emission);
         for (std::size_t i = 0; i < more.emissive.size(); ++i)
         {
-            addBits(voxel_count + i * kVoxelsPerEmissionWord, more.emissive[i]);
+            addBits(voxel_count + i * gpu::kVoxelsPerEmissionWord, more.emissive[i]);
         }
         voxel_count += more.voxel_count;
     }
@@ -57,15 +57,15 @@ public:
 private:
     void addBits(std::uint64_t voxel, std::uint32_t bits)
     {
-        const std::size_t word = voxel / kVoxelsPerEmissionWord;
-        const std::uint64_t shifted = std::uint64_t{bits} << (voxel % kVoxelsPerEmissionWord);
+        const std::size_t word = voxel / gpu::kVoxelsPerEmissionWord;
+        const std::uint64_t shifted = std::uint64_t{bits} << (voxel % gpu::kVoxelsPerEmissionWord);
         if (shifted == 0)
         {
             return;
         }
         emissive.resize(std::max(emissive.size(), word + 2));
         emissive[word] |= static_cast<std::uint32_t>(shifted);
-        emissive[word + 1] |= static_cast<std::uint32_t>(shifted >> kVoxelsPerEmissionWord);
+        emissive[word + 1] |= static_cast<std::uint32_t>(shifted >> gpu::kVoxelsPerEmissionWord);
     }
 };
 
@@ -271,7 +271,7 @@ void TiledBuilder::finishAttributes(Looks& looks, TreeData& tree)
     }
     if (!tree.emission.empty())
     {
-        looks.emissive.resize((looks.voxel_count + kVoxelsPerEmissionWord - 1) / kVoxelsPerEmissionWord);
+        looks.emissive.resize((looks.voxel_count + gpu::kVoxelsPerEmissionWord - 1) / gpu::kVoxelsPerEmissionWord);
         std::uint32_t rank = 0;
         for (const std::uint32_t bits : looks.emissive)
         {

@@ -313,7 +313,7 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
     const bool emits = m_scene.uploaded().emission_scale > 0.0F;
     if (!m_sums)
     {
-        const std::uint64_t word_count = emits ? divideUp(octree.voxel_count, kVoxelsPerEmissionWord) : 0;
+        const std::uint64_t word_count = emits ? divideUp(octree.voxel_count, gpu::kVoxelsPerEmissionWord) : 0;
         m_device.memory().require(octree.voxel_count * (sizeof(gpu::Attribute) + sizeof(gpu::VoxelSums)) +
                                       word_count * sizeof(gpu::uvec2),
                                   "averaging the attributes");

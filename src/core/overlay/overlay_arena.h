@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "shared/octree.h"
 #include "vk/free_ranges.h"
 
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace zvo
 {
 
 /// Voxels share words of the emission table by this many; what an overlay has starts at a multiple of it.
-constexpr std::uint32_t kVoxelBlock = 32;
+inline constexpr std::uint32_t kVoxelBlock = gpu::kVoxelsPerEmissionWord;
 
 /// A part of the octree's buffers that one overlay may write: nodes and node attributes from first_node on, voxel
 /// attributes and words of the emission table from first_voxel on.

@@ -13,9 +13,6 @@
 namespace zvo
 {
 
-/// Voxels whose bits of Octree::emission_words share a word.
-inline constexpr std::uint32_t kVoxelsPerEmissionWord = 32;
-
 /// A sparse voxel octree in device memory; shaders/shared/octree.h documents its layout.
 struct Octree
 {

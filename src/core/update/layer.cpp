@@ -45,8 +45,9 @@ LayerBuffers::LayerBuffers(vk::Device& device, const LayerCapacities& capacities
     }
     if (contents.emission)
     {
-        emission_words = {device, "update/layer_emission_words", divideUp(capacities.voxels, 32)};
-        emission_sums = {device, "update/layer_emission_sums", 32 * emission_words.count()};
+        emission_words = {device, "update/layer_emission_words",
+                          divideUp(capacities.voxels, gpu::kVoxelsPerEmissionWord)};
+        emission_sums = {device, "update/layer_emission_sums", gpu::kVoxelsPerEmissionWord * emission_words.count()};
     }
 }
 
@@ -61,9 +62,9 @@ std::uint64_t LayerBuffers::bytes(const LayerCapacities& capacities, const GpuSc
                                            capacities.voxelize.row_blocks * sizeof(gpu::RowBlock);
     }
     bytes += contents.attributes ? capacities.voxels * sizeof(gpu::VoxelSums) : 0;
-    bytes += contents.emission
-                 ? capacities.voxels * sizeof(gpu::EmissionSums) + divideUp(capacities.voxels, 32) * sizeof(gpu::uvec2)
-                 : 0;
+    bytes += contents.emission ? capacities.voxels * sizeof(gpu::EmissionSums) +
+                                     divideUp(capacities.voxels, gpu::kVoxelsPerEmissionWord) * sizeof(gpu::uvec2)
+                               : 0;
     return bytes;
 }
 

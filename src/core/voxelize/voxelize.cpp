@@ -177,7 +177,8 @@ AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count
 {
     if (emission)
     {
-        partials = {device, "voxelize/partials", divideUp(divideUp(voxel_count, 32), gpu::kScanBlock)};
+        partials = {device, "voxelize/partials",
+                    divideUp(divideUp(voxel_count, gpu::kVoxelsPerEmissionWord), gpu::kScanBlock)};
         emissive_count = {device, "voxelize/emissive_count", 1};
     }
 }
