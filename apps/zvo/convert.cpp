@@ -9,8 +9,6 @@
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/compress.h"
-#include "core/headless/tree_download.h"
-#include "core/tree/svdag.h"
 #include "io/voxel/glb_write.h"
 #include "io/voxel/nvdb_write.h"
 #include "io/voxel/vox_file.h"
@@ -46,13 +44,6 @@ std::string formatOf(const ConvertOptions& options)
                                                   options.output.path, fmt::join(kFormats, ", .")));
     }
     return format;
-}
-
-TreeData compressed(vk::HeadlessDevice& device, TreeData&& tree)
-{
-    Octree octree = std::get<Octree>(uploadTree(device, tree));
-    tree = {};
-    return downloadTree(device, compress(device, std::move(octree)).dag);
 }
 
 void writeTree(const TreeData& tree, const std::string& format, Output& output)
@@ -120,7 +111,7 @@ void convert(const ConvertOptions& options)
                                                       options.file.string()));
         }
         openDevice();
-        tree = compressed(*device, std::move(tree));
+        tree = compressTree(*device, std::move(tree));
     }
     progress.step("writing");
     writeTree(tree, format, output);

@@ -465,8 +465,7 @@ TreeData World::copyTree(TreeStructure structure)
     {
         return flat;
     }
-    Octree octree = std::get<Octree>(uploadTree(m_device, flat));
-    return downloadTree(m_device, compress(m_device, std::move(octree)).dag);
+    return compressTree(m_device, std::move(flat));
 }
 
 void World::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)

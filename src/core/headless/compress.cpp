@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/headless/compress.h"
 
+#include "core/headless/tree_download.h"
+
 #include <utility>
+#include <variant>
 
 namespace zvo
 {
@@ -28,6 +31,25 @@ CompressResult compress(vk::HeadlessDevice& device, Octree octree, const Compres
 CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOptions& options)
 {
     return waitFor(device, SvdagBuilder(device.device(), std::move(dag), options));
+}
+
+TreeData compressTree(vk::HeadlessDevice& device, TreeData octree)
+{
+    const CompressOptions options = {.ranks = octree.hasAttributes()};
+    TreeData looks;
+    looks.voxel_attributes = std::exchange(octree.voxel_attributes, {});
+    looks.packed.voxels = std::exchange(octree.packed.voxels, {});
+    looks.emission_words = std::exchange(octree.emission_words, {});
+    looks.emission = std::exchange(octree.emission, {});
+
+    Octree uploaded = std::get<Octree>(uploadTree(device, octree));
+    octree = {};
+    TreeData dag = downloadTree(device, compress(device, std::move(uploaded), options).dag);
+    dag.voxel_attributes = std::move(looks.voxel_attributes);
+    dag.packed.voxels = std::move(looks.packed.voxels);
+    dag.emission_words = std::move(looks.emission_words);
+    dag.emission = std::move(looks.emission);
+    return dag;
 }
 
 } // namespace zvo

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/svdag/svdag_builder.h"
+#include "core/tree/tree_data.h"
 #include "vk/headless.h"
 
 namespace zvo
@@ -11,5 +12,9 @@ namespace zvo
 /// steps. Throws as these.
 CompressResult compress(vk::HeadlessDevice& device, Octree octree, const CompressOptions& options = {});
 CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOptions& options = {});
+
+/// The DAG of an octree in the host's memory, there again. What voxels look like stays there: only nodes and their
+/// attributes go to the device and back. Waits. Throws as these.
+TreeData compressTree(vk::HeadlessDevice& device, TreeData octree);
 
 } // namespace zvo

@@ -20,7 +20,7 @@ namespace
 {
 
 constexpr std::uint64_t kSlotsMax = UINT32_MAX; // of all levels: kernels count in 32 bits
-constexpr std::uint64_t kSlotsPerNodeMax = 16;  // with more, only equal hashes fill 256 slots in a row
+constexpr std::uint64_t kSlotsPerNodeMax = 16;   // with more, only equal hashes fill 256 slots in a row
 
 [[noreturn]] void throwTooBig(const ListPacking& packing)
 {
@@ -342,7 +342,7 @@ void SvdagBuilder::write(vk::FrameGraph& graph)
 void SvdagBuilder::endNodes()
 {
     Octree& source = m_source.tree;
-    if (m_of_octree && source.levels.size() > 1 && source.hasAttributes())
+    if (m_of_octree && source.levels.size() > 1 && (source.hasAttributes() || source.hasNodeAttributes()))
     {
         m_step = Step::Order;
         return;

@@ -42,8 +42,9 @@ struct CompressResult
 class SvdagBuilder
 {
 public:
-    /// Of an octree, which needs its levels. Voxels keep their attributes; those of nodes are put in depth-first order.
-    /// An octree without nodes gives a DAG without. Throws Error{Usage} for an octree without levels, Error{Memory}.
+    /// Of an octree, which needs its levels. Voxels keep their attributes; those of nodes, which may have some where
+    /// voxels have none if options ask for ranks, are put in depth-first order. An octree without nodes gives a DAG
+    /// without. Throws Error{Usage} for an octree without levels, Error{Memory}.
     SvdagBuilder(vk::Device& device, Octree octree, const CompressOptions& options);
 
     /// Of a DAG in which equal nodes stand several times, such as several DAGs below common nodes. Nodes of a level may

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// DAGs of octrees in the host's memory.
+#include "core/base/kernels.h"
+#include "core/file/tree_check.h"
+#include "core/headless/compress.h"
+#include "core/headless/tree_download.h"
+#include "support/device.h"
+#include "support/tree_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace zvo
+{
+namespace
+{
+
+vk::HeadlessDevice& device()
+{
+    return test::sharedDevice(zvoKernels());
+}
+
+TEST(CompressTree, GivesTheBytesOfCompressingTheWholeTreeOnTheDevice)
+{
+    for (const test::TreeSample& sample : test::treeSamples())
+    {
+        if (sample.tree.structure != TreeStructure::Svo)
+        {
+            continue;
+        }
+        const TreeData dag = compressTree(device(), sample.tree);
+        EXPECT_EQ(checkTree(dag), std::nullopt) << sample.name;
+        Octree octree = std::get<Octree>(uploadTree(device(), sample.tree));
+        const TreeData expected = downloadTree(device(), compress(device(), std::move(octree)).dag);
+        EXPECT_EQ(test::treeDifference(dag, expected), "") << sample.name;
+    }
+}
+
+TEST(CompressTree, LeavesWhatVoxelsLookLikeWithTheHost)
+{
+    for (const test::TreeSample& sample : test::treeSamples())
+    {
+        const TreeData& octree = sample.tree;
+        if (octree.structure != TreeStructure::Svo || octree.voxel_attributes.size() < 10'000)
+        {
+            continue;
+        }
+        vk::HeadlessDevice with({}, zvoKernels());
+        vk::HeadlessDevice without({}, zvoKernels());
+        (void)compress(with, std::get<Octree>(uploadTree(with, octree)));
+        (void)compressTree(without, octree);
+        const std::uint64_t left = octree.voxel_attributes.size() * sizeof(gpu::Attribute);
+        EXPECT_LE(without.device().memory().peakBytes() + left, with.device().memory().peakBytes()) << sample.name;
+    }
+}
+
+} // namespace
+} // namespace zvo
