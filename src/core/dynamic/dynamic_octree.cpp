@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/dynamic/dynamic_octree.h"
 
+#include "core/tree/tree_limits.h"
 #include "zvo/error.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kCountMax = UINT32_MAX; // kernels count in 32 bits
 constexpr std::uint32_t kUpdatesPerFrame = 4;
 constexpr std::uint64_t kRoomMin = 1024; // nodes, and voxels, that overlays have at first
 
@@ -121,7 +121,7 @@ void DynamicOctree::prepareBuffers()
     {
         return;
     }
-    if (needed.touched > VoxelizeCapacities::kBricksMax || needed.records > kCountMax)
+    if (needed.touched > VoxelizeCapacities::kBricksMax || needed.records > kIndicesMax)
     {
         throw Error(ErrorCode::Memory, "movers touch more nodes than 32-bit numbers count; lower the resolution");
     }

@@ -8,6 +8,7 @@
 #include "core/headless/svdag_forest.h"
 #include "core/headless/tile_nodes.h"
 #include "core/headless/tree_download.h"
+#include "core/tree/tree_limits.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -241,6 +242,7 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
     }
     if (hasAttributes())
     {
+        requireIndexable(0, std::max(part.looks.voxel_count, part.looks.octree_node_count));
         part.looks.node_attributes = joinNodes(m_device, m_scene.uploaded(), m_grid, top_levels, tiles);
     }
     part.dag = forest.finish(hasAttributes() && depth == m_grid.depth);

@@ -2,6 +2,7 @@
 #include "core/octree/octree_builder.h"
 
 #include "core/base/divide_up.h"
+#include "core/tree/tree_limits.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -290,6 +291,7 @@ void OctreeBuilder::grow(const Growth& growth)
 // Sizes the octree from the node list.
 void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
 {
+    requireIndexable(counters.node_count, m_options.attributes ? counters.voxel_count : 0);
     Octree& octree = m_result.octree;
     octree.node_count = counters.node_count;
     octree.voxel_count = counters.voxel_count;

@@ -2,6 +2,7 @@
 #include "core/overlay/overlay_octree.h"
 
 #include "core/base/divide_up.h"
+#include "core/tree/tree_limits.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -15,8 +16,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kCountMax = UINT32_MAX;            // kernels count in 32 bits
-constexpr std::uint64_t kListedCountMax = gpu::kChildList; // numbers of nodes and voxels have no flag for lists
+static_assert(kIndicesMax <= gpu::kChildList); // numbers of nodes and voxels have no flag for lists
 
 constexpr std::uint64_t roundUp(std::uint64_t value, std::uint64_t multiple)
 {
@@ -157,13 +157,12 @@ OverlayOctree::Capacities OverlayOctree::grownCapacities(std::uint64_t nodes, st
     const std::uint64_t node_capacity =
         space.static_nodes + grownRoom(std::uint64_t{space.node_capacity} - space.static_nodes, nodes);
     const std::uint64_t voxel_capacity = firstOverlayVoxel() + roundUp(grownRoom(voxel_room, voxels), kVoxelBlock);
-    const std::uint64_t count_max = m_tree.has_lists ? kListedCountMax : kCountMax;
     const std::uint64_t attribute_nodes = m_tree.dag.octree_node_count + node_capacity - m_tree.static_root;
-    if (node_capacity > count_max || voxel_capacity > count_max || attribute_nodes > kCountMax)
+    if (node_capacity > kNodesMax || voxel_capacity > kIndicesMax || attribute_nodes > kIndicesMax)
     {
-        throw Error(ErrorCode::Memory, fmt::format("overlays need more nodes or voxels than the {} that can be told "
-                                                   "apart: keep fewer steps of history, or lower the resolution",
-                                                   count_max));
+        throw Error(ErrorCode::Memory, fmt::format("overlays need more than the {} nodes or {} voxels that kernels "
+                                                   "reach: keep fewer steps of history, or lower the resolution",
+                                                   kNodesMax, kIndicesMax));
     }
     return {static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity)};
 }

@@ -2,6 +2,7 @@
 #include "core/svdag/svdag_builder.h"
 
 #include "core/base/divide_up.h"
+#include "core/tree/tree_limits.h"
 #include "vk/device.h"
 #include "zvo/error.h"
 
@@ -19,7 +20,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kSlotsMax = UINT32_MAX; // of all levels: kernels count in 32 bits
+constexpr std::uint64_t kSlotsMax = kIndicesMax; // of all levels
 constexpr std::uint64_t kSlotsPerNodeMax = 16;   // with more, only equal hashes fill 256 slots in a row
 
 [[noreturn]] void throwTooBig(const ListPacking& packing)

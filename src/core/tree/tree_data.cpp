@@ -3,6 +3,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/base/morton.h"
+#include "core/tree/tree_limits.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -78,6 +79,8 @@ std::uint64_t TreeData::attributeBytes() const
 
 DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
 {
+    requireIndexable(tree.packing().poolNodes(),
+                     tree.hasAttributes() ? std::max(tree.voxel_count, tree.octree_node_count) : 0);
     const std::uint64_t pool_bytes = tree.packing().poolNodes() * sizeof(gpu::Node);
     device.device().memory().require(pool_bytes + tree.attributeBytes(), "the tree");
     Octree octree = uploadCommon(device, tree);

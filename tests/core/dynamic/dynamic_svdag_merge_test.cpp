@@ -197,7 +197,7 @@ TEST(DynamicSvdagMerge, OverlaysTakeEightBytesANodeMoreThanOnAnOctree)
     EXPECT_EQ(bytes[1], bytes[0] + sizeof(gpu::BeforeChild) * reports[0].node_count);
 }
 
-TEST(DynamicSvdagMerge, MoreNodesThanListsCanBeToldFromAreRefused)
+TEST(DynamicSvdagMerge, MoreNodesThanKernelsReachAreRefused)
 {
     const test::Codes codes = {0, 5, 70};
     const auto make = [&](std::uint64_t room)
@@ -212,14 +212,15 @@ TEST(DynamicSvdagMerge, MoreNodesThanListsCanBeToldFromAreRefused)
     EXPECT_GE(make(1)->arena().largestFreeNodes(), 1U);
     try
     {
-        make(std::uint64_t{1} << 31);
+        make(std::uint64_t{1} << 30);
         FAIL() << "no error";
     }
     catch (const Error& error)
     {
         EXPECT_EQ(error.code(), ErrorCode::Memory);
-        EXPECT_NE(std::string(error.what()).find("more nodes or voxels than the 2147483648 that can be told apart"),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(error.what()).find("more than the 1073741824 nodes or 2147483648 voxels that kernels reach"),
+            std::string::npos)
             << error.what();
     }
 }

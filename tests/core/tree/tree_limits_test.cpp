@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What is too large for the indices of kernels is refused.
+#include "core/tree/tree_limits.h"
+
+#include "core/base/kernels.h"
+#include "core/tree/tree_data.h"
+#include "support/device.h"
+#include "support/tree_samples.h"
+#include "zvo/error.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+namespace zvo
+{
+namespace
+{
+
+std::optional<ErrorCode> refusal(std::uint64_t nodes, std::uint64_t attributes)
+{
+    try
+    {
+        requireIndexable(nodes, attributes);
+    }
+    catch (const Error& error)
+    {
+        return error.code();
+    }
+    return std::nullopt;
+}
+
+TEST(TreeLimits, AreThoseOfSignedIndices)
+{
+    EXPECT_EQ(2 * (kNodesMax - 1) + 1, std::uint64_t{INT32_MAX}) << "the last node's second half";
+    EXPECT_EQ(kIndicesMax - 1, std::uint64_t{INT32_MAX});
+    EXPECT_EQ(refusal(0, 0), std::nullopt);
+    EXPECT_EQ(refusal(kNodesMax, kIndicesMax), std::nullopt);
+    EXPECT_EQ(refusal(kNodesMax + 1, 0), ErrorCode::Memory);
+    EXPECT_EQ(refusal(1, kIndicesMax + 1), ErrorCode::Memory);
+}
+
+TEST(TreeLimits, HoldForTreesThatAreUploaded)
+{
+    vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
+    for (const test::TreeSample& sample : test::treeSamples())
+    {
+        TreeData tree = sample.tree;
+        tree.voxel_count = static_cast<std::uint32_t>(kIndicesMax + 1);
+        if (!tree.hasAttributes())
+        {
+            EXPECT_NO_THROW((void)uploadTree(device, tree)) << sample.name << ": nothing is stored for its voxels";
+            continue;
+        }
+        try
+        {
+            (void)uploadTree(device, tree);
+            ADD_FAILURE() << sample.name;
+        }
+        catch (const Error& error)
+        {
+            EXPECT_EQ(error.code(), ErrorCode::Memory);
+            EXPECT_NE(std::string(error.what()).find("2147483649"), std::string::npos) << error.what();
+        }
+    }
+}
+
+} // namespace
+} // namespace zvo
