@@ -60,3 +60,20 @@ std::span<const vk::EmbeddedKernel> @function_name@()
 ")
     target_sources(${target} PRIVATE ${embedded} ${out_dir}/registry.cpp)
 endfunction()
+
+# zvo_list_kernels(TARGET ROOT FUNCTION): adds a generated source to TARGET that defines
+# `std::vector<zvo::vk::KernelDeclaration> zvo::FUNCTION()`, what all headers below ROOT declare of kernels.
+function(zvo_list_kernels target root function_name)
+    file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${root}/*.h)
+    list(SORT headers)
+    list(JOIN headers "," joined)
+    set(output ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target}_declarations.cpp)
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} -DHEADERS=${joined} -DFUNCTION=${function_name} -DOUTPUT=${output}
+                -P ${PROJECT_SOURCE_DIR}/cmake/ListKernels.cmake
+        DEPENDS ${headers} ${PROJECT_SOURCE_DIR}/cmake/ListKernels.cmake
+        COMMENT "kernels that headers declare"
+        VERBATIM)
+    target_sources(${target} PRIVATE ${output})
+endfunction()

@@ -92,6 +92,11 @@ struct DeformParams // push constants of deform/vertices
     uint first_chunk;
     uint chunk_count;
 };
+GPU_KERNEL_BEGIN(deform, vertices, Vertices, DeformParams)
+    GPU_CONSTANT(bool, morphed, false)
+    GPU_CONSTANT(bool, skinned, false)
+    GPU_CONSTANT(bool, normals, false)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

@@ -23,6 +23,9 @@ struct EditMarkParams // push constants of edit/mark: one thread a node of the r
     uint voxel_count;
     uint level; // the nodes that mark their children, or voxels
 };
+GPU_KERNEL_BEGIN(edit, mark, Mark, EditMarkParams)
+    GPU_CONSTANT(bool, leaves, false)
+GPU_KERNEL_END
 
 struct EditSumParams // push constants of edit/live_sums and edit/renumber: a workgroup for each kScanBlock elements
 {
@@ -31,6 +34,12 @@ struct EditSumParams // push constants of edit/live_sums and edit/renumber: a wo
     GPU_PTR(uint) numbers;     // [element_count] what is kept before an element
     uint element_count;
 };
+GPU_KERNEL_BEGIN(edit, live_sums, LiveSums, EditSumParams)
+    GPU_CONSTANT(bool, voxels, false)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(edit, renumber, Renumber, EditSumParams)
+    GPU_CONSTANT(bool, voxels, false)
+GPU_KERNEL_END
 
 struct EditMoveParams // push constants of edit/move_nodes and edit/move_voxels: one thread a node, or voxel, of the
                       // region
@@ -53,6 +62,13 @@ struct EditMoveParams // push constants of edit/move_nodes and edit/move_voxels:
     uint level_count;
     uint attribute_offset;
 };
+GPU_KERNEL_BEGIN(edit, move_nodes, MoveNodes, EditMoveParams)
+    GPU_CONSTANT(bool, attributes, false)
+    GPU_CONSTANT(bool, ranks, false)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(edit, move_voxels, MoveVoxels, EditMoveParams)
+    GPU_CONSTANT(bool, emits, false)
+GPU_KERNEL_END
 
 struct EditMoveEmissionParams // push constants of edit/move_emission: one thread a voxel of the old region
 {
@@ -64,6 +80,7 @@ struct EditMoveEmissionParams // push constants of edit/move_emission: one threa
     uint voxel_count;
     uint new_first_voxel;
 };
+GPU_KERNEL(edit, move_emission, MoveEmission, EditMoveEmissionParams)
 
 struct EditMoveStatesParams // push constants of edit/move_states: one thread a place
 {
@@ -81,6 +98,7 @@ struct EditMoveStatesParams // push constants of edit/move_states: one thread a 
     uint new_first_node;
     uint new_first_voxel;
 };
+GPU_KERNEL(edit, move_states, MoveStates, EditMoveStatesParams)
 
 GPU_NAMESPACE_END
 

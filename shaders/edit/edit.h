@@ -108,6 +108,10 @@ struct EditBeginParams // push constants of edit/begin: makes place 0 the static
     uint voxel_top;
     uint voxel_count;
 };
+GPU_KERNEL_BEGIN(edit, begin, Begin, EditBeginParams)
+    GPU_CONSTANT(bool, attributes, false)
+    GPU_CONSTANT(bool, ranks, false)
+GPU_KERNEL_END
 
 struct EditFindParams // push constants of edit/find: one thread a cell
 {
@@ -122,6 +126,10 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     Brush brush;
     EditBox box;
 };
+GPU_KERNEL_BEGIN(edit, find, Find, EditFindParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(bool, attributes, false)
+GPU_KERNEL_END
 
 struct EditParentsParams // push constants of edit/parents: one thread a cell of the level
 {
@@ -129,6 +137,7 @@ struct EditParentsParams // push constants of edit/parents: one thread a cell of
     EditBox box;
     uint level;
 };
+GPU_KERNEL(edit, parents, Parents, EditParentsParams)
 
 struct EditAllocateParams // push constants of edit/allocate: one workgroup
 {
@@ -142,6 +151,9 @@ struct EditAllocateParams // push constants of edit/allocate: one workgroup
     uint node_end; // of the region
     uint voxel_end;
 };
+GPU_KERNEL_BEGIN(edit, allocate, Allocate, EditAllocateParams)
+    GPU_CONSTANT(bool, attributes, false)
+GPU_KERNEL_END
 
 struct EditNodesParams // push constants of edit/nodes: a workgroup for each cell that is no leaf, one at least
 {
@@ -158,6 +170,10 @@ struct EditNodesParams // push constants of edit/nodes: a workgroup for each cel
     uint attribute_offset;
     EditBox box;
 };
+GPU_KERNEL_BEGIN(edit, nodes, Nodes, EditNodesParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(bool, attributes, false)
+GPU_KERNEL_END
 
 struct EditEmissionWordsParams // push constants of edit/emission_words: one thread a word
 {
@@ -168,6 +184,7 @@ struct EditEmissionWordsParams // push constants of edit/emission_words: one thr
     uint kept;            // as in EditAllocateParams
     uint emission_offset; // from a voxel to the first place of its word, modulo 2^32
 };
+GPU_KERNEL(edit, emission_words, EmissionWords, EditEmissionWordsParams)
 
 struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a workgroup for each cell that is a leaf
 {
@@ -182,6 +199,10 @@ struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a wo
     Brush brush;
     EditBox box;
 };
+GPU_KERNEL(edit, emission, Emission, EditVoxelsParams)
+GPU_KERNEL_BEGIN(edit, voxels, Voxels, EditVoxelsParams)
+    GPU_CONSTANT(bool, emits, false)
+GPU_KERNEL_END
 
 struct EditAverageParams // push constants of edit/average: one thread a cell of the level
 {
@@ -196,6 +217,7 @@ struct EditAverageParams // push constants of edit/average: one thread a cell of
     uint children_offset;  // from a cell's first child to children
     uint attribute_offset; // from a node to averages
 };
+GPU_KERNEL(edit, average, Average, EditAverageParams)
 
 GPU_NAMESPACE_END
 

@@ -39,6 +39,7 @@ struct CollectParams // push constants of octree/collect
     GPU_PTR(BrickCounters) counters;  // [1]
     uint brick_capacity;
 };
+GPU_KERNEL(octree, collect, Collect, CollectParams)
 
 struct NextLevelParams // push constants of octree/next_level
 {
@@ -48,6 +49,7 @@ struct NextLevelParams // push constants of octree/next_level
     uint step;
     uint max_groups_x;
 };
+GPU_KERNEL(octree, next_level, NextLevel, NextLevelParams)
 
 struct ParentsParams // push constants of octree/parents
 {
@@ -58,6 +60,9 @@ struct ParentsParams // push constants of octree/parents
     uint brick_mask;
     uint step;
 };
+GPU_KERNEL_BEGIN(octree, parents, Parents, ParentsParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
 
 struct PlaceParams // push constants of octree/place
 {
@@ -68,6 +73,9 @@ struct PlaceParams // push constants of octree/place
     uint node_count; // of the level
     uint is_root;
 };
+GPU_KERNEL_BEGIN(octree, place, Place, PlaceParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
 
 struct CountParams // push constants of octree/count
 {
@@ -76,6 +84,7 @@ struct CountParams // push constants of octree/count
     uint first_node;
     uint node_count;
 };
+GPU_KERNEL(octree, count, Count, CountParams)
 
 struct ScanParams // push constants of octree/scan: an exclusive scan in place by one workgroup
 {
@@ -83,6 +92,7 @@ struct ScanParams // push constants of octree/scan: an exclusive scan in place b
     GPU_PTR(uint) total;  // [1] sum of all values
     uint count;
 };
+GPU_KERNEL(octree, scan, Scan, ScanParams)
 
 struct AssignParams // push constants of octree/assign
 {
@@ -94,6 +104,7 @@ struct AssignParams // push constants of octree/assign
     uint first_child; // node index of the next level's first node; 0 in a leaf: voxels
     uint tell_bricks; // 1: write the first child to the nodes' entries in the brick table
 };
+GPU_KERNEL(octree, assign, Assign, AssignParams)
 
 struct AverageParams // push constants of octree/average
 {
@@ -104,6 +115,7 @@ struct AverageParams // push constants of octree/average
     uint first_node;
     uint node_count;
 };
+GPU_KERNEL(octree, average, Average, AverageParams)
 
 GPU_NAMESPACE_END
 

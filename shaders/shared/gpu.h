@@ -5,14 +5,31 @@
 //   GPU_PTR(T)             device address of T[], writable:     .data[i] in GLSL, zvo::gpu::Ptr<T> in C++
 //   GPU_CONST_PTR(T)       device address of T[], read only:    .data[i] in GLSL, zvo::gpu::ConstPtr<T> in C++
 //
+// Beside the parameters of a kernel stands its declaration, which C++ alone reads. The build compares it with the
+// SPIR-V (vk/kernel_declaration.h):
+//
+//   GPU_KERNEL_BEGIN(update, expand, Expand, ExpandParams)   zvo::gpu::update::Expand stands for update/expand, which
+//       GPU_CONSTANT(bool, wide_keys, false)                 takes ExpandParams. Its specialization constants are
+//       GPU_CONSTANT(uint, entries_per_word, 0u)             kWideKeys and kEntriesPerWord, with the constant_ids 0 and
+//   GPU_KERNEL_END                                           1 and these default values
+//
+//   GPU_KERNEL(octree, scan, Scan, ScanParams)               the same without constants
+//   GPU_ENUM(View, std::uint32_t)                            zvo::View is an enum class, defined where the host needs
+//                                                            it, and a type of constants. In GLSL they are uints
+//
+// A kernel that reached a buffer through a descriptor, too, would declare that binding here, between its constants.
+//
 // This file holds the project's only `#ifdef __cplusplus`; the other shared headers need none.
 #ifndef ZVO_SHADERS_SHARED_GPU_H
 #define ZVO_SHADERS_SHARED_GPU_H
 
 #ifdef __cplusplus
 
+#include <concepts>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string_view>
+#include <type_traits>
 
 namespace zvo::gpu
 {
@@ -41,6 +58,39 @@ template <typename T> struct Ptr
     std::uint64_t address = 0;
 };
 
+/// A specialization constant of a kernel. It takes values of its own type only: no number is a bool.
+template <typename T> class Constant
+{
+public:
+    static_assert(std::is_same_v<T, bool> || std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::uint32_t> ||
+                  (std::is_enum_v<T> && sizeof(T) == sizeof(std::uint32_t)));
+
+    constexpr Constant(std::string_view /*name*/, T value) : m_word(static_cast<std::uint32_t>(value)) {}
+    template <std::same_as<T> Value> constexpr Constant(Value value) : m_word(static_cast<std::uint32_t>(value)) {}
+
+private:
+    std::uint32_t m_word;
+};
+
+/// What a declaration says of a constant: its name in C++, its type and its default value.
+struct ConstantDescription
+{
+    std::string_view name;
+    bool is_bool;
+    bool is_signed;
+    std::uint32_t value;
+};
+
+/// Stands where a Constant<T> stands in the same kernel.
+template <typename T> struct DescribedConstant : ConstantDescription
+{
+    constexpr DescribedConstant(std::string_view constant_name, T default_value)
+        : ConstantDescription{constant_name, std::is_same_v<T, bool>, std::is_same_v<T, std::int32_t>,
+                              static_cast<std::uint32_t>(default_value)}
+    {
+    }
+};
+
 } // namespace zvo::gpu
 
 #define GPU_NAMESPACE_BEGIN                                                                                            \
@@ -50,6 +100,31 @@ template <typename T> struct Ptr
 #define GPU_PTR(T) Ptr<T>
 #define GPU_CONST_PTR(T) ConstPtr<T>
 #define GPU_BUFFER(T, ALIGN) static_assert(alignof(T) <= (ALIGN) && sizeof(T) % (ALIGN) == 0)
+
+#define GPU_KERNEL_BEGIN(OPERATION, KERNEL, NAME, PARAMS)                                                              \
+    namespace OPERATION                                                                                                \
+    {                                                                                                                  \
+    template <template <typename> typename ConstantOf> struct NAME##Kernel;                                            \
+    using NAME = NAME##Kernel<Constant>;                                                                               \
+    template <template <typename> typename ConstantOf> struct NAME##Kernel                                             \
+    {                                                                                                                  \
+        using Params = PARAMS;                                                                                         \
+        using Description = NAME##Kernel<DescribedConstant>;                                                           \
+        static constexpr std::string_view kName = #OPERATION "/" #KERNEL;                                              \
+        static constexpr std::string_view kParamsName = #PARAMS;
+#define GPU_CONSTANT(TYPE, NAME, VALUE) ConstantOf<TYPE> NAME = {#NAME, TYPE{VALUE}};
+#define GPU_KERNEL_END                                                                                                 \
+    }                                                                                                                  \
+    ;                                                                                                                  \
+    }
+#define GPU_KERNEL(OPERATION, KERNEL, NAME, PARAMS)                                                                    \
+    GPU_KERNEL_BEGIN(OPERATION, KERNEL, NAME, PARAMS)                                                                  \
+    GPU_KERNEL_END
+#define GPU_ENUM(NAME, TYPE)                                                                                           \
+    namespace zvo                                                                                                      \
+    {                                                                                                                  \
+    enum class NAME : TYPE;                                                                                            \
+    }
 
 #else
 
@@ -72,6 +147,12 @@ template <typename T> struct Ptr
     {                                                                                                                  \
         T data[];                                                                                                      \
     }
+
+#define GPU_KERNEL_BEGIN(OPERATION, KERNEL, NAME, PARAMS)
+#define GPU_CONSTANT(TYPE, NAME, VALUE)
+#define GPU_KERNEL_END
+#define GPU_KERNEL(OPERATION, KERNEL, NAME, PARAMS)
+#define GPU_ENUM(NAME, TYPE)
 
 #endif
 

@@ -34,6 +34,9 @@ struct ClassHashParams // push constants of svdag/hash
     uint node_count;
     uint hash_mask; // bits of both halves of a hash that are kept
 };
+GPU_KERNEL_BEGIN(svdag, hash, Hash, ClassHashParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+GPU_KERNEL_END
 
 struct ClassInsertParams // push constants of svdag/insert
 {
@@ -48,6 +51,10 @@ struct ClassInsertParams // push constants of svdag/insert
     uint slot_mask;  // its slots, a power of two, less one
     uint level;
 };
+GPU_KERNEL_BEGIN(svdag, insert, Insert, ClassInsertParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(bool, leaves, false)
+GPU_KERNEL_END
 
 struct ClassResolveParams // push constants of svdag/resolve
 {
@@ -56,6 +63,7 @@ struct ClassResolveParams // push constants of svdag/resolve
     uint first_node;
     uint node_count;
 };
+GPU_KERNEL(svdag, resolve, Resolve, ClassResolveParams)
 
 struct ClassCountParams // push constants of svdag/count
 {
@@ -66,6 +74,9 @@ struct ClassCountParams // push constants of svdag/count
     uint node_count;              // candidates
     uint inner_count;             // those above the leaves
 };
+GPU_KERNEL_BEGIN(svdag, count, Count, ClassCountParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+GPU_KERNEL_END
 
 struct ClassNumberParams // push constants of svdag/number
 {
@@ -79,6 +90,9 @@ struct ClassNumberParams // push constants of svdag/number
     uint node_count;
     uint inner_count;
 };
+GPU_KERNEL_BEGIN(svdag, number, Number, ClassNumberParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+GPU_KERNEL_END
 
 struct UniqueLeavesParams // push constants of svdag/leaves
 {
@@ -88,6 +102,7 @@ struct UniqueLeavesParams // push constants of svdag/leaves
     uint first_node; // of the DAG
     uint node_count;
 };
+GPU_KERNEL(svdag, leaves, Leaves, UniqueLeavesParams)
 
 struct UniqueListsParams // push constants of svdag/lists
 {
@@ -106,6 +121,12 @@ struct UniqueListsParams // push constants of svdag/lists
     uint first_place;      // of entries
     uint long_entry_count; // entries before those of the parents of leaves
 };
+GPU_KERNEL_BEGIN(svdag, lists, Lists, UniqueListsParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(bool, before, false)
+    GPU_CONSTANT(bool, above_leaves, false)
+    GPU_CONSTANT(uint, per_word, 2u)
+GPU_KERNEL_END
 
 struct DepthFirstParams // push constants of svdag/depth_first
 {
@@ -119,6 +140,11 @@ struct DepthFirstParams // push constants of svdag/depth_first
     uint first_node;
     uint node_count;
 };
+GPU_KERNEL_BEGIN(svdag, depth_first, DepthFirst, DepthFirstParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(bool, above_leaves, false)
+    GPU_CONSTANT(bool, packed, false)
+GPU_KERNEL_END
 
 struct AppendParams // push constants of svdag/append: one thread a node
 {
@@ -131,6 +157,9 @@ struct AppendParams // push constants of svdag/append: one thread a node
     uint place_shift; // from the place of an entry to that of its copy, modulo 2^32 as the next one
     uint child_shift; // from the number of a child to that of its copy
 };
+GPU_KERNEL_BEGIN(svdag, append, Append, AppendParams)
+    GPU_CONSTANT(uint, entries_per_word, 2u)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

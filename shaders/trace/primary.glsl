@@ -14,7 +14,7 @@ layout(constant_id = 6) const bool kCountIterations = false;
 layout(constant_id = 7) const bool kPaths = false; // begin below the root
 layout(constant_id = 8) const bool kPathsRelative = false; // the octree does not stand by levels
 layout(constant_id = 9) const bool kOverlays = false;  // the upper nodes of a DAG may be those of an overlay
-layout(constant_id = 10) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 10) const bool kResume = false; // only rays that the round before left unfinished
 layout(constant_id = 11) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
@@ -103,7 +103,7 @@ void main()
     vec2 detail = params.detail;
 #endif
     uvec3 from = uvec3(0u);
-    if (kContinue)
+    if (kResume)
     {
         if (any(greaterThanEqual(pixel, size)))
             return;
@@ -125,6 +125,6 @@ void main()
     storeHit(params.hits, i, result.t, result.hit ? result.index : miss, result.cell, result.level, result.face);
 #ifndef PRIMARY_RANKS
     if (kCountIterations)
-        params.iterations.data[i] = result.iterations + (kContinue ? params.iterations.data[i] : 0u);
+        params.iterations.data[i] = result.iterations + (kResume ? params.iterations.data[i] : 0u);
 #endif
 }

@@ -7,7 +7,7 @@
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 
-layout(constant_id = 5) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 5) const bool kResume = false; // only rays that the round before left unfinished
 layout(constant_id = 6) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kRaysGroup) in;
@@ -27,7 +27,7 @@ void main()
     if (i >= params.ray_count)
         return;
     uvec3 from = uvec3(0u);
-    if (kContinue)
+    if (kResume)
     {
         Hit last = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
         if (last.index != kHitUnfinished)

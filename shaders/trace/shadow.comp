@@ -13,7 +13,7 @@
 
 layout(constant_id = 5) const bool kOrthographic = false;
 layout(constant_id = 6) const uint kForm = kForm8; // of attributes
-layout(constant_id = 7) const bool kContinue = false; // only rays that the round before left unfinished
+layout(constant_id = 7) const bool kResume = false; // only rays that the round before left unfinished
 layout(constant_id = 8) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
@@ -41,7 +41,7 @@ void main()
         return;
     uint i = pixel.y * size.x + pixel.x;
     uvec3 from = uvec3(0u);
-    if (kContinue)
+    if (kResume)
     {
         // From before the event, whose axis is not known. Few events share a time: the sun's direction has length 1.
         from = uvec3(params.light.data[i]);

@@ -3,8 +3,14 @@
 #ifndef ZVO_SHADERS_TRACE_TRACE_H
 #define ZVO_SHADERS_TRACE_TRACE_H
 
+#include "shared/attribute_forms.h"
 #include "shared/svdag.h"
 #include "shared/trace.h"
+
+GPU_ENUM(AttributeForm, std::uint32_t) // kForm8 and so on (shared/attribute_forms.h)
+GPU_ENUM(TexelForm, std::uint32_t)     // kTexelRgba8 and so on
+GPU_ENUM(TraceStack, std::uint32_t)    // kStackRegisters and so on (shared/trace.h)
+GPU_ENUM(View, std::uint32_t)          // kViewColor and so on
 
 GPU_NAMESPACE_BEGIN
 
@@ -89,6 +95,24 @@ const uint kTexelHalf = 3u;  // two words of half floats, red | green << 16 and 
 
 const float kHalfMax = 65504.0f; // largest half float
 
+// Of every kernel with lib/traverse.glsl.
+#define TRAVERSE_CONSTANTS                                                                                             \
+    GPU_CONSTANT(uint, node_levels, 5u)                                                                                \
+    GPU_CONSTANT(TraceStack, stack, kStackRegisters)                                                                   \
+    GPU_CONSTANT(bool, detail, false)                                                                                  \
+    GPU_CONSTANT(uint, steps_max, kTraceStepsMax)                                                                      \
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+
+// Of every kernel with trace/primary.glsl, behind those.
+#define PRIMARY_CONSTANTS                                                                                              \
+    GPU_CONSTANT(bool, orthographic, false)                                                                            \
+    GPU_CONSTANT(bool, count_iterations, false)                                                                        \
+    GPU_CONSTANT(bool, paths, false)                                                                                   \
+    GPU_CONSTANT(bool, paths_relative, false)                                                                          \
+    GPU_CONSTANT(bool, overlays, false)                                                                                \
+    GPU_CONSTANT(bool, resume, false)                                                                                  \
+    GPU_CONSTANT(bool, more, false)
+
 struct RaysParams // push constants of trace/rays
 {
     GPU_CONST_PTR(Node) nodes;
@@ -100,6 +124,11 @@ struct RaysParams // push constants of trace/rays
     uint ray_count;
     uint round; // that unfinished rays wait for
 };
+GPU_KERNEL_BEGIN(trace, rays, Rays, RaysParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, resume, false)
+    GPU_CONSTANT(bool, more, false)
+GPU_KERNEL_END
 
 struct BeamMarkParams // push constants of trace/beam_mark: one thread a row
 {
@@ -108,6 +137,9 @@ struct BeamMarkParams // push constants of trace/beam_mark: one thread a row
     uint levels;            // of nodes to look at
     uint cells;             // 4^levels, at most 64
 };
+GPU_KERNEL_BEGIN(trace, beam_mark, BeamMark, BeamMarkParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+GPU_KERNEL_END
 
 struct BeamDilateParams // push constants of trace/beam_dilate: one thread a row
 {
@@ -115,6 +147,7 @@ struct BeamDilateParams // push constants of trace/beam_dilate: one thread a row
     GPU_PTR(uint64_t) rows;           // [kBeamRows] of the beam grid
     uint cells;
 };
+GPU_KERNEL(trace, beam_dilate, BeamDilate, BeamDilateParams)
 
 struct BeamNodesParams // push constants of trace/beam_nodes: one thread a node, one workgroup its parent
 {
@@ -122,6 +155,9 @@ struct BeamNodesParams // push constants of trace/beam_nodes: one thread a node,
     GPU_PTR(uint64_t) masks;      // [kBeamMasks] in Morton order of their level
     GPU_PTR(Node) nodes;          // [kBeamNodes]
 };
+GPU_KERNEL_BEGIN(trace, beam_nodes, BeamNodes, BeamNodesParams)
+    GPU_CONSTANT(bool, level2, true)
+GPU_KERNEL_END
 
 struct BeamRefineParams // push constants of trace/beam_refine: one thread a cell of the beam grid
 {
@@ -129,12 +165,18 @@ struct BeamRefineParams // push constants of trace/beam_refine: one thread a cel
     GPU_CONST_PTR(uint64_t) masks;
     GPU_PTR(Node) nodes;
 };
+GPU_KERNEL_BEGIN(trace, beam_refine, BeamRefine, BeamRefineParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+GPU_KERNEL_END
 
 struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell
 {
     GPU_CONST_PTR(Node) octree;
     GPU_PTR(uint64_t) paths; // [kPathCells^3]
 };
+GPU_KERNEL_BEGIN(trace, beam_paths, BeamPaths, BeamPathsParams)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+GPU_KERNEL_END
 
 struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
 {
@@ -142,6 +184,11 @@ struct BeamRanksParams // push constants of trace/beam_ranks: one thread a cell
     GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays; kOverlays only
     GPU_PTR(uint64_t) paths;                  // [kRankTableOverlays + 1]
 };
+GPU_KERNEL_BEGIN(trace, beam_ranks, BeamRanks, BeamRanksParams)
+    GPU_CONSTANT(bool, leaves, false)
+    GPU_CONSTANT(uint, entries_per_word, 2u)
+    GPU_CONSTANT(bool, overlays, false)
+GPU_KERNEL_END
 
 struct RanksParams // push constants of trace/ranks
 {
@@ -153,6 +200,13 @@ struct RanksParams // push constants of trace/ranks
     uint height;
     uint attribute_offset; // from an overlay's node to the index of its attributes
 };
+GPU_KERNEL_BEGIN(trace, ranks, Ranks, RanksParams)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, detail, false)
+    GPU_CONSTANT(bool, tiles, true)
+    GPU_CONSTANT(uint, entries_per_word, 2u)
+    GPU_CONSTANT(bool, overlays, false)
+GPU_KERNEL_END
 
 struct BeamParams // push constants of trace/beam: one thread a tile
 {
@@ -167,6 +221,12 @@ struct BeamParams // push constants of trace/beam: one thread a tile
     uint block_stride; // coprime to the number of blocks: the order in which they are taken
     vec2 detail;       // as traverse(), of the picture's rays
 };
+GPU_KERNEL_BEGIN(trace, beam, Beam, BeamParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(bool, beam, true)
+    GPU_CONSTANT(bool, empty, false)
+GPU_KERNEL_END
 
 struct PrimaryParams // push constants of trace/primary
 {
@@ -183,6 +243,10 @@ struct PrimaryParams // push constants of trace/primary
     vec2 detail;
     uint round;
 };
+GPU_KERNEL_BEGIN(trace, primary, Primary, PrimaryParams)
+    TRAVERSE_CONSTANTS
+    PRIMARY_CONSTANTS
+GPU_KERNEL_END
 
 struct PrimaryRanksParams // push constants of trace/primary_ranks
 {
@@ -200,6 +264,10 @@ struct PrimaryRanksParams // push constants of trace/primary_ranks
     uint first_short_place;
     uint round;
 };
+GPU_KERNEL_BEGIN(trace, primary_ranks, PrimaryRanks, PrimaryRanksParams)
+    TRAVERSE_CONSTANTS
+    PRIMARY_CONSTANTS
+GPU_KERNEL_END
 
 struct ShadowParams // push constants of trace/shadow
 {
@@ -219,6 +287,13 @@ struct ShadowParams // push constants of trace/shadow
     uint height;
     uint round;
 };
+GPU_KERNEL_BEGIN(trace, shadow, Shadow, ShadowParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeForm, form, kForm8)
+    GPU_CONSTANT(bool, resume, false)
+    GPU_CONSTANT(bool, more, false)
+GPU_KERNEL_END
 
 struct OcclusionParams // push constants of trace/occlusion
 {
@@ -237,6 +312,12 @@ struct OcclusionParams // push constants of trace/occlusion
     uint ray_count;
     float radius; // unit space
 };
+GPU_KERNEL_BEGIN(trace, occlusion, Occlusion, OcclusionParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeForm, form, kForm8)
+    GPU_CONSTANT(bool, shadows, true)
+GPU_KERNEL_END
 
 struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a column
 {
@@ -250,6 +331,11 @@ struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a
     float sun; // strength
     float exposure;
 };
+GPU_KERNEL_BEGIN(trace, sky, Sky, SkyParams)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(TexelForm, texels, kTexelRgba8)
+    GPU_CONSTANT(bool, black, false)
+GPU_KERNEL_END
 
 struct DepthParams // push constants of trace/depth
 {
@@ -263,6 +349,9 @@ struct DepthParams // push constants of trace/depth
     uint width;
     uint height;
 };
+GPU_KERNEL_BEGIN(trace, depth, Depth, DepthParams)
+    GPU_CONSTANT(bool, orthographic, false)
+GPU_KERNEL_END
 
 /// What the ray of one pixel meets.
 struct PixelReport
@@ -292,6 +381,11 @@ struct InspectParams // push constants of trace/inspect: kArgsGroup threads, of 
     uint pixel; // row by row
     vec2 detail;
 };
+GPU_KERNEL_BEGIN(trace, inspect, Inspect, InspectParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeForm, form, kForm8)
+GPU_KERNEL_END
 
 struct ShadeParams // push constants of trace/shade
 {
@@ -315,6 +409,15 @@ struct ShadeParams // push constants of trace/shade
     float emission_scale;
     float exposure;
 };
+GPU_KERNEL_BEGIN(trace, shade, Shade, ShadeParams)
+    GPU_CONSTANT(View, view, kViewColor)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeForm, form, kForm8)
+    GPU_CONSTANT(bool, emission, false)
+    GPU_CONSTANT(bool, light, true)
+    GPU_CONSTANT(TexelForm, texels, kTexelRgba8)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

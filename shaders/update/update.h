@@ -29,6 +29,8 @@
 #include "shared/svdag.h"
 #include "voxelize/voxelize.h"
 
+GPU_ENUM(MergeRule, std::uint32_t) // kMergeAverage and so on
+
 GPU_NAMESPACE_BEGIN
 
 const uint kLayersMax = 1024u;  // in one overlay
@@ -133,6 +135,9 @@ struct LayerLeavesParams // push constants of update/layer_leaves
     uint leaf_capacity;
     uint voxel_capacity;
 };
+GPU_KERNEL_BEGIN(update, layer_leaves, LayerLeaves, LayerLeavesParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
 
 struct LayerCheckParams // push constants of update/layer_check
 {
@@ -146,6 +151,7 @@ struct LayerCheckParams // push constants of update/layer_check
     uint block_capacity;
     uint report; // element of reports
 };
+GPU_KERNEL(update, layer_check, LayerCheck, LayerCheckParams)
 
 struct EmissionPlacesParams // push constants of update/emission_places
 {
@@ -154,6 +160,7 @@ struct EmissionPlacesParams // push constants of update/emission_places
     uint word_count;
     uint first_place; // of the first word's voxels
 };
+GPU_KERNEL(update, emission_places, EmissionPlaces, EmissionPlacesParams)
 
 struct InsertParams // push constants of update/insert: one thread a record
 {
@@ -168,6 +175,9 @@ struct InsertParams // push constants of update/insert: one thread a record
     uint record_count;
     uint brick_mask;
 };
+GPU_KERNEL_BEGIN(update, insert, Insert, InsertParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
 
 struct RootParams // push constants of update/root
 {
@@ -190,6 +200,10 @@ struct RootParams // push constants of update/root
     uint voxel_capacity;
     uint attribute_offset;
 };
+GPU_KERNEL_BEGIN(update, root, Root, RootParams)
+    GPU_CONSTANT(bool, attributes, false)
+    GPU_CONSTANT(bool, ranks, false)
+GPU_KERNEL_END
 
 struct ExpandParams // push constants of update/expand: a workgroup for each touched node of the level above
 {
@@ -214,6 +228,12 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     uint first_short_place; // as in RankSource
     uint static_root;
 };
+GPU_KERNEL_BEGIN(update, expand, Expand, ExpandParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, attributes, false)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(bool, leaves, false)
+GPU_KERNEL_END
 
 struct OverlayScanParams // push constants of update/scan: one workgroup
 {
@@ -229,6 +249,7 @@ struct OverlayScanParams // push constants of update/scan: one workgroup
     uint first_partial;
     uint max_groups_x;
 };
+GPU_KERNEL(update, scan, Scan, OverlayScanParams)
 
 struct OverlayAssignParams // push constants of update/assign
 {
@@ -242,6 +263,7 @@ struct OverlayAssignParams // push constants of update/assign
     uint first_voxel;
     uint first_partial;
 };
+GPU_KERNEL(update, assign, Assign, OverlayAssignParams)
 
 /// What merging looks up and never changes.
 struct MergeView
@@ -253,6 +275,12 @@ struct MergeView
     uint base_voxel_count; // voxels that have sums: others, which a brush has changed, count as nothing
 };
 GPU_BUFFER(MergeView, 8);
+
+// Of every kernel with lib/merge.glsl.
+#define MERGE_CONSTANTS                                                                                                \
+    GPU_CONSTANT(MergeRule, merge, kMergeAverage)                                                                      \
+    GPU_CONSTANT(bool, emits, false)                                                                                   \
+    GPU_CONSTANT(bool, ranks, false)
 
 struct MergeParams // push constants of update/merge and update/merge_emission
 {
@@ -271,6 +299,12 @@ struct MergeParams // push constants of update/merge and update/merge_emission
     GPU_PTR(UpdateStatus) status;
     uint sum_shift;
 };
+GPU_KERNEL_BEGIN(update, merge, Merge, MergeParams)
+    MERGE_CONSTANTS
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(update, merge_emission, MergeEmission, MergeParams)
+    MERGE_CONSTANTS
+GPU_KERNEL_END
 
 struct OverlayAverageParams // push constants of update/average: one thread a touched node
 {
@@ -286,6 +320,7 @@ struct OverlayAverageParams // push constants of update/average: one thread a to
     uint children_offset;  // from a node's base to children
     uint attribute_offset; // from a node to averages
 };
+GPU_KERNEL(update, average, Average, OverlayAverageParams)
 
 struct FinishParams // push constants of update/finish
 {
@@ -302,6 +337,9 @@ struct FinishParams // push constants of update/finish
     uint sum_shift; // of the layers
     uint attribute_offset;
 };
+GPU_KERNEL_BEGIN(update, finish, Finish, FinishParams)
+    GPU_CONSTANT(bool, attributes, false)
+GPU_KERNEL_END
 
 struct ShowParams // push constants of update/show
 {
@@ -312,6 +350,9 @@ struct ShowParams // push constants of update/show
     uint place;
     uint attribute_offset;
 };
+GPU_KERNEL_BEGIN(update, show, Show, ShowParams)
+    GPU_CONSTANT(bool, attributes, false)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

@@ -110,12 +110,12 @@ struct Fragment
 Fragment shadeFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, uvec3 voxel)
 {
     Fragment fragment = Fragment(uvec3(0u), uvec3(0u), true);
-    if (kMode != kModeCoverage || kClass == kClassAlpha)
+    if (kMode != kModeCoverage || kMaterialClass == kClassAlpha)
     {
         fragment.weights = fixedWeights(corners, triangle.n_w != 0);
         uvec4 color = fragmentColor(surface, fragment.weights);
         fragment.color = color.rgb;
-        if (kClass == kClassAlpha)
+        if (kMaterialClass == kClassAlpha)
             fragment.exists = passesAlpha(surface.material, color.a, voxel);
     }
     return fragment;

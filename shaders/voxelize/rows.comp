@@ -85,7 +85,7 @@ void main()
                                                  (block.position & 65535u) * kBlockRows);
     int column_last = min(corner.x + int(kBlockColumns) - 1, t.high.x);
     int lane = int(thread % kBlockRows);
-    if (kCoverage == kCoverageThin && kMode == kModeCoverage && kClass != kClassAlpha)
+    if (kCoverage == kCoverageThin && kMode == kModeCoverage && kMaterialClass != kClassAlpha)
         rasterizeTiles(t, ivec2(corner.x, corner.y + (lane & ~3)), column_last, lane & 3);
     else if (corner.y + lane >= t.low.y && corner.y + lane <= t.high.y)
         rasterizeRow(t, surface, ivec2(max(corner.x, t.low.x), corner.y + lane), column_last);

@@ -127,7 +127,7 @@ uvec4 sampleTexture(uint64_t_ConstPtr texels, TextureInfo info, TextureLevel lev
 uvec4 fragmentColor(Surface surface, uvec3 weights)
 {
     uvec4 color = uvec4(kFractionOne);
-    if (kClass != kClassPlain && surface.textured)
+    if (kMaterialClass != kClassPlain && surface.textured)
         color = sampleTexture(surface.texels, surface.texture, surface.level, surface.uv_u, surface.uv_v, weights);
     color = uvec4(mul16(color.rgb, surface.factor.rgb), mul16(color.a, surface.factor.a));
     if (surface.colored)
@@ -169,7 +169,7 @@ ivec3 fragmentNormal(Surface surface, uvec3 weights)
 uvec3 fragmentEmission(Surface surface, uvec3 weights)
 {
     uvec3 emission = surface.emission;
-    if (kClass != kClassPlain && surface.emission_textured)
+    if (kMaterialClass != kClassPlain && surface.emission_textured)
     {
         uvec4 texel = sampleTexture(surface.texels, surface.emission_texture, surface.emission_level, surface.uv_u,
                                     surface.uv_v, weights);

@@ -9,7 +9,7 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
     surface.material = draw.material;
     surface.factor = unpackFractions(material.base_color);
     surface.emission = unpackFractions(material.emission).rgb;
-    bool has_uv = kClass != kClassPlain && draw.first_uv != kAbsent;
+    bool has_uv = kMaterialClass != kClassPlain && draw.first_uv != kAbsent;
     surface.texels = params.scene.data[0].texels;
     surface.textured = has_uv && material.base_texture != kAbsent;
     surface.emission_textured = kEmits && has_uv && kMode != kModeCoverage && material.emission_texture != kAbsent;

@@ -7,6 +7,8 @@
 #include "shared/octree.h"
 #include "shared/scene.h"
 
+GPU_ENUM(Coverage, int) // kCoverageConservative, kCoverageThin
+
 GPU_NAMESPACE_BEGIN
 
 const uint kChunkTriangles = 64u;    // triangles of one draw that one workgroup takes
@@ -30,22 +32,20 @@ const int kLatticeLimit = 1 << 29; // vertices beyond are dropped
 const int kVoxelLattice = 256;     // lattice units a voxel
 const int kVoxelLatticeLog2 = 8;
 
-// Specialization constant 0: which voxels.
+// Specialization constant coverage: which voxels.
 const uint kCoverageConservative = 0u;
 const uint kCoverageThin = 1u;
 
-// Specialization constant 1: what a fragment does.
+// Specialization constant mode: what a fragment does.
 const uint kModeCoverage = 0u;   // sets the voxel's bit
 const uint kModeAttributes = 1u; // adds its colour and normal to the voxel's sums
 const uint kModeEmission = 2u;   // adds its emission to the emissive voxel's sums
 
-// Specialization constant 2: what the materials of the draws need.
+// Specialization constant material_class: what the materials of the draws need.
 const uint kClassPlain = 0u;    // no textures, opaque
 const uint kClassTextured = 1u; // opaque
 const uint kClassAlpha = 2u;    // alpha decides which fragments exist
 const uint kClassCount = 3u;
-
-// Specialization constant 3: whether anything in the scene emits light.
 
 /// Sums over the fragments of a voxel, values shifted right by sum_shift.
 struct VoxelSums
@@ -110,6 +110,13 @@ struct RasterCounters
 };
 GPU_BUFFER(RasterCounters, 4);
 
+// Of every kernel with voxelize/constants.glsl.
+#define RASTER_CONSTANTS                                                                                               \
+    GPU_CONSTANT(Coverage, coverage, kCoverageConservative)                                                            \
+    GPU_CONSTANT(uint, mode, kModeCoverage)                                                                            \
+    GPU_CONSTANT(uint, material_class, kClassPlain)                                                                    \
+    GPU_CONSTANT(bool, emits, false)
+
 struct RasterParams // push constants of voxelize/triangles and voxelize/rows
 {
     GPU_CONST_PTR(SceneView) scene;
@@ -132,6 +139,17 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
     uint block_capacity;
     uint sum_shift; // bits dropped from values before they are added
 };
+GPU_KERNEL_BEGIN(voxelize, bands, Bands, RasterParams)
+    RASTER_CONSTANTS
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(voxelize, rows, Rows, RasterParams)
+    RASTER_CONSTANTS
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(voxelize, triangles, Triangles, RasterParams)
+    RASTER_CONSTANTS
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
 
 struct RowArgsParams // push constants of voxelize/row_args
 {
@@ -141,6 +159,7 @@ struct RowArgsParams // push constants of voxelize/row_args
     uint block_capacity;
     uint max_groups_x;
 };
+GPU_KERNEL(voxelize, row_args, RowArgs, RowArgsParams)
 
 struct ResolveParams // push constants of voxelize/resolve
 {
@@ -153,6 +172,7 @@ struct ResolveParams // push constants of voxelize/resolve
     uint has_emission;
     uint sum_shift;
 };
+GPU_KERNEL(voxelize, resolve, Resolve, ResolveParams)
 
 struct EmissionRankParams // push constants of voxelize/emission_count and voxelize/emission_rank
 {
@@ -160,6 +180,8 @@ struct EmissionRankParams // push constants of voxelize/emission_count and voxel
     GPU_PTR(uint) partials; // [ceil(word_count / kScanBlock)]
     uint word_count;
 };
+GPU_KERNEL(voxelize, emission_count, EmissionCount, EmissionRankParams)
+GPU_KERNEL(voxelize, emission_rank, EmissionRank, EmissionRankParams)
 
 struct ResolveEmissionParams // push constants of voxelize/resolve_emission
 {
@@ -170,6 +192,7 @@ struct ResolveEmissionParams // push constants of voxelize/resolve_emission
     uint voxel_count;
     uint sum_shift;
 };
+GPU_KERNEL(voxelize, resolve_emission, ResolveEmission, ResolveEmissionParams)
 
 GPU_NAMESPACE_END
 

@@ -91,7 +91,7 @@ std::array<std::uint64_t, 2> foldGroups(std::uint64_t groups, std::uint32_t max_
     return {(groups + y - 1) / y, y};
 }
 
-void Pass::declare(const Buffer& buffer, Access access)
+void AnyPass::declare(const Buffer& buffer, Access access)
 {
     if (m_dispatched)
     {
@@ -103,7 +103,7 @@ void Pass::declare(const Buffer& buffer, Access access)
     }
 }
 
-void Pass::prepare(std::size_t params_bytes)
+void AnyPass::prepare(std::size_t params_bytes)
 {
     if (m_dispatched)
     {
@@ -117,7 +117,7 @@ void Pass::prepare(std::size_t params_bytes)
     m_dispatched = true;
 }
 
-void Pass::bind(const void* params, std::size_t bytes)
+void AnyPass::bind(const void* params, std::size_t bytes)
 {
     const Functions& fn = m_graph.m_device.fn();
     fn.vkCmdBindPipeline(m_graph.m_commands, VK_PIPELINE_BIND_POINT_COMPUTE, m_kernel.pipeline);
@@ -125,7 +125,7 @@ void Pass::bind(const void* params, std::size_t bytes)
                           static_cast<std::uint32_t>(bytes), params);
 }
 
-void Pass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes)
+void AnyPass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes)
 {
     prepare(bytes);
     if (threads == 0)
@@ -147,9 +147,11 @@ void Pass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t by
     recordGroups(groups, {x, y}, params, bytes);
 }
 
-void Pass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes,
-                               std::uint64_t max_groups)
+void AnyPass::dispatchIndirectRaw(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const void* params,
+                                  std::size_t bytes, std::uint64_t max_groups)
 {
+    const std::uint64_t offset = index * sizeof(gpu::DispatchArgs);
+    declare(args, Access::IndirectRead);
     prepare(bytes);
     checkRange(args, offset, sizeof(gpu::DispatchArgs));
     m_graph.declarePass(m_kernel.name, m_accesses, "indirect");
@@ -171,7 +173,8 @@ void Pass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const v
 }
 
 // whole: workgroups along x and y when all of them go into one piece; 0: exactly groups of them.
-void Pass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params, std::size_t bytes)
+void AnyPass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params,
+                           std::size_t bytes)
 {
     // Ranges smaller than this could start where no base reaches.
     const std::uint64_t least = groups / m_graph.m_device.limits().maxComputeWorkGroupCount[1] + 1;
@@ -194,7 +197,7 @@ void Pass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole
 
 // One row of workgroups after the other, each at a base such that row * row length + column, which is how kernels
 // number their workgroups, is the number in the whole pass.
-void Pass::recordGroupRange(std::uint64_t first, std::uint64_t count)
+void AnyPass::recordGroupRange(std::uint64_t first, std::uint64_t count)
 {
     const VkPhysicalDeviceLimits& limits = m_graph.m_device.limits();
     const std::uint64_t max_x = limits.maxComputeWorkGroupCount[0];
@@ -224,9 +227,9 @@ FrameGraph::FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* time
 {
 }
 
-Pass FrameGraph::addPass(std::string_view kernel, const Specialization& specialization)
+const Kernel& FrameGraph::findKernel(std::string_view name, const Specialization& specialization)
 {
-    return Pass(*this, m_device.kernels().get(kernel, specialization));
+    return m_device.kernels().get(name, specialization);
 }
 
 void FrameGraph::fill(Buffer& buffer, std::uint32_t value, std::uint64_t first, std::uint64_t count)

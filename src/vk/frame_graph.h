@@ -28,10 +28,10 @@ class FrameGraph;
 /// as an even split allows.
 std::array<std::uint64_t, 2> foldGroups(std::uint64_t groups, std::uint32_t max_x);
 
-/// One pass while it is being declared. Declaring an access and getting the buffer's address are the same call, so that
-/// a kernel cannot reach a buffer that the graph does not know of. A pass ends with exactly one dispatch; the calls
-/// below throw Error{Other} when they are misused.
-class Pass
+/// One pass while it is being declared, whatever its kernel. Declaring an access and getting the buffer's address are
+/// the same call, so that a kernel cannot reach a buffer that the graph does not know of. A pass ends with exactly one
+/// dispatch; the calls below throw Error{Other} when they are misused.
+class AnyPass
 {
 public:
     /// The kernel reads buffer.
@@ -55,36 +55,18 @@ public:
         return {buffer.address()};
     }
 
-    /// Runs the kernel on at least threads threads (the excess of the last workgroups included; the kernel returns
-    /// early there). Folds more workgroups than the device allows along x into y: kernels number themselves with
-    /// lib/dispatch.glsl. Does nothing for 0 threads. Params must have the size of the kernel's push constants.
-    template <typename Params> void dispatch(std::uint64_t threads, const Params& params)
-    {
-        static_assert(std::is_trivially_copyable_v<Params>);
-        dispatchRaw(threads, &params, sizeof(Params));
-    }
+protected:
+    friend class FrameGraph;
+    AnyPass(FrameGraph& graph, const Kernel& kernel) : m_graph(graph), m_kernel(kernel) {}
 
-    /// Runs the kernel on args.data[index] workgroups, which an earlier pass wrote: no more than max_groups, by which a
-    /// slicer judges how long that may take (by default, it finds out).
-    template <typename Params>
-    void dispatchIndirect(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const Params& params,
-                          std::uint64_t max_groups = UINT64_MAX)
-    {
-        static_assert(std::is_trivially_copyable_v<Params>);
-        declare(args, Access::IndirectRead);
-        dispatchIndirectRaw(args, index * sizeof(gpu::DispatchArgs), &params, sizeof(Params), max_groups);
-    }
+    void dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes);
+    void dispatchIndirectRaw(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const void* params,
+                             std::size_t bytes, std::uint64_t max_groups);
 
 private:
-    friend class FrameGraph;
-    Pass(FrameGraph& graph, const Kernel& kernel) : m_graph(graph), m_kernel(kernel) {}
-
     void declare(const Buffer& buffer, Access access);
     void prepare(std::size_t params_bytes);
     void bind(const void* params, std::size_t bytes);
-    void dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes);
-    void dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes,
-                             std::uint64_t max_groups);
     void recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params, std::size_t bytes);
     void recordGroupRange(std::uint64_t first, std::uint64_t count);
     [[nodiscard]] std::uint64_t key() const { return reinterpret_cast<std::uint64_t>(&m_kernel); }
@@ -93,6 +75,46 @@ private:
     const Kernel& m_kernel;
     std::vector<BufferAccess> m_accesses;
     bool m_dispatched = false;
+};
+
+/// A pass of the kernel for which K stands: it takes K's parameters and nothing else.
+template <DeclaredKernel K> class Pass : public AnyPass
+{
+public:
+    using Params = typename K::Params;
+    static_assert(std::is_trivially_copyable_v<Params>);
+
+    /// Runs the kernel on at least threads threads (the excess of the last workgroups included; the kernel returns
+    /// early there). Folds more workgroups than the device allows along x into y: kernels number themselves with
+    /// lib/dispatch.glsl. Does nothing for 0 threads.
+    void dispatch(std::uint64_t threads, const Params& params) { dispatchRaw(threads, &params, sizeof(Params)); }
+
+    /// Runs the kernel on args.data[index] workgroups, which an earlier pass wrote: no more than max_groups, by which a
+    /// slicer judges how long that may take (by default, it finds out).
+    void dispatchIndirect(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const Params& params,
+                          std::uint64_t max_groups = UINT64_MAX)
+    {
+        dispatchIndirectRaw(args, index, &params, sizeof(Params), max_groups);
+    }
+
+private:
+    friend class FrameGraph;
+    using AnyPass::AnyPass;
+};
+
+/// A pass of a kernel that no header declares. Params must have the size of the kernel's push constants.
+class UntypedPass : public AnyPass
+{
+public:
+    template <typename Params> void dispatch(std::uint64_t threads, const Params& params)
+    {
+        static_assert(std::is_trivially_copyable_v<Params>);
+        dispatchRaw(threads, &params, sizeof(Params));
+    }
+
+private:
+    friend class FrameGraph;
+    using AnyPass::AnyPass;
 };
 
 /// A buffer that a pass of the caller's own commands copies from or to.
@@ -116,7 +138,16 @@ public:
     FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers = nullptr, Slicer* slicer = nullptr);
 
     /// Opens a pass. The kernel's name is the pass's debug label and timer name.
-    Pass addPass(std::string_view kernel, const Specialization& specialization = {});
+    template <DeclaredKernel K> Pass<K> addPass(const K& kernel)
+    {
+        return Pass<K>(*this, findKernel(K::kName, specializationOf(kernel)));
+    }
+
+    /// The same for kernels of hosts, and for what tests make of kernels.
+    UntypedPass addPass(std::string_view kernel, const Specialization& specialization = {})
+    {
+        return UntypedPass(*this, findKernel(kernel, specialization));
+    }
 
     /// Sets count 32-bit words from word first on to value (by default, all whole words to the end).
     void fill(Buffer& buffer, std::uint32_t value, std::uint64_t first = 0, std::uint64_t count = UINT64_MAX);
@@ -166,7 +197,8 @@ public:
     [[nodiscard]] VkCommandBuffer commands() const { return m_commands; }
 
 private:
-    friend class Pass;
+    friend class AnyPass;
+    const Kernel& findKernel(std::string_view name, const Specialization& specialization);
     void declarePass(const std::string& name, std::span<const BufferAccess> accesses, const std::string& work);
     void openPiece(const std::string& name);
     void closePiece();

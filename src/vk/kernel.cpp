@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 namespace zvo::vk
@@ -23,10 +24,11 @@ constexpr std::uint32_t kPushConstantUnit = 4;
 void checkSpecialization(const EmbeddedKernel& kernel, const KernelInterface& interface,
                          const Specialization& specialization)
 {
+    std::vector<std::uint32_t> ids;
+    std::ranges::transform(interface.constants, std::back_inserter(ids), &ModuleConstant::id);
     for (std::uint32_t id = 0; id < specialization.size(); ++id)
     {
-        const std::vector<std::uint32_t>& ids = interface.specialization_ids;
-        if (!std::binary_search(ids.begin(), ids.end(), id))
+        if (!std::ranges::binary_search(ids, id))
         {
             throw Error(ErrorCode::Other, fmt::format("kernel {} got {} specialization constants, but declares none "
                                                       "with constant_id = {} (only: {})",

@@ -4,12 +4,14 @@
 #include "vk/functions.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace zvo::vk
@@ -24,6 +26,25 @@ struct EmbeddedKernel
     std::span<const std::uint32_t> words;
 };
 
+enum class ConstantType
+{
+    Bool,
+    Uint,
+    Int,
+    Other
+};
+
+/// A specialization constant as a module declares it.
+struct ModuleConstant
+{
+    std::uint32_t id = 0; // constant_id
+    std::string name; // in the shader's source; of a local size kLocalSizeX, Y or Z; empty in a module without names
+    ConstantType type = ConstantType::Other;
+    std::uint32_t value = 0; // without specialization
+
+    bool operator==(const ModuleConstant&) const = default;
+};
+
 /// What the host needs to know of a SPIR-V compute module, read from the module itself.
 struct KernelInterface
 {
@@ -32,7 +53,8 @@ struct KernelInterface
     std::array<std::uint32_t, 3> local_size{}; // threads of a workgroup, with the constants' default values
     std::array<std::uint32_t, 3> local_size_ids{kNotSpecialized, kNotSpecialized, kNotSpecialized}; // their SpecIds
     std::uint32_t push_constant_bytes = 0; // size of the push constant block, with its tail padding: sizeof in C++
-    std::vector<std::uint32_t> specialization_ids; // SpecId decorations, ascending
+    std::string params_name;               // of the struct that is the push constant block's only member, or empty
+    std::vector<ModuleConstant> constants; // by ascending id
 };
 
 /// Reads the interface of a SPIR-V 1.x compute module with one entry point. Throws Error{Other} if it is not one, or
@@ -41,6 +63,29 @@ KernelInterface reflectKernel(std::span<const std::uint32_t> words);
 
 /// Values of specialization constants, by their index from 0: booleans as 0 and 1.
 using Specialization = std::vector<std::uint32_t>;
+
+/// A type that stands for a kernel (GPU_KERNEL in shared/gpu.h), with values for its specialization constants.
+template <typename K>
+concept DeclaredKernel = requires
+{
+    typename K::Params;
+    typename K::Description;
+    K::kName;
+};
+
+/// All constants of a declared kernel.
+template <DeclaredKernel K> Specialization specializationOf(const K& kernel)
+{
+    if constexpr (std::is_empty_v<K>)
+    {
+        return {};
+    }
+    else
+    {
+        const auto words = std::bit_cast<std::array<std::uint32_t, sizeof(K) / sizeof(std::uint32_t)>>(kernel);
+        return {words.begin(), words.end()};
+    }
+}
 
 /// A compute pipeline: one embedded kernel with one choice of specialization constants.
 struct Kernel
@@ -65,6 +110,7 @@ public:
     /// default values. Throws Error{Other} for a name that was not embedded, for constants that the kernel does not
     /// declare and for a workgroup that the device cannot run.
     const Kernel& get(std::string_view name, const Specialization& specialization = {});
+    template <DeclaredKernel K> const Kernel& get(const K& kernel) { return get(K::kName, specializationOf(kernel)); }
 
     /// The kernel of that name is this module from now on, also where get() has returned it before; work that was
     /// recorded before goes on with the old one until releaseReplaced(). Throws Error{Other}, and changes nothing, for

@@ -74,20 +74,26 @@ public:
         {
             const Layout block = layout(pointee(*m_push_constants), nullptr, 0);
             result.push_constant_bytes = block.bytes;
+            result.params_name = onlyMemberName(pointee(*m_push_constants));
         }
         for (const auto& [id, spec_id] : m_spec_ids)
         {
-            const auto constant = m_declarations.find(id);
-            if (constant != m_declarations.end() && !is32Bit(constant->second.operands[0]))
-            {
-                fail(fmt::format("specialization constant {} is not 32 bits wide", spec_id));
-            }
-            result.specialization_ids.push_back(spec_id);
+            result.constants.push_back(specializationConstant(id, spec_id));
         }
-        // A specialized local size stands in the module twice.
-        std::vector<std::uint32_t>& ids = result.specialization_ids;
-        std::sort(ids.begin(), ids.end());
-        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+        // A specialized local size stands in the module twice, once without a name if it has one at all.
+        std::vector<ModuleConstant>& constants = result.constants;
+        std::ranges::sort(constants, [](const ModuleConstant& a, const ModuleConstant& b)
+                          { return a.id != b.id ? a.id < b.id : a.name > b.name; });
+        const auto twice = std::ranges::unique(constants, {}, &ModuleConstant::id);
+        constants.erase(twice.begin(), twice.end());
+        for (ModuleConstant& constant : constants)
+        {
+            const auto size = std::ranges::find(result.local_size_ids, constant.id);
+            if (constant.name.empty() && size != result.local_size_ids.end())
+            {
+                constant.name = std::string("kLocalSize") + "XYZ"[size - result.local_size_ids.begin()];
+            }
+        }
         return result;
     }
 
@@ -109,6 +115,10 @@ private:
         };
         switch (op)
         {
+        case spv::Op::OpName:
+            need(2);
+            m_names[operands[0]] = operands.subspan(1);
+            break;
         case spv::Op::OpEntryPoint:
             need(2);
             m_entry_points += static_cast<spv::ExecutionModel>(operands[0]) == spv::ExecutionModel::GLCompute ? 1 : 0;
@@ -270,10 +280,55 @@ private:
 
     [[nodiscard]] std::uint32_t pointee(std::uint32_t pointer_type) const { return operand(pointer_type, 1); }
 
-    [[nodiscard]] bool is32Bit(std::uint32_t type) const
+    // Strings are UTF-8, four bytes a word, first byte lowest, ended by a zero byte.
+    [[nodiscard]] std::string name(std::uint32_t id) const
     {
-        const Declaration& found = declaration(type);
-        return found.op == spv::Op::OpTypeBool || (!found.operands.empty() && found.operands[0] == 32);
+        std::string result;
+        const auto found = m_names.find(id);
+        for (std::size_t i = 0; found != m_names.end() && i < 4 * found->second.size(); ++i)
+        {
+            const char letter = static_cast<char>(found->second[i / 4] >> (8 * (i % 4)));
+            if (letter == '\0')
+            {
+                break;
+            }
+            result += letter;
+        }
+        return result;
+    }
+
+    [[nodiscard]] std::string onlyMemberName(std::uint32_t block) const
+    {
+        const Declaration& found = declaration(block);
+        return found.op == spv::Op::OpTypeStruct && found.operands.size() == 1 ? name(found.operands[0]) : "";
+    }
+
+    [[nodiscard]] ModuleConstant specializationConstant(std::uint32_t id, std::uint32_t spec_id) const
+    {
+        ModuleConstant result{spec_id, name(id), ConstantType::Other, 0};
+        const auto constant = m_constants.find(id);
+        if (constant == m_constants.end())
+        {
+            return result;
+        }
+        const std::uint32_t type = operand(id, 0);
+        const spv::Op type_op = declaration(type).op;
+        if (type_op == spv::Op::OpTypeBool)
+        {
+            result.type = ConstantType::Bool;
+            result.value = declaration(id).op == spv::Op::OpSpecConstantTrue ? 1 : 0;
+            return result;
+        }
+        if (operand(type, 0) != 32)
+        {
+            fail(fmt::format("specialization constant {} is not 32 bits wide", spec_id));
+        }
+        if (type_op == spv::Op::OpTypeInt)
+        {
+            result.type = operand(type, 1) == 0 ? ConstantType::Uint : ConstantType::Int;
+        }
+        result.value = this->constant(id);
+        return result;
     }
 
     // Size with tail padding and alignment, by the rules of the scalar layout, which are those of C++.
@@ -355,6 +410,7 @@ private:
         return static_cast<std::uint32_t>(bytes * count);
     }
 
+    std::map<std::uint32_t, std::span<const std::uint32_t>> m_names;
     std::uint32_t m_entry_points = 0;
     std::span<const std::uint32_t> m_local_size;
     bool m_local_size_by_id = false;

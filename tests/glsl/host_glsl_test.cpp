@@ -137,7 +137,7 @@ vk::BufferOf<gpu::TreeTable> tableOf(const TreeView& tree)
 }
 
 // What the pass reads through the table.
-void readTree(vk::Pass& pass, const TreeView& tree)
+void readTree(vk::AnyPass& pass, const TreeView& tree)
 {
     const Octree& octree = tree.octree();
     pass.read(octree.nodes);
@@ -167,7 +167,7 @@ std::vector<Pixel> hostPicture(const TreeView& tree, const char* kernel, const v
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass(kernel, constants);
+            vk::UntypedPass pass = graph.addPass(kernel, constants);
             readTree(pass, tree);
             const PicturePush push = {pass.read(table), pass.read(frames), pass.write(pixels)};
             pass.dispatch(pixels.count(), push);
@@ -618,7 +618,7 @@ std::vector<Met> meet(const TreeView& tree, const std::vector<WorldRay>& rays, f
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass("host/rays");
+            vk::UntypedPass pass = graph.addPass("host/rays");
             readTree(pass, tree);
             const RaysPush push = {pass.read(table), pass.read(ray_buffer), pass.write(results),
                                    static_cast<gpu::uint>(rays.size()), detail};
@@ -745,7 +745,7 @@ TEST(HostGlsl, UnfinishedRaysGoOnInTwoTreesAtOnce)
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass("host/steps", {kSteps});
+            vk::UntypedPass pass = graph.addPass("host/steps", {kSteps});
             readTree(pass, trees[0]);
             readTree(pass, trees[1]);
             const StepsPush push = {{pass.read(tables[0]), pass.read(tables[1])},

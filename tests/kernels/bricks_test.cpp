@@ -41,7 +41,7 @@ Table insertAndFind(const std::vector<gpu::uvec2>& keys, std::uint32_t capacity,
             graph.fill(bricks, 0);
             for (const bool find : {false, true})
             {
-                vk::Pass pass = graph.addPass("test/insert_bricks", {wide ? 1U : 0U, find ? 1U : 0U});
+                vk::Pass pass = graph.addPass(gpu::test::InsertBricks{.wide_keys = wide, .find = find});
                 const gpu::InsertBricksParams params = {pass.readWrite(bricks), pass.read(key_buffer),
                                                         pass.write(find ? found : inserted),
                                                         static_cast<gpu::uint>(keys.size()), capacity - 1};

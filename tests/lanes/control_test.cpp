@@ -19,7 +19,7 @@ TEST(Control, DISABLED_WorkgroupsRaceForAWord)
     test::device().run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass("test/race");
+            vk::Pass pass = graph.addPass(gpu::test::Race{});
             const gpu::FillParams params{.values = pass.write(values), .count = kCount};
             pass.dispatch(kCount, params);
         });
@@ -34,7 +34,7 @@ TEST(Control, DISABLED_KernelBranchesOnFreshMemory)
     test::device().run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass("test/branch");
+            vk::Pass pass = graph.addPass(gpu::test::Branch{});
             const gpu::CopyParams params{
                 .source = pass.read(fresh), .destination = pass.write(steps), .count = kCount, .factor = 1};
             pass.dispatch(kCount, params);

@@ -280,7 +280,7 @@ TEST(Device, RecordsIntoAHostsCommandBuffer)
                  [&](VkCommandBuffer commands)
                  {
                      vk::FrameGraph graph(guest, commands);
-                     vk::Pass pass = graph.addPass("test/iota");
+                     vk::Pass pass = graph.addPass(gpu::test::Iota{});
                      const gpu::FillParams params = {.values = pass.write(values), .count = 1000};
                      pass.dispatch(1000, params);
                      graph.copy(values, 0, result, 0, values.bytes());
@@ -358,7 +358,7 @@ TEST(Validation, SpeaksWhenAKernelWritesPastABuffer)
     faulty.run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass("test/iota");
+            vk::Pass pass = graph.addPass(gpu::test::Iota{});
             const gpu::FillParams params = {.values = pass.write(values), .count = 128};
             pass.dispatch(128, params);
         });

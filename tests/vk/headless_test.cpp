@@ -22,7 +22,7 @@ vk::BufferOf<gpu::uint> iota(vk::HeadlessDevice& target, std::uint64_t count)
     target.run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass("test/iota");
+            vk::Pass pass = graph.addPass(gpu::test::Iota{});
             const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(count)};
             pass.dispatch(count, params);
         });
@@ -129,7 +129,7 @@ TEST(Headless, PausesBetweenSubmissionsCanSubmit)
             submissions.push_back(device().submit(
                 [&](vk::FrameGraph& graph)
                 {
-                    vk::Pass pass = graph.addPass("test/iota");
+                    vk::Pass pass = graph.addPass(gpu::test::Iota{});
                     pass.dispatch(77, gpu::FillParams{.values = pass.write(values), .count = 77});
                 }));
         },

@@ -21,7 +21,7 @@ std::vector<gpu::uint> runSpecialized(const vk::Specialization& specialization)
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            vk::Pass pass = graph.addPass("test/specialized", specialization);
+            vk::UntypedPass pass = graph.addPass("test/specialized", specialization);
             const gpu::FillParams params = {.values = pass.write(values), .count = 100};
             pass.dispatch(100, params);
         });

@@ -40,7 +40,7 @@ inline std::vector<gpu::uint> counting(std::uint64_t count)
 /// Records the pass that sets values to 0, 1, 2 and so on.
 inline void iota(vk::FrameGraph& graph, Words& values)
 {
-    vk::Pass pass = graph.addPass("test/iota");
+    vk::Pass pass = graph.addPass(gpu::test::Iota{});
     const gpu::FillParams params = {.values = pass.write(values), .count = static_cast<gpu::uint>(values.count())};
     pass.dispatch(values.count(), params);
 }
@@ -48,7 +48,7 @@ inline void iota(vk::FrameGraph& graph, Words& values)
 /// Records the pass that sets destination to source times factor.
 inline void scale(vk::FrameGraph& graph, const Words& source, Words& destination, gpu::uint factor)
 {
-    vk::Pass pass = graph.addPass("test/scale");
+    vk::Pass pass = graph.addPass(gpu::test::Scale{});
     const gpu::CopyParams params = {
         .source = pass.read(source),
         .destination = pass.write(destination),

@@ -159,14 +159,14 @@ TEST(Slicer, PiecesInOneCommandBufferNeverMoveLaterDispatches)
         graph.fill(indirect, 7);
         graph.fill(small, 7);
         {
-            vk::Pass pass = graph.addPass("test/write_args");
+            vk::Pass pass = graph.addPass(gpu::test::WriteArgs{});
             const gpu::WriteArgsParams params = {.args = pass.write(args), .groups = 4};
             pass.dispatch(1, params);
         }
         iota(graph, values); // pieces at bases 0, 3, 6 and 9
         iota(graph, small);  // one piece, whole
         iota(graph, values);
-        vk::Pass pass = graph.addPass("test/iota");
+        vk::Pass pass = graph.addPass(gpu::test::Iota{});
         const gpu::FillParams params = {.values = pass.write(indirect), .count = 64 * 4};
         pass.dispatchIndirect(args, 0, params, 4);
     };

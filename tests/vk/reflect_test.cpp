@@ -49,10 +49,20 @@ TEST(ReflectKernel, PushConstantsAreAsLargeAsTheStructInCpp)
     EXPECT_EQ(vk::reflectKernel(words("test/no_params")).push_constant_bytes, 0u);
 }
 
-TEST(ReflectKernel, ReadsSpecializationIds)
+TEST(ReflectKernel, ReadsSpecializationConstants)
 {
-    EXPECT_EQ(vk::reflectKernel(words("test/specialized")).specialization_ids, (std::vector<std::uint32_t>{0, 1, 2}));
-    EXPECT_TRUE(vk::reflectKernel(words("test/iota")).specialization_ids.empty());
+    const std::vector<vk::ModuleConstant> expected = {{0, "kLocalSizeX", vk::ConstantType::Uint, 1},
+                                                      {1, "kValue", vk::ConstantType::Uint, 7},
+                                                      {2, "kFlag", vk::ConstantType::Bool, 0}};
+    EXPECT_EQ(vk::reflectKernel(words("test/specialized")).constants, expected);
+    EXPECT_TRUE(vk::reflectKernel(words("test/iota")).constants.empty());
+}
+
+TEST(ReflectKernel, ReadsTheNameOfItsParameters)
+{
+    EXPECT_EQ(vk::reflectKernel(words("test/iota")).params_name, "FillParams");
+    EXPECT_EQ(vk::reflectKernel(words("test/layout")).params_name, "LayoutParams");
+    EXPECT_EQ(vk::reflectKernel(words("test/no_params")).params_name, "");
 }
 
 TEST(ReflectKernel, WordsThatAreNotSpirvAreRefused)

@@ -286,7 +286,7 @@ TEST(Submission, DestroyingTheDeviceWaitsForAllThatAreInFlight)
                 {
                     for (int pass = 0; pass < 20; ++pass)
                     {
-                        graph.addPass("test/iota").dispatch(1 << 20, gpu::FillParams{}); // writes nothing
+                        graph.addPass(gpu::test::Iota{}).dispatch(1 << 20, gpu::FillParams{}); // writes nothing
                     }
                 }));
         }

@@ -47,7 +47,7 @@ TEST(TimerPool, PassesStandWhereTheGraphCountsThem)
             iota(graph, empty);
             graph.fill(values, 0, 0, 0);
             count();
-            vk::Pass pass = graph.addPass("test/iota");
+            vk::Pass pass = graph.addPass(gpu::test::Iota{});
             const gpu::FillParams params = {.values = pass.write(values), .count = 64};
             pass.dispatchIndirect(args, 0, params, 1);
             count();

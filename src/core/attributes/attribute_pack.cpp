@@ -8,22 +8,32 @@
 namespace zvo
 {
 
+namespace
+{
+
+template <typename Kernel>
+void packBlocks(vk::FrameGraph& graph, const Kernel& kernel, const vk::BufferOf<gpu::Attribute>& attributes,
+                vk::BufferOf<gpu::uint>& words)
+{
+    const std::uint64_t count = attributes.count();
+    vk::Pass pass = graph.addPass(kernel);
+    const gpu::PackBlocksParams params = {pass.read(attributes), pass.write(words), static_cast<std::uint32_t>(count)};
+    pass.dispatch(divideUp(count, gpu::kBlockVoxels), params);
+}
+
+} // namespace
+
 void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeForm form,
                     vk::BufferOf<gpu::uint>& words)
 {
     const std::uint64_t count = attributes.count();
     if (form == AttributeForm::Blocks)
     {
-        for (const char* const kernel : {"attributes/block_colors", "attributes/block_normals"})
-        {
-            vk::Pass pass = graph.addPass(kernel);
-            const gpu::PackBlocksParams params = {pass.read(attributes), pass.write(words),
-                                                  static_cast<std::uint32_t>(count)};
-            pass.dispatch(divideUp(count, gpu::kBlockVoxels), params);
-        }
+        packBlocks(graph, gpu::attributes::BlockColors{}, attributes, words);
+        packBlocks(graph, gpu::attributes::BlockNormals{}, attributes, words);
         return;
     }
-    vk::Pass pass = graph.addPass("attributes/pack4");
+    vk::Pass pass = graph.addPass(gpu::attributes::Pack4{});
     const gpu::PackWordsParams params = {pass.read(attributes), pass.write(words), static_cast<std::uint32_t>(count)};
     pass.dispatch(count, params);
 }

@@ -343,9 +343,10 @@ void deform(vk::FrameGraph& graph, const DeformMesh& mesh, const PoseBuffers& po
         {
             continue;
         }
-        const auto has = [variant](std::uint32_t bit) { return (variant & bit) != 0 ? 1U : 0U; };
-        vk::Pass pass = graph.addPass("deform/vertices",
-                                      {has(gpu::kDeformMorphed), has(gpu::kDeformSkinned), has(gpu::kDeformNormals)});
+        const auto has = [variant](std::uint32_t bit) { return (variant & bit) != 0; };
+        vk::Pass pass = graph.addPass(gpu::deform::Vertices{.morphed = has(gpu::kDeformMorphed),
+                                                            .skinned = has(gpu::kDeformSkinned),
+                                                            .normals = has(gpu::kDeformNormals)});
         gpu::DeformParams params{};
         params.chunks = pass.read(mesh.chunks);
         params.items = pass.read(mesh.items);

@@ -122,7 +122,7 @@ void placeMover(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose,
     }
 }
 
-gpu::ConstPtr<gpu::SceneView> PlacedScene::read(vk::Pass& pass) const
+gpu::ConstPtr<gpu::SceneView> PlacedScene::read(vk::AnyPass& pass) const
 {
     if (m_mover == nullptr)
     {

@@ -75,7 +75,7 @@ public:
     [[nodiscard]] const GpuScene& uploaded() const { return m_scene; }
 
     /// Declares that pass reads the scene, and everything of it that changes. Returns the address of the table.
-    gpu::ConstPtr<gpu::SceneView> read(vk::Pass& pass) const;
+    gpu::ConstPtr<gpu::SceneView> read(vk::AnyPass& pass) const;
 
 private:
     const GpuScene& m_scene;

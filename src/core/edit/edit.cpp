@@ -30,13 +30,13 @@ gpu::Brush gpuBrush(const Brush& brush)
             brush.color & 0xFFFFFFU};
 }
 
-gpu::Ptr<gpu::BeforeChild> ranksOf(vk::Pass& pass, OverlaidTree& tree)
+gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, OverlaidTree& tree)
 {
     return {pass.readWrite(tree.ranks).address - tree.ranksSkipped()};
 }
 
 // Where ranks in a DAG come from; nothing for an octree.
-template <typename Params> void readRankSource(vk::Pass& pass, const OverlaidTree& tree, Params& params)
+template <typename Params> void readRankSource(vk::AnyPass& pass, const OverlaidTree& tree, Params& params)
 {
     if (tree.hasRanks())
     {
@@ -60,10 +60,11 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
 {
     OverlaidTree& tree = site.tree;
     const gpu::EditPlaces places = {site.region.first_node, dab.from, dab.to};
-    const std::uint32_t attributes = tree.hasAttributes() ? 1 : 0;
+    const bool attributes = tree.hasAttributes();
     graph.fill(site.states, 0, std::uint64_t{places.to} * (sizeof(gpu::EditState) / 4), sizeof(gpu::EditState) / 4);
     {
-        vk::Pass pass = graph.addPass("edit/find", {entriesPerWord(tree), attributes});
+        vk::Pass pass =
+            graph.addPass(gpu::edit::Find{.entries_per_word = entriesPerWord(tree), .attributes = attributes});
         gpu::EditFindParams params{};
         params.nodes = pass.read(tree.dag.tree.nodes);
         readRankSource(pass, tree, params);
@@ -77,7 +78,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     }
     for (std::uint32_t level = extent.box.level_count - 1; level-- > 0;)
     {
-        vk::Pass pass = graph.addPass("edit/parents");
+        vk::Pass pass = graph.addPass(gpu::edit::Parents{});
         gpu::EditParentsParams params{};
         params.cells = pass.readWrite(buffers.cells);
         params.box = extent.box;
@@ -85,7 +86,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         pass.dispatch(levelCells(extent.box, level), params);
     }
     {
-        vk::Pass pass = graph.addPass("edit/allocate", {attributes});
+        vk::Pass pass = graph.addPass(gpu::edit::Allocate{.attributes = attributes});
         gpu::EditAllocateParams params{};
         params.cells = pass.readWrite(buffers.cells);
         params.states = pass.readWrite(site.states);
@@ -98,7 +99,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         params.voxel_end = site.region.first_voxel + site.region.voxel_capacity;
         pass.dispatch(gpu::kScanGroup, params);
     }
-    vk::Pass pass = graph.addPass("edit/nodes", {entriesPerWord(tree), attributes});
+    vk::Pass pass = graph.addPass(gpu::edit::Nodes{.entries_per_word = entriesPerWord(tree), .attributes = attributes});
     gpu::EditNodesParams params{};
     params.nodes = pass.readWrite(tree.dag.tree.nodes);
     params.node_attributes = pass.readWrite(tree.dag.tree.node_attributes);
@@ -113,12 +114,13 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     pass.dispatch(std::uint64_t{std::max(extent.inner_count, 1U)} * gpu::kEditGroup, params);
 }
 
-void recordVoxelPass(vk::FrameGraph& graph, const char* kernel, EditSite& site, const gpu::Brush& brush,
-                     const DabExtent& extent, std::uint32_t to, const vk::Specialization& constants,
-                     DabBuffers& buffers)
+// Of edit/voxels or edit/emission.
+template <typename Kernel>
+void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site, const gpu::Brush& brush,
+                     const DabExtent& extent, std::uint32_t to, DabBuffers& buffers)
 {
     Octree& octree = site.tree.dag.tree;
-    vk::Pass pass = graph.addPass(kernel, constants);
+    vk::Pass pass = graph.addPass(kernel);
     gpu::EditVoxelsParams params{};
     params.nodes = pass.read(octree.nodes);
     params.cells = pass.read(buffers.cells);
@@ -140,7 +142,7 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
     const bool emits = octree.emission_words.count() != 0;
     if (emits)
     {
-        vk::Pass pass = graph.addPass("edit/emission_words");
+        vk::Pass pass = graph.addPass(gpu::edit::EmissionWords{});
         gpu::EditEmissionWordsParams params{};
         params.words = pass.write(octree.emission_words);
         params.states = pass.read(site.states);
@@ -150,10 +152,10 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
         params.emission_offset = site.emission_offset;
         pass.dispatch(divideUp(extent.voxel_bound, kVoxelBlock), params);
     }
-    recordVoxelPass(graph, "edit/voxels", site, brush, extent, places.to, {emits ? 1U : 0U}, buffers);
+    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits}, site, brush, extent, places.to, buffers);
     if (emits)
     {
-        recordVoxelPass(graph, "edit/emission", site, brush, extent, places.to, {}, buffers);
+        recordVoxelPass(graph, gpu::edit::Emission{}, site, brush, extent, places.to, buffers);
     }
     std::uint32_t first_cell = extent.cell_count;
     for (std::uint32_t level = extent.box.level_count; level-- > 0;)
@@ -161,7 +163,7 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
         const bool are_leaves = level + 1 == extent.box.level_count;
         const std::uint32_t cell_count = levelCells(extent.box, level);
         first_cell -= cell_count;
-        vk::Pass pass = graph.addPass("edit/average");
+        vk::Pass pass = graph.addPass(gpu::edit::Average{});
         gpu::EditAverageParams params{};
         params.scene = pass.read(tables);
         params.cells = pass.read(buffers.cells);
@@ -193,7 +195,7 @@ void recordMarks(vk::FrameGraph& graph, EditSite& site, const std::vector<bool>&
     for (std::uint32_t level = 0; level + (site.tree.hasAttributes() ? 0 : 1) < level_count; ++level)
     {
         const bool are_leaves = level + 1 == level_count;
-        vk::Pass pass = graph.addPass("edit/mark", {are_leaves ? 1U : 0U});
+        vk::Pass pass = graph.addPass(gpu::edit::Mark{.leaves = are_leaves});
         gpu::EditMarkParams params{};
         params.nodes = pass.read(octree.nodes);
         params.marks = pass.readWrite(buffers.marks);
@@ -213,9 +215,9 @@ void recordNumbers(vk::FrameGraph& graph, bool are_voxels, const vk::BufferOf<gp
 {
     const std::uint64_t count = marks.count();
     const std::uint64_t threads = divideUp(count, gpu::kScanItems);
-    const auto sum = [&](const char* kernel)
+    const auto sum = [&](const auto& kernel)
     {
-        vk::Pass pass = graph.addPass(kernel, {are_voxels ? 1U : 0U});
+        vk::Pass pass = graph.addPass(kernel);
         gpu::EditSumParams params{};
         params.marks = pass.read(marks);
         params.partials = pass.readWrite(buffers.partials);
@@ -223,21 +225,21 @@ void recordNumbers(vk::FrameGraph& graph, bool are_voxels, const vk::BufferOf<gp
         params.element_count = static_cast<gpu::uint>(count);
         pass.dispatch(threads, params);
     };
-    sum("edit/live_sums");
+    sum(gpu::edit::LiveSums{.voxels = are_voxels});
     {
-        vk::Pass pass = graph.addPass("octree/scan");
+        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
         gpu::ScanParams params{};
         params.values = pass.readWrite(buffers.partials);
         params.total = pass.write(buffers.total);
         params.count = static_cast<gpu::uint>(divideUp(count, gpu::kScanBlock));
         pass.dispatch(gpu::kScanGroup, params);
     }
-    sum("edit/renumber");
+    sum(gpu::edit::Renumber{.voxels = are_voxels});
 }
 
 void clearEmission(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& region)
 {
-    vk::Pass pass = graph.addPass("update/emission_places");
+    vk::Pass pass = graph.addPass(gpu::update::EmissionPlaces{});
     gpu::EmissionPlacesParams params{};
     params.words = pass.write(site.tree.dag.tree.emission_words);
     params.first_word = region.first_voxel / kVoxelBlock;
@@ -293,7 +295,7 @@ std::uint64_t CompactBuffers::bytes(const OverlayRegion& region)
 void beginEdits(vk::FrameGraph& graph, EditSite& site)
 {
     OverlaidTree& tree = site.tree;
-    vk::Pass pass = graph.addPass("edit/begin", {tree.hasAttributes() ? 1U : 0U, tree.hasRanks() ? 1U : 0U});
+    vk::Pass pass = graph.addPass(gpu::edit::Begin{.attributes = tree.hasAttributes(), .ranks = tree.hasRanks()});
     gpu::EditBeginParams params{};
     params.nodes = pass.readWrite(tree.dag.tree.nodes);
     params.node_attributes = pass.readWrite(tree.dag.tree.node_attributes);
@@ -335,9 +337,9 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
     {
         clearEmission(graph, site, to);
     }
-    const auto move = [&](const char* kernel, const vk::Specialization& constants, std::uint64_t threads)
+    const auto move = [&](const auto& kernel, std::uint64_t threads)
     {
-        vk::Pass pass = graph.addPass(kernel, constants);
+        vk::Pass pass = graph.addPass(kernel);
         gpu::EditMoveParams params{};
         params.nodes = pass.readWrite(octree.nodes);
         params.node_attributes = pass.readWrite(octree.node_attributes);
@@ -358,14 +360,14 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
         params.attribute_offset = site.tree.attributeOffset();
         pass.dispatch(threads, params);
     };
-    move("edit/move_nodes", {attributes ? 1U : 0U, site.tree.hasRanks() ? 1U : 0U}, site.region.node_capacity);
+    move(gpu::edit::MoveNodes{.attributes = attributes, .ranks = site.tree.hasRanks()}, site.region.node_capacity);
     if (attributes)
     {
-        move("edit/move_voxels", {emits ? 1U : 0U}, site.region.voxel_capacity);
+        move(gpu::edit::MoveVoxels{.emits = emits}, site.region.voxel_capacity);
     }
     if (emits)
     {
-        vk::Pass pass = graph.addPass("edit/move_emission");
+        vk::Pass pass = graph.addPass(gpu::edit::MoveEmission{});
         gpu::EditMoveEmissionParams params{};
         params.voxel_bits = pass.read(buffers.voxel_bits);
         params.voxel_numbers = pass.read(buffers.voxel_numbers);
@@ -376,7 +378,7 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
         params.new_first_voxel = to.first_voxel;
         pass.dispatch(site.region.voxel_capacity, params);
     }
-    vk::Pass pass = graph.addPass("edit/move_states");
+    vk::Pass pass = graph.addPass(gpu::edit::MoveStates{});
     gpu::EditMoveStatesParams params{};
     params.states = pass.read(site.states);
     params.new_states = pass.write(states);

@@ -104,7 +104,7 @@ void appendLevel(vk::FrameGraph& graph, const Svdag& dag, std::size_t level, con
                    node_count * sizeof(gpu::Node));
         return;
     }
-    vk::Pass pass = graph.addPass("svdag/append", {dag.entries_per_word});
+    vk::Pass pass = graph.addPass(gpu::svdag::Append{.entries_per_word = dag.entries_per_word});
     gpu::AppendParams params{};
     params.from = pass.read(from.nodes);
     params.to = pass.readWrite(to.nodes);

@@ -17,17 +17,17 @@ void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuil
     const bool is_leaf = level + 1 == octree.levels.size();
     const std::uint64_t threads = divideUp(node_count, gpu::kScanItems);
     {
-        vk::Pass pass = graph.addPass("octree/count");
+        vk::Pass pass = graph.addPass(gpu::octree::Count{});
         const gpu::CountParams params = {pass.read(octree.nodes), pass.write(work.partials), first_node, node_count};
         pass.dispatch(threads, params);
     }
     {
-        vk::Pass pass = graph.addPass("octree/scan");
+        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
         const gpu::ScanParams params = {pass.readWrite(work.partials), pass.write(work.total),
                                         static_cast<std::uint32_t>(divideUp(node_count, gpu::kScanBlock))};
         pass.dispatch(gpu::kScanGroup, params);
     }
-    vk::Pass pass = graph.addPass("octree/assign");
+    vk::Pass pass = graph.addPass(gpu::octree::Assign{});
     gpu::AssignParams params{};
     params.nodes = pass.readWrite(octree.nodes);
     params.bricks = pass.readWrite(voxelize.bricks);
@@ -51,7 +51,7 @@ OctreeBuildBuffers::OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_c
 void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
 {
     {
-        vk::Pass pass = graph.addPass("octree/collect");
+        vk::Pass pass = graph.addPass(gpu::octree::Collect{});
         const gpu::CollectParams params = {pass.read(voxelize.bricks), pass.write(work.items),
                                            pass.readWrite(voxelize.counters),
                                            static_cast<std::uint32_t>(voxelize.bricks.count())};
@@ -66,7 +66,7 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
     for (std::uint32_t step = 0; step < grid.nodeLevels(); ++step)
     {
         {
-            vk::Pass pass = graph.addPass("octree/next_level");
+            vk::Pass pass = graph.addPass(gpu::octree::NextLevel{});
             gpu::NextLevelParams params{};
             params.counters = pass.read(counters);
             params.ranges = pass.readWrite(work.ranges);
@@ -79,7 +79,7 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
         {
             break;
         }
-        vk::Pass pass = graph.addPass("octree/parents", {hasWideKeys(grid) ? 1U : 0U});
+        vk::Pass pass = graph.addPass(gpu::octree::Parents{.wide_keys = hasWideKeys(grid)});
         gpu::ParentsParams params{};
         params.bricks = pass.readWrite(bricks);
         params.items = pass.readWrite(work.items);
@@ -94,18 +94,18 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
 void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree)
 {
     // Passes that put numbers where masks were cannot come twice: what can fail comes before the first of them.
-    const vk::Specialization key_width = {hasWideKeys(octree.grid) ? 1U : 0U};
-    graph.device().kernels().get("octree/place", key_width);
-    for (const char* kernel : {"octree/count", "octree/scan", "octree/assign"})
-    {
-        graph.device().kernels().get(kernel);
-    }
+    const gpu::octree::Place place{.wide_keys = hasWideKeys(octree.grid)};
+    vk::KernelCache& kernels = graph.device().kernels();
+    kernels.get(place);
+    kernels.get(gpu::octree::Count{});
+    kernels.get(gpu::octree::Scan{});
+    kernels.get(gpu::octree::Assign{});
     std::uint32_t item_end = octree.node_count; // the root is the last item
     for (std::size_t level = 0; level < octree.levels.size(); ++level)
     {
         const std::uint32_t node_count = octree.levels[level].node_count;
         {
-            vk::Pass pass = graph.addPass("octree/place", key_width);
+            vk::Pass pass = graph.addPass(place);
             gpu::PlaceParams params{};
             params.bricks = pass.readWrite(voxelize.bricks);
             params.items = pass.read(work.items);
@@ -126,7 +126,7 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, Octree& octree)
     {
         const bool is_leaf = level + 1 == octree.levels.size();
         const auto [first_node, node_count] = octree.levels[level];
-        vk::Pass pass = graph.addPass("octree/average");
+        vk::Pass pass = graph.addPass(gpu::octree::Average{});
         gpu::AverageParams params{};
         params.scene = pass.read(scene.view);
         params.nodes = pass.read(octree.nodes);

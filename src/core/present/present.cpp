@@ -10,7 +10,7 @@ namespace zvo
 void scalePicture(vk::FrameGraph& graph, const vk::BufferOf<gpu::uint>& from, PictureSize from_size,
                   vk::BufferOf<gpu::uint>& to, PictureSize to_size)
 {
-    vk::Pass pass = graph.addPass("present/scale");
+    vk::Pass pass = graph.addPass(gpu::present::Scale{});
     gpu::ScaleParams params{};
     params.from = pass.read(from);
     params.to = pass.write(to);

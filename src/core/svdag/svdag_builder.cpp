@@ -100,16 +100,17 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     const auto [first_node, node_count] = dag.tree.levels[level];
     if (level + 1 == dag.tree.levels.size())
     {
-        vk::Pass pass = graph.addPass("svdag/leaves");
+        vk::Pass pass = graph.addPass(gpu::svdag::Leaves{});
         const gpu::UniqueLeavesParams params = {pass.read(candidates.tree.nodes), pass.read(classes.table),
                                                 pass.write(dag.tree.nodes), first_node, node_count};
         pass.dispatch(node_count, params);
         return;
     }
     const bool above_leaves = level + 2 == dag.tree.levels.size();
-    const std::uint32_t has_before = below.count() != 0 ? 1 : 0;
-    vk::Pass pass = graph.addPass(
-        "svdag/lists", {candidates.entries_per_word, has_before, above_leaves ? 1U : 0U, dag.entries_per_word});
+    vk::Pass pass = graph.addPass(gpu::svdag::Lists{.entries_per_word = candidates.entries_per_word,
+                                                    .before = below.count() != 0,
+                                                    .above_leaves = above_leaves,
+                                                    .per_word = dag.entries_per_word});
     gpu::UniqueListsParams params{};
     params.nodes = pass.read(candidates.tree.nodes);
     params.classes = pass.read(classes.classes);
@@ -152,7 +153,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const Octree& octree, ClassBuffers& 
         const auto [first_node, node_count] = octree.levels[level];
         const bool above_leaves = level + 2 == octree.levels.size();
         const bool packed = isPacked(octree.attributeForm());
-        vk::Pass pass = graph.addPass("svdag/depth_first", {0U, above_leaves ? 1U : 0U, packed ? 1U : 0U});
+        vk::Pass pass = graph.addPass(gpu::svdag::DepthFirst{.above_leaves = above_leaves, .packed = packed});
         gpu::DepthFirstParams params{};
         params.nodes = pass.read(octree.nodes);
         params.classes = pass.read(classes.classes);

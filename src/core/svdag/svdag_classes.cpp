@@ -43,7 +43,7 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
     const std::uint32_t per_word = candidates.entries_per_word;
     if (!are_leaves)
     {
-        vk::Pass pass = graph.addPass("svdag/hash", {per_word});
+        vk::Pass pass = graph.addPass(gpu::svdag::Hash{.entries_per_word = per_word});
         gpu::ClassHashParams params{};
         params.nodes = pass.read(candidates.tree.nodes);
         params.classes = pass.read(buffers.classes);
@@ -54,7 +54,7 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
         pass.dispatch(node_count, params);
     }
     {
-        vk::Pass pass = graph.addPass("svdag/insert", {per_word, are_leaves ? 1U : 0U});
+        vk::Pass pass = graph.addPass(gpu::svdag::Insert{.entries_per_word = per_word, .leaves = are_leaves});
         gpu::ClassInsertParams params{};
         params.nodes = pass.read(candidates.tree.nodes);
         params.hashes = pass.read(buffers.hashes);
@@ -68,7 +68,7 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
         params.level = static_cast<std::uint32_t>(level);
         pass.dispatch(node_count, params);
     }
-    vk::Pass pass = graph.addPass("svdag/resolve");
+    vk::Pass pass = graph.addPass(gpu::svdag::Resolve{});
     const gpu::ClassResolveParams params = {pass.readWrite(buffers.classes), pass.read(buffers.table), first_node,
                                             node_count};
     pass.dispatch(node_count, params);
@@ -77,7 +77,7 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
 void scan(vk::FrameGraph& graph, vk::BufferOf<gpu::uint>& partials, vk::BufferOf<gpu::ClassSizes>& sizes,
           std::size_t total_offset)
 {
-    vk::Pass pass = graph.addPass("octree/scan");
+    vk::Pass pass = graph.addPass(gpu::octree::Scan{});
     const gpu::ScanParams params = {pass.readWrite(partials),
                                     {pass.readWrite(sizes).address + total_offset},
                                     static_cast<std::uint32_t>(partials.count())};
@@ -88,7 +88,7 @@ void numberClasses(vk::FrameGraph& graph, const Candidates& candidates, ClassBuf
 {
     const std::uint64_t threads = divideUp(candidates.count(), gpu::kScanItems);
     {
-        vk::Pass pass = graph.addPass("svdag/count");
+        vk::Pass pass = graph.addPass(gpu::svdag::Count{});
         gpu::ClassCountParams params{};
         params.nodes = pass.read(candidates.tree.nodes);
         params.classes = pass.read(buffers.classes);
@@ -100,7 +100,7 @@ void numberClasses(vk::FrameGraph& graph, const Candidates& candidates, ClassBuf
     }
     scan(graph, buffers.node_partials, buffers.sizes, offsetof(gpu::ClassSizes, node_count));
     scan(graph, buffers.entry_partials, buffers.sizes, offsetof(gpu::ClassSizes, entry_count));
-    vk::Pass pass = graph.addPass("svdag/number");
+    vk::Pass pass = graph.addPass(gpu::svdag::Number{});
     gpu::ClassNumberParams params{};
     params.nodes = pass.read(candidates.tree.nodes);
     params.classes = pass.read(buffers.classes);

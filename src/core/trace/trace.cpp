@@ -77,13 +77,19 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !options.hasDetail();
     const bool wants_ranks = tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options);
     const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
-    const vk::Specialization constants =
-        withFlags(traverseConstants(graph.device(), tree, options),
-                  {camera.orthographic, count_iterations, use_paths, use_paths && !standsByLevels(tree),
-                   has_ranks && tree.overlaid() != nullptr});
+    const auto primary = [&]<typename Kernel>(Kernel kernel)
+    {
+        kernel = traversing(kernel, graph.device(), tree, options);
+        kernel.orthographic = camera.orthographic;
+        kernel.count_iterations = count_iterations;
+        kernel.paths = use_paths;
+        kernel.paths_relative = use_paths && !standsByLevels(tree);
+        kernel.overlays = has_ranks && tree.overlaid() != nullptr;
+        return kernel;
+    };
     const std::uint32_t rounds = roundsFor(octree, options);
     // What both kernels take.
-    const auto common = [&]<typename Params>(vk::Pass& pass, Params params)
+    const auto common = [&]<typename Params>(vk::AnyPass& pass, Params params)
     {
         params.nodes = pass.read(octree.nodes);
         params.paths = use_paths || has_ranks ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
@@ -97,7 +103,7 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     };
     if (has_ranks)
     {
-        const auto declare = [&](vk::Pass& pass)
+        const auto declare = [&](vk::AnyPass& pass)
         {
             auto params = common(pass, gpu::PrimaryRanksParams{});
             const gpu::RankSource source = rankSource(pass, *tree.svdag());
@@ -110,19 +116,19 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
             params.first_short_place = source.first_short_place;
             return params;
         };
-        addRounds<gpu::PrimaryRanksParams>(graph, "trace/primary_ranks", constants, rounds, buffers.rounds,
-                                           buffers.live.count(), declare, dispatchLive(buffers));
+        addRounds(graph, primary(gpu::trace::PrimaryRanks{}), rounds, buffers.rounds, buffers.live.count(), declare,
+                  dispatchLive(buffers));
         return;
     }
-    const auto declare = [&](vk::Pass& pass)
+    const auto declare = [&](vk::AnyPass& pass)
     {
         auto params = common(pass, gpu::PrimaryParams{});
         params.iterations = count_iterations ? pass.readWrite(buffers.light) : gpu::Ptr<gpu::uint>{};
         params.detail = detailOf(options, &camera);
         return params;
     };
-    addRounds<gpu::PrimaryParams>(graph, "trace/primary", constants, rounds, buffers.rounds, buffers.live.count(),
-                                  declare, dispatchLive(buffers));
+    addRounds(graph, primary(gpu::trace::Primary{}), rounds, buffers.rounds, buffers.live.count(), declare,
+              dispatchLive(buffers));
     if (wants_ranks)
     {
         rankTiles(graph, tree, options, buffers);
@@ -150,7 +156,7 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
         graph.fill(hits, gpu::kHitMiss);
         return;
     }
-    const auto declare = [&](vk::Pass& pass)
+    const auto declare = [&](vk::AnyPass& pass)
     {
         gpu::RaysParams params{};
         params.nodes = pass.read(octree.nodes);
@@ -162,10 +168,9 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
         return params;
     };
     const std::uint64_t groups = divideUp(rays.count(), gpu::kRaysGroup);
-    addRounds<gpu::RaysParams>(
-        graph, "trace/rays", traverseConstants(graph.device(), tree, options), roundsFor(octree, options), rounds,
-        divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
-        [&](vk::Pass& pass, const gpu::RaysParams& params) { pass.dispatch(rays.count(), params); });
+    addRounds(graph, traversing(gpu::trace::Rays{}, graph.device(), tree, options), roundsFor(octree, options), rounds,
+              divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
+              [&](auto& pass, const gpu::RaysParams& params) { pass.dispatch(rays.count(), params); });
     if (tree.svdag() != nullptr && octree.hasAttributes())
     {
         rankHits(graph, tree, options, hits, rays.count());

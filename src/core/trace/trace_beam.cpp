@@ -55,34 +55,34 @@ void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
     }
     const std::uint32_t levels = std::min(octree.grid.nodeLevels(), gpu::kBeamLevels);
     const std::uint32_t cells = 1U << (2 * levels);
-    const vk::Specialization lists = {tree.entriesPerWord()};
+    const std::uint32_t per_word = tree.entriesPerWord();
     {
-        vk::Pass pass = graph.addPass("trace/beam_mark", lists);
+        vk::Pass pass = graph.addPass(gpu::trace::BeamMark{.entries_per_word = per_word});
         const gpu::BeamMarkParams params = {pass.read(octree.nodes), pass.write(beam.occupied), levels, cells};
         pass.dispatch(cells * cells, params);
     }
     {
-        vk::Pass pass = graph.addPass("trace/beam_dilate");
+        vk::Pass pass = graph.addPass(gpu::trace::BeamDilate{});
         const gpu::BeamDilateParams params = {pass.read(beam.occupied), pass.write(beam.rows), cells};
         pass.dispatch(gpu::kBeamRows, params);
     }
     for (const bool level2 : {true, false})
     {
-        vk::Pass pass = graph.addPass("trace/beam_nodes", {level2 ? 1U : 0U});
+        vk::Pass pass = graph.addPass(gpu::trace::BeamNodes{.level2 = level2});
         const gpu::BeamNodesParams params = {pass.read(beam.rows), pass.readWrite(beam.masks),
                                              pass.readWrite(beam.nodes)};
         pass.dispatch(gpu::kBeamGroup * (level2 ? gpu::kBeamGroup : 1), params);
     }
     if (hasFineBeam(octree))
     {
-        vk::Pass pass = graph.addPass("trace/beam_refine", lists);
+        vk::Pass pass = graph.addPass(gpu::trace::BeamRefine{.entries_per_word = per_word});
         const gpu::BeamRefineParams params = {pass.read(octree.nodes), pass.read(beam.masks),
                                               pass.readWrite(beam.nodes)};
         pass.dispatch(gpu::kBeamRows * gpu::kBeamGroup, params);
     }
     if (hasPaths(octree))
     {
-        vk::Pass pass = graph.addPass("trace/beam_paths", lists);
+        vk::Pass pass = graph.addPass(gpu::trace::BeamPaths{.entries_per_word = per_word});
         const gpu::BeamPathsParams params = {pass.read(octree.nodes), pass.write(beam.paths)};
         pass.dispatch(kPathCellCount, params);
     }
@@ -100,11 +100,12 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
     graph.fill(buffers.status, 0);
     const PictureTiles tiles(buffers);
     const bool fine = hasFineBeam(octree);
-    const vk::Specialization constants =
-        withFlags({gpu::kBeamLevels + (fine ? 1 : 0), stackConstant(graph.device(), options), fine ? 1U : 0U,
-                   gpu::kTraceStepsMax},
-                  {false, camera.orthographic, options.beam, isEmpty(octree)});
-    vk::Pass pass = graph.addPass("trace/beam", constants);
+    vk::Pass pass = graph.addPass(gpu::trace::Beam{.node_levels = gpu::kBeamLevels + (fine ? 1U : 0U),
+                                                   .stack = stackConstant(graph.device(), options),
+                                                   .detail = fine,
+                                                   .orthographic = camera.orthographic,
+                                                   .beam = options.beam,
+                                                   .empty = isEmpty(octree)});
     gpu::BeamParams params{};
     params.nodes = pass.read(beam.nodes);
     params.starts = pass.write(buffers.starts);

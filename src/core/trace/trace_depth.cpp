@@ -56,7 +56,7 @@ void traceDepth(vk::FrameGraph& graph, const Grid& grid, const TraceCamera& came
                                       "clip space, and a depth in [0, 1] for rays that hit nothing");
     }
     graph.fill(depth, std::bit_cast<std::uint32_t>(clip.miss), 0, pixel_count);
-    vk::Pass pass = graph.addPass("trace/depth", withFlags({}, {camera.orthographic}));
+    vk::Pass pass = graph.addPass(gpu::trace::Depth{.orthographic = camera.orthographic});
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
     params.depth = pass.readWrite(depth);

@@ -14,10 +14,9 @@ void inspectPixel(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera
         graph.fill(report, 0);
         return;
     }
-    const std::uint32_t form =
-        showsAttributes(options) ? formToRead(octree, options) : static_cast<std::uint32_t>(AttributeForm::None);
-    vk::Pass pass = graph.addPass("trace/inspect", withConstants(traverseConstants(graph.device(), tree, options),
-                                                                 {camera.orthographic ? 1U : 0U, form}));
+    const AttributeForm form = showsAttributes(options) ? formToRead(octree, options) : AttributeForm::None;
+    vk::Pass pass = graph.addPass(traversing(gpu::trace::Inspect{.orthographic = camera.orthographic, .form = form},
+                                             graph.device(), tree, options));
     gpu::InspectParams params{};
     params.nodes = pass.read(octree.nodes);
     params.hits = pass.read(buffers.hits);

@@ -29,7 +29,7 @@ void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const Trac
         return;
     }
     vk::Pass pass = graph.addPass(
-        "trace/sky", {camera.orthographic ? 1U : 0U, static_cast<std::uint32_t>(buffers.texels), shows_sky ? 0U : 1U});
+        gpu::trace::Sky{.orthographic = camera.orthographic, .texels = buffers.texels, .black = !shows_sky});
     gpu::SkyParams params{};
     params.image = pass.write(buffers.image);
     params.forward = camera.rays.forward;
@@ -65,7 +65,7 @@ gpu::vec3 originBounds(const TreeView& tree)
 
 // What the passes have in common that trace rays from hits.
 template <typename Params>
-Params lightParams(vk::Pass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+Params lightParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
 {
     Params params{};
     params.nodes = pass.read(octree.nodes);
@@ -87,25 +87,27 @@ void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& 
                 TraceBuffers& buffers)
 {
     const Octree& octree = tree.octree();
-    const vk::Specialization constants = withConstants(traverseConstants(graph.device(), tree, options),
-                                                       {camera.orthographic ? 1U : 0U, formToRead(octree, options)});
+    const AttributeForm form = formToRead(octree, options);
     if (options.shadows)
     {
+        const gpu::trace::Shadow kernel{.orthographic = camera.orthographic, .form = form};
         const gpu::vec3 to_sun = sunDirection(options);
-        const auto declare = [&](vk::Pass& pass)
+        const auto declare = [&](vk::AnyPass& pass)
         {
             auto params = lightParams<gpu::ShadowParams>(pass, octree, camera, buffers);
             params.light = pass.readWrite(buffers.light);
             params.to_sun = to_sun;
             return params;
         };
-        addRounds<gpu::ShadowParams>(graph, "trace/shadow", constants, roundsFor(octree, options), buffers.rounds,
-                                     buffers.live.count(), declare, dispatchLive(buffers));
+        addRounds(graph, traversing(kernel, graph.device(), tree, options), roundsFor(octree, options), buffers.rounds,
+                  buffers.live.count(), declare, dispatchLive(buffers));
     }
     if (options.occlusion_rays != 0)
     {
         const Grid& grid = octree.grid;
-        vk::Pass pass = graph.addPass("trace/occlusion", withFlags(constants, {options.shadows}));
+        const gpu::trace::Occlusion kernel{
+            .orthographic = camera.orthographic, .form = form, .shadows = options.shadows};
+        vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, options));
         auto params = lightParams<gpu::OcclusionParams>(pass, octree, camera, buffers);
         params.light = pass.readWrite(buffers.light);
         params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
@@ -120,12 +122,14 @@ void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camer
 {
     const Octree& octree = tree.octree();
     drawBackground(graph, camera, options, buffers);
-    const vk::Specialization constants = withFlags({static_cast<std::uint32_t>(options.view), octree.grid.nodeLevels(),
-                                                    camera.orthographic ? 1U : 0U, formToRead(octree, options)},
-                                                   {usesAttributes(octree, options) && octree.emission.count() != 0,
-                                                    needsLight(options) || options.view == View::Iterations});
     vk::Pass pass =
-        graph.addPass("trace/shade", withConstants(constants, {static_cast<std::uint32_t>(buffers.texels)}));
+        graph.addPass(gpu::trace::Shade{.view = options.view,
+                                        .node_levels = octree.grid.nodeLevels(),
+                                        .orthographic = camera.orthographic,
+                                        .form = formToRead(octree, options),
+                                        .emission = usesAttributes(octree, options) && octree.emission.count() != 0,
+                                        .light = needsLight(options) || options.view == View::Iterations,
+                                        .texels = buffers.texels});
     gpu::ShadeParams params{};
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);

@@ -38,38 +38,20 @@ bool showsAttributes(const TraceOptions& options)
     return false;
 }
 
-std::uint32_t formToRead(const Octree& octree, const TraceOptions& options)
-{
-    return static_cast<std::uint32_t>(usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None);
-}
-
 TraceStack stackOn(std::string_view device_type, TraceStack asked)
 {
     // A GPU keeps a private array that is indexed in device memory: each step of each ray would go there and back.
     return asked == TraceStack::Private && device_type != "cpu" ? TraceStack::Registers : asked;
 }
 
-std::uint32_t stackConstant(const vk::Device& device, const TraceOptions& options)
+TraceStack stackConstant(const vk::Device& device, const TraceOptions& options)
 {
-    return static_cast<std::uint32_t>(stackOn(device.report().type, options.stack));
+    return stackOn(device.report().type, options.stack);
 }
 
-vk::Specialization traverseConstants(const vk::Device& device, const TreeView& tree, const TraceOptions& options)
+AttributeForm formToRead(const Octree& octree, const TraceOptions& options)
 {
-    return {tree.octree().grid.nodeLevels(), stackConstant(device, options), options.hasDetail() ? 1U : 0U,
-            options.steps_max, tree.entriesPerWord()};
-}
-
-vk::Specialization withConstants(vk::Specialization constants, std::initializer_list<std::uint32_t> more)
-{
-    constants.insert(constants.end(), more.begin(), more.end());
-    return constants;
-}
-
-vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more)
-{
-    constants.insert(constants.end(), more.begin(), more.end());
-    return constants;
+    return usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None;
 }
 
 std::uint32_t roundsFor(const Octree& octree, const TraceOptions& options)

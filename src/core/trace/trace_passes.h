@@ -7,7 +7,6 @@
 #include "core/tree/tree_view.h"
 
 #include <cstdint>
-#include <initializer_list>
 #include <string_view>
 
 namespace zvo
@@ -37,10 +36,10 @@ bool usesAttributes(const Octree& octree, const TraceOptions& options);
 bool showsAttributes(const TraceOptions& options);
 
 /// The form in which kernels read attributes; None: they need not.
-std::uint32_t formToRead(const Octree& octree, const TraceOptions& options);
+AttributeForm formToRead(const Octree& octree, const TraceOptions& options);
 
 /// Declares that pass reads attributes, whatever their form.
-template <typename Params> void readAttributes(vk::Pass& pass, const Octree& octree, Params& params)
+template <typename Params> void readAttributes(vk::AnyPass& pass, const Octree& octree, Params& params)
 {
     if (isPacked(octree.attributeForm()))
     {
@@ -56,13 +55,19 @@ template <typename Params> void readAttributes(vk::Pass& pass, const Octree& oct
 TraceStack stackOn(std::string_view device_type, TraceStack asked);
 
 /// The value of kStack (lib/traverse.glsl) on this device.
-std::uint32_t stackConstant(const vk::Device& device, const TraceOptions& options);
+TraceStack stackConstant(const vk::Device& device, const TraceOptions& options);
 
-/// The constants that every kernel with lib/traverse.glsl begins with.
-vk::Specialization traverseConstants(const vk::Device& device, const TreeView& tree, const TraceOptions& options);
-
-vk::Specialization withConstants(vk::Specialization constants, std::initializer_list<std::uint32_t> more);
-vk::Specialization withFlags(vk::Specialization constants, std::initializer_list<bool> more);
+/// kernel, which has lib/traverse.glsl, for tree and options.
+template <typename Kernel>
+Kernel traversing(Kernel kernel, const vk::Device& device, const TreeView& tree, const TraceOptions& options)
+{
+    kernel.node_levels = tree.octree().grid.nodeLevels();
+    kernel.stack = stackConstant(device, options);
+    kernel.detail = options.hasDetail();
+    kernel.steps_max = options.steps_max;
+    kernel.entries_per_word = tree.entriesPerWord();
+    return kernel;
+}
 
 /// How many rounds answer every ray: for a grid of n voxels per edge it crosses at most 3 n planes and goes down into
 /// at most n nodes, and once from the root in each round.
@@ -71,13 +76,12 @@ std::uint32_t roundsFor(const Octree& octree, const TraceOptions& options);
 /// Whether traceLight has something to do.
 bool needsLight(const TraceOptions& options);
 
-/// Records a pass for each round that rays may need: declare() returns what its kernel takes. The first goes as
+/// Records a pass of kernel for each round that rays may need: declare() returns what it takes. The first goes as
 /// dispatch_first says, the others over as many workgroups as the round before asks for (max_groups at most): none,
 /// once all rays are answered.
-template <typename Params, typename Declare, typename Dispatch>
-void addRounds(vk::FrameGraph& graph, const char* kernel, const vk::Specialization& constants,
-               std::uint32_t round_count, vk::BufferOf<gpu::DispatchArgs>& rounds, std::uint64_t max_groups,
-               const Declare& declare, const Dispatch& dispatch_first)
+template <typename Kernel, typename Declare, typename Dispatch>
+void addRounds(vk::FrameGraph& graph, Kernel kernel, std::uint32_t round_count, vk::BufferOf<gpu::DispatchArgs>& rounds,
+               std::uint64_t max_groups, const Declare& declare, const Dispatch& dispatch_first)
 {
     if (round_count > 1)
     {
@@ -86,8 +90,10 @@ void addRounds(vk::FrameGraph& graph, const char* kernel, const vk::Specializati
     for (std::uint32_t round = 0; round < round_count; ++round)
     {
         const bool more = round + 1 < round_count;
-        vk::Pass pass = graph.addPass(kernel, withFlags(constants, {round != 0, more}));
-        Params params = declare(pass);
+        kernel.resume = round != 0;
+        kernel.more = more;
+        vk::Pass pass = graph.addPass(kernel);
+        typename Kernel::Params params = declare(pass);
         params.rounds = more ? pass.readWrite(rounds) : gpu::Ptr<gpu::DispatchArgs>{};
         params.round = round + 1;
         if (round == 0)
@@ -107,7 +113,7 @@ gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera);
 /// Dispatches the first round of the rays of live tiles.
 inline auto dispatchLive(const TraceBuffers& buffers)
 {
-    return [&](vk::Pass& pass, const auto& params)
+    return [&](auto& pass, const auto& params)
     { pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count()); };
 }
 

@@ -8,7 +8,7 @@ namespace
 {
 
 // Declares that pass reads the ranks of overlays' nodes; null without overlays.
-gpu::ConstPtr<gpu::BeforeChild> overlayRanks(vk::Pass& pass, const TreeView& tree)
+gpu::ConstPtr<gpu::BeforeChild> overlayRanks(vk::AnyPass& pass, const TreeView& tree)
 {
     const OverlaidTree* overlaid = tree.overlaid();
     return overlaid == nullptr
@@ -27,8 +27,11 @@ void addRanks(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& o
         return;
     }
     const OverlaidTree* overlaid = tree.overlaid();
-    vk::Pass pass = graph.addPass("trace/ranks", {levels, options.hasDetail() ? 1U : 0U, tiles ? 1U : 0U,
-                                                  tree.entriesPerWord(), overlaid != nullptr ? 1U : 0U});
+    vk::Pass pass = graph.addPass(gpu::trace::Ranks{.node_levels = levels,
+                                                    .detail = options.hasDetail(),
+                                                    .tiles = tiles,
+                                                    .entries_per_word = tree.entriesPerWord(),
+                                                    .overlays = overlaid != nullptr});
     gpu::RanksParams params{};
     params.source = rankSource(pass, *tree.svdag());
     params.overlay_ranks = overlayRanks(pass, tree);
@@ -51,8 +54,8 @@ void buildRankTable(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
         return;
     }
     const bool leaves = tree.octree().grid.nodeLevels() == gpu::kPathLevels + 1;
-    vk::Pass pass = graph.addPass("trace/beam_ranks",
-                                  {leaves ? 1U : 0U, tree.entriesPerWord(), tree.overlaid() != nullptr ? 1U : 0U});
+    vk::Pass pass = graph.addPass(gpu::trace::BeamRanks{
+        .leaves = leaves, .entries_per_word = tree.entriesPerWord(), .overlays = tree.overlaid() != nullptr});
     const gpu::BeamRanksParams params = {rankSource(pass, *tree.svdag()), overlayRanks(pass, tree),
                                          pass.readWrite(beam.paths)};
     pass.dispatch(gpu::kRankTableFirst, params);
@@ -61,7 +64,7 @@ void buildRankTable(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
 void rankTiles(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, TraceBuffers& buffers)
 {
     addRanks(graph, tree, options, true,
-             [&](vk::Pass& pass, gpu::RanksParams& params)
+             [&](auto& pass, gpu::RanksParams& params)
              {
                  params.live = pass.read(buffers.live);
                  params.hits = pass.readWrite(buffers.hits);
@@ -75,7 +78,7 @@ void rankHits(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& o
               std::uint64_t count)
 {
     addRanks(graph, tree, options, false,
-             [&](vk::Pass& pass, gpu::RanksParams& params)
+             [&](auto& pass, gpu::RanksParams& params)
              {
                  params.hits = pass.readWrite(hits);
                  params.width = static_cast<gpu::uint>(count);

@@ -15,7 +15,7 @@ gpu::RankSource rankSource(const Svdag& dag)
     return source;
 }
 
-gpu::RankSource rankSource(vk::Pass& pass, const Svdag& dag)
+gpu::RankSource rankSource(vk::AnyPass& pass, const Svdag& dag)
 {
     pass.read(dag.tree.nodes);
     pass.read(dag.before);

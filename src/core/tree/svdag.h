@@ -36,7 +36,7 @@ struct Svdag
 };
 
 /// What ranks in dag, which has attributes, are summed up from; pass reads it.
-gpu::RankSource rankSource(vk::Pass& pass, const Svdag& dag);
+gpu::RankSource rankSource(vk::AnyPass& pass, const Svdag& dag);
 
 /// The same, without declaring that anything reads it.
 gpu::RankSource rankSource(const Svdag& dag);

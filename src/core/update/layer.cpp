@@ -77,7 +77,7 @@ void clearSums(vk::FrameGraph& graph, LayerBuffers& layer)
     if (layer.emission_words.count() != 0)
     {
         graph.fill(layer.emission_sums, 0);
-        vk::Pass pass = graph.addPass("update/emission_places");
+        vk::Pass pass = graph.addPass(gpu::update::EmissionPlaces{});
         const gpu::EmissionPlacesParams params = {pass.write(layer.emission_words), 0,
                                                   static_cast<std::uint32_t>(layer.emission_words.count()), 0};
         pass.dispatch(layer.emission_words.count(), params);
@@ -94,7 +94,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
         layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX; // none are kept
     graph.fill(layer.counters, 0);
     {
-        vk::Pass pass = graph.addPass("update/layer_leaves", {hasWideKeys(job.grid) ? 1U : 0U});
+        vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid)});
         gpu::LayerLeavesParams params{};
         params.bricks = pass.readWrite(voxelize.bricks);
         params.keys = pass.write(layer.keys);
@@ -105,7 +105,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
         params.voxel_capacity = voxel_capacity;
         pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
     }
-    vk::Pass pass = graph.addPass("update/layer_check");
+    vk::Pass pass = graph.addPass(gpu::update::LayerCheck{});
     gpu::LayerCheckParams params{};
     params.counters = pass.readWrite(layer.counters);
     params.reports = pass.readWrite(job.reports);

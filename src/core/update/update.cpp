@@ -17,7 +17,7 @@ std::uint32_t partialsPerLevel(const UpdateBuffers& buffers)
 }
 
 // Layers' buffers are read through a table of addresses: every pass that does so declares them here.
-gpu::ConstPtr<gpu::Layer> readLayers(vk::Pass& pass, const UpdateJob& job, const UpdateBuffers& buffers)
+gpu::ConstPtr<gpu::Layer> readLayers(vk::AnyPass& pass, const UpdateJob& job, const UpdateBuffers& buffers)
 {
     for (const LayerBuffers* layer : job.layers)
     {
@@ -55,7 +55,7 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     graph.fill(buffers.heads, 0);
     graph.fill(buffers.partials, 0);
     graph.update(buffers.layers, 0, layers);
-    vk::Pass pass = graph.addPass("update/insert", {hasWideKeys(job.tree.dag.tree.grid) ? 1U : 0U});
+    vk::Pass pass = graph.addPass(gpu::update::Insert{.wide_keys = hasWideKeys(job.tree.dag.tree.grid)});
     gpu::InsertParams params{};
     params.layers = readLayers(pass, job, buffers);
     params.bricks = pass.readWrite(buffers.bricks);
@@ -75,7 +75,7 @@ void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buff
 {
     Octree& octree = job.tree.dag.tree;
     const bool attributes = octree.node_attributes.count() != 0;
-    vk::Pass pass = graph.addPass("update/root", {attributes ? 1U : 0U, job.tree.hasRanks() ? 1U : 0U});
+    vk::Pass pass = graph.addPass(gpu::update::Root{.attributes = attributes, .ranks = job.tree.hasRanks()});
     gpu::RootParams params{};
     params.bricks = pass.read(buffers.bricks);
     params.items = pass.read(buffers.work.items);
@@ -110,8 +110,10 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     {
         const bool are_leaves = tree.has_lists && level + 1 == level_count;
         vk::Pass pass =
-            graph.addPass("update/expand", {hasWideKeys(octree.grid) ? 1U : 0U, attributes ? 1U : 0U,
-                                            tree.has_lists ? tree.dag.entries_per_word : 0U, are_leaves ? 1U : 0U});
+            graph.addPass(gpu::update::Expand{.wide_keys = hasWideKeys(octree.grid),
+                                              .attributes = attributes,
+                                              .entries_per_word = tree.has_lists ? tree.dag.entries_per_word : 0U,
+                                              .leaves = are_leaves});
         gpu::ExpandParams params{};
         params.bricks = pass.read(buffers.bricks);
         params.items = pass.read(buffers.work.items);
@@ -140,7 +142,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, groups_max);
     }
     {
-        vk::Pass pass = graph.addPass("update/scan");
+        vk::Pass pass = graph.addPass(gpu::update::Scan{});
         gpu::OverlayScanParams params{};
         params.partials = pass.readWrite(buffers.partials);
         params.levels = pass.readWrite(buffers.levels);
@@ -155,7 +157,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
         pass.dispatch(gpu::kScanGroup, params);
     }
-    vk::Pass pass = graph.addPass("update/assign");
+    vk::Pass pass = graph.addPass(gpu::update::Assign{});
     gpu::OverlayAssignParams params{};
     params.nodes = pass.readWrite(octree.nodes);
     params.counts = pass.read(buffers.counts);
@@ -169,12 +171,12 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     pass.dispatchIndirect(buffers.args, gpu::kArgsAssign, params, partialsPerLevel(buffers));
 }
 
-void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const char* kernel)
+// Of update/merge or update/merge_emission.
+template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
     Octree& octree = job.tree.dag.tree;
     const bool emits = octree.emission_words.count() != 0;
-    vk::Pass pass =
-        graph.addPass(kernel, {static_cast<std::uint32_t>(job.merge), emits ? 1U : 0U, job.tree.hasRanks() ? 1U : 0U});
+    vk::Pass pass = graph.addPass(Kernel{.merge = job.merge, .emits = emits, .ranks = job.tree.hasRanks()});
     gpu::MergeParams params{};
     params.view = pass.read(job.view);
     pass.read(job.tables);
@@ -202,7 +204,7 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
     const bool emits = octree.emission_words.count() != 0;
     if (emits)
     {
-        vk::Pass pass = graph.addPass("update/emission_places");
+        vk::Pass pass = graph.addPass(gpu::update::EmissionPlaces{});
         gpu::EmissionPlacesParams params{};
         params.words = pass.readWrite(octree.emission_words);
         params.first_word = job.region.first_voxel / kVoxelBlock;
@@ -210,14 +212,14 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
         params.first_place = job.region.first_voxel + job.emission_offset;
         pass.dispatch(params.word_count, params);
     }
-    addMergePass(graph, job, buffers, "update/merge");
+    addMergePass<gpu::update::Merge>(graph, job, buffers);
     if (emits)
     {
-        addMergePass(graph, job, buffers, "update/merge_emission");
+        addMergePass<gpu::update::MergeEmission>(graph, job, buffers);
     }
     for (std::uint32_t step = 0; step < octree.grid.nodeLevels() && octree.node_attributes.count() != 0; ++step)
     {
-        vk::Pass pass = graph.addPass("update/average");
+        vk::Pass pass = graph.addPass(gpu::update::Average{});
         gpu::OverlayAverageParams params{};
         params.scene = pass.read(job.tables);
         params.items = pass.read(buffers.work.items);
@@ -239,7 +241,7 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
 void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last)
 {
     Octree& octree = job.tree.dag.tree;
-    vk::Pass pass = graph.addPass("update/finish", {octree.node_attributes.count() != 0 ? 1U : 0U});
+    vk::Pass pass = graph.addPass(gpu::update::Finish{.attributes = octree.node_attributes.count() != 0});
     gpu::FinishParams params{};
     params.nodes = pass.readWrite(octree.nodes);
     params.node_attributes = pass.readWrite(octree.node_attributes);
@@ -302,7 +304,7 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
 void showRoot(vk::FrameGraph& graph, OverlaidTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)
 {
     Octree& octree = tree.dag.tree;
-    vk::Pass pass = graph.addPass("update/show", {octree.node_attributes.count() != 0 ? 1U : 0U});
+    vk::Pass pass = graph.addPass(gpu::update::Show{.attributes = octree.node_attributes.count() != 0});
     gpu::ShowParams params{};
     params.nodes = pass.readWrite(octree.nodes);
     params.node_attributes = pass.readWrite(octree.node_attributes);

@@ -12,6 +12,9 @@
 namespace zvo
 {
 
+static_assert(static_cast<gpu::uint>(Coverage::Conservative) == gpu::kCoverageConservative);
+static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
+
 namespace
 {
 
@@ -30,7 +33,7 @@ std::uint64_t clampedCount(double value, std::uint64_t low, std::uint64_t high)
 }
 
 // The kernels of all modes share their parameters: those that only read a buffer get a writable address, too.
-template <typename T> gpu::Ptr<T> access(vk::Pass& pass, vk::BufferOf<T>& buffer, bool writes)
+template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buffer, bool writes)
 {
     return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
 }
@@ -44,7 +47,7 @@ std::uint32_t packWindow(const GridTile& tile)
            place(tile.place.z, 2);
 }
 
-gpu::RasterParams rasterParams(vk::Pass& pass, const RasterWalk& walk, std::uint32_t material_class)
+gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, std::uint32_t material_class)
 {
     const bool covers = walk.mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
     VoxelizeBuffers::RowWork& rows = walk.buffers.rows[material_class];
@@ -76,7 +79,7 @@ gpu::RasterParams rasterParams(vk::Pass& pass, const RasterWalk& walk, std::uint
 // Workgroups for what has been listed so far.
 void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
 {
-    vk::Pass pass = graph.addPass("voxelize/row_args");
+    vk::Pass pass = graph.addPass(gpu::voxelize::RowArgs{});
     gpu::RowArgsParams params{};
     params.counters = pass.read(rows.counters);
     params.args = pass.write(rows.args);
@@ -86,11 +89,16 @@ void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
     pass.dispatch(1, params);
 }
 
-vk::Specialization rasterVariant(const RasterWalk& walk, std::uint32_t material_class)
+// The variant of a kernel that rasterizes.
+template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, std::uint32_t material_class)
 {
-    const std::uint32_t coverage = walk.coverage == Coverage::Thin ? gpu::kCoverageThin : gpu::kCoverageConservative;
     const bool emits = walk.mode != gpu::kModeCoverage && walk.sums->emission_words.count() != 0;
-    return {coverage, walk.mode, material_class, emits ? 1U : 0U, hasWideKeys(walk.tile.grid) ? 1U : 0U};
+    Kernel kernel{.coverage = walk.coverage, .mode = walk.mode, .material_class = material_class, .emits = emits};
+    if constexpr (requires { kernel.wide_keys; })
+    {
+        kernel.wide_keys = hasWideKeys(walk.tile.grid);
+    }
+    return kernel;
 }
 
 // Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
@@ -108,18 +116,18 @@ void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Oct
     const auto word_count = static_cast<std::uint32_t>(octree.emission_words.count());
     const std::uint64_t threads = divideUp(word_count, gpu::kScanItems);
     {
-        vk::Pass pass = graph.addPass("voxelize/emission_count");
+        vk::Pass pass = graph.addPass(gpu::voxelize::EmissionCount{});
         const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.write(attributes.partials),
                                                 word_count};
         pass.dispatch(threads, params);
     }
     {
-        vk::Pass pass = graph.addPass("octree/scan");
+        vk::Pass pass = graph.addPass(gpu::octree::Scan{});
         const gpu::ScanParams params = {pass.readWrite(attributes.partials), pass.write(attributes.emissive_count),
                                         static_cast<std::uint32_t>(divideUp(word_count, gpu::kScanBlock))};
         pass.dispatch(gpu::kScanGroup, params);
     }
-    vk::Pass pass = graph.addPass("voxelize/emission_rank");
+    vk::Pass pass = graph.addPass(gpu::voxelize::EmissionRank{});
     const gpu::EmissionRankParams params = {pass.readWrite(octree.emission_words), pass.readWrite(attributes.partials),
                                             word_count};
     pass.dispatch(threads, params);
@@ -203,7 +211,7 @@ void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t 
     {
         return;
     }
-    vk::Pass pass = graph.addPass("voxelize/triangles", rasterVariant(walk, material_class));
+    vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Triangles>(walk, material_class));
     gpu::RasterParams params = rasterParams(pass, walk, material_class);
     params.chunks = pass.read(walk.scene.uploaded().chunks[material_class]);
     params.chunks.address += first_chunk * sizeof(gpu::Chunk);
@@ -218,16 +226,15 @@ void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t mater
         return;
     }
     VoxelizeBuffers::RowWork& rows = walk.buffers.rows[material_class];
-    const vk::Specialization variant = rasterVariant(walk, material_class);
     if (walk.mode == gpu::kModeCoverage)
     {
         sizeRowWork(graph, rows);
-        vk::Pass pass = graph.addPass("voxelize/bands", {variant[0], variant[1], variant[2]});
+        vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Bands>(walk, material_class));
         pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, walk, material_class),
                               divideUp(rows.big_triangles.count(), gpu::kBandsGroup));
         sizeRowWork(graph, rows);
     }
-    vk::Pass pass = graph.addPass("voxelize/rows", variant);
+    vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Rows>(walk, material_class));
     pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, walk, material_class),
                           divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
 }
@@ -252,7 +259,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const G
     const AttributeSums sums = sumsOf(attributes, octree);
     walkAll(graph, {scene, tile, coverage, buffers, gpu::kModeAttributes, &sums});
     {
-        vk::Pass pass = graph.addPass("voxelize/resolve");
+        vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
         gpu::ResolveParams params{};
         params.scene = pass.read(scene.uploaded().view); // for its tables of colours
         params.sums = pass.read(attributes.sums);
@@ -276,7 +283,7 @@ void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, const Gri
     graph.fill(attributes.emission_sums, 0);
     const AttributeSums sums = sumsOf(attributes, octree);
     walkAll(graph, {scene, tile, coverage, buffers, gpu::kModeEmission, &sums});
-    vk::Pass pass = graph.addPass("voxelize/resolve_emission");
+    vk::Pass pass = graph.addPass(gpu::voxelize::ResolveEmission{});
     gpu::ResolveEmissionParams params{};
     params.sums = pass.read(attributes.sums);
     params.emission_sums = pass.read(attributes.emission_sums);

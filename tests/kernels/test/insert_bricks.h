@@ -14,6 +14,10 @@ struct InsertBricksParams // push constants of test/insert_bricks
     uint count;
     uint brick_mask;
 };
+GPU_KERNEL_BEGIN(test, insert_bricks, InsertBricks, InsertBricksParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, find, false)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

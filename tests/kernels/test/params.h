@@ -12,6 +12,14 @@ struct FillParams // push constants
     GPU_PTR(uint) values; // [count]
     uint count;           // an odd number of words, so that the struct ends with padding
 };
+GPU_KERNEL(test, iota, Iota, FillParams)
+GPU_KERNEL(test, race, Race, FillParams)
+GPU_KERNEL(test, reversed, Reversed, FillParams)
+GPU_KERNEL_BEGIN(test, specialized, Specialized, FillParams)
+    GPU_CONSTANT(uint, local_size_x, 1u)
+    GPU_CONSTANT(uint, value, 7u)
+    GPU_CONSTANT(bool, flag, false)
+GPU_KERNEL_END
 
 struct CopyParams // push constants
 {
@@ -20,12 +28,15 @@ struct CopyParams // push constants
     uint count;
     uint factor;
 };
+GPU_KERNEL(test, branch, Branch, CopyParams)
+GPU_KERNEL(test, scale, Scale, CopyParams)
 
 struct WriteArgsParams // push constants
 {
     GPU_PTR(DispatchArgs) args; // [1]
     uint groups;
 };
+GPU_KERNEL(test, write_args, WriteArgs, WriteArgsParams)
 
 struct Sample // every kind of member; no padding at its end, which GLSL would use for the next member
 {
@@ -42,6 +53,9 @@ struct LayoutParams // push constants
     Sample a;
     float tail;
 };
+GPU_KERNEL(test, layout, Layout, LayoutParams)
+
+GPU_KERNEL(test, no_params, NoParams, void)
 
 GPU_NAMESPACE_END
 
