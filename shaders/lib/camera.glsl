@@ -20,6 +20,12 @@ uvec2 pixelInTile(uint thread)
     return (bits & 1u) | ((bits >> 1) & 2u) | ((bits >> 2) & 4u);
 }
 
+// A tile of a picture as lists of tiles have it: x | y << 16.
+uint packTile(uvec2 tile)
+{
+    return tile.x | (tile.y << 16);
+}
+
 uvec2 unpackTile(uint tile)
 {
     return uvec2(bitfieldExtract(tile, 0, 16), tile >> 16);

@@ -105,5 +105,5 @@ void main()
     first = subgroupBroadcastFirst(first);
     if (live)
         params.live.data[first + subgroupBallotExclusiveBitCount(ballot)] =
-            uvec2(tile.x | (tile.y << 16), floatBitsToUint(start));
+            uvec2(packTile(tile), floatBitsToUint(start));
 }

@@ -76,7 +76,7 @@ const uint kLightSun = 255u; // mask
 const uint kLightSkyShift = 8u;
 const uint kLightAll = 65535u;
 
-// What a picture shows: specialization constant of trace/shade.
+// What a picture shows: the first is trace/shade's, the others are values of a specialization constant of trace/views.
 const uint kViewColor = 0u;      // lit
 const uint kViewAlbedo = 1u;     // base colour alone
 const uint kViewNormal = 2u;     // 0.5 + 0.5 * shading normal
@@ -87,7 +87,8 @@ const uint kViewVoxel = 6u;      // a colour for each voxel, by its coordinates
 const uint kViewBricks = 7u;     // base colour, with the borders of nodes
 const uint kViewOrigin = 8u;     // grey: static; orange: in a leaf that a dynamic update made
 
-// How a picture stores a pixel: specialization constant of trace/shade and trace/sky. All but the last hold sRGB codes.
+// How a picture stores a pixel: specialization constant of trace/shade, views and sky. All but the last hold sRGB
+// codes.
 const uint kTexelRgba8 = 0u; // red | green << 8 | blue << 16 | alpha << 24
 const uint kTexelBgra8 = 1u; // blue | green << 8 | red << 16 | alpha << 24
 const uint kTexelRgb10 = 2u; // red | green << 10 | blue << 20 | alpha << 30
@@ -391,7 +392,7 @@ struct ShadeParams // push constants of trace/shade
 {
     GPU_CONST_PTR(uvec2) live;
     GPU_CONST_PTR(Hit) hits;
-    GPU_CONST_PTR(uint) light;           // of trace/shadow and trace/occlusion; kViewIterations: the iterations
+    GPU_CONST_PTR(uint) light;           // of trace/shadow and trace/occlusion; kLight only
     GPU_CONST_PTR(Attribute) attributes; // of voxels, as above
     GPU_CONST_PTR(Attribute) node_attributes;
     GPU_CONST_PTR(uvec2) emission_words;
@@ -400,22 +401,43 @@ struct ShadeParams // push constants of trace/shade
     vec3 forward;
     vec3 step_x;
     vec3 step_y;
-    // Towards it, as long as it is strong; kViewDepth: x is the depth that is white, y the one that is dark;
-    // kViewOrigin: the bits of x are the index of the first voxel that is not static, those of y of the first such
-    // node.
-    vec3 sun;
+    vec3 sun; // towards it, as long as it is strong
     uint width;
     uint height;
     float emission_scale;
     float exposure;
 };
 GPU_KERNEL_BEGIN(trace, shade, Shade, ShadeParams)
-    GPU_CONSTANT(View, view, kViewColor)
     GPU_CONSTANT(uint, node_levels, 5u)
     GPU_CONSTANT(bool, orthographic, false)
     GPU_CONSTANT(AttributeForm, form, kForm8)
     GPU_CONSTANT(bool, emission, false)
     GPU_CONSTANT(bool, light, true)
+    GPU_CONSTANT(TexelForm, texels, kTexelRgba8)
+GPU_KERNEL_END
+
+struct ViewsParams // push constants of trace/views
+{
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(uint) iterations;      // of trace/primary; kViewIterations only
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, as above
+    GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_PTR(uint) image; // as in SkyParams
+    vec3 forward;
+    vec3 step_x;
+    vec3 step_y;
+    vec2 depth_range;         // kViewDepth only: the depth that is white, and the one that is dark
+    uint first_changed_voxel; // kViewOrigin only: the first index of an attribute that is not a static voxel's
+    uint first_changed_node;  // likewise, of nodes
+    uint width;
+    uint height;
+};
+GPU_KERNEL_BEGIN(trace, views, Views, ViewsParams)
+    GPU_CONSTANT(View, view, kViewAlbedo)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeForm, form, kForm8)
     GPU_CONSTANT(TexelForm, texels, kTexelRgba8)
 GPU_KERNEL_END
 

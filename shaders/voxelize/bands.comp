@@ -21,7 +21,7 @@ void listBlocks(uint band, uint strip, uvec2 blocks)
         atomicMax(params.counters.data[0].blocks_exceeded, 1u);
     for (uint i = 0u; i < count; ++i)
         if (first + i < params.block_capacity)
-            params.row_blocks.data[first + i] = RowBlock(band, strip | ((blocks.x + i) << 16));
+            params.row_blocks.data[first + i] = RowBlock(band, packBlock(uvec2(blocks.x + i, strip)));
 }
 
 void main()

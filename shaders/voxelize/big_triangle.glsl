@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: MIT
 // What the kernels over big triangles share.
 
+// RowBlock::position of a block in a column and a row of blocks: row | column << 16.
+uint packBlock(uvec2 block)
+{
+    return block.y | (block.x << 16);
+}
+
+uvec2 unpackBlock(uint position)
+{
+    return uvec2(position >> 16, position & 65535u);
+}
+
 // normal: exact, of the lattice points.
 RasterTriangle setupBigTriangle(BigTriangle big, out i64vec3 normal)
 {

@@ -81,8 +81,7 @@ void main()
     RasterTriangle t = setupBigTriangle(big, normal);
     Surface surface = loadSurface(draw, vertices, vec3(normal), float(t.n_w));
 
-    ivec2 corner = blockOrigin(t.low.xy) + ivec2((block.position >> 16) * kBlockColumns,
-                                                 (block.position & 65535u) * kBlockRows);
+    ivec2 corner = blockOrigin(t.low.xy) + ivec2(unpackBlock(block.position) * uvec2(kBlockColumns, kBlockRows));
     int column_last = min(corner.x + int(kBlockColumns) - 1, t.high.x);
     int lane = int(thread % kBlockRows);
     if (kCoverage == kCoverageThin && kMode == kModeCoverage && kMaterialClass != kClassAlpha)

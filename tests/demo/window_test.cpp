@@ -296,7 +296,7 @@ constexpr const char* kPixelLine = "color = encodeSrgb(surface.albedo);";
 
 TEST_F(DemoWindow, AShaderWithAnErrorLeavesTheOldOneAndSaysWhy)
 {
-    const ChangedShaders shaders(m_dir, "trace/shade.comp", kPixelLine, "color = nonsense;");
+    const ChangedShaders shaders(m_dir, "trace/views.comp", kPixelLine, "color = nonsense;");
     Script script;
     script.add(keyStroke(1, Key::F12)).add(keyStroke(3, Key::F5)).add(keyStroke(5, Key::F12));
     m_dir.write("script.json", script.text());
@@ -305,13 +305,13 @@ TEST_F(DemoWindow, AShaderWithAnErrorLeavesTheOldOneAndSaysWhy)
                                                              "shaders", "--input-script", "script.json"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("'nonsense' : undeclared identifier"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("shade.comp"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("views.comp"), std::string::npos) << outcome.err;
     EXPECT_EQ(file("zvo-0002.png"), file("zvo-0001.png"));
 }
 
 TEST_F(DemoWindow, AShaderThatWasChangedShowsAtOnce)
 {
-    const ChangedShaders shaders(m_dir, "trace/shade.comp", kPixelLine, "color = vec3(1.0, 0.0, 1.0);");
+    const ChangedShaders shaders(m_dir, "trace/views.comp", kPixelLine, "color = vec3(1.0, 0.0, 1.0);");
     Script script;
     script.add(keyStroke(1, Key::F12)).add(keyStroke(3, Key::F5)).add(keyStroke(5, Key::F12));
     m_dir.write("script.json", script.text());

@@ -3,7 +3,6 @@
 #include "core/trace/trace_passes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace zvo
@@ -54,15 +53,6 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
     return {std::max(middle - reach, 0.0F), std::max(middle + reach, 1e-6F)};
 }
 
-// The indices of attributes from which on they are those of overlays, as bits. Of nodes, the static root's is behind
-// the static ones (core/tree/overlaid_tree.h).
-gpu::vec3 originBounds(const TreeView& tree)
-{
-    const std::uint32_t node_count =
-        tree.svdag() != nullptr ? tree.svdag()->octree_node_count : tree.octree().node_count;
-    return {std::bit_cast<float>(tree.octree().voxel_count), std::bit_cast<float>(node_count + 1), 0.0F};
-}
-
 // What the passes have in common that trace rays from hits.
 template <typename Params>
 Params lightParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
@@ -79,6 +69,62 @@ Params lightParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& c
     params.width = buffers.width;
     params.height = buffers.height;
     return params;
+}
+
+// What both kernels take that give hits their colours.
+template <typename Params>
+Params shadeParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+{
+    Params params{};
+    params.live = pass.read(buffers.live);
+    params.hits = pass.read(buffers.hits);
+    readAttributes(pass, octree, params);
+    params.image = pass.readWrite(buffers.image);
+    params.forward = camera.rays.forward;
+    params.step_x = camera.rays.step_x;
+    params.step_y = camera.rays.step_y;
+    params.width = buffers.width;
+    params.height = buffers.height;
+    return params;
+}
+
+void shadeLit(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+              TraceBuffers& buffers)
+{
+    const Octree& octree = tree.octree();
+    vk::Pass pass =
+        graph.addPass(gpu::trace::Shade{.node_levels = octree.grid.nodeLevels(),
+                                        .orthographic = camera.orthographic,
+                                        .form = formToRead(octree, options),
+                                        .emission = usesAttributes(octree, options) && octree.emission.count() != 0,
+                                        .light = needsLight(options),
+                                        .texels = buffers.texels});
+    auto params = shadeParams<gpu::ShadeParams>(pass, octree, camera, buffers);
+    params.light = pass.read(buffers.light);
+    params.emission_words = pass.read(octree.emission_words);
+    params.emission = pass.read(octree.emission);
+    params.sun = options.sun * sunDirection(options);
+    params.emission_scale = octree.emission_scale;
+    params.exposure = options.exposure;
+    pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
+}
+
+void shadeView(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+               TraceBuffers& buffers)
+{
+    const Octree& octree = tree.octree();
+    vk::Pass pass = graph.addPass(gpu::trace::Views{.view = options.view,
+                                                    .node_levels = octree.grid.nodeLevels(),
+                                                    .orthographic = camera.orthographic,
+                                                    .form = formToRead(octree, options),
+                                                    .texels = buffers.texels});
+    auto params = shadeParams<gpu::ViewsParams>(pass, octree, camera, buffers);
+    params.iterations = pass.read(buffers.light);
+    params.depth_range = depthRange(octree.grid, camera);
+    params.first_changed_voxel = octree.voxel_count;
+    // The static root's attribute is behind those of the static nodes (core/tree/overlaid_tree.h).
+    params.first_changed_node = 1 + (tree.svdag() != nullptr ? tree.svdag()->octree_node_count : octree.node_count);
+    pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
 }
 
 } // namespace
@@ -120,35 +166,15 @@ void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& 
 void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers)
 {
-    const Octree& octree = tree.octree();
     drawBackground(graph, camera, options, buffers);
-    vk::Pass pass =
-        graph.addPass(gpu::trace::Shade{.view = options.view,
-                                        .node_levels = octree.grid.nodeLevels(),
-                                        .orthographic = camera.orthographic,
-                                        .form = formToRead(octree, options),
-                                        .emission = usesAttributes(octree, options) && octree.emission.count() != 0,
-                                        .light = needsLight(options) || options.view == View::Iterations,
-                                        .texels = buffers.texels});
-    gpu::ShadeParams params{};
-    params.live = pass.read(buffers.live);
-    params.hits = pass.read(buffers.hits);
-    params.light = pass.read(buffers.light);
-    readAttributes(pass, octree, params);
-    params.emission_words = pass.read(octree.emission_words);
-    params.emission = pass.read(octree.emission);
-    params.image = pass.readWrite(buffers.image);
-    params.forward = camera.rays.forward;
-    params.step_x = camera.rays.step_x;
-    params.step_y = camera.rays.step_y;
-    params.sun = options.view == View::Depth    ? gpu::vec3(depthRange(octree.grid, camera), 0.0F)
-                 : options.view == View::Origin ? originBounds(tree)
-                                                : options.sun * sunDirection(options);
-    params.width = buffers.width;
-    params.height = buffers.height;
-    params.emission_scale = octree.emission_scale;
-    params.exposure = options.exposure;
-    pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
+    if (options.view == View::Color)
+    {
+        shadeLit(graph, tree, camera, options, buffers);
+    }
+    else
+    {
+        shadeView(graph, tree, camera, options, buffers);
+    }
 }
 
 } // namespace zvo

@@ -1,0 +1,113 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// From hits to the pixels of what is no lit picture (kView*), one workgroup a live tile. Misses keep what is there, but
+// for the heat map of iterations.
+#extension GL_GOOGLE_include_directive : require
+#include "trace/trace.h"
+#include "lib/attribute_forms.glsl"
+#include "lib/camera.glsl"
+#include "lib/color.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/surface_normal.glsl"
+#include "trace/texel.glsl"
+
+layout(constant_id = 0) const uint kView = kViewAlbedo;
+layout(constant_id = 1) const uint kNodeLevels = 5u;
+layout(constant_id = 2) const bool kOrthographic = false;
+layout(constant_id = 3) const uint kForm = kForm8; // of attributes
+layout(constant_id = 4) const uint kTexels = kTexelRgba8;
+
+layout(local_size_x = kTilePixels) in;
+layout(push_constant, scalar) uniform Push
+{
+    ViewsParams params;
+};
+
+#include "trace/surface.glsl"
+
+const float kDepthContrast = 0.9; // what is farthest away is not as black as the background
+
+// Any numbers that look like chance (M. O'Neill, PCG: A Family of Simple Fast Space-Efficient Statistically Good
+// Algorithms for Random Number Generation, 2014).
+uint scramble(uint x)
+{
+    uint state = x * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+// Never dark, a little darker on some faces than on others.
+vec3 voxelColor(Hit hit)
+{
+    uvec3 cell = hitCell(hit);
+    uint number = scramble(cell.x + scramble(cell.y + scramble(cell.z + scramble(hitLevel(hit)))));
+    float face = hitFace(hit) == 0u ? 0.8 : hitFace(hit) == 2u ? 0.65 : 1.0;
+    return face * (0.3 + 0.7 * unpackUnorm4x8(number).rgb);
+}
+
+// Voxels at a node's lower borders, as the face shows them: white for leaves, then yellow, then red for what is larger.
+vec3 brickColor(Hit hit, vec3 color)
+{
+    uvec3 cell = hitCell(hit);
+    uint face = hitFace(hit);
+    uint rank = 0u; // of the largest node that begins here along an axis of the face
+    for (uint axis = 0u; axis < 3u; ++axis)
+        for (uint levels = 1u; levels <= 3u; ++levels)
+            if (axis != face && (cell[axis] & ((1u << (2u * levels)) - 1u)) == 0u)
+                rank = max(rank, levels);
+    vec3 line = rank == 1u ? vec3(1.0) : rank == 2u ? vec3(1.0, 0.8, 0.1) : vec3(1.0, 0.2, 0.1);
+    return rank == 0u || face == kFaceInside ? color : mix(color, line, 0.6);
+}
+
+vec3 originColor(Hit hit, vec3 color)
+{
+    float bright = 0.25 + 0.75 * dot(color, vec3(0.3, 0.6, 0.1));
+    uint first_changed = hitLevel(hit) == kNodeLevels ? params.first_changed_voxel : params.first_changed_node;
+    bool is_static = hit.index < first_changed;
+    return bright * (is_static || kForm == kFormNone ? vec3(1.0) : vec3(1.0, 0.5, 0.1));
+}
+
+void main()
+{
+    uvec2 size = uvec2(params.width, params.height);
+    uvec2 tile = params.live.data[workgroupIndex()];
+    if (tile.x == kNoTile)
+        return;
+    uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    uint i = pixel.y * size.x + pixel.x;
+    Hit hit = loadHit(params.hits, i);
+    vec3 color; // encoded
+    if (kView == kViewIterations)
+        color = heatColor(log2(1.0 + float(params.iterations.data[i])) / 7.0);
+    else if (kView == kViewDepth)
+    {
+        vec2 range = params.depth_range;
+        color = vec3(1.0 - kDepthContrast * clamp((hit.t - range.x) / (range.y - range.x), 0.0, 1.0));
+    }
+    else if (kView == kViewLevel)
+        color = heatColor(0.25 + 0.7 * float(kNodeLevels - hitLevel(hit)) / float(kNodeLevels));
+    else if (kView == kViewVoxel)
+        color = voxelColor(hit);
+    else
+    {
+        vec3 direction = params.forward;
+        if (!kOrthographic)
+            direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+        Surface surface = surfaceAt(hit, direction, params.attributes, params.node_attributes);
+        if (kView == kViewNormal)
+            color = 0.5 + 0.5 * surface.normal;
+        else if (kView == kViewBricks)
+            color = brickColor(hit, encodeSrgb(surface.albedo));
+        else if (kView == kViewOrigin)
+            color = originColor(hit, encodeSrgb(surface.albedo));
+        else
+            color = encodeSrgb(surface.albedo);
+    }
+    if (kTexels == kTexelHalf)
+        color = decodeSrgb(color);
+    if (!isMiss(hit) || kView == kViewIterations)
+        storeTexel(kTexels, params.image, i, color);
+}
