@@ -49,7 +49,7 @@ void main()
             return;
         i = pixel.y * size.x + pixel.x;
     }
-    else if (i >= params.width)
+    else if (i >= params.hit_count)
         return;
     Hit hit = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
     if (isMiss(hit))

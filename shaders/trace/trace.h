@@ -197,8 +197,9 @@ struct RanksParams // push constants of trace/ranks
     GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays; kOverlays only, like the last one
     GPU_CONST_PTR(uvec2) live;                // kTiles only
     GPU_PTR(Hit) hits;
-    uint width; // of the picture, or how many hits there are
+    uint width; // of the picture; kTiles only, like the next one
     uint height;
+    uint hit_count;        // of a list; without kTiles
     uint attribute_offset; // from an overlay's node to the index of its attributes
 };
 GPU_KERNEL_BEGIN(trace, ranks, Ranks, RanksParams)

@@ -81,7 +81,7 @@ void rankHits(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& o
              [&](auto& pass, gpu::RanksParams& params)
              {
                  params.hits = pass.readWrite(hits);
-                 params.width = static_cast<gpu::uint>(count);
+                 params.hit_count = static_cast<gpu::uint>(count);
                  pass.dispatch(count, params);
              });
 }
