@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // DAGs of octrees in the host's memory.
-#include "core/base/kernels.h"
 #include "core/file/tree_check.h"
 #include "core/headless/compress.h"
 #include "core/headless/tree_download.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/tree_samples.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +17,7 @@ namespace zvo
 namespace
 {
 
-vk::HeadlessDevice& device()
-{
-    return test::sharedDevice(zvoKernels());
-}
+using test::device;
 
 TEST(CompressTree, GivesTheBytesOfCompressingTheWholeTreeOnTheDevice)
 {
