@@ -100,7 +100,7 @@ void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam
     graph.fill(buffers.status, 0);
     const PictureTiles tiles(buffers);
     const bool fine = hasFineBeam(octree);
-    vk::Pass pass = graph.addPass(gpu::trace::Beam{.node_levels = gpu::kBeamLevels + (fine ? 1U : 0U),
+    vk::Pass pass = graph.addPass(gpu::trace::Beam{.node_levels = fine ? gpu::kBeamLevels + 1 : gpu::kBeamLevels,
                                                    .stack = stackConstant(graph.device(), options),
                                                    .detail = fine,
                                                    .orthographic = camera.orthographic,
