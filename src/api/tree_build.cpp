@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "api/checked.h"
+#include "api/job_run.h"
 #include "api/model_impl.h"
-#include "api/step_job.h"
 #include "api/tree_impl.h"
 #include "core/attributes/attribute_pack.h"
 #include "core/octree/octree_builder.h"
 #include "core/svdag/svdag_builder.h"
 #include "zvo/tree.h"
 
-#include <optional>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace zvo
 {
@@ -25,32 +28,69 @@ BuildOptions optionsOf(const TreeBuildInfo& info)
     return options;
 }
 
-// The last step of both: the table by which shaders find the tree.
+// Jobs that make a tree, one behind the other, and a last step that writes the table by which shaders find it.
 class TreeJob : public StepJob
 {
 public:
-    using StepJob::StepJob;
+    TreeJob(Context::Impl& context_impl, std::shared_ptr<FrameState> made_in, const char* source)
+        : context(context_impl), run(context_impl, *this, std::move(made_in), source)
+    {
+    }
+
+    [[nodiscard]] bool isDone() const override { return m_is_published; }
+
+    void record(vk::FrameGraph& graph) override
+    {
+        if (m_tree)
+        {
+            m_tree->publish(graph);
+        }
+        else if (!m_part->isDone())
+        {
+            m_part->record(graph);
+        }
+    }
+
+    void resume(std::vector<vk::PassTime> passes) override
+    {
+        if (m_tree)
+        {
+            m_is_published = true;
+            return;
+        }
+        if (!m_part->isDone()) // as that of an empty octree is from the start
+        {
+            m_part->resume(std::move(passes));
+        }
+        if (m_part->isDone())
+        {
+            endPart();
+        }
+    }
 
     std::unique_ptr<Tree::Impl> take()
     {
-        if (!isDone() || !m_tree)
+        if (!run.isDone() || !m_tree)
         {
             throw Error(ErrorCode::Usage, "the tree is not there, or was taken already");
         }
         return std::move(m_tree);
     }
 
+    Context::Impl& context;
+    JobRun run;
+
 protected:
-    void setTree(StaticTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context(), std::move(tree)); }
-    [[nodiscard]] bool hasTree() const { return m_tree != nullptr; }
-    void publish(vk::FrameGraph& graph) { m_tree->publish(graph); }
-    void setPublished() { m_is_complete = true; }
+    void begin(StepJob& part) { m_part = &part; }
+    void setTree(StaticTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context, std::move(tree)); }
 
 private:
-    [[nodiscard]] bool isComplete() const override { return m_is_complete; }
+    // The part is done: begins another one, or sets the tree.
+    virtual void endPart() = 0;
 
+    StepJob* m_part = nullptr;
     std::unique_ptr<Tree::Impl> m_tree;
-    bool m_is_complete = false;
+    bool m_is_published = false;
 };
 
 } // namespace
@@ -62,77 +102,37 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
           builder(std::make_unique<OctreeBuilder>(context_impl.device, mesh->uploaded, checkedGrid(info.grid),
                                                   optionsOf(info)))
     {
+        begin(*builder);
     }
 
     ~Impl() override
     {
-        context().retire(std::move(builder));
-        context().retire(std::move(mesh));
-        context().retire(std::move(built));
-        context().retire(std::move(packed));
+        context.retire(std::move(builder));
+        context.retire(std::move(mesh));
+        context.retire(std::move(built));
+        context.retire(std::move(packer));
     }
 
-    void recordStep(vk::FrameGraph& graph) override
+    void endPart() override
     {
-        if (!builder->isDone())
+        if (!packer)
         {
-            builder->record(graph);
-        }
-        else if (hasTree())
-        {
-            publish(graph);
-        }
-        else
-        {
-            pack(graph);
-        }
-    }
-
-    void stepDone(const std::vector<PassTime>& passes) override
-    {
-        if (hasTree())
-        {
-            setPublished();
-            return;
-        }
-        if (!builder->isDone())
-        {
-            builder->stepDone(passes);
-            if (!builder->isDone())
-            {
-                return;
-            }
             built = builder->take();
             dropped = built.dropped;
-            if (isPacked(form) && built.octree.hasAttributes())
-            {
-                return;
-            }
+            packer = std::make_unique<TreePacker>(context.device, form, built.octree);
+            begin(*packer);
         }
-        else
+        if (packer->isDone())
         {
-            built.octree.packed = std::move(packed);
-            built.octree.voxel_attributes = {};
-            built.octree.node_attributes = {};
+            setTree(StaticTree(std::move(built)));
         }
-        setTree(StaticTree(std::move(built)));
-    }
-
-    void pack(vk::FrameGraph& graph)
-    {
-        if (packed.form == AttributeForm::None)
-        {
-            packed = makePackedAttributes(context().device, form, built.octree);
-        }
-        packAttributes(graph, built.octree.voxel_attributes, form, packed.voxels);
-        packAttributes(graph, built.octree.node_attributes, nodeForm(form), packed.nodes);
     }
 
     std::shared_ptr<const MoverMesh> mesh; // what builder reads
     AttributeForm form;
     std::unique_ptr<OctreeBuilder> builder;
     BuildResult built;
-    PackedAttributes packed;
+    std::unique_ptr<TreePacker> packer; // of built; null: that is not there yet
     std::map<std::string, std::uint64_t> dropped;
 };
 
@@ -159,17 +159,17 @@ TreeBuild& TreeBuild::operator=(TreeBuild&&) noexcept = default;
 
 bool TreeBuild::record(Recorder& recorder)
 {
-    return contentOf(m_impl.get(), "build").record(recorder);
+    return contentOf(m_impl.get(), "build").run.record(recorder);
 }
 
 bool TreeBuild::isDone()
 {
-    return contentOf(m_impl.get(), "build").isDone();
+    return contentOf(m_impl.get(), "build").run.isDone();
 }
 
 bool TreeBuild::isBroken() const
 {
-    return contentOf(m_impl.get(), "build").isBroken();
+    return contentOf(m_impl.get(), "build").run.isBroken();
 }
 
 Tree TreeBuild::take()
@@ -189,42 +189,16 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
           builder(
               std::make_unique<SvdagBuilder>(context_impl.device, std::move(source->fixed.dag.tree), CompressOptions{}))
     {
+        begin(*builder);
     }
 
     ~Impl() override
     {
-        context().retire(std::move(builder));
+        context.retire(std::move(builder));
         source.reset(); // it retires what it has
     }
 
-    void recordStep(vk::FrameGraph& graph) override
-    {
-        if (hasTree())
-        {
-            publish(graph);
-        }
-        else if (!builder->isDone())
-        {
-            builder->record(graph);
-        }
-    }
-
-    void stepDone(const std::vector<PassTime>& passes) override
-    {
-        if (hasTree())
-        {
-            setPublished();
-            return;
-        }
-        if (!builder->isDone())
-        {
-            builder->stepDone(passes);
-        }
-        if (builder->isDone())
-        {
-            setTree(StaticTree(builder->take().dag, std::move(source->fixed.sums)));
-        }
-    }
+    void endPart() override { setTree(StaticTree(builder->take().dag, std::move(source->fixed.sums))); }
 
     std::unique_ptr<Tree::Impl> source; // what is left of the octree
     std::unique_ptr<SvdagBuilder> builder;
@@ -257,17 +231,17 @@ TreeCompression& TreeCompression::operator=(TreeCompression&&) noexcept = defaul
 
 bool TreeCompression::record(Recorder& recorder)
 {
-    return contentOf(m_impl.get(), "compression").record(recorder);
+    return contentOf(m_impl.get(), "compression").run.record(recorder);
 }
 
 bool TreeCompression::isDone()
 {
-    return contentOf(m_impl.get(), "compression").isDone();
+    return contentOf(m_impl.get(), "compression").run.isDone();
 }
 
 bool TreeCompression::isBroken() const
 {
-    return contentOf(m_impl.get(), "compression").isBroken();
+    return contentOf(m_impl.get(), "compression").run.isBroken();
 }
 
 Tree TreeCompression::take()

@@ -2,8 +2,13 @@
 // Attributes in fewer bytes (docs/attributes.md).
 #pragma once
 
+#include "core/base/step_job.h"
 #include "core/tree/octree.h"
+#include "vk/device.h"
 #include "vk/frame_graph.h"
+
+#include <utility>
+#include <vector>
 
 namespace zvo
 {
@@ -13,8 +18,28 @@ namespace zvo
 void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeForm form,
                     vk::BufferOf<gpu::uint>& words);
 
-/// What the attributes of tree, those of voxels and of nodes, are packed into. Throws Error{Memory} when the device's
-/// budget does not suffice.
-PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, const Octree& tree);
+/// Replaces the attributes of a tree, those of voxels and of nodes, by such in a packed form, in one step. Done from
+/// the start for a tree without attributes of 8 bytes, and for another form.
+class TreePacker final : public StepJob
+{
+public:
+    /// tree: an octree, or what a DAG has of one. It must outlive the steps.
+    TreePacker(vk::Device& device, AttributeForm form, Octree& tree);
+
+    [[nodiscard]] bool isDone() const override { return m_is_done; }
+    void record(vk::FrameGraph& graph) override;
+    void resume(std::vector<vk::PassTime> passes) override;
+
+    /// The passes, once.
+    [[nodiscard]] std::vector<vk::PassTime> take() { return std::move(m_passes); }
+
+private:
+    vk::Device& m_device;
+    AttributeForm m_form;
+    Octree& m_tree;
+    PackedAttributes m_packed;
+    std::vector<vk::PassTime> m_passes;
+    bool m_is_done;
+};
 
 } // namespace zvo

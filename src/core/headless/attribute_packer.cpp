@@ -3,6 +3,7 @@
 
 #include "attributes/attributes.h"
 #include "core/attributes/attribute_pack.h"
+#include "core/headless/run_job.h"
 
 #include <algorithm>
 #include <iterator>
@@ -23,21 +24,7 @@ constexpr std::uint64_t kRoomPerAttribute = 32; // bytes: itself, its words, and
 
 std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, Octree& tree)
 {
-    if (!isPacked(form) || tree.attributeForm() != AttributeForm::Bytes8)
-    {
-        return {};
-    }
-    PackedAttributes packed = makePackedAttributes(device.device(), form, tree);
-    std::vector<vk::PassTime> passes = device.run(
-        [&](vk::FrameGraph& graph)
-        {
-            packAttributes(graph, tree.voxel_attributes, form, packed.voxels);
-            packAttributes(graph, tree.node_attributes, nodeForm(form), packed.nodes);
-        });
-    tree.packed = std::move(packed);
-    tree.voxel_attributes = {};
-    tree.node_attributes = {};
-    return passes;
+    return runJob(device, TreePacker(device.device(), form, tree));
 }
 
 void AttributePacker::append(std::vector<gpu::Attribute>&& more)

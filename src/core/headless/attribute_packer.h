@@ -11,9 +11,8 @@
 namespace zvo
 {
 
-/// Replaces the attributes of tree, those of voxels and of nodes, by such in a packed form, and waits. tree: an octree,
-/// or what a DAG has of one. Nothing happens to a tree without attributes, or for another form. Returns the passes.
-/// Throws Error{Memory} when the device's budget does not suffice.
+/// Replaces the attributes of tree by such in a packed form (TreePacker), and waits. Returns the passes. Throws
+/// Error{Memory} when the device's budget does not suffice.
 std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, Octree& tree);
 
 /// Attributes that come to the host piece by piece, packed on the device as if all of them had come at once.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/headless/pipeline.h"
 
+#include "core/headless/run_job.h"
+
 #include <bit>
 #include <utility>
 
@@ -10,12 +12,7 @@ namespace zvo
 BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
                         const BuildOptions& options)
 {
-    OctreeBuilder builder(device.device(), scene, tile, options);
-    while (!builder.isDone())
-    {
-        builder.stepDone(device.run([&](vk::FrameGraph& graph) { builder.record(graph); }));
-    }
-    return builder.take();
+    return runJob(device, OctreeBuilder(device.device(), scene, tile, options));
 }
 
 std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& octree)

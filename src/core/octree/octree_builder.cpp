@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <iterator>
 #include <utility>
 
 namespace zvo
@@ -151,76 +150,10 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PlacedScene& scene, const
     {
         throw Error(ErrorCode::Usage, "attributes were asked of a scene that was uploaded without them");
     }
+    m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
     m_readback = {device, kReadbackBytes};
     m_result.octree.grid = grid;
     m_result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid)));
-}
-
-void OctreeBuilder::record(vk::FrameGraph& graph)
-{
-    m_readback.clear();
-    switch (m_step)
-    {
-    case Step::Cover:
-        cover(graph);
-        break;
-    case Step::Number:
-        numberNodes(graph, m_coverings->voxelize, m_coverings->work, m_result.octree);
-        break;
-    case Step::Attributes:
-        attributes(graph);
-        break;
-    case Step::Emission:
-        emission(graph);
-        break;
-    case Step::Average:
-        average(graph);
-        break;
-    case Step::Done:
-        break;
-    }
-    graph.releaseToHost();
-}
-
-void OctreeBuilder::stepDone(std::vector<vk::PassTime> passes)
-{
-    bool succeeded = true;
-    switch (m_step)
-    {
-    case Step::Cover:
-        succeeded = learnCoverage();
-        break;
-    case Step::Number:
-        m_coverings->work.items = {};
-        m_coverings->work.partials = {};
-        m_step = m_options.attributes ? Step::Attributes : Step::Done;
-        break;
-    case Step::Attributes:
-        succeeded = learnAttributes();
-        break;
-    case Step::Emission:
-        endVoxelAttributes();
-        break;
-    case Step::Average:
-        m_step = Step::Done;
-        break;
-    case Step::Done:
-        break;
-    }
-    if (succeeded)
-    {
-        m_result.passes.insert(m_result.passes.end(), std::make_move_iterator(passes.begin()),
-                               std::make_move_iterator(passes.end()));
-    }
-    else
-    {
-        ++m_result.retry_count;
-    }
-    if (m_step == Step::Done)
-    {
-        m_coverings.reset();
-        m_readback = {};
-    }
 }
 
 void OctreeBuilder::cover(vk::FrameGraph& graph)
@@ -245,8 +178,8 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
     }
 }
 
-// Whether there was room for everything.
-bool OctreeBuilder::learnCoverage()
+// There may have been no room for everything.
+void OctreeBuilder::learnCoverage()
 {
     const gpu::BrickCounters counters = m_readback.at<gpu::BrickCounters>(m_places.counters, 1).front();
     std::vector<gpu::RasterCounters> rasters;
@@ -257,7 +190,8 @@ bool OctreeBuilder::learnCoverage()
     if (const std::optional<Growth> growth = growthOf(m_result.capacities, counters, rasters))
     {
         grow(*growth);
-        return false;
+        ++m_result.retry_count;
+        return;
     }
     if (counters.voxel_carry != 0)
     {
@@ -269,8 +203,12 @@ bool OctreeBuilder::learnCoverage()
     {
         m_coverings->voxelize.rows = {};
     }
-    m_step = m_result.octree.node_count == 0 ? Step::Done : Step::Number;
-    return true;
+    if (m_result.octree.node_count == 0)
+    {
+        end();
+        return;
+    }
+    m_step = {&OctreeBuilder::number, &OctreeBuilder::endNumbers};
 }
 
 void OctreeBuilder::grow(const Growth& growth)
@@ -309,6 +247,23 @@ void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
     octree.nodes = {m_device, "octree/nodes", octree.node_count};
 }
 
+void OctreeBuilder::number(vk::FrameGraph& graph)
+{
+    numberNodes(graph, m_coverings->voxelize, m_coverings->work, m_result.octree);
+}
+
+void OctreeBuilder::endNumbers()
+{
+    m_coverings->work.items = {};
+    m_coverings->work.partials = {};
+    if (!m_options.attributes)
+    {
+        end();
+        return;
+    }
+    m_step = {&OctreeBuilder::attributes, &OctreeBuilder::learnAttributes};
+}
+
 void OctreeBuilder::attributes(vk::FrameGraph& graph)
 {
     Octree& octree = m_result.octree;
@@ -333,14 +288,15 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
     }
 }
 
-// Whether sums had room for the fragments of every voxel.
-bool OctreeBuilder::learnAttributes()
+// Sums may have had no room for the fragments of a voxel.
+void OctreeBuilder::learnAttributes()
 {
     const gpu::uint fragments = m_readback.at<gpu::uint>(m_places.max_fragments, 1).front();
     if (fragments != 0) // drop as many value bits as the largest sum has too many
     {
         m_sums->sum_shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
-        return false;
+        ++m_result.retry_count;
+        return;
     }
     const float emission_scale = m_scene.uploaded().emission_scale;
     if (emission_scale > 0.0F)
@@ -349,13 +305,12 @@ bool OctreeBuilder::learnAttributes()
         m_emissive_count = m_readback.at<gpu::uint>(m_places.emissive_count, 1).front();
         if (m_emissive_count != 0)
         {
-            m_step = Step::Emission;
-            return true;
+            m_step = {&OctreeBuilder::emission, &OctreeBuilder::endVoxelAttributes};
+            return;
         }
         m_result.octree.emission_words = {};
     }
     endVoxelAttributes();
-    return true;
 }
 
 void OctreeBuilder::emission(vk::FrameGraph& graph)
@@ -379,7 +334,7 @@ void OctreeBuilder::endVoxelAttributes()
         m_result.sums = {std::move(m_sums->sums), std::move(m_sums->emission_sums), m_sums->sum_shift};
     }
     m_sums.reset();
-    m_step = Step::Average;
+    m_step = {&OctreeBuilder::average, &OctreeBuilder::end};
 }
 
 void OctreeBuilder::average(vk::FrameGraph& graph)
@@ -390,6 +345,12 @@ void OctreeBuilder::average(vk::FrameGraph& graph)
         octree.node_attributes = {m_device, "octree/node_attributes", octree.node_count};
     }
     averageNodes(graph, m_scene.uploaded(), octree);
+}
+
+void OctreeBuilder::end()
+{
+    m_coverings.reset();
+    finish();
 }
 
 } // namespace zvo

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/step_job.h"
 #include "core/octree/octree_build.h"
 #include "core/tree/octree.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"
-#include "vk/readback.h"
 #include "vk/timer.h"
 #include "zvo/types.h"
 
@@ -47,40 +47,17 @@ struct BuildResult
     [[nodiscard]] double stageMs(std::string_view operation) const { return operationMs(passes, operation); }
 };
 
-/// Makes an octree of a scene in steps, each of them recorded into a frame and never waited for:
-///
-///     while (!builder.isDone())
-///     {
-///         builder.record(graph);       // submit
-///         builder.stepDone(passes);    // once the device is done
-///     }
-///
-/// Between steps, sizes are learnt and exactly what is needed is allocated; what turned out too small grows, and the
-/// step comes again. Of a tile (GridTile), an octree of the whole grid with what lies in it: its voxels and their
+/// Makes an octree of a scene. Between steps, sizes are learnt and exactly what is needed is allocated; what turned out
+/// too small grows, and the step comes again: resume() throws Error{Memory} where 32-bit numbers do not suffice, or the
+/// device's budget. Of a tile (GridTile), an octree of the whole grid with what lies in it: its voxels and their
 /// attributes are a slice, in Morton order, of what the whole grid gives, as long as no voxel has more than 65,535
 /// fragments. dropped is that of the whole grid. A scene without triangles in the grid gives an octree without nodes.
-class OctreeBuilder
+class OctreeBuilder final : public BuildJob<OctreeBuilder, BuildResult>
 {
 public:
     /// scene outlives it. Throws Error{Usage} for a depth outside 1 to Grid::kDepthMax, a tile that is not there and
     /// attributes that the scene was not uploaded with.
     OctreeBuilder(vk::Device& device, const PlacedScene& scene, const GridTile& tile, const BuildOptions& options);
-    OctreeBuilder(const OctreeBuilder&) = delete;
-    OctreeBuilder& operator=(const OctreeBuilder&) = delete;
-
-    [[nodiscard]] bool isDone() const { return m_step == Step::Done; }
-
-    /// Records the next step. The device must be done with the one before, unless that never reached it: then this is
-    /// the same one again. Throws Error{Memory} when the device's budget does not suffice, and what making a kernel
-    /// throws; what was recorded may reach the device all the same, and the step can be recorded again.
-    void record(vk::FrameGraph& graph);
-
-    /// The device is done with the step that was recorded last; passes: its times, if they were taken. Throws
-    /// Error{Memory} where 32-bit numbers do not suffice, or the device's budget; then nothing comes of it.
-    void stepDone(std::vector<vk::PassTime> passes = {});
-
-    /// What came of it, once.
-    [[nodiscard]] BuildResult take() { return std::move(m_result); }
 
     /// What a run showed to be too small.
     struct Growth
@@ -90,15 +67,6 @@ public:
     };
 
 private:
-    enum class Step
-    {
-        Cover,
-        Number,
-        Attributes,
-        Emission,
-        Average,
-        Done
-    };
     // The brick table with its node list.
     struct Coverings
     {
@@ -116,25 +84,25 @@ private:
     };
 
     void cover(vk::FrameGraph& graph);
-    bool learnCoverage();
+    void learnCoverage();
     void grow(const Growth& growth);
     void allocateNodes(const gpu::BrickCounters& counters);
+    void number(vk::FrameGraph& graph);
+    void endNumbers();
     void attributes(vk::FrameGraph& graph);
-    bool learnAttributes();
+    void learnAttributes();
     void emission(vk::FrameGraph& graph);
     void endVoxelAttributes();
     void average(vk::FrameGraph& graph);
+    void end();
 
     vk::Device& m_device;
     PlacedScene m_scene;
     GridTile m_tile;
     BuildOptions m_options;
-    BuildResult m_result;
-    Step m_step = Step::Cover;
     std::optional<Coverings> m_coverings;
     std::optional<AttributeBuffers> m_sums;
     std::uint32_t m_emissive_count = 0;
-    vk::Readback m_readback;
     Places m_places;
 };
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -237,62 +236,13 @@ SvdagBuilder::SvdagBuilder(vk::Device& device, Svdag source, const CompressOptio
     m_result.dag.octree_node_count = of_octree ? tree.node_count : m_source.octree_node_count;
     if (tree.node_count == 0)
     {
-        finish();
+        end();
         return;
     }
+    m_step = {&SvdagBuilder::classify, &SvdagBuilder::learnClasses};
     for (const Octree::Level& level : tree.levels)
     {
         m_result.candidate_counts.push_back(level.node_count);
-    }
-}
-
-void SvdagBuilder::record(vk::FrameGraph& graph)
-{
-    m_readback.clear();
-    switch (m_step)
-    {
-    case Step::Classify:
-        classify(graph);
-        break;
-    case Step::Write:
-        write(graph);
-        break;
-    case Step::Order:
-        order(graph);
-        break;
-    case Step::Done:
-        break;
-    }
-    graph.releaseToHost();
-}
-
-void SvdagBuilder::stepDone(std::vector<vk::PassTime> passes)
-{
-    bool succeeded = true;
-    switch (m_step)
-    {
-    case Step::Classify:
-        succeeded = learnClasses();
-        break;
-    case Step::Write:
-        m_below = {};
-        m_classes->table = {};
-        endNodes();
-        break;
-    case Step::Order:
-        finish();
-        break;
-    case Step::Done:
-        break;
-    }
-    if (succeeded)
-    {
-        m_result.passes.insert(m_result.passes.end(), std::make_move_iterator(passes.begin()),
-                               std::make_move_iterator(passes.end()));
-    }
-    else
-    {
-        ++m_result.retry_count;
     }
 }
 
@@ -313,21 +263,21 @@ void SvdagBuilder::classify(vk::FrameGraph& graph)
     m_sizes_place = m_readback.copy(graph, m_classes->sizes, 0, 1);
 }
 
-// Whether the tables had enough slots.
-bool SvdagBuilder::learnClasses()
+// The tables may have had too few slots.
+void SvdagBuilder::learnClasses()
 {
     const gpu::ClassSizes sizes = m_readback.at<gpu::ClassSizes>(m_sizes_place, 1).front();
     if (growSlots(m_candidates, sizes, m_slot_counts))
     {
         m_classes.reset();
         requireCountable(m_slot_counts);
-        return false;
+        ++m_result.retry_count;
+        return;
     }
     m_classes->hashes = {};
     const std::uint32_t per_word_max = m_options.entries_per_word != 0 ? m_options.entries_per_word : UINT32_MAX;
     allocatePool(m_device, m_candidates, sizes, m_has_ranks, per_word_max, m_result.dag);
-    m_step = Step::Write;
-    return true;
+    m_step = {&SvdagBuilder::write, &SvdagBuilder::endNodes};
 }
 
 void SvdagBuilder::write(vk::FrameGraph& graph)
@@ -343,15 +293,17 @@ void SvdagBuilder::write(vk::FrameGraph& graph)
 // What attributes of nodes come to.
 void SvdagBuilder::endNodes()
 {
+    m_below = {};
+    m_classes->table = {};
     Octree& source = m_source.tree;
     if (m_of_octree && source.levels.size() > 1 && (source.hasAttributes() || source.hasNodeAttributes()))
     {
-        m_step = Step::Order;
+        m_step = {&SvdagBuilder::order, &SvdagBuilder::end};
         return;
     }
     m_result.dag.tree.node_attributes = std::move(source.node_attributes);
     m_result.dag.tree.packed.nodes = std::move(source.packed.nodes);
-    finish();
+    end();
 }
 
 void SvdagBuilder::order(vk::FrameGraph& graph)
@@ -366,13 +318,12 @@ void SvdagBuilder::order(vk::FrameGraph& graph)
     orderDepthFirst(graph, source, *m_classes, m_result.dag);
 }
 
-void SvdagBuilder::finish()
+void SvdagBuilder::end()
 {
     moveVoxels(m_source.tree, m_result.dag.tree);
     m_source = {};
     m_classes.reset();
-    m_readback = {};
-    m_step = Step::Done;
+    finish();
 }
 
 } // namespace zvo

@@ -3,6 +3,7 @@
 // result is that of a build in which nothing failed. Kernels fail to be made, one by one, as these are made between
 // passes.
 #include "core/base/kernels.h"
+#include "core/base/step_job.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/tree_download.h"
 #include "core/octree/octree_builder.h"
@@ -28,7 +29,7 @@ namespace
 {
 
 // Takes the steps of a build; how many recordings failed.
-template <typename Builder> std::uint32_t takeSteps(vk::HeadlessDevice& device, Builder& builder)
+std::uint32_t takeSteps(vk::HeadlessDevice& device, StepJob& builder)
 {
     std::uint32_t failures = 0;
     while (!builder.isDone())
@@ -50,7 +51,7 @@ template <typename Builder> std::uint32_t takeSteps(vk::HeadlessDevice& device, 
         failures += has_failed ? 1 : 0;
         if (!has_failed)
         {
-            builder.stepDone(std::move(passes));
+            builder.resume(std::move(passes));
         }
     }
     return failures;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "api/context_impl.h"
+#include "core/base/step_job.h"
 
 #include <memory>
 #include <utility>
@@ -10,18 +11,15 @@
 namespace zvo
 {
 
-/// Work in steps, each recorded into a frame, the next one when the device is done with it.
-class StepJob
+/// Runs a job in frames of the host: a step a frame, the next one when the host says that the device is done with it.
+class JobRun
 {
 public:
-    /// made_in: the frame of what it is made of, a name of which is source; null: that is known to be done.
-    StepJob(Context::Impl& context, std::shared_ptr<FrameState> made_in, const char* source)
-        : m_context(context), m_made_in(std::move(made_in)), m_source(source)
+    /// made_in: the frame of what the job works on, a name of which is source; null: that is known to be done.
+    JobRun(Context::Impl& context, StepJob& job, std::shared_ptr<FrameState> made_in, const char* source)
+        : m_context(context), m_job(job), m_made_in(std::move(made_in)), m_source(source)
     {
     }
-    virtual ~StepJob() = default;
-    StepJob(const StepJob&) = delete;
-    StepJob& operator=(const StepJob&) = delete;
 
     /// See TreeBuild.
     bool record(Recorder& recorder)
@@ -33,7 +31,7 @@ public:
         }
         if (!m_frame)
         {
-            recording(recorder, [&](Recorder::Impl& impl) { recordStep(impl.graph); });
+            recording(recorder, [&](Recorder::Impl& impl) { m_job.record(impl.graph); });
             m_frame = recorder.impl().frame;
         }
         return true;
@@ -58,23 +56,17 @@ public:
         {
             const std::shared_ptr<FrameState> frame = std::exchange(m_frame, nullptr);
             m_is_broken = true; // unless this succeeds
-            stepDone(frame->times);
+            m_job.resume(frame->times);
             m_is_broken = false;
         }
-        return isComplete();
+        return m_job.isDone();
     }
 
     [[nodiscard]] bool isBroken() const { return m_is_broken || (m_made_in && m_made_in->is_lost); }
 
-protected:
-    [[nodiscard]] Context::Impl& context() const { return m_context; }
-
 private:
-    virtual void recordStep(vk::FrameGraph& graph) = 0;
-    virtual void stepDone(const std::vector<PassTime>& passes) = 0;
-    [[nodiscard]] virtual bool isComplete() const = 0;
-
     Context::Impl& m_context;
+    StepJob& m_job;
     std::shared_ptr<FrameState> m_made_in; // null: done
     const char* m_source;
     std::shared_ptr<FrameState> m_frame; // of the step that is under way
