@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "vk/frame_list.h"
+
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -12,11 +14,11 @@ namespace zvo::vk
 
 /// Things that frames in flight may still use: kept until the device is done with the frame in which they were put
 /// away. Frames are numbered by the caller, upwards.
-class Retired
+class Retired final : public FrameParticipant
 {
 public:
     /// What is kept from now on may be used by that frame and those before it.
-    void beginFrame(std::uint64_t frame) { m_frame = frame; }
+    void beginFrame(std::uint64_t frame) override { m_frame = frame; }
 
     [[nodiscard]] std::uint64_t frame() const { return m_frame; }
 
@@ -29,7 +31,7 @@ public:
     }
 
     /// The device is done with that frame and all before it.
-    void frameDone(std::uint64_t frame)
+    void frameDone(std::uint64_t frame) override
     {
         while (!m_things.empty() && m_things.front().frame <= frame)
         {

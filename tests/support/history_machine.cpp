@@ -94,7 +94,7 @@ void HistoryMachine::loseFrame()
     {
         m_updates.pop_back();
     }
-    m_history.frameLost();
+    m_frame_list.lost();
     m_steps = m_before.steps;
     m_current = m_before.current;
     m_shown = m_truth[m_steps[m_current]];
@@ -106,7 +106,7 @@ void HistoryMachine::finishFrame()
     if (m_frames.size() > 1)
     {
         m_frame_done = m_frames.front().number;
-        m_history.frameDone(m_frame_done);
+        m_frame_list.done(m_frame_done);
         m_frames.pop_front();
     }
 }
@@ -159,7 +159,7 @@ void HistoryMachine::checkEnd()
     {
         finishFrame();
     }
-    m_history.frameDone(m_frames.back().number);
+    m_frame_list.done(m_frames.back().number);
     RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
     RC_ASSERT(m_history.waitingBytes() == 0u);
     RC_ASSERT(m_arena.heldBytes() == bytesOfSteps());
@@ -188,7 +188,7 @@ void HistoryMachine::check()
 
 void HistoryMachine::beginFrame()
 {
-    m_frames.push_back({m_history.beginFrame(), {}});
+    m_frames.push_back({m_frame_list.begin(), {}});
     m_before = {m_steps, m_current};
     m_line_changed = false;
 }

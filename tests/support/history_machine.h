@@ -107,6 +107,7 @@ private:
     HistoryBounds m_bounds;
     OverlayArena m_arena;
     RootHistory m_history;
+    vk::FrameList m_frame_list{{&m_history}};
     std::vector<int> m_node_writers; // whose each node is, or was
     std::vector<int> m_block_writers;
     std::vector<Root> m_root_slots; // [node]: of regions that start there

@@ -8,17 +8,6 @@
 namespace zvo
 {
 
-std::uint64_t DynamicOctree::beginFrame()
-{
-    m_overlays.frameSubmitted(m_retired); // before its number changes, as the next
-    m_edits.frameSubmitted();
-    const std::uint64_t frame = m_history.beginFrame();
-    m_edits.beginFrame(frame);
-    m_retired.beginFrame(frame);
-    m_has_recorded = false;
-    return frame;
-}
-
 void DynamicOctree::frameLost()
 {
     m_edits.endStroke();
@@ -26,20 +15,11 @@ void DynamicOctree::frameLost()
     {
         return;
     }
-    const std::uint64_t frame = m_retired.frame();
     dropJob();
-    for (; !m_pending_updates.empty() && m_pending_updates.back().frame == frame; m_pending_updates.pop_back())
-    {
-        --m_result_count;
-    }
-    while (!m_pending_slices.empty() && m_pending_slices.back().frame == frame)
-    {
-        m_pending_slices.pop_back();
-    }
-    m_overlays.frameLost(m_retired);
-    m_movers.frameLost(frame);
-    m_history.frameLost();
-    m_edits.frameLost();
+    const auto isLost = [&](const auto& pending) { return pending.frame == m_frames.current(); };
+    m_result_count -= std::erase_if(m_pending_updates, isLost);
+    std::erase_if(m_pending_slices, isLost);
+    m_frames.lost();
     m_needs_update = true;
     m_owes_root = true;
     m_has_recorded = false;
@@ -91,7 +71,9 @@ std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::spa
         }
         m_pending_slices.pop_front();
     }
-    if (m_movers.frameDone(frame))
+    m_frames.done(frame);
+    m_has_recorded = m_has_recorded && frame != m_frames.current();
+    if (m_movers.takeFailure())
     {
         giveUpJob();
     }
@@ -102,15 +84,6 @@ std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::spa
         m_pending_updates.pop_front();
         reports.push_back(learnUpdate(pending));
     }
-    m_edits.frameDone(frame);
-    m_history.frameDone(frame);
-    if (frame == m_retired.frame())
-    {
-        m_overlays.frameSubmitted(m_retired);
-        m_edits.frameSubmitted();
-        m_has_recorded = false;
-    }
-    m_retired.frameDone(frame);
     return reports;
 }
 

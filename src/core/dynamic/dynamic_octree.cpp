@@ -45,7 +45,7 @@ StaticTree& checked(StaticTree& fixed, const DynamicOptions& options)
 
 DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree&& fixed, const DynamicOptions& options)
     : m_device(device), m_options(options),
-      m_overlays(device, std::move(checked(fixed, options)), {options.attributes, options.emission_scale}),
+      m_overlays(device, std::move(checked(fixed, options)), {options.attributes, options.emission_scale}, m_retired),
       m_movers(device, m_overlays.octree().grid,
                {options.coverage,
                 {m_overlays.hasAttributes(), m_overlays.emits()},
@@ -54,7 +54,8 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree&& fixed, const Dyn
                 options.minimal_capacities},
                m_retired),
       m_history(m_overlays.arena(), options.history),
-      m_edits(device.device(), m_overlays, m_history, options.edits, options.frames_in_flight),
+      m_edits(device.device(), m_overlays, m_history, options.edits, options.frames_in_flight, m_retired),
+      m_frames({&m_movers, &m_edits, &m_history, &m_overlays, &m_retired}),
       m_tables(uploadScene(device, Scene{}, true)), m_sum_shift(m_overlays.sums().sum_shift),
       m_sizes(options.minimal_capacities)
 {
@@ -139,14 +140,14 @@ std::optional<OverlayRegion> DynamicOctree::allocateRegion(vk::FrameGraph& graph
 {
     const std::uint64_t nodes = m_sizes.likelyNodes();
     const std::uint64_t voxels = m_sizes.likelyVoxels();
-    m_overlays.catchUp(graph, m_retired);
+    m_overlays.catchUp(graph);
     if (const std::optional<OverlayRegion> region = m_overlays.arena().allocate(nodes, voxels))
     {
         return region;
     }
     try
     {
-        m_overlays.grow(graph, nodes, voxels, m_retired);
+        m_overlays.grow(graph, nodes, voxels);
     }
     catch (const Error& error) // then steps of the history have to make room, if there are any
     {
@@ -217,7 +218,7 @@ void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
         m_job->steps[slice.step].record(graph, slice.first_unit, slice.unit_count);
         slice.pass_end = graph.passCount();
     }
-    m_pending_slices.push_back({m_retired.frame(), std::move(slices)});
+    m_pending_slices.push_back({m_frames.current(), std::move(slices)});
     if (m_job->progress.step == m_job->steps.size())
     {
         finishJob(graph);
@@ -286,7 +287,7 @@ void DynamicOctree::finishJob(vk::FrameGraph& graph)
     showOverlay(graph, m_job->merge, *m_update, last);
     const std::uint64_t step = m_history.push(m_job->merge.region, std::move(m_job->states));
     m_pending_updates.push_back(
-        {m_retired.frame(), step, m_job->merge.place, m_job->merge.region, m_capacities.touched});
+        {m_frames.current(), step, m_job->merge.place, m_job->merge.region, m_capacities.touched});
     m_job.reset();
 }
 
@@ -347,7 +348,7 @@ bool DynamicOctree::edit(vk::FrameGraph& graph, const Brush& brush)
         m_owes_root = false;
     }
     const std::uint64_t before = m_edits.changeCount();
-    const bool is_done = m_edits.dab(graph, brush, m_tables.view, m_retired);
+    const bool is_done = m_edits.dab(graph, brush, m_tables.view);
     if (m_edits.changeCount() != before)
     {
         showEdited(graph);

@@ -10,6 +10,7 @@
 #include "core/update/update.h"
 #include "core/update/update_sizes.h"
 #include "vk/device.h"
+#include "vk/frame_list.h"
 #include "vk/retired.h"
 #include "vk/uploader.h"
 #include "zvo/types.h"
@@ -90,7 +91,11 @@ public:
     [[nodiscard]] const MoverMesh& mesh(MoverId mover) { return m_movers.mesh(mover); }
 
     /// Numbers the frame that is to be recorded.
-    std::uint64_t beginFrame();
+    std::uint64_t beginFrame()
+    {
+        m_has_recorded = false;
+        return m_frames.begin();
+    }
 
     /// Records an update: movers that changed are voxelized, all are merged with the static tree, and the result is
     /// shown. It becomes a step of the history. Under a budget of GPU time, as much of it as is thought to fit
@@ -204,11 +209,12 @@ private:
 
     vk::Uploader& m_device;
     DynamicOptions m_options;
-    vk::Retired m_retired; // knows the frame
+    vk::Retired m_retired;
     OverlayOctree m_overlays;
     MoverSet m_movers;
     RootHistory m_history;
     Edits m_edits;
+    vk::FrameList m_frames;
     GpuScene m_tables; // a scene of nothing: the tables of sRGB codes
     vk::BufferOf<gpu::MergeView> m_merge_view;
     std::uint32_t m_sum_shift; // of the layers

@@ -358,23 +358,18 @@ bool MoverSet::learn(const PendingLayer& pending)
     return true;
 }
 
-bool MoverSet::frameDone(std::uint64_t frame)
+void MoverSet::frameDone(std::uint64_t frame)
 {
-    bool has_failed = false;
     while (!m_pending.empty() && m_pending.front().frame <= frame)
     {
-        has_failed = learn(m_pending.front()) || has_failed;
+        m_has_failed = learn(m_pending.front()) || m_has_failed;
         m_pending.pop_front();
     }
-    return has_failed;
 }
 
-void MoverSet::frameLost(std::uint64_t frame)
+void MoverSet::frameLost()
 {
-    while (!m_pending.empty() && m_pending.back().frame == frame)
-    {
-        m_pending.pop_back();
-    }
+    std::erase_if(m_pending, [&](const PendingLayer& pending) { return pending.frame == m_retired.frame(); });
     if (!m_pending.empty())
     {
         m_report_count = m_pending.back().report + 1; // the lost ones are not awaited

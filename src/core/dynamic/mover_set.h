@@ -8,6 +8,7 @@
 #include "core/update/layer.h"
 #include "core/update/update_step.h"
 #include "vk/device.h"
+#include "vk/frame_list.h"
 #include "vk/retired.h"
 #include "vk/uploader.h"
 #include "zvo/types.h"
@@ -19,6 +20,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace zvo
@@ -53,7 +55,7 @@ struct MoverOptions
 
 /// The movers of an octree: where each is to be, and its layer, the voxels of where it was last. Poses have versions,
 /// so that a step of the history names its movers' states by numbers. Knows nothing of merging and of what is shown.
-class MoverSet
+class MoverSet final : public vk::FrameParticipant
 {
 public:
     /// What retires goes to retired, which outlives this.
@@ -87,12 +89,14 @@ public:
     void forgetLayers(std::span<const MoverId> movers);
     void forgetLayers();
 
-    /// The device is done with a frame and all before it. Layers that turned out too small get more room and are to be
-    /// made again: returns whether there are any.
-    bool frameDone(std::uint64_t frame);
+    /// Layers that turned out too small get more room and are to be made again.
+    void frameDone(std::uint64_t frame) override;
 
-    /// What was recorded in a frame, the last one, may not reach the device: everything is voxelized again.
-    void frameLost(std::uint64_t frame);
+    /// Whether there were any since this was asked last.
+    [[nodiscard]] bool takeFailure() { return std::exchange(m_has_failed, false); }
+
+    /// Everything is voxelized again.
+    void frameLost() override;
 
     /// Triangles left out, by reason, of all movers as they were voxelized last.
     [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
@@ -142,6 +146,7 @@ private:
     vk::BufferOf<gpu::LayerCounters> m_reports;                   // host-visible, a ring
     std::uint64_t m_report_count = 0;
     std::deque<PendingLayer> m_pending; // in order of frames
+    bool m_has_failed = false;          // a layer, for takeFailure()
 };
 
 } // namespace zvo

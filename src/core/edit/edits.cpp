@@ -33,8 +33,8 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
 } // namespace
 
 Edits::Edits(vk::Device& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
-             std::uint32_t frames_in_flight)
-    : m_device(device), m_overlays(overlays), m_regions(regions),
+             std::uint32_t frames_in_flight, vk::Retired& retired)
+    : m_device(device), m_overlays(overlays), m_regions(regions), m_retired(retired),
       m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.steps_max)},
       m_slot_count(std::uint64_t{frames_in_flight} + 1)
 {
@@ -67,8 +67,7 @@ std::uint32_t Edits::voxelCount() const
     return m_now.region ? m_now.history.top(m_now.history.place()).voxel_count : m_overlays.octree().voxel_count;
 }
 
-bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables,
-                vk::Retired& retired)
+bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables)
 {
     const std::optional<DabExtent> extent = DabExtent::of(brush, m_overlays.octree().grid);
     if (!extent)
@@ -85,7 +84,7 @@ bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gp
     const bool has_written = std::exchange(m_has_written, false);
     try
     {
-        const bool is_done = tryDab(graph, brush, *extent, tables, retired);
+        const bool is_done = tryDab(graph, brush, *extent, tables);
         m_has_written = m_has_written || has_written;
         return is_done;
     }
@@ -109,18 +108,18 @@ std::uint32_t Edits::keptPlace() const
 }
 
 bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& extent,
-                   const vk::BufferOf<gpu::SceneView>& tables, vk::Retired& retired)
+                   const vk::BufferOf<gpu::SceneView>& tables)
 {
-    m_overlays.catchUp(graph, retired);
+    m_overlays.catchUp(graph);
     if (!m_now.region)
     {
-        begin(graph, extent, retired);
+        begin(graph, extent);
     }
     const bool attributes = m_overlays.hasAttributes();
     const EditTop top = m_now.history.topAbove(keptPlace());
     const EditTop needed = {top.nodes + extent.node_bound, attributes ? top.voxels + extent.voxel_bound : 0};
     if ((needed.nodes > m_now.region->node_capacity || needed.voxels > m_now.region->voxel_capacity) &&
-        !makeRoom(graph, needed, retired))
+        !makeRoom(graph, needed))
     {
         return false;
     }
@@ -129,7 +128,7 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         DabBuffers larger(m_device, extent.cell_count);
         if (m_buffers)
         {
-            retired.keep(std::move(*m_buffers));
+            m_retired.keep(std::move(*m_buffers));
         }
         m_buffers = std::move(larger);
     }
@@ -143,37 +142,36 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
     return true;
 }
 
-OverlayRegion Edits::allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels,
-                                    vk::Retired& retired)
+OverlayRegion Edits::allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels)
 {
     OverlayArena& arena = m_overlays.arena();
     if (const std::optional<OverlayRegion> region = arena.allocate(nodes, voxels))
     {
         return *region;
     }
-    m_overlays.grow(graph, nodes, voxels, retired);
+    m_overlays.grow(graph, nodes, voxels);
     return arena.allocate(nodes, voxels).value();
 }
 
 // For frames in flight, they outlive those who have them.
-std::shared_ptr<vk::BufferOf<gpu::EditState>> Edits::makeStates(vk::Retired& retired)
+std::shared_ptr<vk::BufferOf<gpu::EditState>> Edits::makeStates()
 {
-    return retired.keep(
+    return m_retired.keep(
         std::make_shared<vk::BufferOf<gpu::EditState>>(m_device, "edit/states", m_now.history.placeCount()));
 }
 
 // Makes the first region, in which nothing is edited.
-void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& retired)
+void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent)
 {
     vk::Device& d = m_device;
     const std::uint32_t places = m_now.history.placeCount();
-    m_now.states = makeStates(retired);
+    m_now.states = makeStates();
     if (m_reports.count() == 0)
     {
         m_reports = {d, "edit/reports", m_slot_count * places, vk::MemoryKind::Readback};
     }
     const std::uint64_t voxels = m_overlays.hasAttributes() ? kDabsAtFirst * extent.voxel_bound : 0;
-    m_now.region = allocateRegion(graph, places + kDabsAtFirst * extent.node_bound, voxels, retired);
+    m_now.region = allocateRegion(graph, places + kDabsAtFirst * extent.node_bound, voxels);
     EditTop top = m_now.history.top(0);
     top.voxel_count = m_overlays.octree().voxel_count;
     m_now.history.learn(0, top);
@@ -182,7 +180,7 @@ void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& r
 }
 
 // Makes room for what is needed, if that is known: otherwise the device has to tell first how much is left.
-bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& retired)
+bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed)
 {
     const OverlayRegion& region = *m_now.region;
     const EditTop same = {region.node_capacity, region.voxel_capacity};
@@ -190,7 +188,7 @@ bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& 
                            capacityOf(region.voxel_capacity, needed.voxels)};
     if (m_overlays.arena().bytes(regionOf(grown.nodes, grown.voxels)) <= m_bytes_max)
     {
-        compact(graph, grown, retired);
+        compact(graph, grown);
         return true;
     }
     if (!m_now.history.isExact())
@@ -199,7 +197,7 @@ bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& 
     }
     if (m_now.is_compact && m_now.history.undoCount() == 0 && m_now.history.redoCount() == 0)
     {
-        compact(graph, grown, retired);
+        compact(graph, grown);
         return true;
     }
     if (m_now.history.redoCount() != 0) // which the dab would drop, too
@@ -210,22 +208,22 @@ bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& 
     {
         m_now.history.dropOldest();
     }
-    compact(graph, same, retired);
+    compact(graph, same);
     return false;
 }
 
 // Moves what steps show to a region of that capacity.
-void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired& retired)
+void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity)
 {
     m_device.memory().require(CompactBuffers::bytes(*m_now.region), "making room for edits");
-    auto& buffers = retired.keep(CompactBuffers(m_device, *m_now.region));
-    const OverlayRegion to = allocateRegion(graph, capacity.nodes, capacity.voxels, retired);
+    auto& buffers = m_retired.keep(CompactBuffers(m_device, *m_now.region));
+    const OverlayRegion to = allocateRegion(graph, capacity.nodes, capacity.voxels);
     m_left.push_back(to); // given back should something throw
     EditSite where = site();
-    std::shared_ptr<vk::BufferOf<gpu::EditState>> states = makeStates(retired);
+    std::shared_ptr<vk::BufferOf<gpu::EditState>> states = makeStates();
     recordCompaction(graph, where, to, *states, m_now.history.used(), buffers);
     m_left.back() = std::exchange(*m_now.region, to);
-    retired.keep(std::exchange(m_now.states, std::move(states)));
+    m_retired.keep(std::exchange(m_now.states, std::move(states)));
     m_now.history.forgetTops();
     m_now.is_compact = true;
     report(graph, 0, m_now.history.placeCount());
@@ -235,14 +233,14 @@ void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired&
 void Edits::report(vk::FrameGraph& graph, std::uint32_t first_place, std::uint32_t place_count)
 {
     constexpr std::uint64_t kBytes = sizeof(gpu::EditState);
-    const bool has_slot = !m_pending.empty() && m_pending.back().frame == m_frame;
+    const bool has_slot = !m_pending.empty() && m_pending.back().frame == m_retired.frame();
     m_slot = has_slot ? m_slot : (m_slot + 1) % m_slot_count;
     const std::uint64_t first = m_slot * m_now.history.placeCount() + first_place;
     graph.copy(*m_now.states, first_place * kBytes, m_reports, first * kBytes, place_count * kBytes);
     graph.releaseToHost();
     ++m_change_count;
     std::fill_n(m_now.changes.begin() + first_place, place_count, m_change_count);
-    m_pending.push_back({m_frame, m_slot, first_place, place_count, *m_now.region, m_change_count});
+    m_pending.push_back({m_retired.frame(), m_slot, first_place, place_count, *m_now.region, m_change_count});
 }
 
 void Edits::learn(const Report& report, State& state) const
@@ -316,12 +314,6 @@ void Edits::frameSubmitted()
     m_has_written = false;
 }
 
-void Edits::beginFrame(std::uint64_t frame)
-{
-    m_frame = frame;
-    m_dab_count = 0;
-}
-
 void Edits::frameDone(std::uint64_t frame)
 {
     for (; !m_pending.empty() && m_pending.front().frame <= frame; m_pending.pop_front())
@@ -336,13 +328,10 @@ void Edits::frameDone(std::uint64_t frame)
 
 void Edits::frameLost()
 {
-    if (!m_pending.empty() && m_pending.back().frame == m_frame)
+    const auto isLost = [&](const Report& report) { return report.frame == m_retired.frame(); };
+    if (std::erase_if(m_pending, isLost) != 0)
     {
         m_slot = (m_slot + m_slot_count - 1) % m_slot_count; // frames in flight have the others
-    }
-    while (!m_pending.empty() && m_pending.back().frame == m_frame)
-    {
-        m_pending.pop_back();
     }
     if (!m_before)
     {

@@ -7,6 +7,7 @@
 #include "core/overlay/overlay_octree.h"
 #include "core/overlay/root_history.h"
 #include "vk/device.h"
+#include "vk/frame_list.h"
 #include "vk/retired.h"
 
 #include <cstddef>
@@ -22,20 +23,20 @@ namespace zvo
 /// What a brush did to a static tree, and what of it can be undone. Knows nothing of movers. Edits stand in one region
 /// of an OverlayOctree; when that is full they move, without what nothing shows any more, to another one. Frames are
 /// those of DynamicOctree, which owns this.
-class Edits
+class Edits final : public vk::FrameParticipant
 {
 public:
-    /// Regions that frames in flight may use go back by way of regions. All must outlive this.
+    /// Regions that frames in flight may use go back by way of regions, what else retires goes to retired. All must
+    /// outlive this.
     Edits(vk::Device& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
-          std::uint32_t frames_in_flight);
+          std::uint32_t frames_in_flight, vk::Retired& retired);
 
     /// Records a dab of the stroke that is under way, or of a new one. False, and no dab, while its room is not known:
     /// to be tried again in a later frame. The root that is shown may have moved in both cases. Throws Error{Usage} for
     /// a radius above kBrushRadiusMax and more than kDabsPerFrameMax dabs in a frame, Error{Memory} when the device's
     /// budget does not suffice, and what making a kernel throws: then there is no dab, whatever the frame does. Steps
     /// to redo may be gone.
-    bool dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables,
-             vk::Retired& retired);
+    bool dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables);
 
     void endStroke();
     bool undo();
@@ -59,13 +60,13 @@ public:
     /// Voxels of what is shown, without movers. Of a dab, it is known when its frame is done.
     [[nodiscard]] std::uint32_t voxelCount() const;
 
-    /// See DynamicOctree: the last frame reaches the device, and the next one begins; the device is done with one and
-    /// all before it; the last one does not reach the device, or not all of it: then a stroke under way ends, and steps
-    /// to redo may be gone. What was shown before it is as it was, even if the device has run the frame.
-    void frameSubmitted();
-    void beginFrame(std::uint64_t frame);
-    void frameDone(std::uint64_t frame);
-    void frameLost();
+    void frameSubmitted() override;
+    void beginFrame(std::uint64_t /*frame*/) override { m_dab_count = 0; }
+    void frameDone(std::uint64_t frame) override;
+
+    /// A stroke under way ends, and steps to redo may be gone. What was shown before the frame is as it was, even if
+    /// the device has run the frame.
+    void frameLost() override;
 
 private:
     struct State
@@ -99,19 +100,19 @@ private:
     void saveFrame();
     void restore(Saved saved);
     bool tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& extent,
-                const vk::BufferOf<gpu::SceneView>& tables, vk::Retired& retired);
-    OverlayRegion allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels,
-                                 vk::Retired& retired);
-    [[nodiscard]] std::shared_ptr<vk::BufferOf<gpu::EditState>> makeStates(vk::Retired& retired);
-    void begin(vk::FrameGraph& graph, const DabExtent& extent, vk::Retired& retired);
-    bool makeRoom(vk::FrameGraph& graph, const EditTop& needed, vk::Retired& retired);
-    void compact(vk::FrameGraph& graph, const EditTop& capacity, vk::Retired& retired);
+                const vk::BufferOf<gpu::SceneView>& tables);
+    OverlayRegion allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
+    [[nodiscard]] std::shared_ptr<vk::BufferOf<gpu::EditState>> makeStates();
+    void begin(vk::FrameGraph& graph, const DabExtent& extent);
+    bool makeRoom(vk::FrameGraph& graph, const EditTop& needed);
+    void compact(vk::FrameGraph& graph, const EditTop& capacity);
     void report(vk::FrameGraph& graph, std::uint32_t first_place, std::uint32_t place_count);
     void learn(const Report& report, State& state) const;
 
     vk::Device& m_device;
     OverlayOctree& m_overlays;
     RootHistory& m_regions;
+    vk::Retired& m_retired; // knows the frame
     std::uint64_t m_bytes_max;
     State m_now;
     std::optional<Saved> m_before;          // of the last frame, if it has changed since that began
@@ -123,7 +124,6 @@ private:
     std::optional<DabBuffers> m_buffers;
     std::deque<Report> m_pending;
     std::uint64_t m_change_count = 0;
-    std::uint64_t m_frame = 0;
     std::uint32_t m_dab_count = 0; // in the frame
 };
 

@@ -64,8 +64,9 @@ StaticTree::StaticTree(Svdag static_dag, FragmentSums kept)
 {
 }
 
-OverlayOctree::OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents)
-    : m_uploads(uploads), m_device(uploads.device()), m_is_empty(fixed.dag.tree.node_count == 0),
+OverlayOctree::OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents,
+                             vk::Retired& retired)
+    : m_uploads(uploads), m_device(uploads.device()), m_retired(retired), m_is_empty(fixed.dag.tree.node_count == 0),
       m_has_attributes(m_is_empty ? contents.attributes : fixed.dag.tree.hasAttributes()),
       m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(fixed.dag.tree.emission.count()),
       m_sums(std::move(fixed.sums)), m_tree(adopted(std::move(fixed.dag), fixed.has_lists)), m_arena(staticSpace())
@@ -89,7 +90,7 @@ void OverlayOctree::reserve(std::uint64_t room)
 
 void OverlayOctree::settle(vk::FrameGraph& graph, vk::Retired& retired)
 {
-    lengthen(graph, std::move(m_reserved), retired);
+    lengthen(graph, std::move(m_reserved));
     m_arena.grow(m_room.nodes, m_room.voxels);
     Octree& octree = m_tree.dag.tree;
     if (m_is_empty)
@@ -103,7 +104,7 @@ void OverlayOctree::settle(vk::FrameGraph& graph, vk::Retired& retired)
         graph.copy(octree.node_attributes, 0, octree.node_attributes,
                    m_tree.dag.octree_node_count * sizeof(gpu::Attribute), sizeof(gpu::Attribute));
     }
-    frameSubmitted(retired);
+    retireBefore(retired);
     m_is_settled = true;
 }
 
@@ -142,10 +143,10 @@ std::uint32_t OverlayOctree::emissionOffset() const
     return static_cast<std::uint32_t>(m_static_emissive - firstOverlayVoxel());
 }
 
-void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels, vk::Retired& retired)
+void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels)
 {
     const Capacities capacities = grownCapacities(nodes, voxels);
-    lengthen(graph, makeBuffers(capacities), retired); // all of them, before anything is recorded
+    lengthen(graph, makeBuffers(capacities)); // all of them, before anything is recorded
     m_arena.grow(capacities.nodes, capacities.voxels);
 }
 
@@ -202,10 +203,10 @@ void OverlayOctree::swapBuffers(Buffers& buffers)
     std::swap(octree.emission, buffers.emission);
 }
 
-void OverlayOctree::lengthen(vk::FrameGraph& graph, Buffers&& longer, vk::Retired& retired)
+void OverlayOctree::lengthen(vk::FrameGraph& graph, Buffers&& longer)
 {
     // In safety before anything is recorded: that may fail half way, with the device at work on what went before.
-    Buffers& from = m_before ? retired.keep(std::move(longer)) : m_before.emplace(std::move(longer));
+    Buffers& from = m_before ? m_retired.keep(std::move(longer)) : m_before.emplace(std::move(longer));
     swapBuffers(from);
     Octree& octree = m_tree.dag.tree;
     copyAll(graph, from.nodes, octree.nodes);
@@ -226,7 +227,7 @@ void OverlayOctree::lengthen(vk::FrameGraph& graph, Buffers&& longer, vk::Retire
     }
 }
 
-void OverlayOctree::frameSubmitted(vk::Retired& retired)
+void OverlayOctree::retireBefore(vk::Retired& retired)
 {
     if (m_before)
     {
@@ -235,21 +236,21 @@ void OverlayOctree::frameSubmitted(vk::Retired& retired)
     }
 }
 
-void OverlayOctree::frameLost(vk::Retired& retired)
+void OverlayOctree::frameLost()
 {
     if (m_before)
     {
         swapBuffers(*m_before);
-        frameSubmitted(retired);
+        frameSubmitted();
     }
 }
 
-void OverlayOctree::catchUp(vk::FrameGraph& graph, vk::Retired& retired)
+void OverlayOctree::catchUp(vk::FrameGraph& graph)
 {
     const OverlaySpace& space = m_arena.space();
     if (octree().nodes.count() != space.node_capacity)
     {
-        lengthen(graph, makeBuffers({space.node_capacity, space.voxel_capacity}), retired);
+        lengthen(graph, makeBuffers({space.node_capacity, space.voxel_capacity}));
     }
 }
 

@@ -6,6 +6,7 @@
 #include "core/tree/overlaid_tree.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
+#include "vk/frame_list.h"
 #include "vk/retired.h"
 #include "vk/uploader.h"
 
@@ -40,12 +41,12 @@ struct OverlayContents
 ///
 /// nodes[0] is the root that is traced. Nothing static is ever written again. When the buffers grow their addresses
 /// change, and all contents stay.
-class OverlayOctree
+class OverlayOctree final : public vk::FrameParticipant
 {
 public:
-    /// Takes over a static tree: traced and overlaid only behind settle(). uploads keeps it, should it not come so far,
-    /// and outlives this.
-    OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents);
+    /// Takes over a static tree: traced and overlaid only behind settle(). uploads keeps it, should it not come so far.
+    /// What retires later goes to retired. Both outlive this.
+    OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents, vk::Retired& retired);
     ~OverlayOctree();
     OverlayOctree(const OverlayOctree&) = delete;
     OverlayOctree& operator=(const OverlayOctree&) = delete;
@@ -58,20 +59,19 @@ public:
     void settle(vk::FrameGraph& graph, vk::Retired& retired);
 
     /// Makes room for one more region of that many nodes and voxels, whatever is held: records the copies to longer
-    /// buffers, and leaves the old ones to retired. Throws Error{Memory} when the device's budget does not suffice:
-    /// then nothing was recorded and nothing has changed.
-    void grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels, vk::Retired& retired);
+    /// buffers; the old ones retire when the frame was submitted. Throws Error{Memory} when the device's budget does
+    /// not suffice: then nothing was recorded and nothing has changed.
+    void grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
 
-    /// The frame in which grow() was called reaches the device: the buffers from before go to retired.
-    void frameSubmitted(vk::Retired& retired);
+    void frameSubmitted() override { retireBefore(m_retired); }
 
-    /// It does not, or not all of it: the buffers are those from before it again, with all their contents. The arena
-    /// keeps its size; regions may lie beyond the buffers until catchUp().
-    void frameLost(vk::Retired& retired);
+    /// The buffers are those from before the frame again, with all their contents. The arena keeps its size; regions
+    /// may lie beyond the buffers until catchUp().
+    void frameLost() override;
 
     /// Before a region is used that was handed out after frameLost(): makes the buffers as long as the arena, as grow()
     /// does. Nothing to do otherwise. Throws as grow().
-    void catchUp(vk::FrameGraph& graph, vk::Retired& retired);
+    void catchUp(vk::FrameGraph& graph);
 
     [[nodiscard]] const OverlaidTree& tree() const { return m_tree; }
     [[nodiscard]] OverlaidTree& tree() { return m_tree; }
@@ -107,7 +107,8 @@ private:
     [[nodiscard]] Capacities grownCapacities(std::uint64_t nodes, std::uint64_t voxels) const;
     [[nodiscard]] Buffers makeBuffers(const Capacities& capacities);
     void swapBuffers(Buffers& buffers);
-    void lengthen(vk::FrameGraph& graph, Buffers&& longer, vk::Retired& retired);
+    void lengthen(vk::FrameGraph& graph, Buffers&& longer);
+    void retireBefore(vk::Retired& retired);
     [[nodiscard]] bool hasRanks() const { return m_tree.has_lists && m_has_attributes; }
     [[nodiscard]] std::uint32_t nodeBytes() const;
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;
@@ -116,6 +117,7 @@ private:
 
     vk::Uploader& m_uploads;
     vk::Device& m_device;
+    vk::Retired& m_retired;
     bool m_is_empty;
     bool m_has_attributes;
     bool m_emits;

@@ -20,13 +20,8 @@ RootHistory::~RootHistory()
 {
     m_updates.clear();
     m_steps.clear();
+    m_steps_before.clear();
     frameDone(m_frame);
-}
-
-std::uint64_t RootHistory::beginFrame()
-{
-    forgetSteps();
-    return ++m_frame;
 }
 
 // Before the line changes: what frameLost() goes back to.
@@ -38,7 +33,7 @@ void RootHistory::keepSteps()
     }
 }
 
-void RootHistory::forgetSteps()
+void RootHistory::frameSubmitted()
 {
     m_steps_before.clear();
     m_current_before = m_current;
@@ -233,10 +228,6 @@ void RootHistory::forget()
 void RootHistory::frameDone(std::uint64_t frame)
 {
     assert(frame <= m_frame);
-    if (frame == m_frame)
-    {
-        forgetSteps();
-    }
     m_frame_done = std::max(m_frame_done, frame);
     for (; !m_waiting.empty() && m_waiting.front().frame <= m_frame_done; m_waiting.pop_front())
     {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/overlay/overlay_arena.h"
+#include "vk/frame_list.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -64,7 +65,7 @@ struct RootStep
 /// pending step, are held beyond that: waitingBytes().
 ///
 /// undo(), redo() and current() take constant time, everything else at most n log n for n steps.
-class RootHistory
+class RootHistory final : public vk::FrameParticipant
 {
 public:
     /// arena must outlive the history. Pushed regions come from it and go back to it.
@@ -111,16 +112,14 @@ public:
     /// The first step becomes the current one and the only one: what others show has become something else.
     void forget();
 
-    /// A frame begins to be recorded; returns its number: 1, 2, 3...
-    std::uint64_t beginFrame();
+    void frameSubmitted() override;
+    void beginFrame(std::uint64_t frame) override { m_frame = frame; }
+    void frameDone(std::uint64_t frame) override;
 
-    /// The device is done with that frame and all before it.
-    void frameDone(std::uint64_t frame);
-
-    /// The frame that began last does not reach the device, or not all of it: the steps are those there were when it
-    /// began, but for updates of earlier frames that have ended since. Its updates must not be ended; their regions
-    /// wait for a frame. The caller sees to it that the root slot shows current() before those are used again.
-    void frameLost();
+    /// The steps are those there were when the frame began, but for updates of earlier frames that have ended since.
+    /// Its updates must not be ended; their regions wait for a frame. The caller sees to it that the root slot shows
+    /// current() before those are used again.
+    void frameLost() override;
 
     /// Calls see with every layer state that current(), undo() and redo() may still return, in any order, some of them
     /// twice: those of the steps, and of steps that are kept for a pending one or for frameLost().
@@ -180,7 +179,6 @@ private:
     [[nodiscard]] OverlayArena arenaLater() const;
     static std::optional<std::size_t> removeFailed(Steps& steps, const Update& update);
     void keepSteps();
-    void forgetSteps();
     Update endUpdate(std::uint64_t id);
     bool dropStep();
 

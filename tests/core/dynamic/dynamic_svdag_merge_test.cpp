@@ -200,13 +200,14 @@ TEST(DynamicSvdagMerge, OverlaysTakeEightBytesANodeMoreThanOnAnOctree)
 TEST(DynamicSvdagMerge, MoreNodesThanKernelsReachAreRefused)
 {
     const test::Codes codes = {0, 5, 70};
+    vk::Retired retired;
     const auto make = [&](std::uint64_t room)
     {
         Svdag dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
-        auto octree =
-            std::make_unique<OverlayOctree>(device(), StaticTree(std::move(dag), {}), OverlayContents{false, 0.0F});
+        auto octree = std::make_unique<OverlayOctree>(device(), StaticTree(std::move(dag), {}),
+                                                      OverlayContents{false, 0.0F}, retired);
         octree->reserve(room);
-        device().perform([&](vk::FrameGraph& graph, vk::Retired& retired) { octree->settle(graph, retired); });
+        device().perform([&](vk::FrameGraph& graph, vk::Retired& later) { octree->settle(graph, later); });
         return octree;
     };
     EXPECT_GE(make(1)->arena().largestFreeNodes(), 1U);

@@ -21,56 +21,59 @@ namespace
 TEST_F(RootHistoryTest, RegionsWaitForTheFramesThatMayUseThem)
 {
     RootHistory history(m_arena, kUnbounded);
-    const std::uint64_t first = history.beginFrame();
+    vk::FrameList frames({&history});
+    const std::uint64_t first = frames.begin();
     push(history);
-    const std::uint64_t second = history.beginFrame();
+    const std::uint64_t second = frames.begin();
     history.undo();
     history.push(std::nullopt, {});
     EXPECT_EQ(history.waitingBytes(), 10u);
-    const std::uint64_t third = history.beginFrame();
-    history.frameDone(first);
+    const std::uint64_t third = frames.begin();
+    frames.done(first);
     EXPECT_EQ(m_arena.heldBytes(), 10u) << "the second frame began before the region was dropped";
-    history.frameDone(second);
+    frames.done(second);
     EXPECT_EQ(m_arena.heldBytes(), 0u);
-    history.frameDone(third);
+    frames.done(third);
     EXPECT_EQ(history.waitingBytes(), 0u);
 }
 
 TEST_F(RootHistoryTest, RegionsOfUpdatesThatAreGivenUpWaitToo)
 {
     RootHistory history(m_arena, kUnbounded);
-    const std::uint64_t frame = history.beginFrame();
+    vk::FrameList frames({&history});
+    const std::uint64_t frame = frames.begin();
     const auto region = history.allocate(10, 0);
     ASSERT_TRUE(region);
     history.giveBack(*region);
     EXPECT_EQ(history.waitingBytes(), 10u);
-    history.frameDone(frame);
+    frames.done(frame);
     EXPECT_EQ(m_arena.heldBytes(), 0u);
 }
 
 TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
 {
     RootHistory history(m_arena, {.steps_max = 3});
+    vk::FrameList frames({&history});
     push(history);
     push(history);
     push(history);
-    const std::uint64_t before = history.beginFrame();
+    const std::uint64_t before = frames.begin();
     history.undo();
     const std::uint64_t pending = pushPending(history); // instead of 3
-    const std::uint64_t lost = history.beginFrame();
+    const std::uint64_t lost = frames.begin();
     pushPending(history); // 1 falls off, ...
     pushPending(history); // ... and 2
     history.undo();
     EXPECT_EQ(history.undoCount(), 2u);
-    history.frameLost();
+    frames.lost();
     EXPECT_EQ(history.current().id, pending);
     EXPECT_EQ(history.redoCount(), 0u);
     EXPECT_EQ(history.stepBytes(), 30u);
     EXPECT_EQ(history.waitingBytes(), 30u) << "of step 3, and of those that were lost";
-    history.frameDone(before);
+    frames.done(before);
     history.complete(pending, 10, 0);
     EXPECT_EQ(history.waitingBytes(), 20u) << "the device may have begun with the lost frame";
-    history.frameDone(lost);
+    frames.done(lost);
     EXPECT_EQ(m_arena.heldBytes(), 30u);
     EXPECT_TRUE(shows(*history.undo(), 2));
     EXPECT_TRUE(shows(*history.undo(), 1));
@@ -80,17 +83,18 @@ TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
 TEST_F(RootHistoryTest, UpdatesOfEarlierFramesMayFailBeforeAFrameIsLost)
 {
     RootHistory history(m_arena, kUnbounded);
+    vk::FrameList frames({&history});
     push(history);
-    const std::uint64_t before = history.beginFrame();
+    const std::uint64_t before = frames.begin();
     const std::uint64_t failed = pushPending(history);
     const std::uint64_t next = pushPending(history);
-    history.beginFrame();
+    frames.begin();
     history.undo();
     pushPending(history);
-    history.frameDone(before);
+    frames.done(before);
     history.fail(failed);
     history.complete(next, 10, 0);
-    history.frameLost();
+    frames.lost();
     EXPECT_EQ(history.current().id, next);
     EXPECT_EQ(history.undo()->id, 1u);
     EXPECT_EQ(history.undoCount(), 1u);
@@ -108,6 +112,7 @@ TEST_F(RootHistoryTest, AHundredThousandFramesDoNotTakeMoreMemoryThanTheFirstOne
                         .node_bytes = 24,
                         .voxel_block_bytes = 264});
     RootHistory history(arena, {.steps_max = kSteps});
+    vk::FrameList frames({&history});
     std::deque<std::pair<std::uint64_t, std::uint64_t>> in_flight; // frame, step
     const auto need = [](std::uint64_t frame)
     { return static_cast<std::uint32_t>(kMost / 2 + frame * 7919 % 97 * (kMost / 2) / 96); };
@@ -119,10 +124,10 @@ TEST_F(RootHistoryTest, AHundredThousandFramesDoNotTakeMoreMemoryThanTheFirstOne
         {
             const auto [frame, id] = in_flight.front();
             in_flight.pop_front();
-            history.frameDone(frame);
+            frames.done(frame);
             history.complete(id, need(frame), need(frame) * 20);
         }
-        const std::uint64_t frame = history.beginFrame();
+        const std::uint64_t frame = frames.begin();
         const std::uint32_t guess = need(frame - 1) / 2 * 3;
         const auto region = history.allocate(std::max(guess, need(frame)), std::max(guess, need(frame)) * 20);
         ASSERT_TRUE(region) << "frame " << frame;

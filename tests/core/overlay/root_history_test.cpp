@@ -74,7 +74,8 @@ TEST_F(RootHistoryTest, StepsMayShowTheStaticOctree)
 TEST_F(RootHistoryTest, CompleteUpdatesGiveTheirTailsBackAtOnce)
 {
     RootHistory history(m_arena, kUnbounded);
-    history.beginFrame();
+    vk::FrameList frames({&history});
+    frames.begin();
     const std::uint64_t id = pushPending(history);
     EXPECT_TRUE(history.current().pending);
     history.complete(id, 3, 0);
@@ -223,6 +224,7 @@ TEST_F(RootHistoryTest, WhereMemoryIsShortNoMoreStepsAreDroppedThanItTakes)
 TEST_F(RootHistoryTest, NoStepIsDroppedInVain)
 {
     RootHistory history(m_arena, kUnbounded);
+    vk::FrameList frames({&history});
     for (int i = 0; i < 10; ++i)
     {
         push(history);
@@ -230,13 +232,13 @@ TEST_F(RootHistoryTest, NoStepIsDroppedInVain)
     EXPECT_EQ(history.allocate(95, 0), std::nullopt) << "the current step keeps ten of a hundred";
     EXPECT_FALSE(history.fitsLater(95, 0));
     EXPECT_EQ(history.undoCount(), 10u);
-    const std::uint64_t frame = history.beginFrame();
+    const std::uint64_t frame = frames.begin();
     EXPECT_EQ(history.allocate(20, 0), std::nullopt);
     EXPECT_EQ(history.undoCount(), 8u);
     EXPECT_EQ(history.allocate(20, 0), std::nullopt);
     EXPECT_EQ(history.undoCount(), 8u) << "the same two suffice, once the frame is done";
     EXPECT_TRUE(history.fitsLater(20, 0));
-    history.frameDone(frame);
+    frames.done(frame);
     EXPECT_EQ(history.allocate(20, 0), (OverlayRegion{1, 20, 0, 0}));
 }
 
@@ -244,7 +246,8 @@ TEST_F(RootHistoryTest, GivesEverythingBackAtItsEnd)
 {
     {
         RootHistory history(m_arena, kUnbounded);
-        history.beginFrame();
+        vk::FrameList frames({&history});
+        frames.begin();
         push(history);
         pushPending(history);
         history.undo();
