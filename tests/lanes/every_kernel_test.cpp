@@ -235,7 +235,7 @@ Names editVoxels(StaticTree fixed, bool attributes, float emission_scale)
     DynamicOptions options;
     options.emission_scale = emission_scale;
     options.attributes = attributes;
-    options.edits = {.steps_max = 4, .bytes_max = 0};
+    options.edits = {.entries_max = 4, .bytes_max = 0};
     DynamicOctree octree(device(), std::move(fixed), options);
     const auto cells = [&] { return test::cellsOf(device(), octree.tree()); };
     test::EditModel model(octree.tree().octree().grid, cells(), attributes);

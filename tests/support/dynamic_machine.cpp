@@ -315,8 +315,8 @@ void DynamicMachine::waitForOldest()
     mayFail([&] { passes = m_flights.front().submission.wait(); }); // then it is done, too
     for (const UpdateReport& report : m_octree->frameDone(frame, passes))
     {
-        m_is_owed = m_is_owed || (report.failed != 0 && report.step == m_line.current());
-        m_line.end(report.step, report.failed != 0);
+        m_is_owed = m_is_owed || (report.failed != 0 && report.entry == m_line.current());
+        m_line.end(report.entry, report.failed != 0);
     }
     m_flights.pop_front();
     see(m_line.endedAs(step), taker->pictures());

@@ -59,7 +59,7 @@ std::ostream& operator<<(std::ostream& out, const EditCommand& command)
 
 EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
                          MoverScenery& scenery)
-    : m_device(device), m_setting(setting), m_scenery(scenery), m_steps_max(bounds.steps_max)
+    : m_device(device), m_setting(setting), m_scenery(scenery), m_steps_max(bounds.entries_max)
 {
     DynamicOptions options = setting.options(scenery.emissionScale());
     options.edits = bounds;

@@ -60,7 +60,7 @@ void HistoryMachine::showStatic()
 
 void HistoryMachine::move(bool back)
 {
-    const std::optional<RootStep> step = back ? m_history.undo() : m_history.redo();
+    const std::optional<RootEntry> step = back ? m_history.undo() : m_history.redo();
     RC_ASSERT(step.has_value() == (back ? m_current > 0 : m_current + 1 < m_steps.size()));
     if (step)
     {
@@ -135,7 +135,7 @@ void HistoryMachine::endUpdate()
         removeFailed(m_steps, m_current, update);
         removeFailed(m_before.steps, m_before.current, update);
     }
-    RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
+    RC_ASSERT(m_history.entryBytes() == bytesOfSteps());
 }
 
 void HistoryMachine::checkEnd()
@@ -160,7 +160,7 @@ void HistoryMachine::checkEnd()
         finishFrame();
     }
     m_frame_list.done(m_frames.back().number);
-    RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
+    RC_ASSERT(m_history.entryBytes() == bytesOfSteps());
     RC_ASSERT(m_history.waitingBytes() == 0u);
     RC_ASSERT(m_arena.heldBytes() == bytesOfSteps());
 }
@@ -323,15 +323,15 @@ void HistoryMachine::pushed(std::uint64_t id)
     m_steps.resize(m_current + 1);
     m_steps.push_back(id);
     ++m_current;
-    while ((m_steps.size() - 1 > m_bounds.steps_max || bytesOfSteps() > m_bounds.bytes_max) && dropStep())
+    while ((m_steps.size() - 1 > m_bounds.entries_max || bytesOfSteps() > m_bounds.bytes_max) && dropStep())
     {
     }
-    RC_ASSERT(m_history.stepBytes() == bytesOfSteps());
+    RC_ASSERT(m_history.entryBytes() == bytesOfSteps());
 }
 
 void HistoryMachine::checkCurrent()
 {
-    const RootStep step = m_history.current();
+    const RootEntry step = m_history.current();
     const Told& told = m_told[m_steps[m_current]];
     RC_ASSERT(step.id == m_steps[m_current]);
     RC_ASSERT(std::equal(step.layers.begin(), step.layers.end(), told.layers.begin(), told.layers.end()));

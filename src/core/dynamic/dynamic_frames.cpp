@@ -31,18 +31,18 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
     m_sizes.learn(status, pending.region, pending.touched);
     if (status.failed == 0)
     {
-        m_history.complete(pending.step, status.node_count, status.voxel_count);
+        m_history.complete(pending.entry, status.node_count, status.voxel_count);
     }
     else
     {
-        m_needs_update = m_needs_update || m_history.current().id == pending.step;
-        m_history.fail(pending.step);
+        m_needs_update = m_needs_update || m_history.current().id == pending.entry;
+        m_history.fail(pending.entry);
     }
     if ((status.failed & ~gpu::kFailedFragments) == 0) // it came as far as to count them
     {
         setShift(status.max_fragments);
     }
-    return {pending.step,         status.failed,        status.node_count,          status.voxel_count,
+    return {pending.entry,        status.failed,        status.node_count,          status.voxel_count,
             status.touched_count, status.dynamic_count, m_movers.droppedTriangles()};
 }
 

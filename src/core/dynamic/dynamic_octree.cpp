@@ -19,7 +19,7 @@ constexpr std::uint64_t kRoomMin = 1024; // nodes, and voxels, that overlays hav
 // A static tree, if it can be merged as options say. Throws Error{Usage} where not.
 StaticTree& checked(StaticTree& fixed, const DynamicOptions& options)
 {
-    if (options.frames_in_flight == 0 || options.history.steps_max == 0)
+    if (options.frames_in_flight == 0 || options.history.entries_max == 0)
     {
         throw Error(ErrorCode::Usage, "dynamic updates need a frame in flight and a step of history at least");
     }
@@ -87,7 +87,7 @@ void DynamicOctree::remove(MoverId mover)
     dropJob();
 }
 
-// Drops the poses, and the movers, that nothing shows and no step brings back, every now and then.
+// Drops the poses, and the movers, that nothing shows and no entry brings back, every now and then.
 void DynamicOctree::forgetPoses()
 {
     if (!m_movers.hasManyPoses())
@@ -103,15 +103,15 @@ void DynamicOctree::forgetPoses()
     m_movers.forgetPoses(states);
 }
 
-RootPlace DynamicOctree::rootOf(const RootStep& step) const
+RootPlace DynamicOctree::rootOf(const RootEntry& entry) const
 {
-    if (step.pending)
+    if (entry.pending)
     {
         const auto pending =
-            std::ranges::find(m_pending_updates, step.id, [](const PendingUpdate& update) { return update.step; });
+            std::ranges::find(m_pending_updates, entry.id, [](const PendingUpdate& update) { return update.entry; });
         return {gpu::kNoNode, pending->result};
     }
-    return {step.region ? step.region->first_node : editedRoot(), 0};
+    return {entry.region ? entry.region->first_node : editedRoot(), 0};
 }
 
 // Makes the buffers of the update as large as its layers and its overlay ask for.
@@ -149,7 +149,7 @@ std::optional<OverlayRegion> DynamicOctree::allocateRegion(vk::FrameGraph& graph
     {
         m_overlays.grow(graph, nodes, voxels);
     }
-    catch (const Error& error) // then steps of the history have to make room, if there are any
+    catch (const Error& error) // then entries of the history have to make room, if there are any
     {
         if (error.code() != ErrorCode::Memory)
         {
@@ -285,9 +285,9 @@ void DynamicOctree::finishJob(vk::FrameGraph& graph)
 {
     const RootPlace last = rootOf(m_history.current());
     showOverlay(graph, m_job->merge, *m_update, last);
-    const std::uint64_t step = m_history.push(m_job->merge.region, std::move(m_job->states));
+    const std::uint64_t entry = m_history.push(m_job->merge.region, std::move(m_job->states));
     m_pending_updates.push_back(
-        {m_frames.current(), step, m_job->merge.place, m_job->merge.region, m_capacities.touched});
+        {m_frames.current(), entry, m_job->merge.place, m_job->merge.region, m_capacities.touched});
     m_job.reset();
 }
 
@@ -314,17 +314,17 @@ bool DynamicOctree::redo(vk::FrameGraph& graph)
     return show(graph, &RootHistory::redo, &RootHistory::undo);
 }
 
-// Shows the step that move leads to; goes back where that fails.
+// Shows the entry that move leads to; goes back where that fails.
 bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove back)
 {
-    const std::optional<RootStep> step = (m_history.*move)();
-    if (!step)
+    const std::optional<RootEntry> entry = (m_history.*move)();
+    if (!entry)
     {
         return false;
     }
     try
     {
-        showRoot(graph, m_overlays.tree(), m_roots, rootOf(*step));
+        showRoot(graph, m_overlays.tree(), m_roots, rootOf(*entry));
     }
     catch (...)
     {
@@ -335,7 +335,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
     m_owes_root = false;
     dropJob();
     m_needs_update = false;
-    m_movers.bringBack(step->layers);
+    m_movers.bringBack(entry->layers);
     return true;
 }
 

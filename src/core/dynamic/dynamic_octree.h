@@ -43,7 +43,7 @@ struct DynamicOptions
 /// What an update came to, known once the device is done with its frame.
 struct UpdateReport
 {
-    std::uint64_t step = 0;
+    std::uint64_t entry = 0;                           // of the history
     std::uint32_t failed = 0;                          // bits kFailed*; 0: its root is shown
     std::uint32_t node_count = 0;                      // of the overlay
     std::uint32_t voxel_count = 0;                     // with attributes of their own in the overlay
@@ -98,7 +98,7 @@ public:
     }
 
     /// Records an update: movers that changed are voxelized, all are merged with the static tree, and the result is
-    /// shown. It becomes a step of the history. Under a budget of GPU time, as much of it as is thought to fit
+    /// shown. It becomes an entry of the history. Under a budget of GPU time, as much of it as is thought to fit
     /// (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of movers count
     /// for the update after this one. 0: no bound. Returns whether the update is complete. While memory is short and
     /// frames in flight hold what it takes, records nothing: needsUpdate() says so.
@@ -110,13 +110,13 @@ public:
     /// Whether an update is under way that the next update() goes on with.
     [[nodiscard]] bool isUpdating() const { return m_job != nullptr; }
 
-    /// Records that the step before, or behind, the one that is shown is shown again. Movers are where they were then;
+    /// Records that the entry before, or behind, the one that is shown is shown again. Movers are where they were then;
     /// an update under way is given up. False if there is none. Throws what making a kernel throws: then nothing
     /// changes.
     bool undo(vk::FrameGraph& graph);
     bool redo(vk::FrameGraph& graph);
 
-    /// Records a dab of a brush on what does not move. Dabs up to endStroke() are one stroke, a step to be undone. Of
+    /// Records a dab of a brush on what does not move. Dabs up to endStroke() are one stroke, an entry to be undone. Of
     /// movers the frame shows nothing until update(), which needsUpdate() asks for where there are any; their history
     /// ends here. A voxel that lies in a leaf which a brush has changed no longer counts in a mean with movers: these
     /// win. False, and no dab, while the device has to tell first how much room there is: to be tried again in a later
@@ -169,7 +169,7 @@ private:
     struct PendingUpdate
     {
         std::uint64_t frame;
-        std::uint64_t step;
+        std::uint64_t entry;  // of the history
         std::uint32_t result; // element of m_results
         OverlayRegion region;
         std::uint64_t touched; // entries that its table had
@@ -190,7 +190,7 @@ private:
         std::vector<UpdateSlice> slices;
     };
 
-    using HistoryMove = std::optional<RootStep> (RootHistory::*)();
+    using HistoryMove = std::optional<RootEntry> (RootHistory::*)();
 
     void forgetPoses();
     bool updateOrWait(vk::FrameGraph& graph, double budget_ms);
@@ -205,7 +205,7 @@ private:
     void showEdited(vk::FrameGraph& graph);
     UpdateReport learnUpdate(const PendingUpdate& pending);
     void setShift(std::uint32_t fragments);
-    [[nodiscard]] RootPlace rootOf(const RootStep& step) const;
+    [[nodiscard]] RootPlace rootOf(const RootEntry& entry) const;
 
     vk::Uploader& m_device;
     DynamicOptions m_options;

@@ -54,7 +54,7 @@ struct MoverOptions
 };
 
 /// The movers of an octree: where each is to be, and its layer, the voxels of where it was last. Poses have versions,
-/// so that a step of the history names its movers' states by numbers. Knows nothing of merging and of what is shown.
+/// so that an entry of the history names its movers' states by numbers. Knows nothing of merging and of what is shown.
 class MoverSet final : public vk::FrameParticipant
 {
 public:
@@ -114,7 +114,7 @@ private:
         MoverBuffers buffers;
         LayerCapacities capacities;
         std::unique_ptr<LayerBuffers> layer;
-        bool present = true;          // or taken away, for as long as a step shows it
+        bool present = true;          // or taken away, for as long as an entry shows it
         std::uint64_t version = 0;    // of the pose that it is to be in
         std::uint64_t voxelized = 0;  // version that layer shows; 0: none
         gpu::LayerCounters dropped{}; // as it was voxelized last

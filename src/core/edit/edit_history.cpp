@@ -6,8 +6,8 @@
 namespace zvo
 {
 
-EditHistory::EditHistory(std::size_t steps_max)
-    : m_steps_max(std::max<std::size_t>(steps_max, 1)), m_tops(m_steps_max + 2 + kDabsPerFrameMax)
+EditHistory::EditHistory(std::size_t entries_max)
+    : m_entries_max(std::max<std::size_t>(entries_max, 1)), m_tops(m_entries_max + 2 + kDabsPerFrameMax)
 {
     for (std::uint32_t place = 1; place < m_tops.size(); ++place)
     {
@@ -44,7 +44,7 @@ std::uint32_t EditHistory::push(std::uint64_t node_bound, std::uint64_t voxel_bo
     {
         freePlaces(m_current, m_current + 1);
     }
-    else if (m_current == m_steps_max)
+    else if (m_current == m_entries_max)
     {
         freePlaces(0, 1);
     }

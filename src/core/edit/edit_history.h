@@ -12,8 +12,8 @@ namespace zvo
 /// How much edits keep.
 struct EditBounds
 {
-    std::size_t steps_max = 1024;         // strokes that can be undone, at least 1
-    std::uint64_t bytes_max = 256U << 20; // of edited nodes and voxels; more only where a single step needs it
+    std::size_t entries_max = 1024;       // strokes that can be undone, at least 1
+    std::uint64_t bytes_max = 256U << 20; // of edited nodes and voxels; more only where a single entry needs it
 };
 
 /// Dabs that may be recorded in a frame: so many places are kept free for them.
@@ -28,69 +28,69 @@ struct EditTop
     bool is_exact = true;
 };
 
-/// The strokes of a brush that can be undone and redone: a line of steps with a cursor, each a place of edits
-/// (shaders/edit/edit.h). Host logic only, a value: a copy is what it was. A stroke is one step, however many dabs it
+/// The strokes of a brush that can be undone and redone: a line of entries with a cursor, each a place of edits
+/// (shaders/edit/edit.h). Host logic only, a value: a copy is what it was. A stroke is one entry, however many dabs it
 /// has. undo(), redo() and what tells of a place take constant time, everything else at most as long as the line.
 ///
-/// What a place is made of stands below its top, and reaches down into what earlier steps have. So tops grow along the
-/// line, and a dab may write above the top of the place that it begins at: what is there belongs to steps that the push
-/// drops. Where these may come back, as the frame is not sure to reach the device, it goes above their tops. A place
-/// that is freed is used again kDabsPerFrameMax pushes later at the earliest.
+/// What a place is made of stands below its top, and reaches down into what earlier entries have. So tops grow along
+/// the line, and a dab may write above the top of the place that it begins at: what is there belongs to entries that
+/// the push drops. Where these may come back, as the frame is not sure to reach the device, it goes above their tops. A
+/// place that is freed is used again kDabsPerFrameMax pushes later at the earliest.
 class EditHistory
 {
 public:
-    explicit EditHistory(std::size_t steps_max);
+    explicit EditHistory(std::size_t entries_max);
 
-    /// Places for steps, dabs in a frame and what nothing was done to.
+    /// Places for entries, dabs in a frame and what nothing was done to.
     [[nodiscard]] std::uint32_t placeCount() const { return static_cast<std::uint32_t>(m_tops.size()); }
 
     /// The place that is shown.
     [[nodiscard]] std::uint32_t place() const { return m_line[m_current]; }
     [[nodiscard]] const EditTop& top(std::uint32_t place) const { return m_tops[place]; }
 
-    /// Where a dab begins that takes no room of what is shown, nor of another place, whether a step has that or not.
+    /// Where a dab begins that takes no room of what is shown, nor of another place, whether an entry has that or not.
     [[nodiscard]] EditTop topAbove(std::uint32_t kept) const;
 
     /// A dab that begins at topAbove(kept) and takes at most so many nodes and voxels: returns its place. It begins a
-    /// step, or goes on with the stroke that is under way, whose place it replaces. Steps to redo are dropped, and the
-    /// oldest one if there are too many.
+    /// entry, or goes on with the stroke that is under way, whose place it replaces. Entries to redo are dropped, and
+    /// the oldest one if there are too many.
     std::uint32_t push(std::uint64_t node_bound, std::uint64_t voxel_bound, std::uint32_t kept);
     std::uint32_t push(std::uint64_t node_bound, std::uint64_t voxel_bound)
     {
         return push(node_bound, voxel_bound, place());
     }
 
-    /// The next dab begins a step.
+    /// The next dab begins an entry.
     void endStroke() { m_is_stroke = false; }
 
-    /// Goes to the step before, or behind; ends the stroke. False at the ends.
+    /// Goes to the entry before, or behind; ends the stroke. False at the ends.
     bool undo();
     bool redo();
     [[nodiscard]] std::size_t undoCount() const { return m_current; }
     [[nodiscard]] std::size_t redoCount() const { return m_line.size() - 1 - m_current; }
 
-    /// Drops the older half of the steps that can be undone, at least one. False if there is none.
+    /// Drops the older half of the entries that can be undone, at least one. False if there is none.
     bool dropOldest();
 
-    /// Drops the steps to redo.
+    /// Drops the entries to redo.
     void dropRedo();
 
-    /// For each place whether a step has it.
+    /// For each place whether an entry has it.
     [[nodiscard]] std::vector<bool> used() const;
 
     /// Tops of a place as the device found them.
     void learn(std::uint32_t place, const EditTop& top) { m_tops[place] = top; }
 
-    /// Whether all steps' tops are exact.
+    /// Whether all entries' tops are exact.
     [[nodiscard]] bool isExact() const;
 
-    /// What is below the steps' tops has moved together: they are no longer exact.
+    /// What is below the entries' tops has moved together: they are no longer exact.
     void forgetTops();
 
 private:
     void freePlaces(std::size_t first, std::size_t end);
 
-    std::size_t m_steps_max;
+    std::size_t m_entries_max;
     std::deque<std::uint32_t> m_line{0}; // places
     std::size_t m_current = 0;
     bool m_is_stroke = false;

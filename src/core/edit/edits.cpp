@@ -35,7 +35,7 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
 Edits::Edits(vk::Device& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
              std::uint32_t frames_in_flight, vk::Retired& retired)
     : m_device(device), m_overlays(overlays), m_regions(regions), m_retired(retired),
-      m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.steps_max)},
+      m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.entries_max)},
       m_slot_count(std::uint64_t{frames_in_flight} + 1)
 {
     m_now.changes.resize(m_now.history.placeCount());
@@ -91,7 +91,7 @@ bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gp
     catch (...)
     {
         restore(std::move(before));
-        if (m_has_written) // a part of the dab was recorded, where steps to redo may have theirs
+        if (m_has_written) // a part of the dab was recorded, where entries to redo may have theirs
         {
             m_now.history.dropRedo();
         }
@@ -212,7 +212,7 @@ bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed)
     return false;
 }
 
-// Moves what steps show to a region of that capacity.
+// Moves what entries show to a region of that capacity.
 void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity)
 {
     m_device.memory().require(CompactBuffers::bytes(*m_now.region), "making room for edits");
@@ -340,7 +340,7 @@ void Edits::frameLost()
     restore(std::move(*m_before));
     m_before.reset();
     m_now.history.endStroke();
-    if (m_has_written) // what the device did of the frame may stand where steps to redo had theirs
+    if (m_has_written) // what the device did of the frame may stand where entries to redo had theirs
     {
         m_now.history.dropRedo();
     }

@@ -34,7 +34,7 @@ public:
     /// Records a dab of the stroke that is under way, or of a new one. False, and no dab, while its room is not known:
     /// to be tried again in a later frame. The root that is shown may have moved in both cases. Throws Error{Usage} for
     /// a radius above kBrushRadiusMax and more than kDabsPerFrameMax dabs in a frame, Error{Memory} when the device's
-    /// budget does not suffice, and what making a kernel throws: then there is no dab, whatever the frame does. Steps
+    /// budget does not suffice, and what making a kernel throws: then there is no dab, whatever the frame does. Entries
     /// to redo may be gone.
     bool dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables);
 
@@ -64,7 +64,7 @@ public:
     void beginFrame(std::uint64_t /*frame*/) override { m_dab_count = 0; }
     void frameDone(std::uint64_t frame) override;
 
-    /// A stroke under way ends, and steps to redo may be gone. What was shown before the frame is as it was, even if
+    /// A stroke under way ends, and entries to redo may be gone. What was shown before the frame is as it was, even if
     /// the device has run the frame.
     void frameLost() override;
 

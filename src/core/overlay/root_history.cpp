@@ -12,30 +12,30 @@ namespace zvo
 
 RootHistory::RootHistory(OverlayArena& arena, const HistoryBounds& bounds) : m_arena(arena), m_bounds(bounds)
 {
-    assert(bounds.steps_max > 0);
-    m_steps.push_back(std::make_shared<Step>());
+    assert(bounds.entries_max > 0);
+    m_entries.push_back(std::make_shared<Entry>());
 }
 
 RootHistory::~RootHistory()
 {
     m_updates.clear();
-    m_steps.clear();
-    m_steps_before.clear();
+    m_entries.clear();
+    m_entries_before.clear();
     frameDone(m_frame);
 }
 
 // Before the line changes: what frameLost() goes back to.
-void RootHistory::keepSteps()
+void RootHistory::keepEntries()
 {
-    if (m_steps_before.empty() && m_frame != m_frame_done)
+    if (m_entries_before.empty() && m_frame != m_frame_done)
     {
-        m_steps_before = m_steps;
+        m_entries_before = m_entries;
     }
 }
 
 void RootHistory::frameSubmitted()
 {
-    m_steps_before.clear();
+    m_entries_before.clear();
     m_current_before = m_current;
 }
 
@@ -45,9 +45,9 @@ void RootHistory::frameLost()
     {
         m_updates.pop_back();
     }
-    if (!m_steps_before.empty())
+    if (!m_entries_before.empty())
     {
-        m_steps = std::exchange(m_steps_before, {});
+        m_entries = std::exchange(m_entries_before, {});
     }
     m_current = m_current_before;
 }
@@ -58,34 +58,34 @@ std::optional<OverlayRegion> RootHistory::allocate(std::uint64_t nodes, std::uin
     {
         return region;
     }
-    // How many steps it takes is found out on a copy: none shall be dropped in vain.
+    // How many entries it takes is found out on a copy: none shall be dropped in vain.
     OverlayArena later = arenaLater();
-    std::size_t end = m_steps.size();
+    std::size_t end = m_entries.size();
     std::size_t first = 1;
     while (!later.allocate(nodes, voxels))
     {
-        const Step* step = nullptr;
+        const Entry* entry = nullptr;
         if (end - 1 > m_current)
         {
-            step = m_steps[--end].get();
+            entry = m_entries[--end].get();
         }
         else if (first < m_current)
         {
-            step = m_steps[first++].get();
+            entry = m_entries[first++].get();
         }
         else
         {
             return std::nullopt;
         }
-        if (step->lease)
+        if (entry->lease)
         {
-            later.release(step->lease->region);
+            later.release(entry->lease->region);
         }
     }
-    keepSteps();
-    for (std::size_t count = m_steps.size() - end + first - 1; count != 0; --count)
+    keepEntries();
+    for (std::size_t count = m_entries.size() - end + first - 1; count != 0; --count)
     {
-        dropStep();
+        dropEntry();
     }
     return m_arena.allocate(nodes, voxels);
 }
@@ -95,7 +95,7 @@ bool RootHistory::fitsLater(std::uint64_t nodes, std::uint64_t voxels) const
     return arenaLater().allocate(nodes, voxels).has_value();
 }
 
-// The arena when nothing is held but what the steps show.
+// The arena when nothing is held but what the entries show.
 OverlayArena RootHistory::arenaLater() const
 {
     OverlayArena later = m_arena;
@@ -103,24 +103,24 @@ OverlayArena RootHistory::arenaLater() const
     {
         later.release(waiting.region);
     }
-    std::set<const Step*> seen;
-    for (const auto& step : m_steps)
+    std::set<const Entry*> seen;
+    for (const auto& entry : m_entries)
     {
-        seen.insert(step.get());
+        seen.insert(entry.get());
     }
-    const auto release = [&](const std::shared_ptr<Step>& step)
+    const auto release = [&](const std::shared_ptr<Entry>& entry)
     {
-        if (seen.insert(step.get()).second && step->lease)
+        if (seen.insert(entry.get()).second && entry->lease)
         {
-            later.release(step->lease->region);
+            later.release(entry->lease->region);
         }
     };
     for (const Update& update : m_updates)
     {
-        release(update.step);
+        release(update.entry);
         release(update.fallback);
     }
-    std::ranges::for_each(m_steps_before, release);
+    std::ranges::for_each(m_entries_before, release);
     return later;
 }
 
@@ -138,20 +138,20 @@ void RootHistory::giveBack(const OverlayRegion& region)
 
 std::uint64_t RootHistory::push(const std::optional<OverlayRegion>& region, std::vector<LayerState> layers)
 {
-    const auto step = std::make_shared<Step>();
-    step->id = ++m_last_id;
-    step->layers = std::move(layers);
+    const auto entry = std::make_shared<Entry>();
+    entry->id = ++m_last_id;
+    entry->layers = std::move(layers);
     if (region)
     {
-        step->lease.emplace(*this, *region);
-        step->pending = true;
-        m_updates.push_back({step, m_steps[m_current], m_frame});
+        entry->lease.emplace(*this, *region);
+        entry->pending = true;
+        m_updates.push_back({entry, m_entries[m_current], m_frame});
     }
-    keepSteps();
-    m_steps.erase(m_steps.begin() + static_cast<std::ptrdiff_t>(m_current) + 1, m_steps.end());
-    m_steps.push_back(step);
+    keepEntries();
+    m_entries.erase(m_entries.begin() + static_cast<std::ptrdiff_t>(m_current) + 1, m_entries.end());
+    m_entries.push_back(entry);
     ++m_current;
-    while ((m_steps.size() - 1 > m_bounds.steps_max || stepBytes() > m_bounds.bytes_max) && dropStep())
+    while ((m_entries.size() - 1 > m_bounds.entries_max || entryBytes() > m_bounds.bytes_max) && dropEntry())
     {
     }
     return m_last_id;
@@ -159,17 +159,17 @@ std::uint64_t RootHistory::push(const std::optional<OverlayRegion>& region, std:
 
 RootHistory::Update RootHistory::endUpdate([[maybe_unused]] std::uint64_t id)
 {
-    assert(!m_updates.empty() && m_updates.front().step->id == id && "updates end once, in the order of pushes");
+    assert(!m_updates.empty() && m_updates.front().entry->id == id && "updates end once, in the order of pushes");
     Update update = std::move(m_updates.front());
     m_updates.pop_front();
-    update.step->pending = false;
+    update.entry->pending = false;
     return update;
 }
 
 void RootHistory::complete(std::uint64_t id, std::uint32_t nodes, std::uint32_t voxels)
 {
     const Update update = endUpdate(id);
-    OverlayRegion& region = update.step->lease->region;
+    OverlayRegion& region = update.entry->lease->region;
     region = m_arena.shrink(region, nodes, voxels);
 }
 
@@ -179,22 +179,23 @@ void RootHistory::fail(std::uint64_t id)
     assert(!update.fallback->pending); // it was pushed earlier
     for (Update& later : m_updates)
     {
-        if (later.fallback == update.step)
+        if (later.fallback == update.entry)
         {
             later.fallback = update.fallback;
         }
     }
-    const std::optional<std::size_t> gone = removeFailed(m_steps, update);
-    const std::optional<std::size_t> gone_before = m_steps_before.empty() ? gone : removeFailed(m_steps_before, update);
+    const std::optional<std::size_t> gone = removeFailed(m_entries, update);
+    const std::optional<std::size_t> gone_before =
+        m_entries_before.empty() ? gone : removeFailed(m_entries_before, update);
     m_current -= gone && m_current >= *gone ? 1 : 0;
     m_current_before -= gone_before && m_current_before >= *gone_before ? 1 : 0;
 }
 
-// Returns which step is gone, if none stands in its place.
-std::optional<std::size_t> RootHistory::removeFailed(Steps& steps, const Update& update)
+// Returns which entry is gone, if none stands in its place.
+std::optional<std::size_t> RootHistory::removeFailed(Entries& entries, const Update& update)
 {
-    const auto place = std::find(steps.begin(), steps.end(), update.step);
-    if (place == steps.end())
+    const auto place = std::find(entries.begin(), entries.end(), update.entry);
+    if (place == entries.end())
     {
         return std::nullopt;
     }
@@ -203,25 +204,25 @@ std::optional<std::size_t> RootHistory::removeFailed(Steps& steps, const Update&
         *place = update.fallback;
         return std::nullopt;
     }
-    const std::ptrdiff_t index = place - steps.begin();
-    steps.erase(place);
+    const std::ptrdiff_t index = place - entries.begin();
+    entries.erase(place);
     return index;
 }
 
-std::optional<RootStep> RootHistory::undo()
+std::optional<RootEntry> RootHistory::undo()
 {
     return undoCount() == 0 ? std::nullopt : std::optional(describe(--m_current));
 }
 
-std::optional<RootStep> RootHistory::redo()
+std::optional<RootEntry> RootHistory::redo()
 {
     return redoCount() == 0 ? std::nullopt : std::optional(describe(++m_current));
 }
 
 void RootHistory::forget()
 {
-    keepSteps();
-    m_steps.resize(1);
+    keepEntries();
+    m_entries.resize(1);
     m_current = 0;
 }
 
@@ -235,12 +236,12 @@ void RootHistory::frameDone(std::uint64_t frame)
     }
 }
 
-std::uint64_t RootHistory::stepBytes() const
+std::uint64_t RootHistory::entryBytes() const
 {
     std::uint64_t bytes = 0;
-    for (const auto& step : m_steps)
+    for (const auto& entry : m_entries)
     {
-        bytes += step->lease ? m_arena.bytes(step->lease->region) : 0;
+        bytes += entry->lease ? m_arena.bytes(entry->lease->region) : 0;
     }
     return bytes;
 }
@@ -250,22 +251,22 @@ std::uint64_t RootHistory::waitingBytes() const
     return m_arena.heldBytes() - arenaLater().heldBytes();
 }
 
-RootStep RootHistory::describe(std::size_t index) const
+RootEntry RootHistory::describe(std::size_t index) const
 {
-    const Step& step = *m_steps[index];
-    return {step.id, step.lease ? std::optional(step.lease->region) : std::nullopt, step.layers, step.pending};
+    const Entry& entry = *m_entries[index];
+    return {entry.id, entry.lease ? std::optional(entry.lease->region) : std::nullopt, entry.layers, entry.pending};
 }
 
-bool RootHistory::dropStep()
+bool RootHistory::dropEntry()
 {
     if (redoCount() != 0)
     {
-        m_steps.pop_back();
+        m_entries.pop_back();
         return true;
     }
     if (m_current > 1)
     {
-        m_steps.erase(m_steps.begin() + 1);
+        m_entries.erase(m_entries.begin() + 1);
         --m_current;
         return true;
     }

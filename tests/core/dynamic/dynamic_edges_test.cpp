@@ -357,7 +357,7 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)
             world.place(mover, {0, {Kind::Inside, {i % 4, 1, i / 4 % 4}}});
             world.update();
             const RootHistory& history = world.octree().history();
-            EXPECT_TRUE(history.stepBytes() <= bytes_max || history.undoCount() == 1) << history.stepBytes();
+            EXPECT_TRUE(history.entryBytes() <= bytes_max || history.undoCount() == 1) << history.entryBytes();
             steps = std::max(steps, history.undoCount());
         }
         EXPECT_EQ(test::difference(world.shown(), world.rebuilt({{0, {Kind::Inside, {3, 1, 1}}}})), "");
@@ -390,7 +390,7 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
                 });
     world.octree().remove(mover);
     expectError(ErrorCode::Usage, "no mover 1", [&] { world.octree().remove(mover); });
-    EXPECT_EQ(world.update().step, 0U); // nothing but the static octree
+    EXPECT_EQ(world.update().entry, 0U); // nothing but the static octree
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
 
     const DynamicSetting setting = {.depth = 3};
@@ -401,7 +401,7 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
     options.frames_in_flight = 0;
     expectError(ErrorCode::Usage, "a frame in flight", [&] { make(options); });
     options = setting.options(scale);
-    options.history.steps_max = 0;
+    options.history.entries_max = 0;
     expectError(ErrorCode::Usage, "a step of history", [&] { make(options); });
     expectError(ErrorCode::Usage, "one emission scale", [&] { make(setting.options(2 * scale)); });
     DynamicSetting other = setting;

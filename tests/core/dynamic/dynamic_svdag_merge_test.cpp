@@ -170,7 +170,7 @@ TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
     EXPECT_TRUE(test::undo(device(), world.octree()));
     const std::vector<gpu::uint> after = bytes();
     // The overlay that was undone is left behind it, where there was nothing.
-    const RootStep step = world.octree().history().current();
+    const RootEntry step = world.octree().history().current();
     const Octree& octree = world.octree().tree().octree();
     const std::uint64_t words_per_node = sizeof(gpu::Node) / sizeof(gpu::uint);
     const std::uint64_t end = words_per_node * (step.region->first_node + step.region->node_capacity);
@@ -191,7 +191,7 @@ TEST(DynamicSvdagMerge, OverlaysTakeEightBytesANodeMoreThanOnAnOctree)
         DynamicOctree octree(device(), scenery.buildStatic(with), with.options(scenery.emissionScale()));
         octree.add(scenery.mover(0, true), scenery.poseOf(kMergedMiddle));
         reports.at(compressed ? 1 : 0) = test::updateAll(device(), octree);
-        bytes.at(compressed ? 1 : 0) = octree.history().stepBytes();
+        bytes.at(compressed ? 1 : 0) = octree.history().entryBytes();
     }
     EXPECT_EQ(reports[1].node_count, reports[0].node_count);
     EXPECT_EQ(bytes[1], bytes[0] + sizeof(gpu::BeforeChild) * reports[0].node_count);

@@ -301,7 +301,7 @@ TEST(EditFailingCalls, AnyOneOfAFrameIsAnErrorAndTheOctreeGoesOn)
                 const bool fails_on = bytes_max == 0 && after_error == AfterError::Lose;
                 MoverScenery scenery(device, true);
                 Session session(device, scenery, {.depth = 4, .compressed = bytes_max == 0},
-                                {.steps_max = 8, .bytes_max = bytes_max}, after_error,
+                                {.entries_max = 8, .bytes_max = bytes_max}, after_error,
                                 [&](std::uint64_t number)
                                 {
                                     fails_on ? test::failAllFrom(number, VK_ERROR_DEVICE_LOST)

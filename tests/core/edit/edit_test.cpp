@@ -94,7 +94,7 @@ TEST(Edit, ManyStrokesAndAsManyUndosLeaveTheSameBytes)
     constexpr int kStrokes = 60;
     for (const bool compressed : {false, true})
     {
-        EditMachine machine(device(), {.depth = 6, .compressed = compressed}, {.steps_max = kStrokes}, scenery());
+        EditMachine machine(device(), {.depth = 6, .compressed = compressed}, {.entries_max = kStrokes}, scenery());
         const auto nodes = [&]
         {
             const std::vector<gpu::Node> all =

@@ -14,7 +14,7 @@
 namespace zvo::test
 {
 
-constexpr HistoryBounds kUnbounded{.steps_max = SIZE_MAX, .bytes_max = UINT64_MAX};
+constexpr HistoryBounds kUnbounded{.entries_max = SIZE_MAX, .bytes_max = UINT64_MAX};
 
 // Regions of 10 nodes (a byte each) and no voxels.
 constexpr OverlaySpace kTenRegions{.static_nodes = 1, .node_capacity = 101, .node_bytes = 1};
@@ -24,7 +24,7 @@ inline std::vector<LayerState> version(std::uint64_t number)
     return {{7, number}};
 }
 
-inline bool shows(const RootStep& step, std::uint64_t number)
+inline bool shows(const RootEntry& step, std::uint64_t number)
 {
     const std::vector<LayerState> expected = version(number);
     return std::equal(step.layers.begin(), step.layers.end(), expected.begin(), expected.end());

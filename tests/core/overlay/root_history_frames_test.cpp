@@ -52,7 +52,7 @@ TEST_F(RootHistoryTest, RegionsOfUpdatesThatAreGivenUpWaitToo)
 
 TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
 {
-    RootHistory history(m_arena, {.steps_max = 3});
+    RootHistory history(m_arena, {.entries_max = 3});
     vk::FrameList frames({&history});
     push(history);
     push(history);
@@ -68,7 +68,7 @@ TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
     frames.lost();
     EXPECT_EQ(history.current().id, pending);
     EXPECT_EQ(history.redoCount(), 0u);
-    EXPECT_EQ(history.stepBytes(), 30u);
+    EXPECT_EQ(history.entryBytes(), 30u);
     EXPECT_EQ(history.waitingBytes(), 30u) << "of step 3, and of those that were lost";
     frames.done(before);
     history.complete(pending, 10, 0);
@@ -111,7 +111,7 @@ TEST_F(RootHistoryTest, AHundredThousandFramesDoNotTakeMoreMemoryThanTheFirstOne
                         .voxel_capacity = 40 * 32 * kMost,
                         .node_bytes = 24,
                         .voxel_block_bytes = 264});
-    RootHistory history(arena, {.steps_max = kSteps});
+    RootHistory history(arena, {.entries_max = kSteps});
     vk::FrameList frames({&history});
     std::deque<std::pair<std::uint64_t, std::uint64_t>> in_flight; // frame, step
     const auto need = [](std::uint64_t frame)

@@ -48,7 +48,7 @@ TEST(RootHistory, WhatTheDeviceMayUseIsNeverGivenToAnother)
             test::HistoryMachine::Setup setup{};
             setup.nodes = *rc::gen::inRange(10u, 120u);
             setup.blocks = *rc::gen::inRange(5u, 60u);
-            setup.bounds.steps_max = *rc::gen::inRange<std::size_t>(1, 8);
+            setup.bounds.entries_max = *rc::gen::inRange<std::size_t>(1, 8);
             setup.bounds.bytes_max = *rc::gen::weightedOneOf<std::uint64_t>(
                 {{1, rc::gen::just(UINT64_MAX)}, {1, rc::gen::inRange<std::uint64_t>(0, 400)}});
             // (what; nodes, voxels, how much of it is needed)

@@ -22,7 +22,7 @@ TEST_F(RootHistoryTest, BeginsWithTheStaticOctreeAndNothingElse)
     EXPECT_FALSE(history.current().pending);
     EXPECT_FALSE(history.undo().has_value());
     EXPECT_FALSE(history.redo().has_value());
-    EXPECT_EQ(history.stepBytes(), 0u);
+    EXPECT_EQ(history.entryBytes(), 0u);
 }
 
 TEST_F(RootHistoryTest, UndoAndRedoWalkTheStepsAndTheirLayers)
@@ -68,7 +68,7 @@ TEST_F(RootHistoryTest, StepsMayShowTheStaticOctree)
     EXPECT_FALSE(history.current().pending);
     EXPECT_TRUE(shows(*history.undo(), 1));
     EXPECT_TRUE(history.redo()->layers.empty());
-    EXPECT_EQ(history.stepBytes(), 10u);
+    EXPECT_EQ(history.entryBytes(), 10u);
 }
 
 TEST_F(RootHistoryTest, CompleteUpdatesGiveTheirTailsBackAtOnce)
@@ -82,7 +82,7 @@ TEST_F(RootHistoryTest, CompleteUpdatesGiveTheirTailsBackAtOnce)
     EXPECT_FALSE(history.current().pending);
     EXPECT_EQ(history.current().region, (OverlayRegion{1, 3, 0, 0}));
     EXPECT_EQ(m_arena.heldBytes(), 3u);
-    EXPECT_EQ(history.stepBytes(), 3u);
+    EXPECT_EQ(history.entryBytes(), 3u);
 }
 
 TEST_F(RootHistoryTest, AFailedUpdateLeavesTheStepBeforeIt)
@@ -145,7 +145,7 @@ TEST_F(RootHistoryTest, AFirstUpdateThatFailsShowsTheStaticOctree)
 
 TEST_F(RootHistoryTest, TheLastCompleteStepComesBackThoughItFellOff)
 {
-    RootHistory history(m_arena, {.steps_max = 1});
+    RootHistory history(m_arena, {.entries_max = 1});
     push(history);
     const std::uint64_t b = pushPending(history);
     const std::uint64_t c = pushPending(history);
@@ -177,7 +177,7 @@ TEST_F(RootHistoryTest, UpdatesOfDroppedStepsEndLikeOthers)
 
 TEST_F(RootHistoryTest, OldestStepsFallOffBeyondTheNumberOfSteps)
 {
-    RootHistory history(m_arena, {.steps_max = 3});
+    RootHistory history(m_arena, {.entries_max = 3});
     for (int i = 0; i < 5; ++i)
     {
         push(history);
@@ -191,17 +191,17 @@ TEST_F(RootHistoryTest, OldestStepsFallOffBeyondTheNumberOfSteps)
 
 TEST_F(RootHistoryTest, OldestStepsFallOffBeyondTheBytesButNeverTheCurrentOne)
 {
-    RootHistory history(m_arena, {.steps_max = 100, .bytes_max = 35});
+    RootHistory history(m_arena, {.entries_max = 100, .bytes_max = 35});
     push(history, 10);
     push(history, 10);
     push(history, 10);
     EXPECT_EQ(history.undoCount(), 3u);
     push(history, 20);
     EXPECT_EQ(history.undoCount(), 2u);
-    EXPECT_EQ(history.stepBytes(), 30u);
+    EXPECT_EQ(history.entryBytes(), 30u);
     push(history, 50);
     EXPECT_EQ(history.undoCount(), 1u);
-    EXPECT_EQ(history.stepBytes(), 50u);
+    EXPECT_EQ(history.entryBytes(), 50u);
     EXPECT_EQ(history.undo()->id, 0u);
     EXPECT_EQ(history.redoCount(), 1u) << "what is undone is kept until something is pushed";
 }
