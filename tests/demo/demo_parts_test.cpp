@@ -38,6 +38,18 @@ TEST(Keys, TheDocumentationHasTheTableOfTheProgram)
     EXPECT_NE(page.find("\n" + keyTableText() + "\n"), std::string::npos) << "it should have\n" << keyTableText();
 }
 
+TEST(ShaderSources, AreThoseThatWereInstalledWithTheProgram)
+{
+    const test::TempDir dir;
+    const std::filesystem::path program = dir.path() / "bin" / "zvo-demo";
+    const std::filesystem::path installed = dir.path() / "share" / "zvo" / "shaders";
+    EXPECT_EQ(shadersOf(program), ZVO_SOURCE_DIR "/shaders");
+    EXPECT_EQ(shadersOf({}), ZVO_SOURCE_DIR "/shaders");
+    std::filesystem::create_directories(installed);
+    EXPECT_EQ(shadersOf(program), installed);
+    EXPECT_EQ(shadersOf(thisProgram()), ZVO_SOURCE_DIR "/shaders") << "this one was not installed";
+}
+
 TEST(Keys, NoKeyDoesTwoThings)
 {
     std::set<std::tuple<Key, bool, bool>> keys;

@@ -88,7 +88,8 @@ App::App(const DemoOptions& options, Clock::time_point start)
       m_world(World::make(m_device, m_world_options, m_first_input.get(), [](std::string_view, double) {})),
       m_renderer(m_device, m_compose_pass), m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
       m_camera(cli::chooseCamera(options.camera, m_world->stage(), m_world->subject(), aspect()), m_world->subject()),
-      m_flight(options.fixed_step), m_shaders(options.shaders.value_or(ZVO_SHADERS_DIR)), m_frame_start(Clock::now())
+      m_flight(options.fixed_step), m_shaders(options.shaders ? *options.shaders : shadersOf(thisProgram())),
+      m_frame_start(Clock::now())
 {
     if (options.input_script)
     {

@@ -122,7 +122,8 @@ void addWindowOptions(CLI::App& app, DemoOptions& options)
                   "frames that are under way at once, 1 to 4 (default 2)")
         ->group(kGroup);
     cli::addFolder(app, "--shaders", options.shaders,
-                   "sources of the shaders that F5 compiles (default: those that the program was built from)");
+                   "sources of the shaders that F5 compiles (default: those that were installed with the program, or "
+                   "else that it was built from)");
     app.get_option("--shaders")->group(kGroup);
     app.add_flag("--hide-ui", options.hide_ui, "without panels; H shows them")->group(kGroup);
 }

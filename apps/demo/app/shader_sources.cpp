@@ -186,6 +186,19 @@ std::vector<std::string> includesOf(std::string_view source)
     return includes;
 }
 
+fs::path shadersOf(const fs::path& program)
+{
+    std::error_code missing;
+    const fs::path installed = (program.parent_path() / ZVO_INSTALLED_SHADERS).lexically_normal();
+    return !program.empty() && fs::is_directory(installed, missing) ? installed : fs::path(ZVO_SHADERS_DIR);
+}
+
+fs::path thisProgram()
+{
+    std::error_code missing;
+    return fs::read_symlink("/proc/self/exe", missing);
+}
+
 ShaderSources::ShaderSources(fs::path root) : m_root(std::move(root)), m_checked(fs::file_time_type::clock::now()) {}
 
 bool ShaderSources::exist() const

@@ -42,6 +42,13 @@ private:
     std::set<std::string> m_failed;
 };
 
+/// Where the sources of a program's shaders are: what was installed with it or, where nothing was, what it was built
+/// from.
+std::filesystem::path shadersOf(const std::filesystem::path& program);
+
+/// The program that runs; empty where the system does not tell.
+std::filesystem::path thisProgram();
+
 /// The files that a source names in its lines "#include".
 std::vector<std::string> includesOf(std::string_view source);
 
