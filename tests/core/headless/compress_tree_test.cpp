@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -37,13 +38,15 @@ TEST(CompressTree, GivesTheBytesOfCompressingTheWholeTreeOnTheDevice)
 
 TEST(CompressTree, LeavesWhatVoxelsLookLikeWithTheHost)
 {
+    std::size_t looked_at = 0;
     for (const test::TreeSample& sample : test::treeSamples())
     {
         const TreeData& octree = sample.tree;
-        if (octree.structure != TreeStructure::Svo || octree.voxel_attributes.size() < 10'000)
+        if (octree.structure != TreeStructure::Svo || octree.voxel_attributes.size() < 4096)
         {
             continue;
         }
+        ++looked_at;
         vk::HeadlessDevice with({}, zvoKernels());
         vk::HeadlessDevice without({}, zvoKernels());
         (void)compress(with, std::get<Octree>(uploadTree(with, octree)));
@@ -51,6 +54,7 @@ TEST(CompressTree, LeavesWhatVoxelsLookLikeWithTheHost)
         const std::uint64_t left = octree.voxel_attributes.size() * sizeof(gpu::Attribute);
         EXPECT_LE(without.device().memory().peakBytes() + left, with.device().memory().peakBytes()) << sample.name;
     }
+    EXPECT_GT(looked_at, 0U);
 }
 
 } // namespace

@@ -2,9 +2,8 @@
 // What is too large for the indices of kernels is refused.
 #include "core/tree/tree_limits.h"
 
-#include "core/base/kernels.h"
 #include "core/tree/tree_data.h"
-#include "support/device.h"
+#include "support/engine_device.h"
 #include "support/tree_samples.h"
 #include "zvo/error.h"
 
@@ -43,19 +42,19 @@ TEST(TreeLimits, AreThoseOfSignedIndices)
 
 TEST(TreeLimits, HoldForTreesThatAreUploaded)
 {
-    vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
     for (const test::TreeSample& sample : test::treeSamples())
     {
         TreeData tree = sample.tree;
         tree.voxel_count = static_cast<std::uint32_t>(kIndicesMax + 1);
         if (!tree.hasAttributes())
         {
-            EXPECT_NO_THROW((void)uploadTree(device, tree)) << sample.name << ": nothing is stored for its voxels";
+            EXPECT_NO_THROW((void)uploadTree(test::device(), tree))
+                << sample.name << ": nothing is stored for its voxels";
             continue;
         }
         try
         {
-            (void)uploadTree(device, tree);
+            (void)uploadTree(test::device(), tree);
             ADD_FAILURE() << sample.name;
         }
         catch (const Error& error)

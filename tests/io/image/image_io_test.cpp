@@ -179,9 +179,9 @@ TEST(ImageIo, TooLongEdgeIsAnInputError)
     const std::vector<std::uint8_t> just_right = encodePng(kImageEdgeMax, 1, checkerboard(kImageEdgeMax, 1).rgba);
     EXPECT_EQ(decodeImage(just_right, "", "here").width, kImageEdgeMax);
     // The same file with one pixel more in its header: big-endian width after signature, length and type.
-    constexpr std::size_t kWidthOffset = 16;
+    constexpr std::size_t kPngWidthOffset = 16;
     std::vector<std::uint8_t> too_wide = just_right;
-    too_wide[kWidthOffset + 3] = 1;
+    too_wide[kPngWidthOffset + 3] = 1;
     test::expectInputError([&] { decodeImage(too_wide, "", "here"); }, {"16385 x 1", "scale it down"});
 }
 
