@@ -29,6 +29,9 @@ public:
     /// The first call of the next run that fails, below step().
     std::uint64_t first() { return m_start++ % m_step; }
 
+    /// Whether every call fails once.
+    [[nodiscard]] bool isFull() const { return m_step == 1; }
+
     /// Of count calls, how many fail in a run, at least.
     [[nodiscard]] std::uint64_t share(std::uint64_t count) const { return count / m_step; }
 
