@@ -84,8 +84,9 @@ public:
         std::vector<ModuleConstant>& constants = result.constants;
         std::ranges::sort(constants, [](const ModuleConstant& a, const ModuleConstant& b)
                           { return a.id != b.id ? a.id < b.id : a.name > b.name; });
-        const auto twice = std::ranges::unique(constants, {}, &ModuleConstant::id);
-        constants.erase(twice.begin(), twice.end());
+        const auto last = std::unique(constants.begin(), constants.end(),
+                                      [](const ModuleConstant& a, const ModuleConstant& b) { return a.id == b.id; });
+        constants.erase(last, constants.end());
         for (ModuleConstant& constant : constants)
         {
             const auto size = std::ranges::find(result.local_size_ids, constant.id);
