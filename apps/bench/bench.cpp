@@ -16,7 +16,7 @@
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "core/trace/trace.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "zvo/error.h"
 
@@ -72,7 +72,7 @@ public:
         row.voxelize_ms = runs.voxelize_ms;
         row.build_ms = runs.build_ms;
         row.passes = std::move(runs.passes);
-        const Octree& octree = runs.last.octree;
+        const DeviceTree& octree = runs.last.octree;
         const Bounds subject = subjectOf(scene.bounds(), grid);
         const ViewCamera view = chooseCamera(m_options.camera, scene, subject, double{kWidth} / kHeight);
         const TraceCamera camera = traceCamera(view, grid, kHeight);
@@ -89,7 +89,7 @@ public:
 
 private:
     // Primary rays through the octree, compression, and rays through both.
-    void measureTrees(const Octree& octree, const TraceCamera& camera, BenchRow& row)
+    void measureTrees(const DeviceTree& octree, const TraceCamera& camera, BenchRow& row)
     {
         TraceBuffers buffers(m_device.device(), kWidth, kHeight);
         PrimaryRays octree_rays(m_device, octree, camera, buffers);
@@ -125,17 +125,17 @@ private:
 
     struct Compression
     {
-        Svdag dag;
+        DeviceTree dag;
         DagNumbers numbers;               // but those of pictures
         std::vector<vk::PassTime> passes; // mean of the runs, summed by name
     };
 
     // After a warm-up. Each run takes a copy of the octree, which it uses up. Throws Error{Memory} where memory does
     // not suffice for both at once.
-    Compression measureCompress(const Octree& octree)
+    Compression measureCompress(const DeviceTree& octree)
     {
         const TreeData copy = downloadTree(m_device, octree);
-        const auto run = [&] { return compress(m_device, std::get<Octree>(uploadTree(m_device, copy))); };
+        const auto run = [&] { return compress(m_device, uploadTree(m_device, copy)); };
         CompressResult compressed = run();
         Compression compression;
         std::vector<double> compress_ms;
@@ -147,15 +147,15 @@ private:
             addPasses(compression.passes, ofDag(compressed.passes), m_options.run_count);
         }
         compression.numbers.compress_ms = Spread::of(compress_ms);
-        compression.numbers.nodes = compressed.dag.tree.node_count;
+        compression.numbers.nodes = compressed.dag.node_count;
         compression.numbers.geometry_bytes = compressed.dag.geometryBytes();
-        compression.numbers.rank_bytes = compressed.dag.rankBytes();
+        compression.numbers.rank_bytes = compressed.dag.lists.rankBytes();
         compression.dag = std::move(compressed.dag);
         return compression;
     }
 
 #ifdef ZVO_EMBREE
-    void measureEmbree(const Scene& scene, const Octree& octree, const TraceCamera& camera, BenchRow& row)
+    void measureEmbree(const Scene& scene, const DeviceTree& octree, const TraceCamera& camera, BenchRow& row)
     {
         const std::vector<PrimaryRay> rays = primaryRays(camera, kWidth, kHeight);
         const EmbreeResult voxels =

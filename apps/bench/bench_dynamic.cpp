@@ -223,7 +223,7 @@ private:
         std::vector<double> moving_ms;
         std::vector<double> rebuilt_trace_ms;
         std::vector<double> merged_trace_ms;
-        const Grid grid = octree.tree().octree().grid;
+        const Grid grid = octree.tree().grid;
         Stage moving;
         moving.movers = stage.movers;
         BuildOptions build;
@@ -281,7 +281,7 @@ private:
     }
 
     // The beam grid and primary rays.
-    double traceMs(const TreeView& tree, const TraceCamera& camera)
+    double traceMs(const DeviceTree& tree, const TraceCamera& camera)
     {
         return sumMs(m_device.run(
             [&](vk::FrameGraph& graph)

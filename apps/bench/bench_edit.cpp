@@ -12,7 +12,7 @@
 #include "core/base/morton.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
 #include "core/upload/gpu_scene.h"
 #include "zvo/error.h"
@@ -205,9 +205,8 @@ public:
         dynamic.attributes = options.attributes;
         dynamic.emission_scale = built.octree.emission.count() != 0 ? built.octree.emission_scale : 0;
         dynamic.edits = kBounds;
-        StaticTree fixed = options.structure == TreeStructure::Svdag
-                               ? StaticTree(compress(device, std::move(built.octree)).dag, {})
-                               : StaticTree(std::move(built));
+        DeviceTree fixed = options.structure == TreeStructure::Svdag ? compress(device, std::move(built.octree)).dag
+                                                                     : std::move(built.octree);
         m_octree = std::make_unique<DynamicOctree>(device, std::move(fixed), dynamic);
     }
 

@@ -8,9 +8,9 @@
 namespace zvo::cli
 {
 
-PrimaryRays::PrimaryRays(vk::HeadlessDevice& device, const TreeView& tree, const TraceCamera& camera,
+PrimaryRays::PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera,
                          TraceBuffers& buffers)
-    : m_device(device), m_tree(tree), m_camera(camera), m_buffers(buffers), m_beam(device.device(), tree.hasLists())
+    : m_device(device), m_tree(tree), m_camera(camera), m_buffers(buffers), m_beam(device.device(), tree.isDag())
 {
     m_beam_grid_ms = sumMs(m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, m_tree, m_beam); }));
     trace();

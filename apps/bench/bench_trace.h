@@ -4,7 +4,7 @@
 
 #include "bench/bench_table.h"
 #include "core/trace/trace.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class PrimaryRays
 {
 public:
     /// Makes the tree's beam grid and traces a picture, so that the next ones are warm.
-    PrimaryRays(vk::HeadlessDevice& device, const TreeView& tree, const TraceCamera& camera, TraceBuffers& buffers);
+    PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, TraceBuffers& buffers);
 
     /// The passes of a picture: beam and primary rays.
     std::vector<vk::PassTime> trace();
@@ -27,7 +27,7 @@ public:
 
 private:
     vk::HeadlessDevice& m_device;
-    TreeView m_tree;
+    const DeviceTree& m_tree;
     const TraceCamera& m_camera;
     TraceBuffers& m_buffers;
     BeamGrid m_beam;

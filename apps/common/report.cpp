@@ -41,7 +41,7 @@ Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const
                 std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
                 std::uint64_t peak_bytes)
 {
-    const Octree& octree = result.octree;
+    const DeviceTree& octree = result.octree;
     const Grid& grid = octree.grid;
     Json dropped = Json::object();
     for (const auto& [reason, count] : result.dropped)

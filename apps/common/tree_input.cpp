@@ -41,7 +41,7 @@ TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device)
     addColors(tree, voxels.colors);
     voxels = {};
     const GpuScene tables = uploadScene(device, Scene(), true);
-    Octree octree = std::get<Octree>(uploadTree(device, tree));
+    DeviceTree octree = uploadTree(device, tree);
     octree.node_attributes = {device.device(), "octree/node_attributes", octree.node_count};
     device.run([&](vk::FrameGraph& graph) { averageNodes(graph, tables, octree); });
     tree.node_attributes = device.download(octree.node_attributes);

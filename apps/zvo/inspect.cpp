@@ -62,7 +62,7 @@ double perVoxel(std::uint64_t bytes, const TreeData& tree)
 Json inspectJson(const TreeData& tree, const TreeStats& stats, const std::string& sha256)
 {
     Json levels = Json::array();
-    for (const Octree::Level& level : tree.levels)
+    for (const DeviceTree::Level& level : tree.levels)
     {
         levels.push_back(level.node_count);
     }

@@ -11,7 +11,7 @@
 #include "core/file/zvo_file.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "io/scene/camera_path.h"
 #include "pictures.h"
@@ -79,7 +79,7 @@ public:
         BuildResult result = voxelize(std::move(scene), grid);
         m_report.addOctree(result, m_triangle_count);
         const DeviceTree tree = structured(std::move(result.octree));
-        std::visit([&](const auto& made) { turn(TreeView(made), camera, centre); }, tree);
+        turn(tree, camera, centre);
     }
 
     // The same around what a file holds.
@@ -89,7 +89,7 @@ public:
         m_report.addFile(tree);
         const DeviceTree uploaded = uploadTree(m_device, tree);
         tree = {};
-        std::visit([&](const auto& on_device) { turn(TreeView(on_device), camera, centre); }, uploaded);
+        turn(uploaded, camera, centre);
     }
 
     // What stands still is voxelized once, what moves is merged with it at each time.
@@ -130,8 +130,7 @@ public:
             }
             Json frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, result, m_triangle_count);
             const DeviceTree tree = structured(std::move(result.octree));
-            const std::vector<vk::PassTime> beam_passes =
-                std::visit([&](const auto& made) { return m_renderer.show(made); }, tree);
+            const std::vector<vk::PassTime> beam_passes = m_renderer.show(tree);
             if (i == 0)
             {
                 m_report.addBeam(beam_passes);
@@ -153,7 +152,7 @@ public:
     }
 
 private:
-    void turn(const TreeView& tree, const ViewCamera& camera, const glm::dvec3& centre)
+    void turn(const DeviceTree& tree, const ViewCamera& camera, const glm::dvec3& centre)
     {
         m_report.addBeam(m_renderer.show(tree));
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
@@ -167,7 +166,7 @@ private:
     [[nodiscard]] TreeStructure structure() const { return m_options.structure.value_or(TreeStructure::Svo); }
 
     // What was voxelized, as it is to be traced.
-    DeviceTree structured(Octree&& octree)
+    DeviceTree structured(DeviceTree&& octree)
     {
         if (structure() == TreeStructure::Svo)
         {

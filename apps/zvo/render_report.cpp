@@ -40,7 +40,7 @@ void RenderReport::addDag(const CompressResult& result)
 {
     if (!m_json.empty() && !m_json.contains("dag"))
     {
-        m_json["dag"] = {{"nodes", result.dag.tree.node_count},
+        m_json["dag"] = {{"nodes", result.dag.node_count},
                          {"geometry_bytes", result.dag.geometryBytes()},
                          {"compress_ms", result.ms()}};
     }
@@ -64,7 +64,7 @@ void RenderReport::addFile(const TreeData& tree)
 void RenderReport::addStage(const Stage& stage, StageOctree& octree, const StageUpdate& update)
 {
     const StaticPart& part = octree.staticPart();
-    const Grid& grid = octree.tree().octree().grid;
+    const Grid& grid = octree.tree().grid;
     const std::uint64_t triangle_count = part.triangle_count + octree.moverTriangleCount();
     const double voxelize_ms = operationMs(part.passes, "voxelize");
     const double build_ms = operationMs(part.passes, "octree");

@@ -5,7 +5,7 @@
 #include "common/report.h"
 #include "core/headless/pipeline.h"
 #include "core/svdag/svdag_builder.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/stage.h"
 #include "options.h"

@@ -58,20 +58,20 @@ Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options) : m
     m_trace.to_sun = options.to_sun.value_or(m_trace.to_sun);
 }
 
-std::vector<vk::PassTime> Renderer::show(const TreeView& tree)
+std::vector<vk::PassTime> Renderer::show(const DeviceTree& tree)
 {
     if (!m_buffers)
     {
-        m_buffers.emplace(Buffers{BeamGrid(m_device.device(), tree.hasLists()), makeBuffers(m_device, m_options)});
+        m_buffers.emplace(Buffers{BeamGrid(m_device.device(), tree.isDag()), makeBuffers(m_device, m_options)});
     }
-    m_tree = tree;
+    m_tree = &tree;
     return m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, m_buffers->beam); });
 }
 
 std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, PictureTimes& times)
 {
     TraceBuffers& buffers = m_buffers.value().trace;
-    const TraceCamera camera = traceCamera(view, m_tree->octree().grid, buffers.height);
+    const TraceCamera camera = traceCamera(view, m_tree->grid, buffers.height);
     times.passes =
         m_device.run([&](vk::FrameGraph& graph) { trace(graph, *m_tree, m_buffers->beam, camera, m_trace, buffers); });
     times.trace_ms = primaryMs(times.passes);

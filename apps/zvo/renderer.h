@@ -3,7 +3,7 @@
 
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 #include "options.h"
 #include "vk/headless.h"
 
@@ -29,9 +29,9 @@ class Renderer
 public:
     Renderer(vk::HeadlessDevice& device, const RenderOptions& options);
 
-    /// Shows tree from now on; to be called again whenever it has changed. Returns the passes that this took. Throws
-    /// Error{Memory} for a picture that is too large.
-    std::vector<vk::PassTime> show(const TreeView& tree);
+    /// Shows tree, which must outlive that, from now on; to be called again whenever it has changed. Returns the passes
+    /// that this took. Throws Error{Memory} for a picture that is too large.
+    std::vector<vk::PassTime> show(const DeviceTree& tree);
 
     /// The picture as a PNG file.
     std::vector<std::uint8_t> render(const ViewCamera& view, PictureTimes& times);
@@ -51,7 +51,7 @@ private:
     const RenderOptions& m_options;
     TraceOptions m_trace;
     std::optional<Buffers> m_buffers;
-    std::optional<TreeView> m_tree;
+    const DeviceTree* m_tree = nullptr; // that is shown
     std::uint64_t m_capped_rays = 0;
 };
 

@@ -111,18 +111,18 @@ struct ZVO_LOCAL Tracer::Impl
     Impl& operator=(const Impl&) = delete;
 
     // What rays skip, made anew where another tree is traced than before.
-    void prepareBeam(Recorder::Impl& recorder, const TreeView& tree, std::uint64_t version)
+    void prepareBeam(Recorder::Impl& recorder, const DeviceTree& tree, std::uint64_t version)
     {
         if (beam && version == beam_version && !beam_frame->is_lost)
         {
             return;
         }
-        if (!beam || has_ranks != tree.hasLists())
+        if (!beam || has_ranks != tree.isDag())
         {
-            auto made = std::make_unique<BeamGrid>(context.device, tree.hasLists());
+            auto made = std::make_unique<BeamGrid>(context.device, tree.isDag());
             context.retire(std::move(beam));
             beam = std::move(made);
-            has_ranks = tree.hasLists();
+            has_ranks = tree.isDag();
         }
         beam_version = 0; // should the next line throw
         buildBeam(recorder.graph, tree, *beam);
@@ -130,7 +130,7 @@ struct ZVO_LOCAL Tracer::Impl
         beam_frame = recorder.frame;
     }
 
-    void trace(Recorder& recorder, const TreeView& tree, std::uint64_t version, const CameraInfo& camera_info,
+    void trace(Recorder& recorder, const DeviceTree& tree, std::uint64_t version, const CameraInfo& camera_info,
                const TraceInfo& info, const ImageTarget& color, const DepthTarget* depth)
     {
         if (texelForm(color.format) != buffers->texels)
@@ -145,7 +145,7 @@ struct ZVO_LOCAL Tracer::Impl
             requireImage(checked(*depth).image, "DepthTarget::image");
             requireDepthCopyable(context.device, {buffers->width, buffers->height}, depth->image);
         }
-        const Grid& grid = tree.octree().grid;
+        const Grid& grid = tree.grid;
         const TraceCamera camera = traceCamera(viewOf(camera_info), grid, buffers->height);
         const TraceOptions options = optionsOf(info);
         recording(recorder,
@@ -213,7 +213,7 @@ void Tracer::trace(Recorder& recorder, const Tree& tree, const CameraInfo& camer
     const Tree::Impl& impl = usable(tree);
     requireSame(tracer.context, impl.context);
     requireSame(tracer.context, recorder.impl().context);
-    tracer.trace(recorder, impl.view(), impl.version, camera, info, color, depth);
+    tracer.trace(recorder, impl.fixed, impl.version, camera, info, color, depth);
 }
 
 void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,

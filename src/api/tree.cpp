@@ -7,32 +7,18 @@
 #include "core/tree/tree_data.h"
 #include "core/tree/tree_table.h"
 
-#include <variant>
-
 namespace zvo
 {
 
 namespace
 {
 
-StaticTree staticTree(DeviceTree&& tree)
-{
-    if (auto* const dag = std::get_if<Svdag>(&tree))
-    {
-        return {std::move(*dag), {}};
-    }
-    BuildResult built;
-    built.octree = std::move(std::get<Octree>(tree));
-    return {std::move(built)};
-}
-
 std::unique_ptr<Tree::Impl> uploaded(Recorder& recorder, const TreeData& data)
 {
     return recording(recorder,
                      [&](Recorder::Impl& impl)
                      {
-                         auto tree = std::make_unique<Tree::Impl>(impl.context,
-                                                                  staticTree(uploadTree(impl.context.uploads, data)));
+                         auto tree = std::make_unique<Tree::Impl>(impl.context, uploadTree(impl.context.uploads, data));
                          tree->made_in = impl.frame;
                          impl.context.uploads.flush();
                          tree->publish(impl.graph);
@@ -42,19 +28,16 @@ std::unique_ptr<Tree::Impl> uploaded(Recorder& recorder, const TreeData& data)
 
 } // namespace
 
-TreeFacts factsOf(const StaticTree& tree)
+TreeFacts factsOf(const DeviceTree& tree)
 {
-    const Svdag& dag = tree.dag;
-    const Octree& octree = dag.tree;
     TreeFacts facts;
-    facts.structure = tree.has_lists ? TreeStructure::Svdag : TreeStructure::Svo;
-    facts.form = octree.attributeForm();
-    facts.grid = gridInfo(octree.grid);
-    facts.voxel_count = octree.voxel_count;
-    facts.node_count = octree.node_count;
-    facts.bytes = (tree.has_lists ? dag.geometryBytes() + dag.rankBytes() : octree.geometryBytes()) +
-                  octree.attributeBytes() + tree.sums.sums.bytes() + tree.sums.emission_sums.bytes();
-    facts.emission_scale = octree.emission.count() != 0 ? octree.emission_scale : 0;
+    facts.structure = tree.structure;
+    facts.form = tree.attributeForm();
+    facts.grid = gridInfo(tree.grid);
+    facts.voxel_count = tree.voxel_count;
+    facts.node_count = tree.node_count;
+    facts.bytes = tree.geometryBytes() + tree.lists.rankBytes() + tree.attributeBytes() + tree.sums.bytes();
+    facts.emission_scale = tree.emission.count() != 0 ? tree.emission_scale : 0;
     return facts;
 }
 
@@ -68,7 +51,7 @@ Tree::Impl& usable(const Tree& tree)
     return impl;
 }
 
-Tree::Impl::Impl(Context::Impl& context_impl, StaticTree&& tree)
+Tree::Impl::Impl(Context::Impl& context_impl, DeviceTree&& tree)
     : context(context_impl), fixed(std::move(tree)), facts(factsOf(fixed)), table(context.device, "tree table", 1),
       version(context.next_version++)
 {
@@ -76,7 +59,7 @@ Tree::Impl::Impl(Context::Impl& context_impl, StaticTree&& tree)
 
 void Tree::Impl::publish(vk::FrameGraph& graph)
 {
-    const gpu::TreeTable values = treeTable(view());
+    const gpu::TreeTable values = treeTable(fixed);
     graph.update(table, 0, std::span(&values, 1));
 }
 

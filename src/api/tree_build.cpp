@@ -82,7 +82,7 @@ public:
 
 protected:
     void begin(StepJob& part) { m_part = &part; }
-    void setTree(StaticTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context, std::move(tree)); }
+    void setTree(DeviceTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context, std::move(tree)); }
 
 private:
     // The part is done: begins another one, or sets the tree.
@@ -124,7 +124,7 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
         }
         if (packer->isDone())
         {
-            setTree(StaticTree(std::move(built)));
+            setTree(std::move(built.octree));
         }
     }
 
@@ -186,8 +186,7 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
 {
     Impl(Context::Impl& context_impl, Tree&& octree)
         : TreeJob(context_impl, octree.impl()->made_in, "octree"), source(octree.release()),
-          builder(
-              std::make_unique<SvdagBuilder>(context_impl.device, std::move(source->fixed.dag.tree), CompressOptions{}))
+          builder(std::make_unique<SvdagBuilder>(context_impl.device, std::move(source->fixed), CompressOptions{}))
     {
         begin(*builder);
     }
@@ -198,7 +197,7 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
         source.reset(); // it retires what it has
     }
 
-    void endPart() override { setTree(StaticTree(builder->take().dag, std::move(source->fixed.sums))); }
+    void endPart() override { setTree(builder->take().dag); }
 
     std::unique_ptr<Tree::Impl> source; // what is left of the octree
     std::unique_ptr<SvdagBuilder> builder;
@@ -211,7 +210,7 @@ Tree&& compressible(Context& context, Tree&& octree)
 {
     const Tree::Impl& impl = usable(octree);
     requireSame(context.impl(), impl.context);
-    if (impl.fixed.has_lists)
+    if (impl.fixed.isDag())
     {
         throw Error(ErrorCode::Usage, "this tree is a DAG already");
     }

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "api/context_impl.h"
-#include "core/overlay/overlay_octree.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 #include "shared/tree_table.h"
 #include "zvo/tree.h"
 
@@ -16,7 +15,7 @@ namespace zvo
 
 struct ZVO_LOCAL Tree::Impl
 {
-    Impl(Context::Impl& context_impl, StaticTree&& tree);
+    Impl(Context::Impl& context_impl, DeviceTree&& tree);
     ~Impl()
     {
         context.retire(std::move(fixed));
@@ -25,13 +24,11 @@ struct ZVO_LOCAL Tree::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    [[nodiscard]] TreeView view() const { return fixed.has_lists ? TreeView(fixed.dag) : TreeView(fixed.dag.tree); }
-
     /// Records what writes the table.
     void publish(vk::FrameGraph& graph);
 
     Context::Impl& context;
-    StaticTree fixed;
+    DeviceTree fixed;
     TreeFacts facts;
     vk::BufferOf<gpu::TreeTable> table;
     std::uint64_t version;
@@ -39,7 +36,7 @@ struct ZVO_LOCAL Tree::Impl
 };
 
 /// What a tree is like.
-TreeFacts factsOf(const StaticTree& tree);
+TreeFacts factsOf(const DeviceTree& tree);
 
 /// Throws Error{Usage} for a tree that was lost with its frame, or taken away.
 Tree::Impl& usable(const Tree& tree);

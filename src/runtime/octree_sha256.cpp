@@ -26,7 +26,7 @@ template <typename T> void hashBuffer(vk::HeadlessDevice& device, Sha256& sha, c
 
 } // namespace
 
-std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree)
+std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& octree)
 {
     Sha256 sha;
     struct Header // 8 words without padding

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <string>
@@ -11,6 +11,6 @@ namespace zvo
 
 /// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have
 /// equal sums whatever made them.
-std::string octreeSha256(vk::HeadlessDevice& device, const Octree& octree);
+std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& octree);
 
 } // namespace zvo

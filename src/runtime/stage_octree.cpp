@@ -50,7 +50,7 @@ StageOctree::StageOctree(vk::HeadlessDevice& device, const Stage& stage, const G
     }
 }
 
-StaticTree StageOctree::makeStaticPart(const Grid& grid, const StageOctreeOptions& options, float emission_scale)
+DeviceTree StageOctree::makeStaticPart(const Grid& grid, const StageOctreeOptions& options, float emission_scale)
 {
     BuildOptions build;
     build.coverage = options.coverage;
@@ -67,13 +67,13 @@ StaticTree StageOctree::makeStaticPart(const Grid& grid, const StageOctreeOption
     part.passes = built.passes;
     if (options.structure == TreeStructure::Svo)
     {
-        return built;
+        return std::move(built.octree);
     }
     CompressResult compressed = compress(m_device, std::move(built.octree));
-    part.node_count = compressed.dag.tree.node_count;
+    part.node_count = compressed.dag.node_count;
     part.geometry_bytes = compressed.dag.geometryBytes();
     part.compress_passes = std::move(compressed.passes);
-    return {std::move(compressed.dag), std::move(built.sums)};
+    return std::move(compressed.dag);
 }
 
 StageUpdate StageOctree::update(double seconds)

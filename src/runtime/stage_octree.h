@@ -62,14 +62,14 @@ public:
     StageUpdate update(double seconds);
 
     /// What to trace: DynamicOctree::tree().
-    [[nodiscard]] TreeView tree() const { return m_dynamic->tree(); }
+    [[nodiscard]] const DeviceTree& tree() const { return m_dynamic->tree(); }
 
     [[nodiscard]] DynamicOctree& dynamic() { return *m_dynamic; }
     [[nodiscard]] const StaticPart& staticPart() const { return m_static_part; }
     [[nodiscard]] std::uint64_t moverTriangleCount() const { return m_mover_triangle_count; }
 
 private:
-    StaticTree makeStaticPart(const Grid& grid, const StageOctreeOptions& options, float emission_scale);
+    DeviceTree makeStaticPart(const Grid& grid, const StageOctreeOptions& options, float emission_scale);
 
     vk::HeadlessDevice& m_device;
     const Stage& m_stage;

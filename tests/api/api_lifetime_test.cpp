@@ -44,7 +44,7 @@ const std::vector<std::byte>& treeFile()
     static const std::vector<std::byte> bytes = []
     {
         vk::HeadlessDevice& device = test::sharedDevice(zvoKernels());
-        const Octree octree = test::engineOctree(device, test::apiScene(), test::apiGrid(4));
+        const DeviceTree octree = test::engineOctree(device, test::apiScene(), test::apiGrid(4));
         std::vector<std::byte> result;
         writeZvo(downloadTree(device, octree),
                  [&](std::span<const std::byte> more) { result.insert(result.end(), more.begin(), more.end()); });

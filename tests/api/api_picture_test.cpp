@@ -27,7 +27,7 @@ TEST(ApiPicture, AllViewsAreThoseOfTheEngineOfOctreesAndDags)
     const Model uploaded = host.upload(model.info());
     EXPECT_EQ(uploaded.triangleCount(), test::apiScene().triangleCount());
     Tree octree = host.build(uploaded, {.grid = test::apiGrid()});
-    const Octree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
+    const DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
     EXPECT_EQ(octree.facts().voxel_count, expected.voxel_count);
     EXPECT_EQ(octree.facts().node_count, expected.node_count);
     EXPECT_EQ(octree.facts().bytes, expected.geometryBytes() + expected.attributeBytes());
@@ -63,7 +63,7 @@ TEST(ApiPicture, EveryFormOfAttributesIsBuiltAndTraced)
         EXPECT_EQ(tree.facts().form, form);
         EXPECT_LT(tree.facts().bytes, bytes);
         bytes = tree.facts().bytes;
-        Octree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
+        DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
         packTree(device(), form, expected);
         if (form == AttributeForm::None)
         {
@@ -79,7 +79,7 @@ TEST(ApiPicture, EveryFormOfAttributesIsBuiltAndTraced)
 TEST(ApiPicture, ATreeFromAFileIsTheTree)
 {
     test::EmbeddingHost host;
-    const Octree octree = test::engineOctree(device(), test::apiScene(), test::apiGrid());
+    const DeviceTree octree = test::engineOctree(device(), test::apiScene(), test::apiGrid());
     std::vector<std::byte> bytes;
     writeZvo(downloadTree(device(), octree),
              [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });

@@ -40,9 +40,9 @@ inline CameraInfo apiCamera()
     return CameraInfo::lookAt({22, 17, 25}, {5, 5, 5}, 0.6);
 }
 
-inline std::vector<std::uint32_t> pictureOf(vk::HeadlessDevice& device, const TreeView& tree, View view)
+inline std::vector<std::uint32_t> pictureOf(vk::HeadlessDevice& device, const DeviceTree& tree, View view)
 {
-    BeamGrid beam(device.device(), tree.hasLists());
+    BeamGrid beam(device.device(), tree.isDag());
     TraceBuffers buffers(device.device(), EmbeddingHost::kWidth, EmbeddingHost::kHeight);
     const ViewCamera camera = ViewCamera::lookAt({22, 17, 25}, {5, 5, 5}, 0.6);
     TraceOptions options;
@@ -51,13 +51,13 @@ inline std::vector<std::uint32_t> pictureOf(vk::HeadlessDevice& device, const Tr
         [&](vk::FrameGraph& graph)
         {
             buildBeam(graph, tree, beam);
-            trace(graph, tree, beam, traceCamera(camera, tree.octree().grid, buffers.height), options, buffers);
+            trace(graph, tree, beam, traceCamera(camera, tree.grid, buffers.height), options, buffers);
         });
     return device.download(buffers.image);
 }
 
 /// The engine's own octree of the scene, on another device.
-inline Octree engineOctree(vk::HeadlessDevice& device, const Scene& scene, const GridInfo& info)
+inline DeviceTree engineOctree(vk::HeadlessDevice& device, const Scene& scene, const GridInfo& info)
 {
     const Grid grid = {{info.origin[0], info.origin[1], info.origin[2]}, info.voxel_size, info.depth};
     return buildOctree(device, uploadScene(device, scene, true), grid, {}).octree;

@@ -176,7 +176,7 @@ TEST(CApi, FilesAreReadAndBrokenOnesAreInputErrors)
 {
     test::CEmbeddingHost host;
     std::vector<std::byte> bytes;
-    const Octree octree = test::engineOctree(device(), test::apiScene(), test::apiGrid());
+    const DeviceTree octree = test::engineOctree(device(), test::apiScene(), test::apiGrid());
     writeZvo(downloadTree(device(), octree),
              [&](std::span<const std::byte> more) { bytes.insert(bytes.end(), more.begin(), more.end()); });
     ZvoTree* tree = nullptr;

@@ -5,7 +5,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "io/gltf/gltf_loader.h"
 #include "io/image/image_io.h"
 #include "runtime/octree_sha256.h"
@@ -346,10 +346,10 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
     const json& row = report["rows"][1];
     EXPECT_EQ(row["voxels"], built.octree.voxel_count);
     EXPECT_EQ(row["geometry_bytes"], built.octree.geometryBytes());
-    const Svdag dag = compress(device(), std::move(built.octree)).dag;
-    EXPECT_EQ(row["dag_nodes"], dag.tree.node_count);
+    const DeviceTree dag = compress(device(), std::move(built.octree)).dag;
+    EXPECT_EQ(row["dag_nodes"], dag.node_count);
     EXPECT_EQ(row["dag_geometry_bytes"], dag.geometryBytes());
-    EXPECT_EQ(row["dag_rank_bytes"], dag.rankBytes());
+    EXPECT_EQ(row["dag_rank_bytes"], dag.lists.rankBytes());
     EXPECT_DOUBLE_EQ(row["dag_geometry_ratio"].get<double>() * row["geometry_bytes"].get<double>(),
                      static_cast<double>(dag.geometryBytes()));
     EXPECT_TRUE(contains(outcome.out, "| svdag/insert (DAG) "));

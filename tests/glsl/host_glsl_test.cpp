@@ -131,34 +131,27 @@ vk::HeadlessDevice& device()
     return test::sharedDevice(allKernels());
 }
 
-vk::BufferOf<gpu::TreeTable> tableOf(const TreeView& tree)
+vk::BufferOf<gpu::TreeTable> tableOf(const DeviceTree& tree)
 {
     return device().makeBuffer<gpu::TreeTable>("tree table", std::vector{treeTable(tree)});
 }
 
 // What the pass reads through the table.
-void readTree(vk::AnyPass& pass, const TreeView& tree)
+void readTree(vk::AnyPass& pass, const DeviceTree& tree)
 {
-    const Octree& octree = tree.octree();
-    pass.read(octree.nodes);
-    pass.read(octree.voxel_attributes);
-    pass.read(octree.node_attributes);
-    pass.read(octree.packed.voxels);
-    pass.read(octree.packed.nodes);
-    pass.read(octree.emission_words);
-    pass.read(octree.emission);
-    if (const Svdag* dag = tree.svdag())
-    {
-        pass.read(dag->before);
-        pass.read(dag->voxels_before_leaf);
-    }
-    if (const OverlaidTree* overlaid = tree.overlaid())
-    {
-        pass.read(overlaid->ranks);
-    }
+    pass.read(tree.nodes);
+    pass.read(tree.voxel_attributes);
+    pass.read(tree.node_attributes);
+    pass.read(tree.packed.voxels);
+    pass.read(tree.packed.nodes);
+    pass.read(tree.emission_words);
+    pass.read(tree.emission);
+    pass.read(tree.lists.before);
+    pass.read(tree.lists.voxels_before_leaf);
+    pass.read(tree.overlays.ranks);
 }
 
-std::vector<Pixel> hostPicture(const TreeView& tree, const char* kernel, const vk::Specialization& constants,
+std::vector<Pixel> hostPicture(const DeviceTree& tree, const char* kernel, const vk::Specialization& constants,
                                const Frame& frame)
 {
     const vk::BufferOf<gpu::TreeTable> table = tableOf(tree);
@@ -190,7 +183,7 @@ glm::mat4 reversedDepth(const ViewCamera& view)
 class Emission
 {
 public:
-    explicit Emission(const Octree& octree)
+    explicit Emission(const DeviceTree& octree)
         : m_words(device().download(octree.emission_words)), m_values(device().download(octree.emission)),
           m_scale(octree.emission_scale)
     {
@@ -264,10 +257,10 @@ constexpr std::array kVariants = {kAnyTree, HostVariant{"host/picture_group"},
 class ZvoPicture
 {
 public:
-    ZvoPicture(const TreeView& tree, const ViewCamera& view, TraceOptions options = {})
-        : m_tree(tree), m_view(view), m_camera(traceCamera(view, tree.octree().grid, kHeight)),
+    ZvoPicture(const DeviceTree& tree, const ViewCamera& view, TraceOptions options = {})
+        : m_tree(tree), m_view(view), m_camera(traceCamera(view, tree.grid, kHeight)),
           m_albedo(take(options, View::Albedo)), m_normals(take(options, View::Normal)),
-          m_origins(take(options, View::Origin)), m_emission(tree.octree())
+          m_origins(take(options, View::Origin)), m_emission(tree)
     {
         m_frame.camera = m_camera.rays;
         m_frame.orthographic = m_camera.orthographic ? 1 : 0;
@@ -281,9 +274,9 @@ public:
     void expectSame(const HostVariant& variant) const
     {
         SCOPED_TRACE(variant.kernel);
-        const vk::Specialization constants =
-            variant.by_levels ? vk::Specialization{m_tree.octree().grid.nodeLevels(), m_tree.entriesPerWord()}
-                              : vk::Specialization{};
+        const vk::Specialization constants = variant.by_levels
+                                                 ? vk::Specialization{m_tree.grid.nodeLevels(), m_tree.entriesPerWord()}
+                                                 : vk::Specialization{};
         const std::vector<Pixel> pixels = hostPicture(m_tree, variant.kernel, constants, m_frame);
         for (std::size_t i = 0; i < pixels.size(); ++i)
         {
@@ -300,7 +293,6 @@ private:
 
     void expectSamePixel(const Pixel& pixel, std::size_t i) const
     {
-        const Octree& octree = m_tree.octree();
         const gpu::Hit& hit = m_albedo.hits[i];
         ASSERT_EQ(pixel.hit.index == gpu::kHitMiss, hit.index == gpu::kHitMiss) << i;
         if (hit.index == gpu::kHitMiss)
@@ -309,24 +301,24 @@ private:
         }
         ASSERT_EQ(std::bit_cast<std::uint32_t>(pixel.hit.t), std::bit_cast<std::uint32_t>(hit.t)) << i;
         ASSERT_EQ(pixel.hit.where, hit.where) << i;
-        if (octree.hasAttributes() || !m_tree.hasLists())
+        if (m_tree.hasAttributes() || !m_tree.isDag())
         {
             ASSERT_EQ(pixel.hit.index, hit.index) << i;
         }
         ASSERT_EQ(pixel.albedo, m_albedo.image[i]) << i;
         ASSERT_EQ(pixel.normal, m_normals.image[i]) << i;
         const test::DeviceHit met = *test::unpack(hit);
-        ASSERT_EQ(pixel.is_voxel != 0, met.level == octree.grid.nodeLevels()) << i;
+        ASSERT_EQ(pixel.is_voxel != 0, met.level == m_tree.grid.nodeLevels()) << i;
         ASSERT_EQ(pixel.is_inside != 0, met.face == gpu::kFaceInside) << i;
         const bool is_grey = (m_origins.image[i] & 255U) == (m_origins.image[i] >> 16 & 255U);
         ASSERT_EQ(pixel.is_dynamic != 0, !is_grey) << i;
-        const bool may_emit = octree.hasAttributes() && pixel.is_voxel != 0;
+        const bool may_emit = m_tree.hasAttributes() && pixel.is_voxel != 0;
         const glm::dvec3 radiance = may_emit ? m_emission.of(hit.index) : glm::dvec3(0.0);
         for (int channel = 0; channel < 3; ++channel)
         {
             ASSERT_NEAR(static_cast<double>(pixel.emission[channel]), radiance[channel], 1e-4 * radiance[channel]) << i;
         }
-        ASSERT_NO_FATAL_FAILURE(expectPosition(pixel, octree.grid, m_camera, i));
+        ASSERT_NO_FATAL_FAILURE(expectPosition(pixel, m_tree.grid, m_camera, i));
         const double distance = glm::dot(glm::dvec3(pixel.position) - m_view.position, m_view.forward);
         const double reach = glm::length(m_view.position) + distance; // single precision rounds them
         if (distance > 1e-4 * reach)
@@ -336,7 +328,7 @@ private:
         }
     }
 
-    TreeView m_tree;
+    const DeviceTree& m_tree;
     ViewCamera m_view;
     TraceCamera m_camera;
     Frame m_frame;
@@ -379,9 +371,9 @@ std::array<ViewCamera, 3> threeViews(const Grid& grid)
 constexpr std::array kForms = {AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8,
                                AttributeForm::Blocks};
 
-Octree octreeWith(const CodeSet& set, AttributeForm form)
+DeviceTree octreeWith(const CodeSet& set, AttributeForm form)
 {
-    Octree octree = test::octreeOf(device(), set.codes, set.depth);
+    DeviceTree octree = test::octreeOf(device(), set.codes, set.depth);
     if (form != AttributeForm::None)
     {
         test::addAttributes(device(), octree);
@@ -391,11 +383,12 @@ Octree octreeWith(const CodeSet& set, AttributeForm form)
     return octree;
 }
 
-Svdag dagWith(const CodeSet& set, AttributeForm form, std::uint32_t entries_per_word = 0)
+DeviceTree dagWith(const CodeSet& set, AttributeForm form, std::uint32_t entries_per_word = 0)
 {
-    const Octree octree = octreeWith(set, form == AttributeForm::None ? AttributeForm::None : AttributeForm::Bytes8);
-    Svdag dag = test::svdagOf(device(), octree, entries_per_word);
-    packTree(device(), form, dag.tree);
+    const DeviceTree octree =
+        octreeWith(set, form == AttributeForm::None ? AttributeForm::None : AttributeForm::Bytes8);
+    DeviceTree dag = test::svdagOf(device(), octree, entries_per_word);
+    packTree(device(), form, dag);
     return dag;
 }
 
@@ -406,11 +399,12 @@ TEST(HostGlsl, PicturesOfOctreesAndDagsAreZvos)
     {
         for (const AttributeForm form : kForms)
         {
-            const Octree octree = octreeWith(set, form);
-            const Svdag dag = dagWith(set, form);
+            const DeviceTree octree = octreeWith(set, form);
+            const DeviceTree dag = dagWith(set, form);
             const std::array<ViewCamera, 3> views = threeViews(octree.grid);
-            for (const TreeView& tree : {TreeView(octree), TreeView(dag)})
+            for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
             {
+                const DeviceTree& tree = *shown;
                 SCOPED_TRACE("depth " + std::to_string(set.depth) + ", form " + formName(form) + ", lists " +
                              std::to_string(tree.entriesPerWord()));
                 const ZvoPicture outside(tree, views[0]);
@@ -427,8 +421,8 @@ TEST(HostGlsl, PicturesOfOctreesAndDagsAreZvos)
 TEST(HostGlsl, EveryCameraSeesTheSame)
 {
     const CodeSet set = {6, test::sphereShell(6, 24.0)};
-    const Octree octree = octreeWith(set, AttributeForm::Bytes8);
-    const Svdag dag = dagWith(set, AttributeForm::Bytes8);
+    const DeviceTree octree = octreeWith(set, AttributeForm::Bytes8);
+    const DeviceTree dag = dagWith(set, AttributeForm::Bytes8);
     std::size_t number = 0;
     for (const ViewCamera& view : test::manyCameras(octree.grid))
     {
@@ -445,8 +439,8 @@ TEST(HostGlsl, AnyEntriesAWordGiveTheSame)
     const CodeSet set = {9, test::randomCodes(9, 3000, random)};
     for (const std::uint32_t entries : {2U, 3U, 4U})
     {
-        const Svdag dag = dagWith(set, AttributeForm::Bytes8, entries);
-        const ZvoPicture picture(dag, threeViews(dag.tree.grid)[0]);
+        const DeviceTree dag = dagWith(set, AttributeForm::Bytes8, entries);
+        const ZvoPicture picture(dag, threeViews(dag.grid)[0]);
         EXPECT_GT(picture.hitCount(), 0U) << entries;
         for (const HostVariant& variant : kVariants)
         {
@@ -463,12 +457,13 @@ TEST(HostGlsl, EveryDepthIsTheSame)
         SCOPED_TRACE("depth " + std::to_string(depth));
         const CodeSet set = {depth, test::randomCodes(depth, 300, random)};
         const AttributeForm form = kForms.at(1 + depth % 3);
-        const Octree octree = octreeWith(set, form);
-        const Svdag dag = dagWith(set, form);
+        const DeviceTree octree = octreeWith(set, form);
+        const DeviceTree dag = dagWith(set, form);
         const glm::dvec3 voxel = glm::dvec3(oracle::mortonDecode(set.codes.back())) + 0.5;
         const ViewCamera view = ViewCamera::lookAt(voxel + glm::dvec3(3.0, 4.0, 5.0), voxel, 0.5);
-        for (const TreeView& tree : {TreeView(octree), TreeView(dag)})
+        for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
         {
+            const DeviceTree& tree = *shown;
             const ZvoPicture picture(tree, view);
             EXPECT_GT(picture.hitCount(), 0U);
             ASSERT_NO_FATAL_FAILURE(picture.expectSame(kAnyTree));
@@ -482,8 +477,8 @@ TEST(HostGlsl, LevelsOfDetailStopAtTheSameNodes)
     {
         for (const AttributeForm form : {AttributeForm::Bytes8, AttributeForm::Blocks})
         {
-            const Octree octree = octreeWith(set, form);
-            const Svdag dag = dagWith(set, form);
+            const DeviceTree octree = octreeWith(set, form);
+            const DeviceTree dag = dagWith(set, form);
             for (const std::uint32_t level : {0U, 1U, 2U, UINT32_MAX})
             {
                 TraceOptions options;
@@ -492,8 +487,9 @@ TEST(HostGlsl, LevelsOfDetailStopAtTheSameNodes)
                 const ViewCamera view = test::manyCameras(octree.grid).at(level == 1 ? 12 : 0);
                 SCOPED_TRACE("depth " + std::to_string(set.depth) + ", level " + std::to_string(level));
                 // Attributes of a DAG's nodes stand in another order, which pictures do not show.
-                for (const TreeView& tree : {TreeView(octree), TreeView(dag)})
+                for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
                 {
+                    const DeviceTree& tree = *shown;
                     const ZvoPicture picture(tree, view, options);
                     EXPECT_GT(picture.hitCount(), 0U);
                     ASSERT_NO_FATAL_FAILURE(picture.expectSame({"host/picture_detail"}));
@@ -537,10 +533,7 @@ TEST_P(HostGlslOverlays, AreSeen)
     options.merge = MergeRule::DynamicWins;
     options.attributes = attributes;
     options.emission_scale = 3.5F;
-    BuildResult built;
-    built.octree = octreeWith(set, form);
-    DynamicOctree octree(device(), compressed ? StaticTree(dagWith(set, form), {}) : StaticTree(std::move(built)),
-                         options);
+    DynamicOctree octree(device(), compressed ? dagWith(set, form) : octreeWith(set, form), options);
     const float edge = std::ldexp(1.0F, static_cast<int>(depth));
     const Scene box = test::boxScene(glm::vec3(0.0F), glm::vec3(std::min(0.4F * edge, 30.0F)));
     octree.add(uploadMover(device(), box, attributes, options.emission_scale),
@@ -554,10 +547,11 @@ TEST_P(HostGlslOverlays, AreSeen)
         octree.frameDone(frame);
     }
     test::updateAll(device(), octree);
-    ASSERT_EQ(octree.tree().overlaid() != nullptr, compressed);
+    ASSERT_TRUE(octree.tree().hasOverlays());
+    ASSERT_EQ(octree.tree().isDag(), compressed);
     const glm::dvec3 near = glm::dvec3(dab) + glm::dvec3(12.0, 9.0, 15.0);
     for (const ViewCamera& view :
-         {test::manyCameras(octree.tree().octree().grid).front(), ViewCamera::lookAt(near, glm::dvec3(dab), 0.8)})
+         {test::manyCameras(octree.tree().grid).front(), ViewCamera::lookAt(near, glm::dvec3(dab), 0.8)})
     {
         const ZvoPicture picture(octree.tree(), view);
         EXPECT_GT(picture.hitCount(), 0U);
@@ -574,10 +568,11 @@ TEST_P(HostGlslOverlays, AreSeen)
 TEST(HostGlsl, AnEmptyTreeIsMissed)
 {
     const CodeSet empty = {4, {}};
-    const Octree octree = test::octreeOf(device(), empty.codes, empty.depth);
-    const Svdag dag = test::svdagOf(device(), octree);
-    for (const TreeView& tree : {TreeView(octree), TreeView(dag)})
+    const DeviceTree octree = test::octreeOf(device(), empty.codes, empty.depth);
+    const DeviceTree dag = test::svdagOf(device(), octree);
+    for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
     {
+        const DeviceTree& tree = *shown;
         const ZvoPicture picture(tree, threeViews(octree.grid)[0]);
         EXPECT_EQ(picture.hitCount(), 0U);
         picture.expectSame(kAnyTree);
@@ -610,7 +605,7 @@ std::vector<WorldRay> worldRays(const Grid& grid, const test::Codes& codes, std:
     return rays;
 }
 
-std::vector<Met> meet(const TreeView& tree, const std::vector<WorldRay>& rays, float detail)
+std::vector<Met> meet(const DeviceTree& tree, const std::vector<WorldRay>& rays, float detail)
 {
     const vk::BufferOf<gpu::TreeTable> table = tableOf(tree);
     const vk::BufferOf<WorldRay> ray_buffer = device().makeBuffer("rays", std::span<const WorldRay>(rays));
@@ -648,16 +643,17 @@ TEST(HostGlsl, WorldRaysHitWhatEveryVoxelAskedOnItsOwnSays)
             blocks.push_back(code >> 6);
         }
         blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-        Octree octree = test::octreeOf(device(), codes, depth);
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
         octree.grid.origin = {-3.7F, 12.25F, 0.3F};
         octree.grid.voxel_size = 0.37F;
-        const Svdag dag = test::svdagOf(device(), octree);
+        const DeviceTree dag = test::svdagOf(device(), octree);
         const Grid& grid = octree.grid;
         const oracle::VoxelTracer tracer(codes, depth);
         const oracle::VoxelTracer block_tracer(blocks, depth - 2);
         const std::vector<WorldRay> rays = worldRays(grid, codes, kCount);
-        for (const TreeView& tree : {TreeView(octree), TreeView(dag)})
+        for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
         {
+            const DeviceTree& tree = *shown;
             const std::vector<Met> mets = meet(tree, rays, 4.04F * grid.voxel_size);
             std::uint32_t hit_count = 0;
             std::uint32_t open_count = 0;
@@ -703,7 +699,7 @@ TEST(HostGlsl, WorldRaysHitWhatEveryVoxelAskedOnItsOwnSays)
 
 TEST(HostGlsl, RaysThatAreNoneHitNothing)
 {
-    const Octree octree =
+    const DeviceTree octree =
         octreeWith({3, test::codesWhere(3, [](const glm::uvec3&) { return true; })}, AttributeForm::Bytes8);
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -731,23 +727,23 @@ TEST(HostGlsl, UnfinishedRaysGoOnInTwoTreesAtOnce)
     std::mt19937 random(74);
     const CodeSet deep = {9, test::randomCodes(9, 20000, random)};
     const CodeSet shallow = {6, test::spongeCodes(6)};
-    const Octree octree = octreeWith(shallow, AttributeForm::Bytes8);
-    const Svdag dag = dagWith(deep, AttributeForm::Bytes8);
-    const std::array<TreeView, 2> trees = {dag, octree};
+    const DeviceTree octree = octreeWith(shallow, AttributeForm::Bytes8);
+    const DeviceTree dag = dagWith(deep, AttributeForm::Bytes8);
+    const std::array<const DeviceTree*, 2> trees = {&dag, &octree};
     std::vector<gpu::Ray> rays;
     for (std::uint32_t i = 0; i < 2049; ++i)
     {
-        rays.push_back(test::deviceRay(test::pickRay(random, dag.tree.grid.rootResolution(), deep.codes)));
+        rays.push_back(test::deviceRay(test::pickRay(random, dag.grid.rootResolution(), deep.codes)));
     }
-    const std::array tables = {tableOf(trees[0]), tableOf(trees[1])};
+    const std::array tables = {tableOf(dag), tableOf(octree)};
     const vk::BufferOf<gpu::Ray> ray_buffer = device().makeBuffer("rays", std::span<const gpu::Ray>(rays));
     vk::BufferOf<Both> results(device().device(), "results", rays.size());
     device().run(
         [&](vk::FrameGraph& graph)
         {
             vk::UntypedPass pass = graph.addPass("host/steps", {kSteps});
-            readTree(pass, trees[0]);
-            readTree(pass, trees[1]);
+            readTree(pass, *trees[0]);
+            readTree(pass, *trees[1]);
             const StepsPush push = {{pass.read(tables[0]), pass.read(tables[1])},
                                     pass.read(ray_buffer),
                                     pass.write(results),
@@ -757,7 +753,7 @@ TEST(HostGlsl, UnfinishedRaysGoOnInTwoTreesAtOnce)
     const std::vector<Both> both = device().download(results);
     for (std::size_t k = 0; k < 2; ++k)
     {
-        const std::vector<gpu::Hit> expected = test::traceOnDevice(device(), trees.at(k), rays);
+        const std::vector<gpu::Hit> expected = test::traceOnDevice(device(), *trees.at(k), rays);
         std::uint32_t calls_max = 0;
         for (std::size_t i = 0; i < rays.size(); ++i)
         {

@@ -13,7 +13,7 @@
 #include "core/scene/animation.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "oracle/voxelizer.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
@@ -97,16 +97,16 @@ std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, co
 }
 
 // Pictures by every path of the tracer.
-Names tracePictures(const TreeView& tree)
+Names tracePictures(const DeviceTree& tree)
 {
     Names names;
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
-    BeamGrid beam(device().device(), tree.svdag() != nullptr);
+    BeamGrid beam(device().device(), tree.isDag());
     TraceBuffers buffers(device().device(), 17, 9);
     addNames(names, device().run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); }));
     for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
     {
-        if (tree.svdag() != nullptr && stack != TraceStack::Registers)
+        if (tree.isDag() && stack != TraceStack::Registers)
         {
             continue; // lists and stacks know nothing of each other, and every variant has to be compiled
         }
@@ -117,14 +117,14 @@ Names tracePictures(const TreeView& tree)
             options.stack = stack;
             options.occlusion_rays = 2;
             options.beam = stack != TraceStack::Private;
-            const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
+            const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
             addNames(names,
                      device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, options, buffers); }));
         }
     }
     TraceOptions coarse;
     coarse.detail_level = 2;
-    const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
+    const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
     addNames(names, device().run([&](vk::FrameGraph& graph) { trace(graph, tree, beam, camera, coarse, buffers); }));
     vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1);
     addNames(names, device().run(
@@ -192,8 +192,16 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool 
     BuildOptions build{coverage};
     build.keep_sums = true;
     BuildResult built = buildOctree(device(), gpu_scene, grid, build);
-    StaticTree fixed = compressed ? StaticTree(test::svdagOf(device(), built.octree), std::move(built.sums))
-                                  : StaticTree(std::move(built));
+    DeviceTree fixed;
+    if (compressed)
+    {
+        fixed = test::svdagOf(device(), built.octree);
+        fixed.sums = std::move(built.octree.sums);
+    }
+    else
+    {
+        fixed = std::move(built.octree);
+    }
     DynamicOctree octree(device(), std::move(fixed), {.coverage = coverage, .emission_scale = emission_scale});
     const std::vector<test::Cell> before = test::cellsOf(device(), octree.tree());
 
@@ -229,7 +237,7 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool 
 
 // Strokes of a brush that carve, fill and paint, with so little room that what is left of them moves, and a step is
 // undone.
-Names editVoxels(StaticTree fixed, bool attributes, float emission_scale)
+Names editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
 {
     Names names;
     DynamicOptions options;
@@ -238,7 +246,7 @@ Names editVoxels(StaticTree fixed, bool attributes, float emission_scale)
     options.edits = {.entries_max = 4, .bytes_max = 0};
     DynamicOctree octree(device(), std::move(fixed), options);
     const auto cells = [&] { return test::cellsOf(device(), octree.tree()); };
-    test::EditModel model(octree.tree().octree().grid, cells(), attributes);
+    test::EditModel model(octree.tree().grid, cells(), attributes);
     std::vector<test::Cell> before;
     for (std::uint32_t i = 0; i < 4; ++i)
     {
@@ -277,20 +285,19 @@ Names editTrees(const Scene& scene, const Grid& grid)
         build.keep_sums = attributes;
         if (attributes)
         {
-            names.merge(editVoxels(buildOctree(device(), gpu_scene, grid, build), attributes, scale));
+            names.merge(editVoxels(buildOctree(device(), gpu_scene, grid, build).octree, attributes, scale));
         }
         BuildResult built = buildOctree(device(), gpu_scene, grid, build);
-        names.merge(
-            editVoxels({compress(device(), std::move(built.octree)).dag, std::move(built.sums)}, attributes, scale));
+        names.merge(editVoxels(compress(device(), std::move(built.octree)).dag, attributes, scale));
     }
     return names;
 }
 
 // The octree as a DAG, and that DAG once more, of which nothing can be shared.
-Names compressOctree(Octree octree, const CompressOptions& options)
+Names compressOctree(DeviceTree octree, const CompressOptions& options)
 {
     Names names;
-    const Svdag expected = test::svdagOf(device(), octree);
+    const DeviceTree expected = test::svdagOf(device(), octree);
     CompressResult once = compress(device(), std::move(octree), options);
     addNames(names, once.passes);
     EXPECT_EQ(once.retry_count != 0, options.table_slots != 0);
@@ -312,7 +319,7 @@ Names tracePacked(BuildResult built, AttributeForm form)
 }
 
 // The same DAG, joined of eight tiles.
-Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const Octree& octree)
+Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const DeviceTree& octree)
 {
     const std::uint32_t tile_depth = grid.depth - 1;
     SvdagForest forest(device(), grid, tile_depth);
@@ -325,8 +332,8 @@ Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, cons
             forest.add(code, std::move(compress(device(), std::move(built.octree)).dag));
         }
     }
-    const std::vector<gpu::Node> pool = device().download(forest.finish(true).tree.nodes);
-    const std::vector<gpu::Node> expected = device().download(test::svdagOf(device(), octree).tree.nodes);
+    const std::vector<gpu::Node> pool = device().download(forest.finish(true).nodes);
+    const std::vector<gpu::Node> expected = device().download(test::svdagOf(device(), octree).nodes);
     EXPECT_EQ(pool.size(), expected.size());
     EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(pool)), std::as_bytes(std::span(expected))));
     Names names;
@@ -354,13 +361,13 @@ Names scalePictures()
 }
 
 // Pictures in the texel forms of hosts' images, lit and not, and their depth.
-Names traceForHosts(const TreeView& tree)
+Names traceForHosts(const DeviceTree& tree)
 {
     Names names;
     ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     view.half_height = 12.0;
-    const BeamGrid beam(device().device(), tree.svdag() != nullptr); // not used
-    ClipDepth clip;                                                  // 1 / (1 + distance)
+    const BeamGrid beam(device().device(), tree.isDag()); // not used
+    ClipDepth clip;                                       // 1 / (1 + distance)
     clip.z.w = 1.0;
     clip.w = glm::dvec4(view.forward, 1.0 - glm::dot(view.forward, view.position));
     clip.miss = 0.0F;
@@ -369,7 +376,7 @@ Names traceForHosts(const TreeView& tree)
         TraceBuffers buffers(device().device(), 17, 9, form);
         vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
         view.orthographic = form == TexelForm::Half;
-        const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
+        const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
         for (const View shown : {View::Color, View::Albedo})
         {
             TraceOptions options;
@@ -380,7 +387,7 @@ Names traceForHosts(const TreeView& tree)
                                 [&](vk::FrameGraph& graph)
                                 {
                                     trace(graph, tree, beam, camera, options, buffers);
-                                    traceDepth(graph, tree.octree().grid, camera, clip, buffers, depth);
+                                    traceDepth(graph, tree.grid, camera, clip, buffers, depth);
                                 }));
         }
         const std::vector<float> depths = device().download(depth);

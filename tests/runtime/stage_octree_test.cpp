@@ -31,12 +31,12 @@ std::uint32_t numberFrom(const char* variable, std::uint32_t otherwise)
     return text != nullptr ? static_cast<std::uint32_t>(std::stoul(text)) : otherwise;
 }
 
-std::vector<gpu::uint> pictureOf(const TreeView& tree, const ViewCamera& view, TraceBuffers& buffers)
+std::vector<gpu::uint> pictureOf(const DeviceTree& tree, const ViewCamera& view, TraceBuffers& buffers)
 {
     BeamGrid beam(device().device());
     TraceOptions options;
     options.occlusion_rays = 2;
-    const TraceCamera camera = traceCamera(view, tree.octree().grid, buffers.height);
+    const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
     device().run(
         [&](vk::FrameGraph& graph)
         {
@@ -56,14 +56,12 @@ template <typename T> void append(std::vector<std::byte>& bytes, const std::vect
 // attributes.
 std::vector<std::byte> staticBytes(StageOctree& stage)
 {
-    const TreeView tree = stage.tree();
-    const Octree& octree = tree.octree();
+    const DeviceTree& tree = stage.tree();
     const std::uint32_t root = stage.dynamic().staticRoot();
     std::vector<std::byte> bytes;
-    append(bytes, device().download(octree.nodes, 1, root));
-    append(bytes, device().download(octree.node_attributes, 1,
-                                    tree.svdag() != nullptr ? tree.svdag()->octree_node_count : root));
-    append(bytes, device().download(octree.voxel_attributes, 0, octree.voxel_count));
+    append(bytes, device().download(tree.nodes, 1, root));
+    append(bytes, device().download(tree.node_attributes, 1, tree.octreeNodeCount()));
+    append(bytes, device().download(tree.voxel_attributes, 0, tree.voxel_count));
     return bytes;
 }
 
@@ -99,7 +97,7 @@ TEST_P(Stages, UpdatedIsRebuilt)
     StageOctreeOptions options;
     options.structure = structure;
     StageOctree octree(device(), stage, grid, options);
-    EXPECT_EQ(octree.tree().hasLists(), structure == TreeStructure::Svdag);
+    EXPECT_EQ(octree.tree().isDag(), structure == TreeStructure::Svdag);
     const std::vector<std::byte> static_before = staticBytes(octree);
     for (std::uint32_t i = 0; i < shown; ++i)
     {

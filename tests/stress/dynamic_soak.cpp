@@ -75,7 +75,7 @@ public:
         options.frames_in_flight = kFramesInFlight;
         options.history = {3, UINT64_MAX};
         options.emission_scale = m_scale;
-        m_octree = std::make_unique<DynamicOctree>(m_device, build(m_fixed, true), options);
+        m_octree = std::make_unique<DynamicOctree>(m_device, build(m_fixed, true).octree, options);
         m_mover = m_octree->add(uploadMover(m_device, m_moving, true, m_scale), poseAt(m_moving, 0, placeAt(0)));
     }
 
@@ -163,7 +163,7 @@ private:
 
     void compare(std::uint64_t frame)
     {
-        Cells cells = test::cellsOf(m_device, m_octree->tree().octree());
+        Cells cells = test::cellsOf(m_device, m_octree->tree());
         if (frame < kPeriod)
         {
             Scene all = m_fixed;

@@ -71,7 +71,7 @@ using MakeRay = std::function<StressRay(Random&)>;
 using Check = std::function<void(const StressRay&, const std::optional<test::DeviceHit>&)>;
 
 // Traces count rays through octree, and checks each hit and adds it to sum.
-void traceBatch(vk::HeadlessDevice& device, const Octree& octree, TraceStack stack, std::uint64_t count,
+void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, TraceStack stack, std::uint64_t count,
                 std::uint64_t seed, const MakeRay& make_ray, const Check& check, Sha256& sum)
 {
     std::vector<StressRay> rays(count);
@@ -127,7 +127,7 @@ void traceTrees(vk::HeadlessDevice& device, const std::vector<StressTree>& trees
     const std::uint64_t per_tree = (options.rays + trees.size() - 1) / trees.size();
     for (const StressTree& tree : trees)
     {
-        const Octree octree = test::octreeOf(device, tree.codes, tree.depth);
+        const DeviceTree octree = test::octreeOf(device, tree.codes, tree.depth);
         const std::uint32_t resolution = octree.grid.rootResolution();
         const RayJudge judge(tree);
         const MakeRay make_ray = [&](Random& random)
@@ -186,7 +186,7 @@ void traceShells(vk::HeadlessDevice& device, const Options& options, Sha256& sum
     {
         const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = shell.depth};
         const GpuScene gpu_scene = uploadScene(device, shell.scene, false);
-        const Octree octree = buildOctree(device, gpu_scene, grid, {Coverage::Thin, false, {}}).octree;
+        const DeviceTree octree = buildOctree(device, gpu_scene, grid, {Coverage::Thin, false, {}}).octree;
         const MakeRay make_ray = [&](Random& random)
         { return rayFromInside(random, grid.rootResolution(), shell.low, shell.high); };
         const Check check = [&](const StressRay& ray, const std::optional<test::DeviceHit>& hit)
@@ -214,7 +214,7 @@ struct Picture
     std::uint32_t iterations_max = 0;
 };
 
-Picture takePicture(vk::HeadlessDevice& device, const Octree& octree, const TraceCamera& camera,
+Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& octree, const TraceCamera& camera,
                     const TraceOptions& options)
 {
     BeamGrid beam(device.device());
@@ -256,7 +256,7 @@ std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressT
     std::uint32_t count = 0;
     for (const StressTree& tree : trees)
     {
-        const Octree octree = test::octreeOf(device, tree.codes, tree.depth);
+        const DeviceTree octree = test::octreeOf(device, tree.codes, tree.depth);
         const auto edge = static_cast<double>(octree.grid.resolution());
         const glm::dvec3 middle(0.5 * edge);
         for (const ViewCamera& view : {ViewCamera::framing({glm::vec3(0.0F), glm::vec3(static_cast<float>(edge))}, 1.5),

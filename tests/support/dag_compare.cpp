@@ -29,16 +29,16 @@ std::string bufferDifference(vk::HeadlessDevice& device, const vk::BufferOf<T>& 
     return a.size() == b.size() ? "" : fmt::format("{} {} in place of {}", a.size(), what, b.size());
 }
 
-std::string numbersOf(const Svdag& dag)
+std::string numbersOf(const DeviceTree& dag)
 {
-    const Octree& tree = dag.tree;
+    const DeviceTree& tree = dag;
     std::string text = fmt::format(
         "depth {} origin {} {} {} voxels of {}, {} voxels, {} nodes for {}, {} entries, {} long, emission of "
         "{}, attributes {}, levels:",
         tree.grid.depth, tree.grid.origin.x, tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size,
-        tree.voxel_count, tree.node_count, dag.octree_node_count, dag.entry_count, dag.long_entry_count,
+        tree.voxel_count, tree.node_count, dag.octreeNodeCount(), dag.lists.entry_count, dag.lists.long_entry_count,
         tree.emission_scale, formName(tree.attributeForm()));
-    for (const Octree::Level& level : tree.levels)
+    for (const DeviceTree::Level& level : tree.levels)
     {
         text += fmt::format(" {}+{}", level.first_node, level.node_count);
     }
@@ -47,24 +47,23 @@ std::string numbersOf(const Svdag& dag)
 
 } // namespace
 
-std::string difference(vk::HeadlessDevice& device, const Svdag& actual, const Svdag& expected)
+std::string difference(vk::HeadlessDevice& device, const DeviceTree& actual, const DeviceTree& expected)
 {
     if (numbersOf(actual) != numbersOf(expected))
     {
         return numbersOf(actual) + "\nin place of\n" + numbersOf(expected);
     }
-    const Octree& a = actual.tree;
-    const Octree& b = expected.tree;
     for (const std::string& found :
-         {bufferDifference(device, a.nodes, b.nodes, "nodes and lists"),
-          bufferDifference(device, actual.before, expected.before, "long entries"),
-          bufferDifference(device, actual.voxels_before_leaf, expected.voxels_before_leaf, "words of short entries"),
-          bufferDifference(device, a.voxel_attributes, b.voxel_attributes, "voxel attributes"),
-          bufferDifference(device, a.node_attributes, b.node_attributes, "node attributes"),
-          bufferDifference(device, a.packed.voxels, b.packed.voxels, "words of packed voxel attributes"),
-          bufferDifference(device, a.packed.nodes, b.packed.nodes, "words of packed node attributes"),
-          bufferDifference(device, a.emission_words, b.emission_words, "emission words"),
-          bufferDifference(device, a.emission, b.emission, "emissions")})
+         {bufferDifference(device, actual.nodes, expected.nodes, "nodes and lists"),
+          bufferDifference(device, actual.lists.before, expected.lists.before, "long entries"),
+          bufferDifference(device, actual.lists.voxels_before_leaf, expected.lists.voxels_before_leaf,
+                           "words of short entries"),
+          bufferDifference(device, actual.voxel_attributes, expected.voxel_attributes, "voxel attributes"),
+          bufferDifference(device, actual.node_attributes, expected.node_attributes, "node attributes"),
+          bufferDifference(device, actual.packed.voxels, expected.packed.voxels, "words of packed voxel attributes"),
+          bufferDifference(device, actual.packed.nodes, expected.packed.nodes, "words of packed node attributes"),
+          bufferDifference(device, actual.emission_words, expected.emission_words, "emission words"),
+          bufferDifference(device, actual.emission, expected.emission, "emissions")})
     {
         if (!found.empty())
         {

@@ -2,7 +2,7 @@
 // DAGs in device memory that the oracle has made.
 #pragma once
 
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "oracle/dag.h"
 #include "vk/headless.h"
 
@@ -10,14 +10,14 @@ namespace zvo::test
 {
 
 /// The octree's nodes, compressed by the oracle. octree must have its levels.
-oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const Octree& octree,
+oracle::ReferenceDag referenceDagOf(vk::HeadlessDevice& device, const DeviceTree& octree,
                                     std::uint32_t entries_per_word = 0);
 
 /// The DAG of octree, with copies of its attributes, those of nodes in depth-first order.
-Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, std::uint32_t entries_per_word = 0);
-Svdag svdagOf(vk::HeadlessDevice& device, const Octree& octree, const oracle::ReferenceDag& reference);
+DeviceTree svdagOf(vk::HeadlessDevice& device, const DeviceTree& octree, std::uint32_t entries_per_word = 0);
+DeviceTree svdagOf(vk::HeadlessDevice& device, const DeviceTree& octree, const oracle::ReferenceDag& reference);
 
 /// Voxels and nodes of dag and what is wrong with it.
-oracle::DagContents contentsOf(vk::HeadlessDevice& device, const Svdag& dag);
+oracle::DagContents dagContentsOf(vk::HeadlessDevice& device, const DeviceTree& dag);
 
 } // namespace zvo::test

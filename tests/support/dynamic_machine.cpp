@@ -78,10 +78,9 @@ DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting&
     {
         m_takers.emplace_back(device.device());
     }
-    StaticTree built = scenery.buildStatic(setting);
-    m_static_emissive = built.dag.tree.emission.count();
-    m_static =
-        staticBytes(built.has_lists ? TreeView(built.dag) : TreeView(built.dag.tree), built.dag.tree.nodes.count());
+    DeviceTree built = scenery.buildStatic(setting);
+    m_static_emissive = built.emission.count();
+    m_static = staticBytes(built, built.nodes.count());
     m_octree = std::make_unique<DynamicOctree>(device, std::move(built), setting.options(scenery.emissionScale()));
     see(m_line.current(), picturesOf(m_octree->tree()));
 }
@@ -125,7 +124,7 @@ void DynamicMachine::finish()
         wait();
     }
     compare();
-    RC_ASSERT(m_octree->tree().hasLists() == m_setting.compressed);
+    RC_ASSERT(m_octree->tree().isDag() == m_setting.compressed);
     RC_ASSERT(staticBytes(m_octree->tree(), m_octree->staticRoot()) == m_static);
 }
 
@@ -398,7 +397,7 @@ void DynamicMachine::see(std::uint64_t step, Pixels pixels)
     }
 }
 
-DynamicMachine::Pixels DynamicMachine::picturesOf(const TreeView& tree)
+DynamicMachine::Pixels DynamicMachine::picturesOf(const DeviceTree& tree)
 {
     ShotTaker& taker = m_takers.front();
     Shot shot = m_setting.shot;
@@ -443,27 +442,25 @@ void DynamicMachine::applyRule(std::vector<Cell>& expected, std::vector<Cell>& a
 
 // What of a tree belongs to the static part, whose nodes and lists end at node_end, but for the slot of the root that
 // is shown.
-std::vector<gpu::uint> DynamicMachine::staticBytes(const TreeView& tree, std::uint64_t node_end) const
+std::vector<gpu::uint> DynamicMachine::staticBytes(const DeviceTree& tree, std::uint64_t node_end) const
 {
     std::vector<gpu::uint> words;
-    const Octree& octree = tree.octree();
     const auto below_root = [](std::uint64_t count) { return std::max<std::uint64_t>(count, 1) - 1; };
-    addWords(words, m_device, octree.nodes, 1, below_root(node_end));
-    if (octree.hasAttributes())
+    addWords(words, m_device, tree.nodes, 1, below_root(node_end));
+    if (tree.hasAttributes())
     {
-        const Svdag* dag = tree.svdag();
-        addWords(words, m_device, octree.node_attributes, 1, below_root(dag ? dag->octree_node_count : node_end));
-        addWords(words, m_device, octree.voxel_attributes, 0, octree.voxel_count);
+        addWords(words, m_device, tree.node_attributes, 1, below_root(tree.octreeNodeCount()));
+        addWords(words, m_device, tree.voxel_attributes, 0, tree.voxel_count);
     }
-    if (tree.svdag() != nullptr)
+    if (tree.isDag())
     {
-        addWords(words, m_device, tree.svdag()->before, 0, tree.svdag()->before.count());
-        addWords(words, m_device, tree.svdag()->voxels_before_leaf, 0, tree.svdag()->voxels_before_leaf.count());
+        addWords(words, m_device, tree.lists.before, 0, tree.lists.before.count());
+        addWords(words, m_device, tree.lists.voxels_before_leaf, 0, tree.lists.voxels_before_leaf.count());
     }
     if (m_static_emissive != 0)
     {
-        addWords(words, m_device, octree.emission_words, 0, (octree.voxel_count + 31) / 32);
-        addWords(words, m_device, octree.emission, 0, m_static_emissive);
+        addWords(words, m_device, tree.emission_words, 0, (tree.voxel_count + 31) / 32);
+        addWords(words, m_device, tree.emission, 0, m_static_emissive);
     }
     return words;
 }

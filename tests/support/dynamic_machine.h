@@ -89,11 +89,11 @@ private:
     void see(std::uint64_t step, Pixels pixels);
     void compare();
     [[nodiscard]] ShotTaker& freeTaker();
-    [[nodiscard]] Pixels picturesOf(const TreeView& tree);
+    [[nodiscard]] Pixels picturesOf(const DeviceTree& tree);
     void applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
                    const std::vector<Cell>& moving) const;
     [[nodiscard]] bool isRuled() const { return m_setting.merge != MergeRule::Average && m_setting.attributes; }
-    [[nodiscard]] std::vector<gpu::uint> staticBytes(const TreeView& tree, std::uint64_t node_end) const;
+    [[nodiscard]] std::vector<gpu::uint> staticBytes(const DeviceTree& tree, std::uint64_t node_end) const;
 
     vk::HeadlessDevice& m_device;
     DynamicSetting m_setting;

@@ -140,7 +140,7 @@ GpuScene MoverScenery::upload(const Scene& scene, bool attributes) const
     return uploadScene(m_device, scene, attributes, m_scale);
 }
 
-StaticTree MoverScenery::buildStatic(const DynamicSetting& setting) const
+DeviceTree MoverScenery::buildStatic(const DynamicSetting& setting) const
 {
     BuildOptions build;
     build.coverage = setting.coverage;
@@ -148,11 +148,7 @@ StaticTree MoverScenery::buildStatic(const DynamicSetting& setting) const
     build.keep_sums = setting.attributes && setting.merge == MergeRule::Average;
     const GpuScene uploaded = upload(setting.has_static ? m_static : Scene{}, setting.attributes);
     BuildResult built = buildOctree(m_device, uploaded, setting.grid(), build);
-    if (!setting.compressed)
-    {
-        return built;
-    }
-    return {compress(m_device, std::move(built.octree)).dag, std::move(built.sums)};
+    return setting.compressed ? compress(m_device, std::move(built.octree)).dag : std::move(built.octree);
 }
 
 std::shared_ptr<const MoverMesh> MoverScenery::mover(std::uint32_t mesh, bool attributes)

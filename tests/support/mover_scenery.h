@@ -85,7 +85,7 @@ std::ostream& operator<<(std::ostream& out, const DynamicSetting& setting);
 /// An octree that was made anew.
 struct Rebuilt
 {
-    Octree octree;
+    DeviceTree octree;
     std::vector<Cell> cells; // of it
 };
 
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] float emissionScale() const { return m_scale; }
 
     /// The static part, or without one the tree of nothing.
-    [[nodiscard]] StaticTree buildStatic(const DynamicSetting& setting) const;
+    [[nodiscard]] DeviceTree buildStatic(const DynamicSetting& setting) const;
 
     [[nodiscard]] std::shared_ptr<const MoverMesh> mover(std::uint32_t mesh, bool attributes);
     [[nodiscard]] const Scene& mesh(std::uint32_t number) const { return m_meshes.at(number); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "oracle/octree_check.h"
 #include "shared/octree.h"
 #include "vk/headless.h"
@@ -15,10 +15,10 @@ namespace zvo::test
 {
 
 /// The levels of octree as the oracles take them.
-inline std::vector<oracle::NodeRange> levelsOf(const Octree& octree)
+inline std::vector<oracle::NodeRange> levelsOf(const DeviceTree& octree)
 {
     std::vector<oracle::NodeRange> levels;
-    for (const Octree::Level& level : octree.levels)
+    for (const DeviceTree::Level& level : octree.levels)
     {
         levels.push_back({level.first_node, level.node_count});
     }
@@ -26,7 +26,7 @@ inline std::vector<oracle::NodeRange> levelsOf(const Octree& octree)
 }
 
 /// Voxels of octree and what is wrong with its nodes.
-inline oracle::OctreeContents contentsOf(vk::HeadlessDevice& device, const Octree& octree)
+inline oracle::OctreeContents contentsOf(vk::HeadlessDevice& device, const DeviceTree& octree)
 {
     return oracle::checkOctree(device.download(octree.nodes), levelsOf(octree), octree.grid.depth);
 }

@@ -52,27 +52,26 @@ struct NodePlace
 class TreeReader
 {
 public:
-    TreeReader(vk::HeadlessDevice& device, const TreeView& tree)
-        : m_levels(tree.octree().grid.nodeLevels()), m_nodes(device.download(tree.octree().nodes)),
-          m_attributes(device.download(tree.octree().voxel_attributes)),
-          m_averages(device.download(tree.octree().node_attributes)),
-          m_emission_words(device.download(tree.octree().emission_words)),
-          m_emission(device.download(tree.octree().emission))
+    TreeReader(vk::HeadlessDevice& device, const DeviceTree& tree)
+        : m_levels(tree.grid.nodeLevels()), m_nodes(device.download(tree.nodes)),
+          m_attributes(device.download(tree.voxel_attributes)), m_averages(device.download(tree.node_attributes)),
+          m_emission_words(device.download(tree.emission_words)), m_emission(device.download(tree.emission))
     {
-        if (const Svdag* dag = tree.svdag())
+        if (!tree.isDag())
         {
-            m_before = device.download(dag->before);
-            m_voxels_before_leaf = device.download(dag->voxels_before_leaf);
-            m_entries_per_word = dag->entries_per_word;
-            m_first_place = std::uint64_t{2} * dag->tree.node_count * m_entries_per_word;
-            m_long_count = dag->long_entry_count;
-            m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
+            return;
         }
-        if (const OverlaidTree* overlaid = tree.overlaid())
+        m_before = device.download(tree.lists.before);
+        m_voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
+        m_entries_per_word = tree.lists.entries_per_word;
+        m_first_place = std::uint64_t{2} * tree.node_count * m_entries_per_word;
+        m_long_count = tree.lists.long_entry_count;
+        m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
+        if (tree.hasOverlays())
         {
-            m_ranks = device.download(overlaid->ranks);
-            m_first_overlay_node = overlaid->static_root + 1;
-            m_attribute_offset = overlaid->attributeOffset();
+            m_ranks = device.download(tree.overlays.ranks);
+            m_first_overlay_node = tree.overlays.static_root + 1;
+            m_attribute_offset = tree.attributeOffset();
         }
     }
 
@@ -172,10 +171,10 @@ bool isSet(const gpu::Node& node, std::uint32_t c)
 
 } // namespace
 
-std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const TreeView& tree)
+std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const DeviceTree& tree)
 {
     std::vector<Cell> cells;
-    if (tree.octree().node_count == 0)
+    if (tree.node_count == 0)
     {
         return cells;
     }
@@ -185,7 +184,7 @@ std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const TreeView& tree)
     {
         return cells;
     }
-    const std::uint32_t level_count = tree.octree().grid.nodeLevels();
+    const std::uint32_t level_count = tree.grid.nodeLevels();
     std::vector<Cell> voxels;
     for (std::uint32_t depth = 0; depth < level_count; ++depth)
     {
@@ -211,7 +210,7 @@ std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const TreeView& tree)
     return cells;
 }
 
-Octree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale)
+DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale)
 {
     const std::uint32_t levels = grid.nodeLevels();
     const auto node_count = static_cast<std::size_t>(std::ranges::find(cells, levels, &Cell::level) - cells.begin());
@@ -220,7 +219,7 @@ Octree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, cons
     std::vector<gpu::Attribute> attributes;
     std::vector<gpu::uvec2> words;
     std::vector<gpu::uint> emission;
-    Octree octree;
+    DeviceTree octree;
     octree.grid = grid;
     octree.node_count = static_cast<std::uint32_t>(node_count);
     octree.voxel_count = static_cast<std::uint32_t>(cells.size() - node_count);

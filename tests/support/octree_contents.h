@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -29,15 +29,15 @@ struct Cell
 /// Everything below nodes[0], level by level in Morton order, by following the bases, and lists, as the traversal does;
 /// below lists, ranks along the path tell which attributes are whose. Attributes and emission are 0 where tree has
 /// none. Throws std::out_of_range where something leads out of a buffer.
-std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const TreeView& tree);
+std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const DeviceTree& tree);
 
 /// The octree of cells as cellsOf() lists them, in device memory, breadth first, with attributes and emission if that
 /// is asked for.
-Octree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, bool attributes,
-                float emission_scale);
+DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, bool attributes,
+                    float emission_scale);
 
 /// An octree of cells as cellsOf() lists them, with their attributes and emission: breadth first, made on the host.
-Octree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale);
+DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale);
 
 /// What tells two lists apart: the first difference, or "" for none.
 std::string difference(const std::vector<Cell>& actual, const std::vector<Cell>& expected);

@@ -4,7 +4,7 @@
 namespace zvo::test
 {
 
-Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, BeamGrid& beam, const TraceCamera& camera,
+Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
                     TraceBuffers& buffers, const TraceOptions& options)
 {
     device.run(
@@ -20,10 +20,10 @@ Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, BeamGrid& 
             status.live_tiles, status.capped_rays};
 }
 
-Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, const TraceCamera& camera, std::uint32_t width,
+Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, std::uint32_t width,
                     std::uint32_t height, const TraceOptions& options)
 {
-    BeamGrid beam(device.device(), tree.svdag() != nullptr);
+    BeamGrid beam(device.device(), tree.isDag());
     TraceBuffers buffers(device.device(), width, height);
     return takePicture(device, tree, beam, camera, buffers, options);
 }

@@ -21,11 +21,11 @@ struct Picture
     std::uint32_t capped_rays = 0;
 };
 
-Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, const TraceCamera& camera, std::uint32_t width,
+Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, std::uint32_t width,
                     std::uint32_t height, const TraceOptions& options);
 
 /// The same with buffers that were used before.
-Picture takePicture(vk::HeadlessDevice& device, const TreeView& tree, BeamGrid& beam, const TraceCamera& camera,
+Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
                     TraceBuffers& buffers, const TraceOptions& options);
 
 std::uint32_t hitCount(const Picture& picture);

@@ -78,7 +78,7 @@ vk::BufferOf<T> gathered(vk::HeadlessDevice& device, const vk::BufferOf<T>& buff
     return device.makeBuffer(buffer.name(), std::span<const T>(result));
 }
 
-void gatherEmission(vk::HeadlessDevice& device, const Octree& octree, Relocated& result)
+void gatherEmission(vk::HeadlessDevice& device, const DeviceTree& octree, Relocated& result)
 {
     if (octree.emission.count() == 0)
     {
@@ -113,7 +113,7 @@ void gatherEmission(vk::HeadlessDevice& device, const Octree& octree, Relocated&
 
 } // namespace
 
-Relocated relocate(vk::HeadlessDevice& device, const Octree& octree, const RelocateOptions& options)
+Relocated relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const RelocateOptions& options)
 {
     const std::vector<gpu::Node> originals = device.download(octree.nodes);
     const std::uint32_t level_count = octree.grid.nodeLevels();

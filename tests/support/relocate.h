@@ -2,7 +2,7 @@
 // Octrees whose nodes stand where those of a dynamic update do.
 #pragma once
 
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Relocated
 {
     static constexpr std::uint32_t kUnused = ~0U;
 
-    Octree octree;                              // without levels: nobody who traces may need them
+    DeviceTree octree;                          // without levels: nobody who traces may need them
     std::vector<std::uint32_t> original_nodes;  // [node_count] of the octree that it was made from, or kUnused
     std::vector<std::uint32_t> original_voxels; // [voxel_count]
 };
@@ -34,6 +34,6 @@ struct Relocated
 /// nodes: touched ones with children of their own, the others as copies that share the old children. Touched leaves
 /// have attributes of their own behind the old ones, from a multiple of 32 on. What no ray can reach is spoiled: nodes
 /// are full and their children wrong.
-Relocated relocate(vk::HeadlessDevice& device, const Octree& octree, const RelocateOptions& options = {});
+Relocated relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const RelocateOptions& options = {});
 
 } // namespace zvo::test

@@ -38,7 +38,7 @@ ShotTaker::ShotTaker(vk::Device& device)
 {
 }
 
-void ShotTaker::record(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam, const TraceCamera& camera,
+void ShotTaker::record(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
                        const Shot& shot)
 {
     TraceOptions options;

@@ -36,7 +36,7 @@ public:
     explicit ShotTaker(vk::Device& device);
 
     /// Records the passes for pictures of tree; overwrites those that were taken before. beam: is made anew.
-    void record(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam, const TraceCamera& camera,
+    void record(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
                 const Shot& shot);
 
     /// The pixels of all views, once the device is done with what was recorded, up to FrameGraph::releaseToHost().

@@ -81,10 +81,10 @@ Codes spongeCodes(std::uint32_t depth)
                       });
 }
 
-Octree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth)
+DeviceTree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth)
 {
     const oracle::ReferenceOctree reference = oracle::referenceOctree(codes, depth);
-    Octree octree;
+    DeviceTree octree;
     octree.grid.depth = depth;
     octree.node_count = static_cast<std::uint32_t>(reference.nodes.size());
     octree.voxel_count = static_cast<std::uint32_t>(codes.size());
@@ -96,7 +96,7 @@ Octree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes
     return octree;
 }
 
-void addAttributes(vk::HeadlessDevice& device, Octree& octree)
+void addAttributes(vk::HeadlessDevice& device, DeviceTree& octree)
 {
     std::mt19937 random(octree.voxel_count);
     std::vector<gpu::Attribute> attributes(octree.voxel_count);

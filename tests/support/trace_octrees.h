@@ -2,7 +2,7 @@
 // Small octrees for tracing, made on the host from sets of voxels.
 #pragma once
 
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -31,9 +31,9 @@ Codes sphereShell(std::uint32_t depth, double radius);
 Codes spongeCodes(std::uint32_t depth);
 
 /// The octree of codes in device memory; the grid has its corner at 0 and voxels of size 1. Without attributes.
-Octree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth);
+DeviceTree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth);
 
 /// Gives every voxel and node of octree an arbitrary attribute, and some voxels emission.
-void addAttributes(vk::HeadlessDevice& device, Octree& octree);
+void addAttributes(vk::HeadlessDevice& device, DeviceTree& octree);
 
 } // namespace zvo::test

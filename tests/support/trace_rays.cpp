@@ -35,8 +35,9 @@ gpu::Ray deviceRay(const oracle::Ray& ray, float t_max)
     return {ray.origin, ray.t_min, ray.inv, t_max};
 }
 
-std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const TreeView& tree, const std::vector<gpu::Ray>& rays,
-                                    const TraceOptions& options, std::uint32_t capped_count)
+std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const DeviceTree& tree,
+                                    const std::vector<gpu::Ray>& rays, const TraceOptions& options,
+                                    std::uint32_t capped_count)
 {
     const vk::BufferOf<gpu::Ray> ray_buffer = device.makeBuffer("rays", std::span<const gpu::Ray>(rays));
     vk::BufferOf<gpu::Hit> hits(device.device(), "hits", rays.size());
@@ -101,10 +102,10 @@ oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes&
     return oracle::makeRay(origin, direction, std::max(t_min, gpu::kTraceTimeMin));
 }
 
-void expectEqualsReference(vk::HeadlessDevice& device, const TreeView& tree, const Codes& codes, std::uint32_t count,
+void expectEqualsReference(vk::HeadlessDevice& device, const DeviceTree& tree, const Codes& codes, std::uint32_t count,
                            const TraceOptions& options, bool very_far)
 {
-    const Grid& grid = tree.octree().grid;
+    const Grid& grid = tree.grid;
     const std::uint32_t depth = grid.depth;
     const oracle::VoxelTracer tracer(codes, depth);
     std::mt19937 random(depth * 1000 + count);

@@ -36,12 +36,13 @@ gpu::Ray deviceRay(const oracle::Ray& ray, float t_max = std::numeric_limits<flo
 oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes& codes, bool very_far = true);
 
 /// Hits of rays, in their order; expects that capped_count of them got no answer.
-std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const TreeView& tree, const std::vector<gpu::Ray>& rays,
-                                    const TraceOptions& options = {}, std::uint32_t capped_count = 0);
+std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const DeviceTree& tree,
+                                    const std::vector<gpu::Ray>& rays, const TraceOptions& options = {},
+                                    std::uint32_t capped_count = 0);
 
 /// Traces count rays of many kinds through tree, which holds codes, and expects that voxel, t and face of each equal
 /// the reference's bit for bit, and that some of them hit.
-void expectEqualsReference(vk::HeadlessDevice& device, const TreeView& tree, const Codes& codes, std::uint32_t count,
+void expectEqualsReference(vk::HeadlessDevice& device, const DeviceTree& tree, const Codes& codes, std::uint32_t count,
                            const TraceOptions& options = {}, bool very_far = true);
 
 } // namespace zvo::test

@@ -48,9 +48,9 @@ void expectSameHits(const std::vector<gpu::Hit>& expected, const Looks& expected
 
 } // namespace
 
-Looks::Looks(vk::HeadlessDevice& device, const TreeView& tree)
-    : voxels(device.download(tree.octree().voxel_attributes)), nodes(device.download(tree.octree().node_attributes)),
-      levels(tree.octree().grid.nodeLevels())
+Looks::Looks(vk::HeadlessDevice& device, const DeviceTree& tree)
+    : voxels(device.download(tree.voxel_attributes)), nodes(device.download(tree.node_attributes)),
+      levels(tree.grid.nodeLevels())
 {
 }
 
@@ -61,13 +61,13 @@ std::uint64_t Looks::of(const gpu::Hit& hit) const
     return look.color | std::uint64_t{look.normal} << 32;
 }
 
-TreeComparison::Subject::Subject(vk::HeadlessDevice& device, const TreeView& view)
-    : tree(view), looks(device, view), beam(device.device(), view.hasLists())
+TreeComparison::Subject::Subject(vk::HeadlessDevice& device, const DeviceTree& view)
+    : tree(view), looks(device, view), beam(device.device(), view.isDag())
 {
     device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); });
 }
 
-TreeComparison::TreeComparison(vk::HeadlessDevice& device, const TreeView& expected, const TreeView& tree)
+TreeComparison::TreeComparison(vk::HeadlessDevice& device, const DeviceTree& expected, const DeviceTree& tree)
     : m_device(device), m_expected(device, expected), m_subject(device, tree),
       m_buffers(device.device(), kComparedWidth, kComparedHeight)
 {
@@ -75,7 +75,7 @@ TreeComparison::TreeComparison(vk::HeadlessDevice& device, const TreeView& expec
 
 void TreeComparison::pictures(const ViewCamera& close)
 {
-    const std::vector<ViewCamera> views = manyCameras(m_subject.tree.octree().grid);
+    const std::vector<ViewCamera> views = manyCameras(m_subject.tree.grid);
     TraceOptions options;
     options.occlusion_rays = 2;
     for (const View shown : kComparedViews)
@@ -103,7 +103,7 @@ void TreeComparison::pictures(const ViewCamera& close)
 
 void TreeComparison::rays(const Codes& codes) const
 {
-    const std::uint32_t resolution = m_subject.tree.octree().grid.rootResolution();
+    const std::uint32_t resolution = m_subject.tree.grid.rootResolution();
     std::mt19937 random(resolution);
     std::vector<gpu::Ray> rays;
     for (int i = 0; i < 1001; ++i)
@@ -116,7 +116,7 @@ void TreeComparison::rays(const Codes& codes) const
         options.detail_level = level;
         expectSameHits(traceOnDevice(m_device, m_expected.tree, rays, options), m_expected.looks,
                        traceOnDevice(m_device, m_subject.tree, rays, options), m_subject.looks,
-                       m_subject.tree.octree().hasAttributes());
+                       m_subject.tree.hasAttributes());
     }
 }
 
@@ -136,7 +136,7 @@ Picture TreeComparison::take(const Subject& subject, const TraceCamera& camera, 
 
 void TreeComparison::picture(const ViewCamera& view, const TraceOptions& options)
 {
-    const Grid& grid = m_subject.tree.octree().grid;
+    const Grid& grid = m_subject.tree.grid;
     const TraceCamera camera = traceCamera(view, grid, kComparedHeight);
     const Picture expected = take(m_expected, camera, options);
     const Picture picture = take(m_subject, camera, options);
@@ -144,7 +144,7 @@ void TreeComparison::picture(const ViewCamera& view, const TraceOptions& options
     EXPECT_EQ(picture.light, expected.light);
     EXPECT_EQ(picture.live_tiles, expected.live_tiles);
     EXPECT_EQ(picture.capped_rays, expected.capped_rays);
-    const bool with_looks = m_subject.tree.octree().hasAttributes() && showsAttributes(options.view);
+    const bool with_looks = m_subject.tree.hasAttributes() && showsAttributes(options.view);
     ASSERT_NO_FATAL_FAILURE(expectSameHits(expected.hits, m_expected.looks, picture.hits, m_subject.looks, with_looks));
 }
 

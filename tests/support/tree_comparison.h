@@ -16,7 +16,7 @@ namespace zvo::test
 /// The attributes of a tree, by which indices in two trees are compared.
 struct Looks
 {
-    Looks(vk::HeadlessDevice& device, const TreeView& tree);
+    Looks(vk::HeadlessDevice& device, const DeviceTree& tree);
 
     [[nodiscard]] std::uint64_t of(const gpu::Hit& hit) const;
 
@@ -30,7 +30,7 @@ struct Looks
 class TreeComparison
 {
 public:
-    TreeComparison(vk::HeadlessDevice& device, const TreeView& expected, const TreeView& tree);
+    TreeComparison(vk::HeadlessDevice& device, const DeviceTree& expected, const DeviceTree& tree);
 
     /// Pictures by every view and many levels of detail, from everywhere and from close.
     void pictures(const ViewCamera& close);
@@ -42,9 +42,9 @@ private:
     // A tree, and what pictures of it take.
     struct Subject
     {
-        Subject(vk::HeadlessDevice& device, const TreeView& view);
+        Subject(vk::HeadlessDevice& device, const DeviceTree& view);
 
-        TreeView tree;
+        const DeviceTree& tree;
         Looks looks;
         BeamGrid beam;
     };

@@ -3,7 +3,7 @@
 
 #include "core/file/tree_stats.h"
 #include "core/scene/camera.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,8 +65,7 @@ TreeProbe::TreeProbe(vk::HeadlessDevice& device)
 
 std::string TreeProbe::traceFault(const TreeData& tree, std::mt19937& random)
 {
-    const DeviceTree on_device = uploadTree(m_device, tree);
-    const TreeView view = std::visit([](const auto& uploaded) { return TreeView(uploaded); }, on_device);
+    const DeviceTree view = uploadTree(m_device, tree);
     TraceOptions options;
     options.beam = random() % 4 == 0; // its passes take ten times as long as all others of a picture this small
     options.occlusion_rays = random() % 2;
@@ -75,7 +74,7 @@ std::string TreeProbe::traceFault(const TreeData& tree, std::mt19937& random)
                         tree.grid.origin + tree.grid.voxel_size * static_cast<float>(tree.grid.resolution())};
     const TraceCamera camera = traceCamera(ViewCamera::framing(all, 1.0), tree.grid, kPictureEdge);
     m_device.upload<gpu::Ray>(m_rays, someRays(random));
-    BeamGrid& beam = options.beam && view.hasLists() ? m_dag_beam : m_octree_beam;
+    BeamGrid& beam = options.beam && view.isDag() ? m_dag_beam : m_octree_beam;
     m_device.run(
         [&](vk::FrameGraph& graph)
         {

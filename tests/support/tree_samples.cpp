@@ -279,7 +279,7 @@ std::vector<TreeSample> treeSamples()
 
 std::string treeDifference(const TreeData& actual, const TreeData& expected)
 {
-    const auto sameLevels = [](const Octree::Level& a, const Octree::Level& b)
+    const auto sameLevels = [](const DeviceTree::Level& a, const DeviceTree::Level& b)
     { return a.first_node == b.first_node && a.node_count == b.node_count; };
     const std::pair<const char*, bool> parts[] = {
         {"structure", actual.structure == expected.structure},

@@ -35,8 +35,8 @@ std::uint64_t Renderer::pictureBytes() const
 
 void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& picture)
 {
-    const TreeView tree = world.tree();
-    const TraceCamera camera = traceCamera(picture.camera, tree.octree().grid, m_trace->height);
+    const DeviceTree& tree = world.tree();
+    const TraceCamera camera = traceCamera(picture.camera, tree.grid, m_trace->height);
     const TraceOptions options = picture.view.traceOptions();
     switch (picture.view.integrator)
     {

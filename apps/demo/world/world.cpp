@@ -11,7 +11,7 @@
 #include "core/headless/flatten.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "runtime/stage_octree.h"
 #include "zvo/error.h"
@@ -135,11 +135,10 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
     else
     {
         world.reset(new World(device, {}, {glm::vec3(0.0F), glm::vec3(1.0F)}, false));
-        world->m_tree = DeviceTree(Octree{});
     }
     world->m_info.name = nameOf(files);
-    world->m_info.grid = world->tree().octree().grid;
-    world->m_info.structure = world->tree().hasLists() ? TreeStructure::Svdag : TreeStructure::Svo;
+    world->m_info.grid = world->tree().grid;
+    world->m_info.structure = world->tree().isDag() ? TreeStructure::Svdag : TreeStructure::Svo;
     world->settle(0);
     return world;
 }
@@ -165,25 +164,17 @@ std::unique_ptr<World> World::ofTree(vk::HeadlessDevice& device, const WorldOpti
 // Packed attributes cannot be merged with anything.
 void World::keep(DeviceTree&& tree, const WorldOptions& options)
 {
-    const Octree& octree = std::visit([](const auto& made) -> const Octree& { return TreeView(made).octree(); }, tree);
-    if (isPacked(octree.attributeForm()))
+    if (isPacked(tree.attributeForm()))
     {
-        m_tree = std::move(tree);
+        m_fixed = std::move(tree);
         return;
     }
     DynamicOptions dynamic;
     dynamic.merge = MergeRule::DynamicWins; // a file has no sums
     dynamic.frames_in_flight = options.frames_in_flight;
-    dynamic.attributes = octree.hasAttributes();
-    dynamic.emission_scale = octree.emission.count() != 0 ? octree.emission_scale : 0.0F;
-    if (auto* const dag = std::get_if<Svdag>(&tree))
-    {
-        m_tree = std::make_unique<DynamicOctree>(m_device, StaticTree(std::move(*dag), {}), dynamic);
-        return;
-    }
-    BuildResult built;
-    built.octree = std::move(std::get<Octree>(tree));
-    m_tree = std::make_unique<DynamicOctree>(m_device, std::move(built), dynamic);
+    dynamic.attributes = tree.hasAttributes();
+    dynamic.emission_scale = tree.emission.count() != 0 ? tree.emission_scale : 0.0F;
+    m_dynamic = std::make_unique<DynamicOctree>(m_device, std::move(tree), dynamic);
 }
 
 std::unique_ptr<World> World::ofStage(vk::HeadlessDevice& device, const WorldOptions& options, Stage stage,
@@ -223,17 +214,15 @@ void World::build(const WorldOptions& options, const Grid& grid, const StepListe
     {
         cli::warnOfDropped(built.octree.voxel_count, built.dropped);
     }
-    FragmentSums sums = std::move(built.sums);
-    std::optional<Svdag> dag;
     if (options.structure == TreeStructure::Svdag)
     {
         listener("compressing", kCompressingAt);
         CompressResult compressed = compress(m_device, std::move(built.octree));
-        m_info.static_node_count = compressed.dag.tree.node_count;
+        m_info.static_node_count = compressed.dag.node_count;
         m_info.geometry_bytes = compressed.dag.geometryBytes();
-        m_info.attribute_bytes = compressed.dag.tree.attributeBytes();
+        m_info.attribute_bytes = compressed.dag.attributeBytes();
         m_info.build_ms += compressed.ms();
-        dag = std::move(compressed.dag);
+        built.octree = std::move(compressed.dag);
     }
     DynamicOptions dynamic;
     dynamic.coverage = options.voxels.coverage;
@@ -241,39 +230,27 @@ void World::build(const WorldOptions& options, const Grid& grid, const StepListe
     dynamic.frames_in_flight = options.frames_in_flight;
     dynamic.attributes = has_attributes;
     dynamic.emission_scale = emission_scale;
-    built.sums = std::move(sums);
-    StaticTree fixed = dag ? StaticTree(*std::move(dag), std::move(built.sums)) : StaticTree(std::move(built));
-    auto octree = std::make_unique<DynamicOctree>(m_device, std::move(fixed), dynamic);
+    m_dynamic = std::make_unique<DynamicOctree>(m_device, std::move(built.octree), dynamic);
     listener("copying what moves", kMoversAt);
     for (const Mover& mover : m_stage.movers)
     {
         m_info.moving_triangle_count += mover.scene.triangleCount();
         m_movers.push_back(
-            octree->add(uploadMover(m_device, mover.scene, has_attributes, emission_scale), moverPose(mover, 0.0)));
+            m_dynamic->add(uploadMover(m_device, mover.scene, has_attributes, emission_scale), moverPose(mover, 0.0)));
     }
     m_offsets.resize(m_movers.size());
     m_info.mover_count = m_movers.size();
-    m_tree = std::move(octree);
-}
-
-TreeView World::tree() const
-{
-    if (canEdit())
-    {
-        return dynamic()->tree();
-    }
-    return std::visit([](const auto& fixed) { return TreeView(fixed); }, std::get<DeviceTree>(m_tree));
 }
 
 std::uint64_t World::beginFrame()
 {
-    return canEdit() ? dynamic()->beginFrame() : m_frame++;
+    return canEdit() ? m_dynamic->beginFrame() : m_frame++;
 }
 
 // What moves, where it is at a time of the stage.
 void World::updateMovers(vk::FrameGraph& graph, double seconds)
 {
-    DynamicOctree& octree = *dynamic();
+    DynamicOctree& octree = *m_dynamic;
     if (m_shown_seconds != seconds)
     {
         for (std::size_t i = 0; i < m_movers.size(); ++i)
@@ -294,7 +271,7 @@ void World::updateMovers(vk::FrameGraph& graph, double seconds)
 // Whether the octree took it.
 bool World::record(vk::FrameGraph& graph, const EditRequest& request)
 {
-    DynamicOctree& octree = *dynamic();
+    DynamicOctree& octree = *m_dynamic;
     if (const auto* const brush = std::get_if<Brush>(&request))
     {
         return octree.edit(graph, *brush);
@@ -347,7 +324,7 @@ void World::update(vk::FrameGraph& graph, double seconds)
     {
         recordRequests(graph);
     }
-    if (moves() || (canEdit() && dynamic()->needsUpdate()))
+    if (moves() || (canEdit() && m_dynamic->needsUpdate()))
     {
         try
         {
@@ -400,7 +377,7 @@ void World::settle(double seconds)
 
 bool World::isSettled() const
 {
-    const bool is_shown = !canEdit() || !m_trouble.empty() || !dynamic()->needsUpdate();
+    const bool is_shown = !canEdit() || !m_trouble.empty() || !m_dynamic->needsUpdate();
     return is_shown && m_requests.empty();
 }
 
@@ -408,17 +385,11 @@ void World::frameLost()
 {
     if (canEdit())
     {
-        dynamic()->frameLost();
+        m_dynamic->frameLost();
     }
     m_requests.insert(m_requests.begin(), m_recorded.begin(), m_recorded.end());
     m_recorded.clear();
     m_beam_is_stale = true;
-}
-
-DynamicOctree* World::dynamic() const
-{
-    const auto* const octree = std::get_if<std::unique_ptr<DynamicOctree>>(&m_tree);
-    return octree != nullptr ? octree->get() : nullptr;
 }
 
 Pose World::poseOf(std::size_t mover, double seconds) const
@@ -457,8 +428,7 @@ TreeData World::copyTree(TreeStructure structure)
 {
     if (!canEdit())
     {
-        return std::visit([this](const auto& fixed) { return downloadTree(m_device, fixed); },
-                          std::get<DeviceTree>(m_tree));
+        return downloadTree(m_device, m_fixed);
     }
     TreeData flat = flattenTree(m_device, tree());
     if (structure == TreeStructure::Svo || flat.nodes.empty())
@@ -474,7 +444,7 @@ void World::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)
     {
         return;
     }
-    const std::vector<UpdateReport> reports = dynamic()->frameDone(frame, passes);
+    const std::vector<UpdateReport> reports = m_dynamic->frameDone(frame, passes);
     if (!reports.empty())
     {
         m_info.update = reports.back();

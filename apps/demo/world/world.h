@@ -5,8 +5,8 @@
 #include "core/dynamic/dynamic_octree.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
+#include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
-#include "core/tree/tree_view.h"
 #include "io/scene/stage.h"
 #include "vk/headless.h"
 
@@ -100,13 +100,13 @@ public:
     void update(vk::FrameGraph& graph, double seconds);
 
     /// Whether a brush can change what stands still: not where attributes are packed.
-    [[nodiscard]] bool canEdit() const { return dynamic() != nullptr; }
+    [[nodiscard]] bool canEdit() const { return m_dynamic != nullptr; }
 
     /// Has something done by the next updates, in order. For worlds that can be edited.
     void request(const EditRequest& request) { m_requests.push_back(request); }
 
     /// What was done by brushes, and what of it can be undone; null where nothing can be edited.
-    [[nodiscard]] const Edits* edits() const { return dynamic() != nullptr ? &dynamic()->edits() : nullptr; }
+    [[nodiscard]] const Edits* edits() const { return m_dynamic ? &m_dynamic->edits() : nullptr; }
 
     /// What is shown as an octree, or a DAG, of its own, for a file; a tree that cannot be edited as it is. Waits for
     /// the device. Throws Error{Memory}.
@@ -132,7 +132,7 @@ public:
     /// The kernels may have changed: what they make for tracing is made again.
     void refresh() { m_beam_is_stale = true; }
 
-    [[nodiscard]] TreeView tree() const;
+    [[nodiscard]] const DeviceTree& tree() const { return m_dynamic ? m_dynamic->tree() : m_fixed; }
     [[nodiscard]] const BeamGrid& beam() const { return m_beam; }
     [[nodiscard]] const WorldInfo& info() const { return m_info; }
     [[nodiscard]] const Stage& stage() const { return m_stage; }
@@ -160,7 +160,6 @@ private:
     void recordRequests(vk::FrameGraph& graph);
     bool record(vk::FrameGraph& graph, const EditRequest& request);
     void updateMovers(vk::FrameGraph& graph, double seconds);
-    [[nodiscard]] DynamicOctree* dynamic() const;
     [[nodiscard]] Pose poseOf(std::size_t mover, double seconds) const;
     [[nodiscard]] bool isSettled() const;
 
@@ -169,7 +168,8 @@ private:
     Bounds m_subject;
     BeamGrid m_beam;
     bool m_beam_is_stale = true;
-    std::variant<DeviceTree, std::unique_ptr<DynamicOctree>> m_tree;
+    DeviceTree m_fixed; // that nothing can be merged with; otherwise
+    std::unique_ptr<DynamicOctree> m_dynamic;
     std::vector<MoverId> m_movers;         // in the order of the stage
     std::vector<glm::dvec3> m_offsets;     // of movers
     std::optional<double> m_shown_seconds; // that the movers were placed for

@@ -41,7 +41,7 @@ namespace
 {
 
 // What the attributes of tree are packed into.
-PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, const Octree& tree)
+PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, const DeviceTree& tree)
 {
     const std::uint64_t voxel_words = packedWords(form, tree.voxel_attributes.count());
     const std::uint64_t node_words = packedWords(nodeForm(form), tree.node_attributes.count());
@@ -51,7 +51,7 @@ PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, co
 
 } // namespace
 
-TreePacker::TreePacker(vk::Device& device, AttributeForm form, Octree& tree)
+TreePacker::TreePacker(vk::Device& device, AttributeForm form, DeviceTree& tree)
     : m_device(device), m_form(form), m_tree(tree),
       m_is_done(!isPacked(form) || tree.attributeForm() != AttributeForm::Bytes8)
 {

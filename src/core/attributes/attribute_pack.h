@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/step_job.h"
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 
@@ -24,7 +24,7 @@ class TreePacker final : public StepJob
 {
 public:
     /// tree: an octree, or what a DAG has of one. It must outlive the steps.
-    TreePacker(vk::Device& device, AttributeForm form, Octree& tree);
+    TreePacker(vk::Device& device, AttributeForm form, DeviceTree& tree);
 
     [[nodiscard]] bool isDone() const override { return m_is_done; }
     void record(vk::FrameGraph& graph) override;
@@ -36,7 +36,7 @@ public:
 private:
     vk::Device& m_device;
     AttributeForm m_form;
-    Octree& m_tree;
+    DeviceTree& m_tree;
     PackedAttributes m_packed;
     std::vector<vk::PassTime> m_passes;
     bool m_is_done;

@@ -50,8 +50,9 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
 // layers are made again. One update is merged with too few bits after the fragments have become fewer.
 void DynamicOctree::setShift(std::uint32_t fragments)
 {
-    const std::uint32_t shift = std::max(
-        m_overlays.sums().sum_shift, static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
+    const std::uint32_t shift =
+        std::max(m_overlays.tree().sums.sum_shift,
+                 static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1))));
     if (shift == m_sum_shift)
     {
         return;

@@ -17,24 +17,23 @@ constexpr std::uint32_t kUpdatesPerFrame = 4;
 constexpr std::uint64_t kRoomMin = 1024; // nodes, and voxels, that overlays have at first
 
 // A static tree, if it can be merged as options say. Throws Error{Usage} where not.
-StaticTree& checked(StaticTree& fixed, const DynamicOptions& options)
+DeviceTree& checked(DeviceTree& fixed, const DynamicOptions& options)
 {
     if (options.frames_in_flight == 0 || options.history.entries_max == 0)
     {
         throw Error(ErrorCode::Usage, "dynamic updates need a frame in flight and a step of history at least");
     }
-    const Octree& octree = fixed.dag.tree;
-    if (isPacked(octree.attributeForm()))
+    if (isPacked(fixed.attributeForm()))
     {
         throw Error(ErrorCode::Usage,
                     "movers can be merged only with attributes of 8 bytes: build the octree with them");
     }
-    const bool averages = octree.hasAttributes() && options.merge == MergeRule::Average;
-    if (averages && fixed.sums.sums.count() != octree.voxel_count)
+    const bool averages = fixed.hasAttributes() && options.merge == MergeRule::Average;
+    if (averages && fixed.sums.sums.count() != fixed.voxel_count)
     {
         throw Error(ErrorCode::Usage, "movers can be averaged with a static octree or DAG only if its sums were kept");
     }
-    if (octree.emission.count() != 0 && octree.emission_scale != options.emission_scale)
+    if (fixed.emission.count() != 0 && fixed.emission_scale != options.emission_scale)
     {
         throw Error(ErrorCode::Usage, "movers and the static scene need one emission scale");
     }
@@ -43,10 +42,10 @@ StaticTree& checked(StaticTree& fixed, const DynamicOptions& options)
 
 } // namespace
 
-DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree&& fixed, const DynamicOptions& options)
+DynamicOctree::DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const DynamicOptions& options)
     : m_device(device), m_options(options),
       m_overlays(device, std::move(checked(fixed, options)), {options.attributes, options.emission_scale}, m_retired),
-      m_movers(device, m_overlays.octree().grid,
+      m_movers(device, m_overlays.tree().grid,
                {options.coverage,
                 {m_overlays.hasAttributes(), m_overlays.emits()},
                 options.emission_scale,
@@ -56,7 +55,7 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, StaticTree&& fixed, const Dyn
       m_history(m_overlays.arena(), options.history),
       m_edits(device.device(), m_overlays, m_history, options.edits, options.frames_in_flight, m_retired),
       m_frames({&m_movers, &m_edits, &m_history, &m_overlays, &m_retired}),
-      m_tables(uploadScene(device, Scene{}, true)), m_sum_shift(m_overlays.sums().sum_shift),
+      m_tables(uploadScene(device, Scene{}, true)), m_sum_shift(m_overlays.tree().sums.sum_shift),
       m_sizes(options.minimal_capacities)
 {
     vk::Device& d = device.device();
@@ -131,7 +130,7 @@ void DynamicOctree::prepareBuffers()
     {
         m_retired.keep(std::move(m_update));
     }
-    m_update = std::make_unique<UpdateBuffers>(m_device.device(), needed, m_overlays.octree().grid);
+    m_update = std::make_unique<UpdateBuffers>(m_device.device(), needed, m_overlays.tree().grid);
     m_capacities = needed;
 }
 
@@ -238,7 +237,7 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
     m_movers.makeLayers();
     m_sizes.begin(m_movers.leafCapacity());
     prepareBuffers();
-    const FragmentSums& sums = m_overlays.sums();
+    const FragmentSums& sums = m_overlays.tree().sums;
     const gpu::MergeView view = {{m_tables.view.address()},
                                  {sums.sums.address()},
                                  {sums.emission_sums.address()},
@@ -263,7 +262,6 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
                   .emission_offset = m_overlays.emissionOffset(),
                   .view = m_merge_view,
                   .tables = m_tables.view,
-                  .static_sums = sums,
                   .place = result,
                   .roots = m_roots,
                   .results = m_results},

@@ -3,10 +3,9 @@
 
 #include "core/dynamic/mover_set.h"
 #include "core/edit/edits.h"
-#include "core/overlay/overlay_octree.h"
+#include "core/overlay/overlay_buffers.h"
 #include "core/overlay/root_history.h"
-#include "core/tree/octree.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 #include "core/update/update.h"
 #include "core/update/update_sizes.h"
 #include "vk/device.h"
@@ -67,10 +66,10 @@ struct UpdateReport
 class DynamicOctree
 {
 public:
-    /// Takes over a static tree, a BuildResult or a DAG (and, for MergeRule::Average, the sums it was made of:
-    /// BuildOptions::keep_sums). Throws Error{Usage} where those are missing, and takes nothing; Error{Memory}
-    /// when the device's budget does not suffice.
-    DynamicOctree(vk::Uploader& device, StaticTree&& fixed, const DynamicOptions& options);
+    /// Takes over a static tree (for MergeRule::Average with the sums it was made of: BuildOptions::keep_sums). Throws
+    /// Error{Usage} where those are missing, and takes nothing; Error{Memory} when the device's budget does not
+    /// suffice.
+    DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const DynamicOptions& options);
     DynamicOctree(const DynamicOctree&) = delete;
     DynamicOctree& operator=(const DynamicOctree&) = delete;
 
@@ -152,15 +151,14 @@ public:
     /// and none was recorded since, nor undo() or redo().
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
 
-    /// What to trace. Its octree() is what an octree and a DAG have in common: node_count and voxel_count are those of
-    /// the static tree (1 node for an empty one). It has no levels: what goes through those (octreeSha256, voxelCodes)
-    /// tells nothing of it.
-    [[nodiscard]] TreeView tree() const { return m_overlays.tree(); }
+    /// What to trace. node_count and voxel_count are those of the static tree (1 node for an empty one). It has no
+    /// levels: what goes through those (octreeSha256, voxelCodes) tells nothing of it.
+    [[nodiscard]] const DeviceTree& tree() const { return m_overlays.tree(); }
 
     [[nodiscard]] const RootHistory& history() const { return m_history; }
 
     /// Number of the node behind the static nodes and lists: the static root, untouched by what is shown.
-    [[nodiscard]] std::uint32_t staticRoot() const { return m_overlays.tree().static_root; }
+    [[nodiscard]] std::uint32_t staticRoot() const { return m_overlays.tree().overlays.static_root; }
 
     /// Number of the node that movers are merged with: the root of what strokes have left.
     [[nodiscard]] std::uint32_t editedRoot() const { return m_edits.root(); }
@@ -210,7 +208,7 @@ private:
     vk::Uploader& m_device;
     DynamicOptions m_options;
     vk::Retired m_retired;
-    OverlayOctree m_overlays;
+    OverlayBuffers m_overlays;
     MoverSet m_movers;
     RootHistory m_history;
     Edits m_edits;

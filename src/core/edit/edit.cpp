@@ -2,7 +2,7 @@
 #include "core/edit/edit.h"
 
 #include "core/base/divide_up.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "edit/compact.h"
 #include "octree/octree.h"
 #include "update/update.h"
@@ -19,28 +19,23 @@ namespace zvo
 namespace
 {
 
-std::uint32_t entriesPerWord(const OverlaidTree& tree)
-{
-    return tree.has_lists ? tree.dag.entries_per_word : 0;
-}
-
 gpu::Brush gpuBrush(const Brush& brush)
 {
     return {brush.center, brush.radius, static_cast<gpu::uint>(brush.shape), static_cast<gpu::uint>(brush.action),
             brush.color & 0xFFFFFFU};
 }
 
-gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, OverlaidTree& tree)
+gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, DeviceTree& tree)
 {
-    return {pass.readWrite(tree.ranks).address - tree.ranksSkipped()};
+    return {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
 }
 
 // Where ranks in a DAG come from; nothing for an octree.
-template <typename Params> void readRankSource(vk::AnyPass& pass, const OverlaidTree& tree, Params& params)
+template <typename Params> void readRankSource(vk::AnyPass& pass, const DeviceTree& tree, Params& params)
 {
-    if (tree.hasRanks())
+    if (tree.overlays.hasRanks())
     {
-        const gpu::RankSource source = rankSource(pass, tree.dag);
+        const gpu::RankSource source = rankSource(pass, tree);
         params.before = source.before;
         params.voxels_before_leaf = source.voxels_before_leaf;
         params.first_short_place = source.first_short_place;
@@ -58,17 +53,17 @@ std::uint32_t levelCells(const gpu::EditBox& box, std::uint32_t level)
 void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
                  const DabPlaces& dab, DabBuffers& buffers)
 {
-    OverlaidTree& tree = site.tree;
+    DeviceTree& tree = site.tree;
     const gpu::EditPlaces places = {site.region.first_node, dab.from, dab.to};
-    const bool attributes = tree.hasAttributes();
+    const bool attributes = tree.hasNodeAttributes();
     graph.fill(site.states, 0, std::uint64_t{places.to} * (sizeof(gpu::EditState) / 4), sizeof(gpu::EditState) / 4);
     {
         vk::Pass pass =
-            graph.addPass(gpu::edit::Find{.entries_per_word = entriesPerWord(tree), .attributes = attributes});
+            graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(), .attributes = attributes});
         gpu::EditFindParams params{};
-        params.nodes = pass.read(tree.dag.tree.nodes);
+        params.nodes = pass.read(tree.nodes);
         readRankSource(pass, tree, params);
-        params.ranks = {pass.read(tree.ranks).address - tree.ranksSkipped()};
+        params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
         params.cells = pass.write(buffers.cells);
         params.states = pass.readWrite(site.states);
         params.places = places;
@@ -99,16 +94,17 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         params.voxel_end = site.region.first_voxel + site.region.voxel_capacity;
         pass.dispatch(gpu::kScanGroup, params);
     }
-    vk::Pass pass = graph.addPass(gpu::edit::Nodes{.entries_per_word = entriesPerWord(tree), .attributes = attributes});
+    vk::Pass pass =
+        graph.addPass(gpu::edit::Nodes{.entries_per_word = tree.entriesPerWord(), .attributes = attributes});
     gpu::EditNodesParams params{};
-    params.nodes = pass.readWrite(tree.dag.tree.nodes);
-    params.node_attributes = pass.readWrite(tree.dag.tree.node_attributes);
+    params.nodes = pass.readWrite(tree.nodes);
+    params.node_attributes = pass.readWrite(tree.node_attributes);
     readRankSource(pass, tree, params);
     params.ranks = ranksOf(pass, tree);
     params.cells = pass.readWrite(buffers.cells);
     params.states = pass.read(site.states);
     params.places = places;
-    params.static_root = tree.static_root;
+    params.static_root = tree.overlays.static_root;
     params.attribute_offset = tree.attributeOffset();
     params.box = extent.box;
     pass.dispatch(std::uint64_t{std::max(extent.inner_count, 1U)} * gpu::kEditGroup, params);
@@ -119,15 +115,14 @@ template <typename Kernel>
 void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site, const gpu::Brush& brush,
                      const DabExtent& extent, std::uint32_t to, DabBuffers& buffers)
 {
-    Octree& octree = site.tree.dag.tree;
     vk::Pass pass = graph.addPass(kernel);
     gpu::EditVoxelsParams params{};
-    params.nodes = pass.read(octree.nodes);
+    params.nodes = pass.read(site.tree.nodes);
     params.cells = pass.read(buffers.cells);
     params.states = pass.read(site.states);
-    params.attributes = pass.readWrite(octree.voxel_attributes);
-    params.emission_words = pass.readWrite(octree.emission_words);
-    params.emission = pass.readWrite(octree.emission);
+    params.attributes = pass.readWrite(site.tree.voxel_attributes);
+    params.emission_words = pass.readWrite(site.tree.emission_words);
+    params.emission = pass.readWrite(site.tree.emission);
     params.to = to;
     params.inner_count = extent.inner_count;
     params.brush = brush;
@@ -138,13 +133,12 @@ void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site
 void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
                       const DabPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
-    Octree& octree = site.tree.dag.tree;
-    const bool emits = octree.emission_words.count() != 0;
+    const bool emits = site.tree.emission_words.count() != 0;
     if (emits)
     {
         vk::Pass pass = graph.addPass(gpu::edit::EmissionWords{});
         gpu::EditEmissionWordsParams params{};
-        params.words = pass.write(octree.emission_words);
+        params.words = pass.write(site.tree.emission_words);
         params.states = pass.read(site.states);
         params.from = places.from;
         params.to = places.to;
@@ -168,8 +162,8 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
         params.scene = pass.read(tables);
         params.cells = pass.read(buffers.cells);
         params.states = pass.read(site.states);
-        params.children = are_leaves ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes);
-        params.averages = pass.readWrite(octree.node_attributes);
+        params.children = are_leaves ? pass.read(site.tree.voxel_attributes) : pass.read(site.tree.node_attributes);
+        params.averages = pass.readWrite(site.tree.node_attributes);
         params.first_cell = first_cell;
         params.cell_count = cell_count;
         params.to = places.to;
@@ -182,22 +176,21 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
 // Marks what kept places are made of, level by level from their roots down.
 void recordMarks(vk::FrameGraph& graph, EditSite& site, const std::vector<bool>& kept, CompactBuffers& buffers)
 {
-    Octree& octree = site.tree.dag.tree;
     std::vector<gpu::uint> roots(site.placeCount());
     std::ranges::transform(kept, roots.begin(), [](bool is_kept) { return is_kept ? 1U : gpu::kMarkPlace; });
     graph.fill(buffers.marks, 0);
     graph.update(buffers.marks, 0, roots);
-    if (site.tree.hasAttributes())
+    if (site.tree.hasNodeAttributes())
     {
         graph.fill(buffers.voxel_bits, 0);
     }
-    const std::uint32_t level_count = octree.grid.nodeLevels();
-    for (std::uint32_t level = 0; level + (site.tree.hasAttributes() ? 0 : 1) < level_count; ++level)
+    const std::uint32_t level_count = site.tree.grid.nodeLevels();
+    for (std::uint32_t level = 0; level + (site.tree.hasNodeAttributes() ? 0 : 1) < level_count; ++level)
     {
         const bool are_leaves = level + 1 == level_count;
         vk::Pass pass = graph.addPass(gpu::edit::Mark{.leaves = are_leaves});
         gpu::EditMarkParams params{};
-        params.nodes = pass.read(octree.nodes);
+        params.nodes = pass.read(site.tree.nodes);
         params.marks = pass.readWrite(buffers.marks);
         params.voxel_bits = pass.readWrite(buffers.voxel_bits);
         params.first_node = site.region.first_node;
@@ -241,7 +234,7 @@ void clearEmission(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& r
 {
     vk::Pass pass = graph.addPass(gpu::update::EmissionPlaces{});
     gpu::EmissionPlacesParams params{};
-    params.words = pass.write(site.tree.dag.tree.emission_words);
+    params.words = pass.write(site.tree.emission_words);
     params.first_word = region.first_voxel / kVoxelBlock;
     params.word_count = region.voxel_capacity / kVoxelBlock;
     params.first_place = region.first_voxel + site.emission_offset;
@@ -294,19 +287,20 @@ std::uint64_t CompactBuffers::bytes(const OverlayRegion& region)
 
 void beginEdits(vk::FrameGraph& graph, EditSite& site)
 {
-    OverlaidTree& tree = site.tree;
-    vk::Pass pass = graph.addPass(gpu::edit::Begin{.attributes = tree.hasAttributes(), .ranks = tree.hasRanks()});
+    DeviceTree& tree = site.tree;
+    vk::Pass pass =
+        graph.addPass(gpu::edit::Begin{.attributes = tree.hasNodeAttributes(), .ranks = tree.overlays.hasRanks()});
     gpu::EditBeginParams params{};
-    params.nodes = pass.readWrite(tree.dag.tree.nodes);
-    params.node_attributes = pass.readWrite(tree.dag.tree.node_attributes);
+    params.nodes = pass.readWrite(tree.nodes);
+    params.node_attributes = pass.readWrite(tree.node_attributes);
     params.ranks = ranksOf(pass, tree);
     params.states = pass.readWrite(site.states);
-    params.static_root = tree.static_root;
+    params.static_root = tree.overlays.static_root;
     params.region_node = site.region.first_node;
     params.attribute_offset = tree.attributeOffset();
     params.node_top = site.region.first_node + site.placeCount();
     params.voxel_top = site.region.first_voxel;
-    params.voxel_count = tree.dag.tree.voxel_count;
+    params.voxel_count = tree.voxel_count;
     pass.dispatch(1, params);
 }
 
@@ -315,7 +309,7 @@ void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const 
 {
     const gpu::Brush dab = gpuBrush(brush);
     recordNodes(graph, site, dab, extent, places, buffers);
-    if (site.tree.hasAttributes())
+    if (site.tree.hasNodeAttributes())
     {
         recordAttributes(graph, site, dab, extent, places, tables, buffers);
     }
@@ -324,9 +318,8 @@ void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const 
 void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to,
                       vk::BufferOf<gpu::EditState>& states, const std::vector<bool>& kept, CompactBuffers& buffers)
 {
-    Octree& octree = site.tree.dag.tree;
-    const bool attributes = site.tree.hasAttributes();
-    const bool emits = octree.emission_words.count() != 0;
+    const bool attributes = site.tree.hasNodeAttributes();
+    const bool emits = site.tree.emission_words.count() != 0;
     recordMarks(graph, site, kept, buffers);
     recordNumbers(graph, false, buffers.marks, buffers.numbers, buffers);
     if (attributes)
@@ -341,11 +334,11 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
     {
         vk::Pass pass = graph.addPass(kernel);
         gpu::EditMoveParams params{};
-        params.nodes = pass.readWrite(octree.nodes);
-        params.node_attributes = pass.readWrite(octree.node_attributes);
+        params.nodes = pass.readWrite(site.tree.nodes);
+        params.node_attributes = pass.readWrite(site.tree.node_attributes);
         params.ranks = ranksOf(pass, site.tree);
-        params.attributes = pass.readWrite(octree.voxel_attributes);
-        params.emission_words = pass.readWrite(octree.emission_words);
+        params.attributes = pass.readWrite(site.tree.voxel_attributes);
+        params.emission_words = pass.readWrite(site.tree.emission_words);
         params.marks = pass.read(buffers.marks);
         params.numbers = pass.read(buffers.numbers);
         params.voxel_bits = pass.read(buffers.voxel_bits);
@@ -356,11 +349,12 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
         params.voxel_count = site.region.voxel_capacity;
         params.new_first_node = to.first_node;
         params.new_first_voxel = to.first_voxel;
-        params.level_count = octree.grid.nodeLevels();
+        params.level_count = site.tree.grid.nodeLevels();
         params.attribute_offset = site.tree.attributeOffset();
         pass.dispatch(threads, params);
     };
-    move(gpu::edit::MoveNodes{.attributes = attributes, .ranks = site.tree.hasRanks()}, site.region.node_capacity);
+    move(gpu::edit::MoveNodes{.attributes = attributes, .ranks = site.tree.overlays.hasRanks()},
+         site.region.node_capacity);
     if (attributes)
     {
         move(gpu::edit::MoveVoxels{.emits = emits}, site.region.voxel_capacity);
@@ -371,8 +365,8 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
         gpu::EditMoveEmissionParams params{};
         params.voxel_bits = pass.read(buffers.voxel_bits);
         params.voxel_numbers = pass.read(buffers.voxel_numbers);
-        params.emission_words = pass.read(octree.emission_words);
-        params.emission = pass.readWrite(octree.emission);
+        params.emission_words = pass.read(site.tree.emission_words);
+        params.emission = pass.readWrite(site.tree.emission);
         params.first_voxel = site.region.first_voxel;
         params.voxel_count = site.region.voxel_capacity;
         params.new_first_voxel = to.first_voxel;

@@ -4,7 +4,7 @@
 #include "core/base/grid.h"
 #include "core/edit/brush.h"
 #include "core/overlay/overlay_arena.h"
-#include "core/tree/overlaid_tree.h"
+#include "core/tree/device_tree.h"
 #include "edit/edit.h"
 #include "shared/scene.h"
 #include "vk/frame_graph.h"
@@ -39,7 +39,7 @@ struct DabBuffers
 /// Where edits stand: the first place_count nodes of region are the places' roots (edit/edit.h).
 struct EditSite
 {
-    OverlaidTree& tree;
+    DeviceTree& tree;
     OverlayRegion region;
     vk::BufferOf<gpu::EditState>& states; // [place_count]
     std::uint32_t emission_offset = 0;    // from a voxel of the region to its place among emission values, modulo 2^32

@@ -32,7 +32,7 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
 
 } // namespace
 
-Edits::Edits(vk::Device& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
+Edits::Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const EditBounds& bounds,
              std::uint32_t frames_in_flight, vk::Retired& retired)
     : m_device(device), m_overlays(overlays), m_regions(regions), m_retired(retired),
       m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.entries_max)},
@@ -48,7 +48,7 @@ EditSite Edits::site()
 
 std::uint32_t Edits::root() const
 {
-    return m_now.region ? m_now.region->first_node + m_now.history.place() : m_overlays.tree().static_root;
+    return m_now.region ? m_now.region->first_node + m_now.history.place() : m_overlays.tree().overlays.static_root;
 }
 
 std::uint64_t Edits::heldBytes() const
@@ -64,12 +64,12 @@ std::uint64_t Edits::shownBytes() const
 
 std::uint32_t Edits::voxelCount() const
 {
-    return m_now.region ? m_now.history.top(m_now.history.place()).voxel_count : m_overlays.octree().voxel_count;
+    return m_now.region ? m_now.history.top(m_now.history.place()).voxel_count : m_overlays.tree().voxel_count;
 }
 
 bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables)
 {
-    const std::optional<DabExtent> extent = DabExtent::of(brush, m_overlays.octree().grid);
+    const std::optional<DabExtent> extent = DabExtent::of(brush, m_overlays.tree().grid);
     if (!extent)
     {
         return true;
@@ -173,7 +173,7 @@ void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent)
     const std::uint64_t voxels = m_overlays.hasAttributes() ? kDabsAtFirst * extent.voxel_bound : 0;
     m_now.region = allocateRegion(graph, places + kDabsAtFirst * extent.node_bound, voxels);
     EditTop top = m_now.history.top(0);
-    top.voxel_count = m_overlays.octree().voxel_count;
+    top.voxel_count = m_overlays.tree().voxel_count;
     m_now.history.learn(0, top);
     EditSite where = site();
     beginEdits(graph, where);

@@ -4,7 +4,7 @@
 #include "core/edit/brush.h"
 #include "core/edit/edit.h"
 #include "core/edit/edit_history.h"
-#include "core/overlay/overlay_octree.h"
+#include "core/overlay/overlay_buffers.h"
 #include "core/overlay/root_history.h"
 #include "vk/device.h"
 #include "vk/frame_list.h"
@@ -21,14 +21,14 @@ namespace zvo
 {
 
 /// What a brush did to a static tree, and what of it can be undone. Knows nothing of movers. Edits stand in one region
-/// of an OverlayOctree; when that is full they move, without what nothing shows any more, to another one. Frames are
+/// of an OverlayBuffers; when that is full they move, without what nothing shows any more, to another one. Frames are
 /// those of DynamicOctree, which owns this.
 class Edits final : public vk::FrameParticipant
 {
 public:
     /// Regions that frames in flight may use go back by way of regions, what else retires goes to retired. All must
     /// outlive this.
-    Edits(vk::Device& device, OverlayOctree& overlays, RootHistory& regions, const EditBounds& bounds,
+    Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const EditBounds& bounds,
           std::uint32_t frames_in_flight, vk::Retired& retired);
 
     /// Records a dab of the stroke that is under way, or of a new one. False, and no dab, while its room is not known:
@@ -110,7 +110,7 @@ private:
     void learn(const Report& report, State& state) const;
 
     vk::Device& m_device;
-    OverlayOctree& m_overlays;
+    OverlayBuffers& m_overlays;
     RootHistory& m_regions;
     vk::Retired& m_retired; // knows the frame
     std::uint64_t m_bytes_max;

@@ -127,7 +127,7 @@ bool isZvoFile(const std::filesystem::path& path)
 void writeZvo(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
 {
     std::vector<std::uint64_t> levels;
-    for (const Octree::Level& level : tree.levels)
+    for (const DeviceTree::Level& level : tree.levels)
     {
         levels.push_back(level.node_count);
     }

@@ -22,7 +22,7 @@ constexpr std::uint64_t kRoomPerAttribute = 32; // bytes: itself, its words, and
 
 } // namespace
 
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, Octree& tree)
+std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, DeviceTree& tree)
 {
     return runJob(device, TreePacker(device.device(), form, tree));
 }

@@ -2,7 +2,7 @@
 // Attributes in fewer bytes (docs/attributes.md), for those who wait for the device.
 #pragma once
 
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace zvo
 
 /// Replaces the attributes of tree by such in a packed form (TreePacker), and waits. Returns the passes. Throws
 /// Error{Memory} when the device's budget does not suffice.
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, Octree& tree);
+std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, DeviceTree& tree);
 
 /// Attributes that come to the host piece by piece, packed on the device as if all of them had come at once.
 class AttributePacker

@@ -5,19 +5,13 @@
 #include "core/headless/tree_download.h"
 
 #include <utility>
-#include <variant>
 
 namespace zvo
 {
 
-CompressResult compress(vk::HeadlessDevice& device, Octree octree, const CompressOptions& options)
+CompressResult compress(vk::HeadlessDevice& device, DeviceTree source, const CompressOptions& options)
 {
-    return runJob(device, SvdagBuilder(device.device(), std::move(octree), options));
-}
-
-CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOptions& options)
-{
-    return runJob(device, SvdagBuilder(device.device(), std::move(dag), options));
+    return runJob(device, SvdagBuilder(device.device(), std::move(source), options));
 }
 
 TreeData compressTree(vk::HeadlessDevice& device, TreeData octree)
@@ -29,7 +23,7 @@ TreeData compressTree(vk::HeadlessDevice& device, TreeData octree)
     looks.emission_words = std::exchange(octree.emission_words, {});
     looks.emission = std::exchange(octree.emission, {});
 
-    Octree uploaded = std::get<Octree>(uploadTree(device, octree));
+    DeviceTree uploaded = uploadTree(device, octree);
     octree = {};
     TreeData dag = downloadTree(device, compress(device, std::move(uploaded), options).dag);
     dag.voxel_attributes = std::move(looks.voxel_attributes);

@@ -10,8 +10,7 @@ namespace zvo
 
 /// Makes a DAG of an octree, or of a DAG in which equal nodes stand several times (SvdagBuilder). Waits between its
 /// steps. Throws as these.
-CompressResult compress(vk::HeadlessDevice& device, Octree octree, const CompressOptions& options = {});
-CompressResult compress(vk::HeadlessDevice& device, Svdag dag, const CompressOptions& options = {});
+CompressResult compress(vk::HeadlessDevice& device, DeviceTree source, const CompressOptions& options = {});
 
 /// The DAG of an octree in the host's memory, there again. What voxels look like stays there: only nodes and their
 /// attributes go to the device and back. Waits. Throws as these.

@@ -2,7 +2,7 @@
 #include "core/headless/flatten.h"
 
 #include "core/base/divide_up.h"
-#include "core/tree/svdag_lists.h"
+#include "core/tree/list_packing.h"
 #include "zvo/error.h"
 
 #include <bit>
@@ -30,28 +30,26 @@ struct Place
 class Source
 {
 public:
-    Source(vk::HeadlessDevice& device, const TreeView& tree)
-        : m_nodes(device.download(tree.octree().nodes)), m_voxels(device.download(tree.octree().voxel_attributes)),
-          m_averages(device.download(tree.octree().node_attributes)),
-          m_emission_words(device.download(tree.octree().emission_words)),
-          m_emission(device.download(tree.octree().emission))
+    Source(vk::HeadlessDevice& device, const DeviceTree& tree)
+        : m_nodes(device.download(tree.nodes)), m_voxels(device.download(tree.voxel_attributes)),
+          m_averages(device.download(tree.node_attributes)), m_emission_words(device.download(tree.emission_words)),
+          m_emission(device.download(tree.emission))
     {
-        const Svdag* dag = tree.svdag();
-        if (dag == nullptr)
+        if (!tree.isDag())
         {
             return;
         }
-        m_before = device.download(dag->before);
-        m_voxels_before_leaf = device.download(dag->voxels_before_leaf);
-        m_entries = nodesToEntries(device.download(dag->tree.nodes, dag->tree.node_count), dag->packing());
-        m_first_place = dag->packing().firstPlace();
-        m_first_short_place = m_first_place + dag->long_entry_count;
+        m_before = device.download(tree.lists.before);
+        m_voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
+        m_entries = nodesToEntries(device.download(tree.nodes, tree.node_count), tree.packing());
+        m_first_place = tree.packing().firstPlace();
+        m_first_short_place = m_first_place + tree.lists.long_entry_count;
         m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
-        if (const OverlaidTree* overlaid = tree.overlaid())
+        if (tree.hasOverlays())
         {
-            m_ranks = device.download(overlaid->ranks);
-            m_first_overlay_node = overlaid->static_root + 1;
-            m_attribute_offset = overlaid->attributeOffset();
+            m_ranks = device.download(tree.overlays.ranks);
+            m_first_overlay_node = tree.overlays.static_root + 1;
+            m_attribute_offset = tree.attributeOffset();
         }
     }
 
@@ -125,7 +123,8 @@ private:
 class Flattener
 {
 public:
-    Flattener(const Source& source, const Octree& octree) : m_source(source), m_level_count(octree.grid.nodeLevels())
+    Flattener(const Source& source, const DeviceTree& octree)
+        : m_source(source), m_level_count(octree.grid.nodeLevels())
     {
         m_tree.grid = octree.grid;
         m_tree.emission_scale = octree.emission_scale;
@@ -227,20 +226,19 @@ private:
 
 } // namespace
 
-TreeData flattenTree(vk::HeadlessDevice& device, const TreeView& tree)
+TreeData flattenTree(vk::HeadlessDevice& device, const DeviceTree& tree)
 {
-    const Octree& octree = tree.octree();
-    if (isPacked(octree.attributeForm()))
+    if (isPacked(tree.attributeForm()))
     {
         throw Error(ErrorCode::Usage, "only a tree with attributes of 8 bytes can be made an octree again");
     }
-    if (octree.node_count == 0)
+    if (tree.node_count == 0)
     {
         TreeData empty;
-        empty.grid = octree.grid;
+        empty.grid = tree.grid;
         return empty;
     }
-    return Flattener(Source(device, tree), octree).run();
+    return Flattener(Source(device, tree), tree).run();
 }
 
 } // namespace zvo

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
-#include "core/tree/tree_view.h"
 #include "vk/headless.h"
 
 namespace zvo
@@ -12,6 +12,6 @@ namespace zvo
 /// or a DAG, breadth first as if it had been built so. Equal to downloadTree() of an octree that was just built. Waits.
 /// Attributes have 8 bytes. Throws Error{Usage} for a tree with attributes in another form, Error{Memory} for 2^32
 /// nodes or voxels and more. Cost: nodes and voxels, on the host.
-TreeData flattenTree(vk::HeadlessDevice& device, const TreeView& tree);
+TreeData flattenTree(vk::HeadlessDevice& device, const DeviceTree& tree);
 
 } // namespace zvo

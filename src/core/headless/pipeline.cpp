@@ -15,11 +15,11 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, co
     return runJob(device, OctreeBuilder(device.device(), scene, tile, options));
 }
 
-std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& octree)
+std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const DeviceTree& octree)
 {
     const std::vector<gpu::Node> nodes = device.download(octree.nodes);
     std::vector<std::uint64_t> codes = {0}; // of the nodes of a level, in their order
-    for (const Octree::Level& level : octree.levels)
+    for (const DeviceTree::Level& level : octree.levels)
     {
         std::vector<std::uint64_t> children;
         for (std::uint32_t i = 0; i < level.node_count; ++i)

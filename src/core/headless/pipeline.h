@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/octree/octree_builder.h"
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -17,6 +17,6 @@ BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, co
                         const BuildOptions& options);
 
 /// The Morton codes of all voxels, ascending: voxel_count of them.
-std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const Octree& octree);
+std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const DeviceTree& octree);
 
 } // namespace zvo

@@ -30,7 +30,7 @@ std::uint64_t maskOf(const gpu::Node& node)
 // The nodes above the roots of tiles, and their lists.
 struct Top
 {
-    std::vector<Octree::Level> levels;
+    std::vector<DeviceTree::Level> levels;
     std::vector<gpu::Node> nodes;
     std::vector<gpu::uint> lists;
 };
@@ -94,9 +94,9 @@ struct PartPlace
     std::uint64_t first_place = 0;          // of its lists
 };
 
-void appendLevel(vk::FrameGraph& graph, const Svdag& dag, std::size_t level, const PartPlace& place, Octree& to)
+void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t level, const PartPlace& place,
+                 DeviceTree& to)
 {
-    const Octree& from = dag.tree;
     const auto [first_node, node_count] = from.levels[level];
     if (level + 1 == from.levels.size())
     {
@@ -104,7 +104,7 @@ void appendLevel(vk::FrameGraph& graph, const Svdag& dag, std::size_t level, con
                    node_count * sizeof(gpu::Node));
         return;
     }
-    vk::Pass pass = graph.addPass(gpu::svdag::Append{.entries_per_word = dag.entries_per_word});
+    vk::Pass pass = graph.addPass(gpu::svdag::Append{.entries_per_word = from.entriesPerWord()});
     gpu::AppendParams params{};
     params.from = pass.read(from.nodes);
     params.to = pass.readWrite(to.nodes);
@@ -112,7 +112,7 @@ void appendLevel(vk::FrameGraph& graph, const Svdag& dag, std::size_t level, con
     params.first_from = first_node;
     params.first_to = static_cast<std::uint32_t>(place.first_nodes[level]);
     params.node_count = node_count;
-    params.place_shift = static_cast<std::uint32_t>(place.first_place - dag.packing().firstPlace());
+    params.place_shift = static_cast<std::uint32_t>(place.first_place - from.packing().firstPlace());
     params.child_shift = static_cast<std::uint32_t>(place.first_nodes[level + 1] - from.levels[level + 1].first_node);
     pass.dispatch(node_count, params);
 }
@@ -125,17 +125,17 @@ SvdagForest::SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint
     assert(tile_depth % 2 == 0 && tile_depth < grid.depth);
 }
 
-void SvdagForest::add(std::uint64_t code, Svdag dag)
+void SvdagForest::add(std::uint64_t code, DeviceTree dag)
 {
     assert(m_parts.empty() || m_parts.back().tiles.back().code < code);
-    dag.tree.voxel_attributes = {};
-    dag.tree.node_attributes = {};
-    dag.tree.emission_words = {};
-    dag.tree.emission = {};
-    dag.before = {};
-    dag.voxels_before_leaf = {};
+    dag.voxel_attributes = {};
+    dag.node_attributes = {};
+    dag.emission_words = {};
+    dag.emission = {};
+    dag.lists.before = {};
+    dag.lists.voxels_before_leaf = {};
     Part part;
-    part.tiles = {{code, dag.tree.levels[m_top_levels].first_node}};
+    part.tiles = {{code, dag.levels[m_top_levels].first_node}};
     part.dag = std::move(dag);
     m_parts.push_back(std::move(part));
 
@@ -143,9 +143,9 @@ void SvdagForest::add(std::uint64_t code, Svdag dag)
     std::uint64_t unmerged = 0;
     for (std::size_t i = 1; i < m_parts.size(); ++i)
     {
-        unmerged += m_parts[i].dag.tree.node_count;
+        unmerged += m_parts[i].dag.node_count;
     }
-    if (unmerged > std::max<std::uint64_t>(m_parts.front().dag.tree.node_count, kUnmergedMin))
+    if (unmerged > std::max<std::uint64_t>(m_parts.front().dag.node_count, kUnmergedMin))
     {
         merge(false);
     }
@@ -189,7 +189,7 @@ SvdagForest::Part SvdagForest::joined()
 
     std::vector<PartPlace> places(m_parts.size());
     std::uint64_t node_count = top.nodes.size();
-    std::vector<Octree::Level> levels = top.levels;
+    std::vector<DeviceTree::Level> levels = top.levels;
     for (std::size_t level = m_top_levels; level < level_count; ++level)
     {
         const std::uint64_t first_node = node_count;
@@ -197,7 +197,7 @@ SvdagForest::Part SvdagForest::joined()
         {
             places[i].first_nodes.resize(level_count);
             places[i].first_nodes[level] = node_count;
-            node_count += m_parts[i].dag.tree.levels[level].node_count;
+            node_count += m_parts[i].dag.levels[level].node_count;
         }
         levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
     }
@@ -205,7 +205,7 @@ SvdagForest::Part SvdagForest::joined()
     for (std::size_t i = 0; i < m_parts.size(); ++i)
     {
         places[i].first_place = node_count * kNodeEntries + entry_count;
-        entry_count += m_parts[i].dag.entry_count;
+        entry_count += m_parts[i].dag.lists.entry_count;
     }
     const ListPacking packing = {node_count, entry_count, kJoinedPerWord};
     if (!packing.fits())
@@ -218,7 +218,7 @@ SvdagForest::Part SvdagForest::joined()
     std::size_t tile = 0;
     for (std::size_t i = 0; i < m_parts.size(); ++i)
     {
-        const std::uint32_t first_root = m_parts[i].dag.tree.levels[m_top_levels].first_node;
+        const std::uint32_t first_root = m_parts[i].dag.levels[m_top_levels].first_node;
         for (const Tile& of_part : m_parts[i].tiles)
         {
             all.tiles[tile].root =
@@ -228,12 +228,13 @@ SvdagForest::Part SvdagForest::joined()
     }
     top = topOf(codes, roots, m_top_levels, packing.firstPlace());
 
-    Octree& tree = all.dag.tree;
+    DeviceTree& tree = all.dag;
+    tree.structure = TreeStructure::Svdag;
     tree.grid = m_grid;
     tree.node_count = static_cast<std::uint32_t>(node_count);
     tree.levels = std::move(levels);
-    all.dag.entry_count = entry_count;
-    all.dag.entries_per_word = packing.per_word;
+    tree.lists.entry_count = entry_count;
+    tree.lists.entries_per_word = packing.per_word;
     m_device.device().memory().require(packing.poolNodes() * sizeof(gpu::Node), "joining the tiles");
     tree.nodes = {m_device.device(), "svdag/forest", packing.poolNodes()};
     m_device.upload(tree.nodes, std::span<const gpu::Node>(top.nodes));
@@ -256,14 +257,14 @@ SvdagForest::Part SvdagForest::joined()
 // Finds the tiles' roots in a DAG in which equal ones have become one.
 void SvdagForest::learnRoots(Part& part) const
 {
-    const Octree& tree = part.dag.tree;
+    const DeviceTree& tree = part.dag;
     const std::vector<gpu::Node> nodes = m_device.download(tree.nodes, 0, tree.levels[m_top_levels].first_node);
     std::uint64_t entry_count = 0;
     for (const gpu::Node& node : nodes)
     {
         entry_count += static_cast<std::uint64_t>(std::popcount(maskOf(node)));
     }
-    const ListPacking packing = {tree.node_count, entry_count, part.dag.entries_per_word};
+    const ListPacking packing = {tree.node_count, entry_count, tree.lists.entries_per_word};
     const std::vector<gpu::uint> lists =
         nodesToEntries(m_device.download(tree.nodes, tree.node_count, packing.poolNodes() - tree.node_count), packing);
     const auto childOf = [&](const gpu::Node& node, std::uint64_t cell)
@@ -293,16 +294,17 @@ void SvdagForest::merge(bool ranks)
     m_parts.push_back(std::move(all));
 }
 
-Svdag SvdagForest::finish(bool ranks)
+DeviceTree SvdagForest::finish(bool ranks)
 {
     if (m_parts.empty())
     {
-        Svdag empty;
-        empty.tree.grid = m_grid;
+        DeviceTree empty;
+        empty.structure = TreeStructure::Svdag;
+        empty.grid = m_grid;
         return empty;
     }
     merge(ranks);
-    Svdag dag = std::move(m_parts.front().dag);
+    DeviceTree dag = std::move(m_parts.front().dag);
     m_parts.clear();
     return dag;
 }

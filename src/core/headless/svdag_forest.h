@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
 #include <cstddef>
@@ -23,13 +23,13 @@ public:
     /// Adds the DAG of the whole grid in which only one tile is occupied. code: the tile's Morton code among tiles,
     /// more than those before. Takes its nodes, not its attributes. Throws Error{Memory} when the device's budget does
     /// not suffice.
-    void add(std::uint64_t code, Svdag dag);
+    void add(std::uint64_t code, DeviceTree dag);
 
     [[nodiscard]] bool isEmpty() const { return m_parts.empty(); }
 
     /// The DAG of all that was added; nothing is left here. Without attributes; with BeforeChild and so on if `ranks`.
     /// Throws as add().
-    Svdag finish(bool ranks);
+    DeviceTree finish(bool ranks);
 
     /// Nodes above the tiles' roots, in all tiles' octree.
     [[nodiscard]] std::uint64_t topNodeCount() const;
@@ -46,7 +46,7 @@ private:
     // One DAG with the tiles below it, ascending.
     struct Part
     {
-        Svdag dag;
+        DeviceTree dag;
         std::vector<Tile> tiles;
     };
 

@@ -2,7 +2,7 @@
 #include "core/headless/tile_nodes.h"
 
 #include "core/octree/octree_build.h"
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,7 +16,7 @@ namespace
 {
 
 // The nodes above tiles as an octree whose voxels are the tiles.
-Octree topOctree(vk::HeadlessDevice& device, const Grid& grid, std::size_t top_levels, const TileNodes& tiles)
+DeviceTree topOctree(vk::HeadlessDevice& device, const Grid& grid, std::size_t top_levels, const TileNodes& tiles)
 {
     std::vector<std::vector<gpu::Node>> levels; // the lowest first
     std::vector<std::uint64_t> codes = tiles.codes;
@@ -38,7 +38,7 @@ Octree topOctree(vk::HeadlessDevice& device, const Grid& grid, std::size_t top_l
         codes = std::move(parents);
     }
     std::ranges::reverse(levels);
-    Octree top;
+    DeviceTree top;
     top.grid = grid;
     std::vector<gpu::Node> all;
     for (std::size_t level = 0; level < top_levels; ++level)
@@ -68,7 +68,7 @@ Octree topOctree(vk::HeadlessDevice& device, const Grid& grid, std::size_t top_l
 std::vector<gpu::Attribute> joinNodes(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid,
                                       std::size_t top_levels, const TileNodes& tiles)
 {
-    Octree top = topOctree(device, grid, top_levels, tiles);
+    DeviceTree top = topOctree(device, grid, top_levels, tiles);
     device.run([&](vk::FrameGraph& graph) { averageNodes(graph, scene, top); });
     const std::vector<gpu::Attribute> averages = device.download(top.node_attributes);
     std::size_t count = averages.size();

@@ -73,7 +73,7 @@ private:
 // The DAG of the whole grid in which a part of it is occupied, and how that looks.
 struct Part
 {
-    Svdag dag; // without attributes
+    DeviceTree dag; // without attributes
     Looks looks;
 };
 
@@ -181,10 +181,10 @@ std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     ++m_result.tile_count;
     Tile tile;
     Part& part = tile.part;
-    Octree& tree = compressed.dag.tree;
+    DeviceTree& tree = compressed.dag;
     tile.voxel_attributes = m_device.download(tree.voxel_attributes);
     part.looks.voxel_count = tree.voxel_count;
-    part.looks.octree_node_count = compressed.dag.octree_node_count;
+    part.looks.octree_node_count = tree.octreeNodeCount();
     part.looks.node_attributes = m_device.download(tree.node_attributes);
     for (const gpu::uvec2& word : m_device.download(tree.emission_words))
     {
@@ -290,11 +290,12 @@ TiledResult TiledBuilder::build()
     if (!part)
     {
         part.emplace();
-        part->dag.tree.grid = m_grid;
+        part->dag.structure = TreeStructure::Svdag;
+        part->dag.grid = m_grid;
     }
     Looks& looks = part->looks;
-    part->dag.tree.voxel_count = static_cast<std::uint32_t>(looks.voxel_count);
-    part->dag.octree_node_count = static_cast<std::uint32_t>(looks.octree_node_count);
+    part->dag.voxel_count = static_cast<std::uint32_t>(looks.voxel_count);
+    part->dag.lists.octree_node_count = static_cast<std::uint32_t>(looks.octree_node_count);
     tree = downloadTree(m_device, part->dag);
     part->dag = {};
     finishAttributes(looks, tree);

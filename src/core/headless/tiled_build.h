@@ -32,7 +32,7 @@ struct TiledOptions
 /// A DAG and how it came about.
 struct TiledResult
 {
-    TreeData tree;                                // a Svdag
+    TreeData tree;                                // a DAG
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
     std::uint32_t tile_count = 0;                 // that were built on their own and have voxels
     std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small

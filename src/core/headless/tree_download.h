@@ -7,9 +7,8 @@
 namespace zvo
 {
 
-/// Copies an octree, or a DAG, to the host and waits. An octree must have levels, and its nodes must stand as they were
-/// built: not the enlarged one of a dynamic update. Throws Error{Usage} for one that does not.
-TreeData downloadTree(vk::HeadlessDevice& device, const Octree& octree);
-TreeData downloadTree(vk::HeadlessDevice& device, const Svdag& dag);
+/// Copies a tree to the host and waits. Its nodes must stand level by level as they were built, without room for
+/// overlays; of a DAG as few words of lists as it takes. Throws Error{Usage} for a tree that does not.
+TreeData downloadTree(vk::HeadlessDevice& device, const DeviceTree& tree);
 
 } // namespace zvo

@@ -10,7 +10,7 @@ namespace
 {
 
 // Child bases of one level, from a prefix sum over its nodes.
-void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree,
+void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree,
                     std::size_t level)
 {
     const auto [first_node, node_count] = octree.levels[level];
@@ -91,7 +91,7 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
     }
 }
 
-void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree)
+void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree)
 {
     // Passes that put numbers where masks were cannot come twice: what can fail comes before the first of them.
     const gpu::octree::Place place{.wide_keys = hasWideKeys(octree.grid)};
@@ -120,7 +120,7 @@ void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBu
     }
 }
 
-void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, Octree& octree)
+void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octree)
 {
     for (std::size_t level = octree.levels.size(); level-- > 0;)
     {

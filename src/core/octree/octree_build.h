@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"
 #include "octree/octree.h"
@@ -38,9 +38,9 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
 /// Records the passes that number the nodes breadth first in Morton order and write octree.nodes, from the root down.
 /// octree.levels, node_count and nodes must be set up. Leaves in the brick table learn their first voxel.
 /// Cost: nodes. The numbers come from prefix sums: they do not depend on the order of threads.
-void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, Octree& octree);
+void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree);
 
 /// Records the passes that give inner nodes the mean attribute of their children, from the leaves up. Cost: nodes.
-void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, Octree& octree);
+void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octree);
 
 } // namespace zvo

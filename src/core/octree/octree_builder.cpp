@@ -230,7 +230,7 @@ void OctreeBuilder::grow(const Growth& growth)
 void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
 {
     requireIndexable(counters.node_count, m_options.attributes ? counters.voxel_count : 0);
-    Octree& octree = m_result.octree;
+    DeviceTree& octree = m_result.octree;
     octree.node_count = counters.node_count;
     octree.voxel_count = counters.voxel_count;
     if (octree.node_count == 0)
@@ -266,7 +266,7 @@ void OctreeBuilder::endNumbers()
 
 void OctreeBuilder::attributes(vk::FrameGraph& graph)
 {
-    Octree& octree = m_result.octree;
+    DeviceTree& octree = m_result.octree;
     const bool emits = m_scene.uploaded().emission_scale > 0.0F;
     if (!m_sums)
     {
@@ -331,7 +331,7 @@ void OctreeBuilder::endVoxelAttributes()
     m_coverings.reset();
     if (m_options.keep_sums)
     {
-        m_result.sums = {std::move(m_sums->sums), std::move(m_sums->emission_sums), m_sums->sum_shift};
+        m_result.octree.sums = {std::move(m_sums->sums), std::move(m_sums->emission_sums), m_sums->sum_shift};
     }
     m_sums.reset();
     m_step = {&OctreeBuilder::average, &OctreeBuilder::end};
@@ -339,7 +339,7 @@ void OctreeBuilder::endVoxelAttributes()
 
 void OctreeBuilder::average(vk::FrameGraph& graph)
 {
-    Octree& octree = m_result.octree;
+    DeviceTree& octree = m_result.octree;
     if (octree.node_attributes.count() == 0)
     {
         octree.node_attributes = {m_device, "octree/node_attributes", octree.node_count};

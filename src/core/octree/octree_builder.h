@@ -3,7 +3,7 @@
 
 #include "core/base/step_job.h"
 #include "core/octree/octree_build.h"
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"
 #include "vk/timer.h"
@@ -26,7 +26,7 @@ struct BuildOptions
     Coverage coverage = Coverage::Thin;
     bool attributes = true;
     std::optional<VoxelizeCapacities> capacities = std::nullopt; // where to start; by default, an estimate
-    bool keep_sums = false; // of attributes, for BuildResult::sums: 28 bytes a voxel
+    bool keep_sums = false;                                      // of attributes, in DeviceTree::sums: 28 bytes a voxel
 };
 
 /// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels, and the fills of its
@@ -36,12 +36,11 @@ double operationMs(std::span<const vk::PassTime> passes, std::string_view operat
 /// An octree and how it came about.
 struct BuildResult
 {
-    Octree octree;
+    DeviceTree octree;
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
     std::vector<vk::PassTime> passes;             // of the runs that succeeded
     VoxelizeCapacities capacities;                // that sufficed
     std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
-    FragmentSums sums;                            // with BuildOptions::keep_sums
 
     /// operationMs() of the passes.
     [[nodiscard]] double stageMs(std::string_view operation) const { return operationMs(passes, operation); }

@@ -63,87 +63,88 @@ bool growSlots(const Candidates& candidates, const gpu::ClassSizes& sizes, std::
 
 // Sizes dag from what the classes came to.
 void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::ClassSizes& sizes, bool has_ranks,
-                  std::uint32_t per_word_max, Svdag& dag)
+                  std::uint32_t per_word_max, DeviceTree& dag)
 {
-    dag.tree.node_count = sizes.node_count;
-    dag.entry_count = sizes.entry_count;
+    dag.node_count = sizes.node_count;
+    dag.lists.entry_count = sizes.entry_count;
     const std::size_t level_count = candidates.levels().size();
     for (std::size_t level = 0; level < level_count; ++level)
     {
         const std::uint32_t end = level + 1 < level_count ? sizes.first_nodes[level + 1] : sizes.node_count;
-        dag.tree.levels.push_back({sizes.first_nodes[level], end - sizes.first_nodes[level]});
+        dag.levels.push_back({sizes.first_nodes[level], end - sizes.first_nodes[level]});
     }
-    dag.long_entry_count = level_count < 2 ? 0 : sizes.first_entries[level_count - 2];
+    dag.lists.long_entry_count = level_count < 2 ? 0 : sizes.first_entries[level_count - 2];
     ListPacking packing = ListPacking::tightest(sizes.node_count, sizes.entry_count);
     packing.per_word = std::min(packing.per_word, per_word_max);
-    dag.entries_per_word = packing.per_word;
+    dag.lists.entries_per_word = packing.per_word;
     if (!packing.fits())
     {
         throwTooBig(packing);
     }
-    const std::uint64_t before_count = has_ranks ? dag.long_entry_count : 0;
-    const std::uint64_t leaf_word_count = has_ranks ? divideUp(dag.entry_count - dag.long_entry_count, 2) : 0;
-    const std::uint64_t below_count = has_ranks ? dag.tree.levels.back().first_node : 0;
+    const std::uint64_t before_count = has_ranks ? dag.lists.long_entry_count : 0;
+    const std::uint64_t leaf_word_count =
+        has_ranks ? divideUp(dag.lists.entry_count - dag.lists.long_entry_count, 2) : 0;
+    const std::uint64_t below_count = has_ranks ? dag.levels.back().first_node : 0;
     device.memory().require(packing.poolNodes() * sizeof(gpu::Node) +
                                 (before_count + below_count) * sizeof(gpu::BeforeChild) +
                                 leaf_word_count * sizeof(gpu::uint),
                             "writing the DAG");
-    dag.tree.nodes = {device, "svdag/pool", packing.poolNodes()};
-    dag.before = {device, "svdag/before", before_count};
-    dag.voxels_before_leaf = {device, "svdag/voxels_before_leaf", leaf_word_count};
+    dag.nodes = {device, "svdag/pool", packing.poolNodes()};
+    dag.lists.before = {device, "svdag/before", before_count};
+    dag.lists.voxels_before_leaf = {device, "svdag/voxels_before_leaf", leaf_word_count};
 }
 
 void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t level, const ClassBuffers& classes,
-                vk::BufferOf<gpu::BeforeChild>& below, Svdag& dag)
+                vk::BufferOf<gpu::BeforeChild>& below, DeviceTree& dag)
 {
-    const auto [first_node, node_count] = dag.tree.levels[level];
-    if (level + 1 == dag.tree.levels.size())
+    const auto [first_node, node_count] = dag.levels[level];
+    if (level + 1 == dag.levels.size())
     {
         vk::Pass pass = graph.addPass(gpu::svdag::Leaves{});
         const gpu::UniqueLeavesParams params = {pass.read(candidates.tree.nodes), pass.read(classes.table),
-                                                pass.write(dag.tree.nodes), first_node, node_count};
+                                                pass.write(dag.nodes), first_node, node_count};
         pass.dispatch(node_count, params);
         return;
     }
-    const bool above_leaves = level + 2 == dag.tree.levels.size();
-    vk::Pass pass = graph.addPass(gpu::svdag::Lists{.entries_per_word = candidates.entries_per_word,
+    const bool above_leaves = level + 2 == dag.levels.size();
+    vk::Pass pass = graph.addPass(gpu::svdag::Lists{.entries_per_word = candidates.tree.entriesPerWord(),
                                                     .before = below.count() != 0,
                                                     .above_leaves = above_leaves,
-                                                    .per_word = dag.entries_per_word});
+                                                    .per_word = dag.lists.entries_per_word});
     gpu::UniqueListsParams params{};
     params.nodes = pass.read(candidates.tree.nodes);
     params.classes = pass.read(classes.classes);
     params.numbers = pass.read(classes.numbers);
     params.unique_nodes = pass.read(classes.table);
     params.first_entries = pass.read(classes.first_entries);
-    params.pool = pass.readWrite(dag.tree.nodes);
+    params.pool = pass.readWrite(dag.nodes);
     params.halfwords = {params.pool.address};
     params.below = pass.readWrite(below);
-    params.before = pass.write(dag.before);
-    params.voxels_before_leaf = pass.readWrite(dag.voxels_before_leaf);
+    params.before = pass.write(dag.lists.before);
+    params.voxels_before_leaf = pass.readWrite(dag.lists.voxels_before_leaf);
     params.first_node = first_node;
     params.node_count = node_count;
     params.first_place = static_cast<std::uint32_t>(dag.packing().firstPlace());
-    params.long_entry_count = static_cast<std::uint32_t>(dag.long_entry_count);
+    params.long_entry_count = static_cast<std::uint32_t>(dag.lists.long_entry_count);
     pass.dispatch(node_count, params);
 }
 
 void writePool(vk::FrameGraph& graph, const Candidates& candidates, const ClassBuffers& classes,
-               vk::BufferOf<gpu::BeforeChild>& below, Svdag& dag)
+               vk::BufferOf<gpu::BeforeChild>& below, DeviceTree& dag)
 {
-    if (dag.entry_count != 0)
+    if (dag.lists.entry_count != 0)
     {
-        graph.fill(dag.tree.nodes, 0, dag.tree.node_count * (sizeof(gpu::Node) / sizeof(gpu::uint)));
+        graph.fill(dag.nodes, 0, dag.node_count * (sizeof(gpu::Node) / sizeof(gpu::uint)));
     }
-    graph.fill(dag.voxels_before_leaf, 0);
-    for (std::size_t level = dag.tree.levels.size(); level-- > 0;)
+    graph.fill(dag.lists.voxels_before_leaf, 0);
+    for (std::size_t level = dag.levels.size(); level-- > 0;)
     {
         writeLevel(graph, candidates, level, classes, below, dag);
     }
 }
 
 // Where octree, and the classes of its nodes, lead in depth-first order. numbers become ranks.
-void orderDepthFirst(vk::FrameGraph& graph, const Octree& octree, ClassBuffers& classes, Svdag& dag)
+void orderDepthFirst(vk::FrameGraph& graph, const DeviceTree& octree, ClassBuffers& classes, DeviceTree& dag)
 {
     vk::BufferOf<gpu::uint>& ranks = classes.numbers;
     graph.fill(ranks, 0, 0, 1);
@@ -157,16 +158,16 @@ void orderDepthFirst(vk::FrameGraph& graph, const Octree& octree, ClassBuffers& 
         params.nodes = pass.read(octree.nodes);
         params.classes = pass.read(classes.classes);
         params.first_entries = pass.read(classes.first_entries);
-        params.before = pass.read(dag.before);
+        params.before = pass.read(dag.lists.before);
         if (packed)
         {
             params.from = {pass.read(octree.packed.nodes).address};
-            params.to = {pass.readWrite(dag.tree.packed.nodes).address};
+            params.to = {pass.readWrite(dag.packed.nodes).address};
         }
         else
         {
             params.from = pass.read(octree.node_attributes);
-            params.to = pass.readWrite(dag.tree.node_attributes);
+            params.to = pass.readWrite(dag.node_attributes);
         }
         params.ranks = pass.readWrite(ranks);
         params.first_node = first_node;
@@ -176,7 +177,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const Octree& octree, ClassBuffers& 
 }
 
 // What does not depend on equal nodes goes from one tree to the other.
-void moveVoxels(Octree& from, Octree& to)
+void moveVoxels(DeviceTree& from, DeviceTree& to)
 {
     to.grid = from.grid;
     to.voxel_count = from.voxel_count;
@@ -186,21 +187,15 @@ void moveVoxels(Octree& from, Octree& to)
     to.emission_words = std::move(from.emission_words);
     to.emission = std::move(from.emission);
     to.emission_scale = from.emission_scale;
+    to.sums = std::move(from.sums);
 }
 
-void requireLevels(const Octree& tree)
+void requireLevels(const DeviceTree& tree)
 {
     if (tree.node_count != 0 && tree.levels.size() != tree.grid.nodeLevels())
     {
         throw Error(ErrorCode::Usage, "only a tree whose nodes stand level by level can be compressed");
     }
-}
-
-Svdag withoutLists(Octree&& octree)
-{
-    Svdag dag;
-    dag.tree = std::move(octree);
-    return dag;
 }
 
 } // namespace
@@ -215,32 +210,20 @@ double CompressResult::ms() const
     return sum;
 }
 
-SvdagBuilder::SvdagBuilder(vk::Device& device, Octree octree, const CompressOptions& options)
-    : SvdagBuilder(device, withoutLists(std::move(octree)), options, true)
+SvdagBuilder::SvdagBuilder(vk::Device& device, DeviceTree source, const CompressOptions& options)
+    : m_device(device), m_options(options), m_source(std::move(source)), m_candidates{m_source, options.hash_mask},
+      m_has_ranks(m_source.hasAttributes() || options.ranks)
 {
-}
-
-SvdagBuilder::SvdagBuilder(vk::Device& device, Svdag dag, const CompressOptions& options)
-    : SvdagBuilder(device, std::move(dag), options, false)
-{
-}
-
-SvdagBuilder::SvdagBuilder(vk::Device& device, Svdag source, const CompressOptions& options, bool of_octree)
-    : m_device(device), m_options(options), m_of_octree(of_octree),
-      m_source(std::move(source)), m_candidates{m_source.tree, of_octree ? 0 : m_source.entries_per_word,
-                                                options.hash_mask},
-      m_has_ranks(m_source.tree.hasAttributes() || options.ranks)
-{
-    const Octree& tree = m_source.tree;
-    requireLevels(tree);
-    m_result.dag.octree_node_count = of_octree ? tree.node_count : m_source.octree_node_count;
-    if (tree.node_count == 0)
+    requireLevels(m_source);
+    m_result.dag.structure = TreeStructure::Svdag;
+    m_result.dag.lists.octree_node_count = m_source.octreeNodeCount();
+    if (m_source.node_count == 0)
     {
         end();
         return;
     }
     m_step = {&SvdagBuilder::classify, &SvdagBuilder::learnClasses};
-    for (const Octree::Level& level : tree.levels)
+    for (const DeviceTree::Level& level : m_source.levels)
     {
         m_result.candidate_counts.push_back(level.node_count);
     }
@@ -282,7 +265,7 @@ void SvdagBuilder::learnClasses()
 
 void SvdagBuilder::write(vk::FrameGraph& graph)
 {
-    const std::uint64_t below_count = m_has_ranks ? m_result.dag.tree.levels.back().first_node : 0;
+    const std::uint64_t below_count = m_has_ranks ? m_result.dag.levels.back().first_node : 0;
     if (m_below.count() != below_count)
     {
         m_below = {m_device, "svdag/below", below_count};
@@ -295,21 +278,21 @@ void SvdagBuilder::endNodes()
 {
     m_below = {};
     m_classes->table = {};
-    Octree& source = m_source.tree;
-    if (m_of_octree && source.levels.size() > 1 && (source.hasAttributes() || source.hasNodeAttributes()))
+    DeviceTree& source = m_source;
+    if (!source.isDag() && source.levels.size() > 1 && (source.hasAttributes() || source.hasNodeAttributes()))
     {
         m_step = {&SvdagBuilder::order, &SvdagBuilder::end};
         return;
     }
-    m_result.dag.tree.node_attributes = std::move(source.node_attributes);
-    m_result.dag.tree.packed.nodes = std::move(source.packed.nodes);
+    m_result.dag.node_attributes = std::move(source.node_attributes);
+    m_result.dag.packed.nodes = std::move(source.packed.nodes);
     end();
 }
 
 void SvdagBuilder::order(vk::FrameGraph& graph)
 {
-    Octree& tree = m_result.dag.tree;
-    const Octree& source = m_source.tree;
+    DeviceTree& tree = m_result.dag;
+    const DeviceTree& source = m_source;
     if (tree.node_attributes.count() + tree.packed.nodes.count() == 0)
     {
         tree.node_attributes = {m_device, "svdag/node_attributes", source.node_attributes.count()};
@@ -320,7 +303,7 @@ void SvdagBuilder::order(vk::FrameGraph& graph)
 
 void SvdagBuilder::end()
 {
-    moveVoxels(m_source.tree, m_result.dag.tree);
+    moveVoxels(m_source, m_result.dag);
     m_source = {};
     m_classes.reset();
     finish();

@@ -3,7 +3,7 @@
 
 #include "core/base/step_job.h"
 #include "core/svdag/svdag_classes.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "vk/timer.h"
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct CompressOptions
 /// A DAG and how it came about.
 struct CompressResult
 {
-    Svdag dag;
+    DeviceTree dag;
     std::vector<vk::PassTime> passes;            // of the runs that succeeded
     std::vector<std::uint32_t> candidate_counts; // nodes that were compressed, by level, the root first
     std::uint32_t retry_count = 0;               // runs that were thrown away because a table was too small
@@ -43,18 +43,14 @@ struct CompressResult
 class SvdagBuilder final : public BuildJob<SvdagBuilder, CompressResult>
 {
 public:
-    /// Of an octree, which needs its levels. Voxels keep their attributes; those of nodes, which may have some where
-    /// voxels have none if options ask for ranks, are put in depth-first order. An octree without nodes gives a DAG
-    /// without. Throws Error{Usage} for an octree without levels, Error{Memory}.
-    SvdagBuilder(vk::Device& device, Octree octree, const CompressOptions& options);
-
-    /// Of a DAG in which equal nodes stand several times, such as several DAGs below common nodes. Nodes of a level may
-    /// stand in any order, which decides their order in the result, and their children be listed or direct. Attributes
-    /// are already as they are to be: they only move over.
-    SvdagBuilder(vk::Device& device, Svdag dag, const CompressOptions& options);
+    /// Of an octree: voxels keep their attributes and sums; attributes of nodes, which may have some where voxels have
+    /// none if options ask for ranks, are put in depth-first order. Of a DAG in which equal nodes stand several times,
+    /// such as several DAGs below common nodes: nodes of a level may stand in any order, which decides their order in
+    /// the result, and their children be listed or direct; attributes only move over. A tree without nodes gives a DAG
+    /// without. Throws Error{Usage} for a tree without levels, Error{Memory}.
+    SvdagBuilder(vk::Device& device, DeviceTree source, const CompressOptions& options);
 
 private:
-    SvdagBuilder(vk::Device& device, Svdag source, const CompressOptions& options, bool of_octree);
     void classify(vk::FrameGraph& graph);
     void learnClasses();
     void write(vk::FrameGraph& graph);
@@ -64,8 +60,7 @@ private:
 
     vk::Device& m_device;
     CompressOptions m_options;
-    bool m_of_octree;
-    Svdag m_source; // an octree is one without lists
+    DeviceTree m_source;
     Candidates m_candidates;
     bool m_has_ranks;
     std::vector<std::uint64_t> m_slot_counts;

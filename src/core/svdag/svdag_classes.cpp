@@ -40,7 +40,7 @@ void findClassesOf(vk::FrameGraph& graph, const Candidates& candidates, std::siz
 {
     const bool are_leaves = level + 1 == candidates.levels().size();
     const auto [first_node, node_count] = candidates.levels()[level];
-    const std::uint32_t per_word = candidates.entries_per_word;
+    const std::uint32_t per_word = candidates.tree.entriesPerWord();
     if (!are_leaves)
     {
         vk::Pass pass = graph.addPass(gpu::svdag::Hash{.entries_per_word = per_word});
@@ -119,7 +119,7 @@ void numberClasses(vk::FrameGraph& graph, const Candidates& candidates, ClassBuf
 std::vector<std::uint64_t> classSlots(const Candidates& candidates, std::uint64_t at_first)
 {
     std::vector<std::uint64_t> counts;
-    for (const Octree::Level& level : candidates.levels())
+    for (const DeviceTree::Level& level : candidates.levels())
     {
         // A third stays free even where all nodes differ: rarely too few, and few probes.
         const std::uint64_t likely = std::uint64_t{level.node_count} + level.node_count / 2;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which nodes of a tree are equal, subtrees included: the first half of compression. core/tree/svdag.h is what programs
-// use.
+// Which nodes of a tree are equal, subtrees included: the first half of compression. Programs use
+// core/svdag/svdag_builder.h.
 #pragma once
 
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "svdag/svdag.h"
 #include "vk/frame_graph.h"
 
@@ -17,11 +17,10 @@ namespace zvo
 /// The nodes that are compressed. tree has levels; its nodes may be a DAG's pool.
 struct Candidates
 {
-    const Octree& tree;
-    std::uint32_t entries_per_word = 0;   // of lists of children; 0: there are none
+    const DeviceTree& tree;
     std::uint32_t hash_mask = UINT32_MAX; // CompressOptions::hash_mask
 
-    [[nodiscard]] const std::vector<Octree::Level>& levels() const { return tree.levels; }
+    [[nodiscard]] const std::vector<DeviceTree::Level>& levels() const { return tree.levels; }
     [[nodiscard]] std::uint32_t count() const { return tree.node_count; }
     [[nodiscard]] std::uint32_t innerCount() const { return tree.levels.back().first_node; }
 };

@@ -24,15 +24,14 @@ namespace
 {
 
 // Whether the nodes stand level by level, with nothing behind them: what no update has changed.
-bool standsByLevels(const TreeView& tree)
+bool standsByLevels(const DeviceTree& tree)
 {
-    const Octree& octree = tree.octree();
-    if (octree.levels.empty())
+    if (tree.levels.empty())
     {
         return false;
     }
-    const Octree::Level& last = octree.levels.back();
-    const std::uint64_t node_count = tree.svdag() != nullptr ? octree.node_count : octree.nodes.count();
+    const DeviceTree::Level& last = tree.levels.back();
+    const std::uint64_t node_count = tree.isDag() ? tree.node_count : tree.nodes.count();
     return std::uint64_t{last.first_node} + last.node_count == node_count;
 }
 
@@ -68,14 +67,13 @@ std::uint64_t TraceBuffers::bytes() const
            light_.bytes() + image_.bytes();
 }
 
-void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
+void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers)
 {
-    const Octree& octree = tree.octree();
-    traceBeam(graph, octree, beam, camera, options, buffers);
+    traceBeam(graph, tree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
-    const bool use_paths = options.beam && hasPaths(octree) && !isEmpty(octree) && !options.hasDetail();
-    const bool wants_ranks = tree.hasLists() && showsAttributes(options) && usesAttributes(octree, options);
+    const bool use_paths = options.beam && hasPaths(tree) && !isEmpty(tree) && !options.hasDetail();
+    const bool wants_ranks = tree.isDag() && showsAttributes(options) && usesAttributes(tree, options);
     const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
     const auto primary = [&]<typename Kernel>(Kernel kernel)
     {
@@ -84,14 +82,14 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
         kernel.count_iterations = count_iterations;
         kernel.paths = use_paths;
         kernel.paths_relative = use_paths && !standsByLevels(tree);
-        kernel.overlays = has_ranks && tree.overlaid() != nullptr;
+        kernel.overlays = has_ranks && tree.hasOverlays();
         return kernel;
     };
-    const std::uint32_t rounds = roundsFor(octree, options);
+    const std::uint32_t rounds = roundsFor(tree, options);
     // What both kernels take.
     const auto common = [&]<typename Params>(vk::AnyPass& pass, Params params)
     {
-        params.nodes = pass.read(octree.nodes);
+        params.nodes = pass.read(tree.nodes);
         params.paths = use_paths || has_ranks ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
         params.live = pass.read(buffers.live);
         params.status = pass.readWrite(buffers.status);
@@ -106,11 +104,11 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
         const auto declare = [&](vk::AnyPass& pass)
         {
             auto params = common(pass, gpu::PrimaryRanksParams{});
-            const gpu::RankSource source = rankSource(pass, *tree.svdag());
+            const gpu::RankSource source = rankSource(pass, tree);
             params.before = source.before;
-            if (tree.overlaid() != nullptr)
+            if (tree.hasOverlays())
             {
-                pass.read(tree.overlaid()->ranks); // the table has their address
+                pass.read(tree.overlays.ranks); // the table has their address
             }
             params.voxels_before_leaf = source.voxels_before_leaf;
             params.first_short_place = source.first_short_place;
@@ -135,7 +133,7 @@ void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& b
     }
 }
 
-void trace(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
+void trace(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers)
 {
     tracePrimary(graph, tree, beam, camera, options, buffers);
@@ -146,12 +144,11 @@ void trace(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, co
     shade(graph, tree, camera, options, buffers);
 }
 
-void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<gpu::Ray>& rays,
+void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf<gpu::Ray>& rays,
                vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
                vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options)
 {
-    const Octree& octree = tree.octree();
-    if (isEmpty(octree))
+    if (isEmpty(tree))
     {
         graph.fill(hits, gpu::kHitMiss);
         return;
@@ -159,7 +156,7 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
     const auto declare = [&](vk::AnyPass& pass)
     {
         gpu::RaysParams params{};
-        params.nodes = pass.read(octree.nodes);
+        params.nodes = pass.read(tree.nodes);
         params.rays = pass.read(rays);
         params.hits = pass.readWrite(hits);
         params.status = pass.readWrite(status);
@@ -168,10 +165,10 @@ void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<g
         return params;
     };
     const std::uint64_t groups = divideUp(rays.count(), gpu::kRaysGroup);
-    addRounds(graph, traversing(gpu::trace::Rays{}, graph.device(), tree, options), roundsFor(octree, options), rounds,
+    addRounds(graph, traversing(gpu::trace::Rays{}, graph.device(), tree, options), roundsFor(tree, options), rounds,
               divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
               [&](auto& pass, const gpu::RaysParams& params) { pass.dispatch(rays.count(), params); });
-    if (tree.svdag() != nullptr && octree.hasAttributes())
+    if (tree.isDag() && tree.hasAttributes())
     {
         rankHits(graph, tree, options, hits, rays.count());
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/camera.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 #include "trace/trace.h"
 #include "vk/frame_graph.h"
 #include "zvo/types.h"
@@ -94,38 +94,38 @@ struct TraceBuffers
 
 /// Records the passes that make the beam grid of tree: once for each tree, and again whenever a DynamicOctree shows
 /// another one. Cost: constant, and the cells that the tree touches in the beam grid.
-void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam);
+void buildBeam(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam);
 
 /// Records the passes that find what each pixel's ray hits first: fills buffers.starts, live, args, status, hits (and
 /// light with iteration counts for View::Iterations). Of a DAG, Hit::index is undefined where options show no
 /// attributes or there are none. beam: buildBeam()'s of this tree, or anything without TraceOptions::beam. Cost: pixels
 /// of tiles that are near something.
-void tracePrimary(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
+void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
                   const TraceOptions& options, TraceBuffers& buffers);
 
 /// Records the passes that options ask for to find how much light of sun and sky arrives at hits: fills buffers.light.
-void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                 TraceBuffers& buffers);
 
 /// Records the passes that make buffers.image from hits and, as far as options ask for it, light.
-void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers);
 
 /// Records the pass that tells what the ray of a pixel met, after trace() of the same tree with the same camera,
 /// options and buffers. Without attributes, and where options show none, report.look is 0; of a DAG report.index is
 /// undefined then. report has one element. Cost: one ray.
-void inspectPixel(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                   const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report);
 
 /// Records all passes from a camera to a picture.
-void trace(vk::FrameGraph& graph, const TreeView& tree, const BeamGrid& beam, const TraceCamera& camera,
+void trace(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers);
 
 /// Records the pass that traces a list of rays in tree's unit space: hits[i] is what rays[i] hits first. hits has
 /// room for as many. Of a DAG without attributes, Hit::index only tells hits from misses. Rays with components that are
 /// NaN, infinite or (inverse directions) too small to be normal hit nothing. rounds has kTraceRoundsMax elements, for
 /// rays that need more than one round. Adds to status[0].capped_rays.
-void traceRays(vk::FrameGraph& graph, const TreeView& tree, const vk::BufferOf<gpu::Ray>& rays,
+void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf<gpu::Ray>& rays,
                vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
                vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options);
 

@@ -16,7 +16,7 @@ namespace
 constexpr std::uint64_t kPathCellCount = std::uint64_t{gpu::kPathCells} * gpu::kPathCells * gpu::kPathCells;
 
 // Whether the octree has cells as small as the beam grid's finer ones.
-bool hasFineBeam(const Octree& octree)
+bool hasFineBeam(const DeviceTree& octree)
 {
     return octree.grid.nodeLevels() > gpu::kBeamLevels;
 }
@@ -41,24 +41,23 @@ BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
 {
 }
 
-bool hasPaths(const Octree& octree)
+bool hasPaths(const DeviceTree& octree)
 {
     return octree.grid.nodeLevels() > gpu::kPathLevels;
 }
 
-void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
+void buildBeam(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam)
 {
-    const Octree& octree = tree.octree();
-    if (isEmpty(octree))
+    if (isEmpty(tree))
     {
         return;
     }
-    const std::uint32_t levels = std::min(octree.grid.nodeLevels(), gpu::kBeamLevels);
+    const std::uint32_t levels = std::min(tree.grid.nodeLevels(), gpu::kBeamLevels);
     const std::uint32_t cells = 1U << (2 * levels);
     const std::uint32_t per_word = tree.entriesPerWord();
     {
         vk::Pass pass = graph.addPass(gpu::trace::BeamMark{.entries_per_word = per_word});
-        const gpu::BeamMarkParams params = {pass.read(octree.nodes), pass.write(beam.occupied), levels, cells};
+        const gpu::BeamMarkParams params = {pass.read(tree.nodes), pass.write(beam.occupied), levels, cells};
         pass.dispatch(cells * cells, params);
     }
     {
@@ -73,26 +72,25 @@ void buildBeam(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
                                              pass.readWrite(beam.nodes)};
         pass.dispatch(gpu::kBeamGroup * (level2 ? gpu::kBeamGroup : 1), params);
     }
-    if (hasFineBeam(octree))
+    if (hasFineBeam(tree))
     {
         vk::Pass pass = graph.addPass(gpu::trace::BeamRefine{.entries_per_word = per_word});
-        const gpu::BeamRefineParams params = {pass.read(octree.nodes), pass.read(beam.masks),
-                                              pass.readWrite(beam.nodes)};
+        const gpu::BeamRefineParams params = {pass.read(tree.nodes), pass.read(beam.masks), pass.readWrite(beam.nodes)};
         pass.dispatch(gpu::kBeamRows * gpu::kBeamGroup, params);
     }
-    if (hasPaths(octree))
+    if (hasPaths(tree))
     {
         vk::Pass pass = graph.addPass(gpu::trace::BeamPaths{.entries_per_word = per_word});
-        const gpu::BeamPathsParams params = {pass.read(octree.nodes), pass.write(beam.paths)};
+        const gpu::BeamPathsParams params = {pass.read(tree.nodes), pass.write(beam.paths)};
         pass.dispatch(kPathCellCount, params);
     }
-    if (tree.svdag() != nullptr && octree.hasAttributes())
+    if (tree.isDag() && tree.hasAttributes())
     {
         buildRankTable(graph, tree, beam);
     }
 }
 
-void traceBeam(vk::FrameGraph& graph, const Octree& octree, const BeamGrid& beam, const TraceCamera& camera,
+void traceBeam(vk::FrameGraph& graph, const DeviceTree& octree, const BeamGrid& beam, const TraceCamera& camera,
                const TraceOptions& options, TraceBuffers& buffers)
 {
     graph.fill(buffers.live, gpu::kNoTile);

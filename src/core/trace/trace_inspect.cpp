@@ -5,22 +5,21 @@
 namespace zvo
 {
 
-void inspectPixel(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                   const TraceBuffers& buffers, glm::uvec2 pixel, vk::BufferOf<gpu::PixelReport>& report)
 {
-    const Octree& octree = tree.octree();
-    if (isEmpty(octree))
+    if (isEmpty(tree))
     {
         graph.fill(report, 0);
         return;
     }
-    const AttributeForm form = showsAttributes(options) ? formToRead(octree, options) : AttributeForm::None;
+    const AttributeForm form = showsAttributes(options) ? formToRead(tree, options) : AttributeForm::None;
     vk::Pass pass = graph.addPass(traversing(gpu::trace::Inspect{.orthographic = camera.orthographic, .form = form},
                                              graph.device(), tree, options));
     gpu::InspectParams params{};
-    params.nodes = pass.read(octree.nodes);
+    params.nodes = pass.read(tree.nodes);
     params.hits = pass.read(buffers.hits);
-    readAttributes(pass, octree, params);
+    readAttributes(pass, tree, params);
     params.report = pass.write(report);
     params.camera = camera.rays;
     params.width = buffers.width;

@@ -55,7 +55,7 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
 
 // What the passes have in common that trace rays from hits.
 template <typename Params>
-Params lightParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+Params lightParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamera& camera, TraceBuffers& buffers)
 {
     Params params{};
     params.nodes = pass.read(octree.nodes);
@@ -73,7 +73,7 @@ Params lightParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& c
 
 // What both kernels take that give hits their colours.
 template <typename Params>
-Params shadeParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+Params shadeParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamera& camera, TraceBuffers& buffers)
 {
     Params params{};
     params.live = pass.read(buffers.live);
@@ -88,73 +88,70 @@ Params shadeParams(vk::AnyPass& pass, const Octree& octree, const TraceCamera& c
     return params;
 }
 
-void shadeLit(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void shadeLit(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
               TraceBuffers& buffers)
 {
-    const Octree& octree = tree.octree();
     vk::Pass pass =
-        graph.addPass(gpu::trace::Shade{.node_levels = octree.grid.nodeLevels(),
+        graph.addPass(gpu::trace::Shade{.node_levels = tree.grid.nodeLevels(),
                                         .orthographic = camera.orthographic,
-                                        .form = formToRead(octree, options),
-                                        .emission = usesAttributes(octree, options) && octree.emission.count() != 0,
+                                        .form = formToRead(tree, options),
+                                        .emission = usesAttributes(tree, options) && tree.emission.count() != 0,
                                         .light = needsLight(options),
                                         .texels = buffers.texels});
-    auto params = shadeParams<gpu::ShadeParams>(pass, octree, camera, buffers);
+    auto params = shadeParams<gpu::ShadeParams>(pass, tree, camera, buffers);
     params.light = pass.read(buffers.light);
-    params.emission_words = pass.read(octree.emission_words);
-    params.emission = pass.read(octree.emission);
+    params.emission_words = pass.read(tree.emission_words);
+    params.emission = pass.read(tree.emission);
     params.sun = options.sun * sunDirection(options);
-    params.emission_scale = octree.emission_scale;
+    params.emission_scale = tree.emission_scale;
     params.exposure = options.exposure;
     pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
 }
 
-void shadeView(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void shadeView(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                TraceBuffers& buffers)
 {
-    const Octree& octree = tree.octree();
     vk::Pass pass = graph.addPass(gpu::trace::Views{.view = options.view,
-                                                    .node_levels = octree.grid.nodeLevels(),
+                                                    .node_levels = tree.grid.nodeLevels(),
                                                     .orthographic = camera.orthographic,
-                                                    .form = formToRead(octree, options),
+                                                    .form = formToRead(tree, options),
                                                     .texels = buffers.texels});
-    auto params = shadeParams<gpu::ViewsParams>(pass, octree, camera, buffers);
+    auto params = shadeParams<gpu::ViewsParams>(pass, tree, camera, buffers);
     params.iterations = pass.read(buffers.light);
-    params.depth_range = depthRange(octree.grid, camera);
-    params.first_changed_voxel = octree.voxel_count;
-    // The static root's attribute is behind those of the static nodes (core/tree/overlaid_tree.h).
-    params.first_changed_node = 1 + (tree.svdag() != nullptr ? tree.svdag()->octree_node_count : octree.node_count);
+    params.depth_range = depthRange(tree.grid, camera);
+    params.first_changed_voxel = tree.voxel_count;
+    // The static root's attribute is behind those of the static nodes (DeviceTree::node_attributes).
+    params.first_changed_node = 1 + tree.octreeNodeCount();
     pass.dispatchIndirect(buffers.args, 0, params, buffers.live.count());
 }
 
 } // namespace
 
-void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                 TraceBuffers& buffers)
 {
-    const Octree& octree = tree.octree();
-    const AttributeForm form = formToRead(octree, options);
+    const AttributeForm form = formToRead(tree, options);
     if (options.shadows)
     {
         const gpu::trace::Shadow kernel{.orthographic = camera.orthographic, .form = form};
         const gpu::vec3 to_sun = sunDirection(options);
         const auto declare = [&](vk::AnyPass& pass)
         {
-            auto params = lightParams<gpu::ShadowParams>(pass, octree, camera, buffers);
+            auto params = lightParams<gpu::ShadowParams>(pass, tree, camera, buffers);
             params.light = pass.readWrite(buffers.light);
             params.to_sun = to_sun;
             return params;
         };
-        addRounds(graph, traversing(kernel, graph.device(), tree, options), roundsFor(octree, options), buffers.rounds,
+        addRounds(graph, traversing(kernel, graph.device(), tree, options), roundsFor(tree, options), buffers.rounds,
                   buffers.live.count(), declare, dispatchLive(buffers));
     }
     if (options.occlusion_rays != 0)
     {
-        const Grid& grid = octree.grid;
+        const Grid& grid = tree.grid;
         const gpu::trace::Occlusion kernel{
             .orthographic = camera.orthographic, .form = form, .shadows = options.shadows};
         vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, options));
-        auto params = lightParams<gpu::OcclusionParams>(pass, octree, camera, buffers);
+        auto params = lightParams<gpu::OcclusionParams>(pass, tree, camera, buffers);
         params.light = pass.readWrite(buffers.light);
         params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
         params.radius =
@@ -163,7 +160,7 @@ void traceLight(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& 
     }
 }
 
-void shade(vk::FrameGraph& graph, const TreeView& tree, const TraceCamera& camera, const TraceOptions& options,
+void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
            TraceBuffers& buffers)
 {
     drawBackground(graph, camera, options, buffers);

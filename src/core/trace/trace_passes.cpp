@@ -9,12 +9,12 @@
 namespace zvo
 {
 
-bool isEmpty(const Octree& octree)
+bool isEmpty(const DeviceTree& octree)
 {
     return octree.node_count == 0;
 }
 
-bool usesAttributes(const Octree& octree, const TraceOptions& options)
+bool usesAttributes(const DeviceTree& octree, const TraceOptions& options)
 {
     return octree.hasAttributes() && (!options.hasDetail() || octree.hasNodeAttributes());
 }
@@ -49,12 +49,12 @@ TraceStack stackConstant(const vk::Device& device, const TraceOptions& options)
     return stackOn(device.report().type, options.stack);
 }
 
-AttributeForm formToRead(const Octree& octree, const TraceOptions& options)
+AttributeForm formToRead(const DeviceTree& octree, const TraceOptions& options)
 {
     return usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None;
 }
 
-std::uint32_t roundsFor(const Octree& octree, const TraceOptions& options)
+std::uint32_t roundsFor(const DeviceTree& octree, const TraceOptions& options)
 {
     const std::uint64_t steps = std::uint64_t{4} * octree.grid.resolution() + gpu::kTraceRoundsMax * 16;
     return static_cast<std::uint32_t>(

@@ -4,7 +4,7 @@
 
 #include "core/base/divide_up.h"
 #include "core/trace/trace.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 
 #include <cstdint>
 #include <string_view>
@@ -27,19 +27,19 @@ struct PictureTiles
     }
 };
 
-bool isEmpty(const Octree& octree);
+bool isEmpty(const DeviceTree& octree);
 
 /// Whether there are attributes for every hit that can occur.
-bool usesAttributes(const Octree& octree, const TraceOptions& options);
+bool usesAttributes(const DeviceTree& octree, const TraceOptions& options);
 
 /// Whether a picture shows anything of the attributes of hits.
 bool showsAttributes(const TraceOptions& options);
 
 /// The form in which kernels read attributes; None: they need not.
-AttributeForm formToRead(const Octree& octree, const TraceOptions& options);
+AttributeForm formToRead(const DeviceTree& octree, const TraceOptions& options);
 
 /// Declares that pass reads attributes, whatever their form.
-template <typename Params> void readAttributes(vk::AnyPass& pass, const Octree& octree, Params& params)
+template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTree& octree, Params& params)
 {
     if (isPacked(octree.attributeForm()))
     {
@@ -59,9 +59,9 @@ TraceStack stackConstant(const vk::Device& device, const TraceOptions& options);
 
 /// kernel, which has lib/traverse.glsl, for tree and options.
 template <typename Kernel>
-Kernel traversing(Kernel kernel, const vk::Device& device, const TreeView& tree, const TraceOptions& options)
+Kernel traversing(Kernel kernel, const vk::Device& device, const DeviceTree& tree, const TraceOptions& options)
 {
-    kernel.node_levels = tree.octree().grid.nodeLevels();
+    kernel.node_levels = tree.grid.nodeLevels();
     kernel.stack = stackConstant(device, options);
     kernel.detail = options.hasDetail();
     kernel.steps_max = options.steps_max;
@@ -71,7 +71,7 @@ Kernel traversing(Kernel kernel, const vk::Device& device, const TreeView& tree,
 
 /// How many rounds answer every ray: for a grid of n voxels per edge it crosses at most 3 n planes and goes down into
 /// at most n nodes, and once from the root in each round.
-std::uint32_t roundsFor(const Octree& octree, const TraceOptions& options);
+std::uint32_t roundsFor(const DeviceTree& octree, const TraceOptions& options);
 
 /// Whether traceLight has something to do.
 bool needsLight(const TraceOptions& options);

@@ -8,60 +8,59 @@ namespace
 {
 
 // Declares that pass reads the ranks of overlays' nodes; null without overlays.
-gpu::ConstPtr<gpu::BeforeChild> overlayRanks(vk::AnyPass& pass, const TreeView& tree)
+gpu::ConstPtr<gpu::BeforeChild> overlayRanks(vk::AnyPass& pass, const DeviceTree& tree)
 {
-    const OverlaidTree* overlaid = tree.overlaid();
-    return overlaid == nullptr
-               ? gpu::ConstPtr<gpu::BeforeChild>{}
-               : gpu::ConstPtr<gpu::BeforeChild>{pass.read(overlaid->ranks).address - overlaid->ranksSkipped()};
+    if (!tree.hasOverlays())
+    {
+        return {};
+    }
+    return {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
 }
 
 // Records the pass, unless there is no list: then the number in the leaf is the rank.
 template <typename Dispatch>
-void addRanks(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, bool tiles,
+void addRanks(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, bool tiles,
               const Dispatch& dispatch)
 {
-    const std::uint32_t levels = tree.octree().grid.nodeLevels();
+    const std::uint32_t levels = tree.grid.nodeLevels();
     if (levels < 2)
     {
         return;
     }
-    const OverlaidTree* overlaid = tree.overlaid();
     vk::Pass pass = graph.addPass(gpu::trace::Ranks{.node_levels = levels,
                                                     .detail = options.hasDetail(),
                                                     .tiles = tiles,
                                                     .entries_per_word = tree.entriesPerWord(),
-                                                    .overlays = overlaid != nullptr});
+                                                    .overlays = tree.hasOverlays()});
     gpu::RanksParams params{};
-    params.source = rankSource(pass, *tree.svdag());
+    params.source = rankSource(pass, tree);
     params.overlay_ranks = overlayRanks(pass, tree);
-    params.attribute_offset = overlaid != nullptr ? overlaid->attributeOffset() : 0;
+    params.attribute_offset = tree.hasOverlays() ? tree.attributeOffset() : 0;
     dispatch(pass, params);
 }
 
 } // namespace
 
-bool hasRankTable(const TreeView& tree, const BeamGrid& beam)
+bool hasRankTable(const DeviceTree& tree, const BeamGrid& beam)
 {
-    return tree.octree().grid.nodeLevels() > gpu::kPathLevels && tree.svdag()->voxels_before_leaf.count() != 0 &&
+    return tree.grid.nodeLevels() > gpu::kPathLevels && tree.lists.voxels_before_leaf.count() != 0 &&
            beam.paths.count() > gpu::kRankTableFirst;
 }
 
-void buildRankTable(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam)
+void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam)
 {
     if (!hasRankTable(tree, beam))
     {
         return;
     }
-    const bool leaves = tree.octree().grid.nodeLevels() == gpu::kPathLevels + 1;
+    const bool leaves = tree.grid.nodeLevels() == gpu::kPathLevels + 1;
     vk::Pass pass = graph.addPass(gpu::trace::BeamRanks{
-        .leaves = leaves, .entries_per_word = tree.entriesPerWord(), .overlays = tree.overlaid() != nullptr});
-    const gpu::BeamRanksParams params = {rankSource(pass, *tree.svdag()), overlayRanks(pass, tree),
-                                         pass.readWrite(beam.paths)};
+        .leaves = leaves, .entries_per_word = tree.entriesPerWord(), .overlays = tree.hasOverlays()});
+    const gpu::BeamRanksParams params = {rankSource(pass, tree), overlayRanks(pass, tree), pass.readWrite(beam.paths)};
     pass.dispatch(gpu::kRankTableFirst, params);
 }
 
-void rankTiles(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, TraceBuffers& buffers)
+void rankTiles(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, TraceBuffers& buffers)
 {
     addRanks(graph, tree, options, true,
              [&](auto& pass, gpu::RanksParams& params)
@@ -74,7 +73,7 @@ void rankTiles(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& 
              });
 }
 
-void rankHits(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
+void rankHits(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
               std::uint64_t count)
 {
     addRanks(graph, tree, options, false,

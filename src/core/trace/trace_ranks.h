@@ -3,23 +3,23 @@
 #pragma once
 
 #include "core/trace/trace.h"
-#include "core/tree/tree_view.h"
+#include "core/tree/device_tree.h"
 
 namespace zvo
 {
 
 /// Whether beam has a table (shaders/trace/trace.h) from which trace/primary_ranks can sum up ranks in tree, a DAG with
 /// attributes, maybe with overlays.
-bool hasRankTable(const TreeView& tree, const BeamGrid& beam);
+bool hasRankTable(const DeviceTree& tree, const BeamGrid& beam);
 
 /// Records the pass that fills this table, where there is one. Cost: constant.
-void buildRankTable(vk::FrameGraph& graph, const TreeView& tree, BeamGrid& beam);
+void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam);
 
 /// Records the pass that turns Hit::index, as a traversal of tree leaves it, into the attribute index of the voxel or
 /// node: of all hits in live tiles, or of the first count hits of a list. tree is a DAG with attributes, maybe with
 /// overlays. Cost: levels of nodes for each hit.
-void rankTiles(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, TraceBuffers& buffers);
-void rankHits(vk::FrameGraph& graph, const TreeView& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
+void rankTiles(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, TraceBuffers& buffers);
+void rankHits(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
               std::uint64_t count);
 
 } // namespace zvo

@@ -27,25 +27,13 @@ template <typename T> vk::BufferOf<T> uploadVector(vk::Uploader& device, const c
     return values.empty() ? vk::BufferOf<T>() : device.makeBuffer(name, std::span(values));
 }
 
-Octree uploadCommon(vk::Uploader& device, const TreeData& tree)
+// Of a DAG with the lists behind them.
+vk::BufferOf<gpu::Node> uploadNodes(vk::Uploader& device, const TreeData& tree)
 {
-    Octree octree;
-    octree.grid = tree.grid;
-    octree.voxel_count = tree.voxel_count;
-    octree.node_count = static_cast<std::uint32_t>(tree.nodes.size());
-    octree.levels = tree.levels;
-    octree.voxel_attributes = uploadVector(device, "octree/voxel_attributes", tree.voxel_attributes);
-    octree.node_attributes = uploadVector(device, "octree/node_attributes", tree.node_attributes);
-    octree.packed = {tree.packed.form, uploadVector(device, "packed voxel attributes", tree.packed.voxels),
-                     uploadVector(device, "packed node attributes", tree.packed.nodes)};
-    octree.emission_words = uploadVector(device, "octree/emission_words", tree.emission_words);
-    octree.emission = uploadVector(device, "octree/emission", tree.emission);
-    octree.emission_scale = tree.emission_scale;
-    return octree;
-}
-
-vk::BufferOf<gpu::Node> uploadPool(vk::Uploader& device, const TreeData& tree)
-{
+    if (tree.structure == TreeStructure::Svo || tree.nodes.empty())
+    {
+        return uploadVector(device, "octree/nodes", tree.nodes);
+    }
     const ListPacking packing = tree.packing();
     vk::BufferOf<gpu::Node> pool(device.device(), "svdag/pool", packing.poolNodes());
     device.upload(pool, std::span(tree.nodes));
@@ -83,22 +71,27 @@ DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
                      tree.hasAttributes() ? std::max(tree.voxel_count, tree.octree_node_count) : 0);
     const std::uint64_t pool_bytes = tree.packing().poolNodes() * sizeof(gpu::Node);
     device.device().memory().require(pool_bytes + tree.attributeBytes(), "the tree");
-    Octree octree = uploadCommon(device, tree);
-    if (tree.structure == TreeStructure::Svo)
-    {
-        octree.nodes = uploadVector(device, "octree/nodes", tree.nodes);
-        return octree;
-    }
-    Svdag dag;
-    dag.tree = std::move(octree);
-    dag.tree.nodes = tree.nodes.empty() ? vk::BufferOf<gpu::Node>() : uploadPool(device, tree);
-    dag.octree_node_count = tree.octree_node_count;
-    dag.entry_count = tree.lists.size();
-    dag.entries_per_word = tree.packing().per_word;
-    dag.long_entry_count = tree.long_entry_count;
-    dag.before = uploadVector(device, "svdag/before", tree.before);
-    dag.voxels_before_leaf = uploadVector(device, "svdag/voxels_before_leaf", tree.voxels_before_leaf);
-    return dag;
+    DeviceTree copy;
+    copy.structure = tree.structure;
+    copy.grid = tree.grid;
+    copy.node_count = static_cast<std::uint32_t>(tree.nodes.size());
+    copy.voxel_count = tree.voxel_count;
+    copy.levels = tree.levels;
+    copy.voxel_attributes = uploadVector(device, "octree/voxel_attributes", tree.voxel_attributes);
+    copy.node_attributes = uploadVector(device, "octree/node_attributes", tree.node_attributes);
+    copy.packed = {tree.packed.form, uploadVector(device, "packed voxel attributes", tree.packed.voxels),
+                   uploadVector(device, "packed node attributes", tree.packed.nodes)};
+    copy.emission_words = uploadVector(device, "octree/emission_words", tree.emission_words);
+    copy.emission = uploadVector(device, "octree/emission", tree.emission);
+    copy.emission_scale = tree.emission_scale;
+    copy.nodes = uploadNodes(device, tree);
+    copy.lists = {tree.octree_node_count,
+                  tree.lists.size(),
+                  tree.packing().per_word,
+                  tree.long_entry_count,
+                  uploadVector(device, "svdag/before", tree.before),
+                  uploadVector(device, "svdag/voxels_before_leaf", tree.voxels_before_leaf)};
+    return copy;
 }
 
 void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t code)>& what)

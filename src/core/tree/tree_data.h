@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/tree/octree.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "vk/uploader.h"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace zvo
@@ -21,8 +19,8 @@ const char* structureName(TreeStructure structure);
 /// The colour that voxels without attributes are shown in: sRGB red | green << 8 | blue << 16.
 inline constexpr std::uint32_t kPlainColor = 203 * 0x10101U;
 
-/// A whole octree or DAG in the host's memory: what files hold. Arrays are those of Octree and Svdag, whose layout
-/// shaders/shared/octree.h and svdag.h document; nodes and lists of a DAG's pool are apart.
+/// A whole octree or DAG in the host's memory: what files hold. Arrays are those of a DeviceTree; nodes and lists of a
+/// DAG's pool are apart.
 struct TreeData
 {
     TreeStructure structure = TreeStructure::Svo;
@@ -31,10 +29,10 @@ struct TreeData
     std::uint32_t octree_node_count = 0; // of the octree: nodes.size(), unless equal subtrees are one
     std::uint64_t long_entry_count = 0;  // entries of lists above the parents of leaves
 
-    std::vector<Octree::Level> levels;            // grid.nodeLevels() of them, or none without voxels
+    std::vector<DeviceTree::Level> levels;        // grid.nodeLevels() of them, or none without voxels
     std::vector<gpu::Node> nodes;                 // the root first
-    std::vector<gpu::uint> lists;                 // [entries] node numbers; a Svdag's
-    std::vector<gpu::BeforeChild> before;         // [long_entry_count] a Svdag's with attributes
+    std::vector<gpu::uint> lists;                 // [entries] node numbers; a DAG's
+    std::vector<gpu::BeforeChild> before;         // [long_entry_count] a DAG's with attributes
     std::vector<gpu::uint> voxels_before_leaf;    // [ceil((entries - long_entry_count) / 2)] likewise
     std::vector<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty
     std::vector<gpu::Attribute> node_attributes;  // [octree_node_count] in the structure's order, or empty
@@ -78,9 +76,6 @@ inline std::uint64_t cellMask(const gpu::Node& node)
 {
     return node.mask_lo | std::uint64_t{node.mask_hi} << 32;
 }
-
-/// A tree in device memory, whichever structure it has.
-using DeviceTree = std::variant<Octree, Svdag>;
 
 /// Copies a tree that checkTree accepts to the device. Throws Error{Memory} when the device's budget does not
 /// suffice.

@@ -7,7 +7,7 @@ namespace zvo
 namespace
 {
 
-void setAttributes(const Octree& octree, gpu::TreeTable& table)
+void setAttributes(const DeviceTree& octree, gpu::TreeTable& table)
 {
     const bool packed = isPacked(octree.attributeForm());
     table.attribute_form = static_cast<gpu::uint>(octree.attributeForm());
@@ -23,32 +23,28 @@ void setAttributes(const Octree& octree, gpu::TreeTable& table)
 
 } // namespace
 
-gpu::TreeTable treeTable(const TreeView& tree)
+gpu::TreeTable treeTable(const DeviceTree& tree)
 {
-    const Octree& octree = tree.octree();
     gpu::TreeTable table{};
-    table.source.pool = {octree.nodes.address()};
+    table.source.pool = {tree.nodes.address()};
     table.entries_per_word = tree.entriesPerWord();
-    setAttributes(octree, table);
-    std::uint32_t static_node_count = octree.node_count;
-    if (const Svdag* dag = tree.svdag())
+    setAttributes(tree, table);
+    if (tree.isDag())
     {
-        static_node_count = dag->octree_node_count;
-        table.source = rankSource(*dag);
+        table.source = rankSource(tree);
     }
-    const OverlaidTree* overlaid = tree.overlaid();
-    if (overlaid != nullptr && overlaid->hasRanks())
+    if (tree.overlays.hasRanks())
     {
-        table.overlay_ranks = {overlaid->ranks.address() - overlaid->ranksSkipped()};
-        table.attribute_offset = overlaid->attributeOffset();
+        table.overlay_ranks = {tree.overlays.ranks.address() - tree.overlays.ranksSkipped()};
+        table.attribute_offset = tree.attributeOffset();
     }
-    // Of nodes, the static root's is behind the static ones (core/tree/overlaid_tree.h).
-    table.first_dynamic_voxel = octree.voxel_count;
-    table.first_dynamic_node = static_node_count + 1;
-    table.depth = octree.grid.depth;
-    table.node_levels = octree.grid.nodeLevels();
-    table.origin = octree.grid.origin;
-    table.voxel_size = octree.grid.voxel_size;
+    // Of nodes, the static root's is behind the static ones (DeviceTree::node_attributes).
+    table.first_dynamic_voxel = tree.voxel_count;
+    table.first_dynamic_node = tree.octreeNodeCount() + 1;
+    table.depth = tree.grid.depth;
+    table.node_levels = tree.grid.nodeLevels();
+    table.origin = tree.grid.origin;
+    table.voxel_size = tree.grid.voxel_size;
     return table;
 }
 

@@ -55,7 +55,7 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     graph.fill(buffers.heads, 0);
     graph.fill(buffers.partials, 0);
     graph.update(buffers.layers, 0, layers);
-    vk::Pass pass = graph.addPass(gpu::update::Insert{.wide_keys = hasWideKeys(job.tree.dag.tree.grid)});
+    vk::Pass pass = graph.addPass(gpu::update::Insert{.wide_keys = hasWideKeys(job.tree.grid)});
     gpu::InsertParams params{};
     params.layers = readLayers(pass, job, buffers);
     params.bricks = pass.readWrite(buffers.bricks);
@@ -68,27 +68,26 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.record_count = record_count;
     params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
     pass.dispatch(record_count, params);
-    listAncestors(graph, job.tree.dag.tree.grid, buffers.bricks, buffers.counters, buffers.work);
+    listAncestors(graph, job.tree.grid, buffers.bricks, buffers.counters, buffers.work);
 }
 
 void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
-    Octree& octree = job.tree.dag.tree;
-    const bool attributes = octree.node_attributes.count() != 0;
-    vk::Pass pass = graph.addPass(gpu::update::Root{.attributes = attributes, .ranks = job.tree.hasRanks()});
+    const bool attributes = job.tree.node_attributes.count() != 0;
+    vk::Pass pass = graph.addPass(gpu::update::Root{.attributes = attributes, .ranks = job.tree.overlays.hasRanks()});
     gpu::RootParams params{};
     params.bricks = pass.read(buffers.bricks);
     params.items = pass.read(buffers.work.items);
     params.ranges = pass.read(buffers.work.ranges);
     params.counters = pass.read(buffers.counters);
     params.touched = pass.write(buffers.touched);
-    params.nodes = pass.readWrite(octree.nodes);
-    params.node_attributes = pass.readWrite(octree.node_attributes);
-    params.ranks = {pass.readWrite(job.tree.ranks).address - job.tree.ranksSkipped()};
+    params.nodes = pass.readWrite(job.tree.nodes);
+    params.node_attributes = pass.readWrite(job.tree.node_attributes);
+    params.ranks = {pass.readWrite(job.tree.overlays.ranks).address - job.tree.overlays.ranksSkipped()};
     params.levels = pass.write(buffers.levels);
     params.args = pass.write(buffers.args);
     params.status = pass.readWrite(buffers.status);
-    params.level_count = octree.grid.nodeLevels();
+    params.level_count = job.tree.grid.nodeLevels();
     params.base_root = job.base_root;
     params.first_node = job.region.first_node;
     params.node_capacity = job.region.node_capacity;
@@ -101,36 +100,34 @@ void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buff
 // Writes the nodes of one level (not the root) and gives the touched ones their child bases.
 void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
 {
-    OverlaidTree& tree = job.tree;
-    Octree& octree = tree.dag.tree;
-    const std::uint32_t level_count = octree.grid.nodeLevels();
+    DeviceTree& tree = job.tree;
+    const std::uint32_t level_count = tree.grid.nodeLevels();
     const std::uint32_t first_partial = level * partialsPerLevel(buffers);
-    const bool attributes = octree.node_attributes.count() != 0;
+    const bool attributes = tree.node_attributes.count() != 0;
     const std::uint64_t groups_max = buffers.bricks.count();
     {
-        const bool are_leaves = tree.has_lists && level + 1 == level_count;
-        vk::Pass pass =
-            graph.addPass(gpu::update::Expand{.wide_keys = hasWideKeys(octree.grid),
-                                              .attributes = attributes,
-                                              .entries_per_word = tree.has_lists ? tree.dag.entries_per_word : 0U,
-                                              .leaves = are_leaves});
+        const bool are_leaves = tree.isDag() && level + 1 == level_count;
+        vk::Pass pass = graph.addPass(gpu::update::Expand{.wide_keys = hasWideKeys(tree.grid),
+                                                          .attributes = attributes,
+                                                          .entries_per_word = tree.entriesPerWord(),
+                                                          .leaves = are_leaves});
         gpu::ExpandParams params{};
         params.bricks = pass.read(buffers.bricks);
         params.items = pass.read(buffers.work.items);
         params.ranges = pass.read(buffers.work.ranges);
         params.touched = pass.readWrite(buffers.touched);
-        params.nodes = pass.readWrite(octree.nodes);
-        params.node_attributes = pass.readWrite(octree.node_attributes);
+        params.nodes = pass.readWrite(tree.nodes);
+        params.node_attributes = pass.readWrite(tree.node_attributes);
         params.counts = pass.write(buffers.counts);
         params.partials = pass.readWrite(buffers.partials);
         params.levels = pass.read(buffers.levels);
-        if (tree.hasRanks())
+        if (tree.overlays.hasRanks())
         {
-            const gpu::RankSource source = rankSource(pass, tree.dag);
+            const gpu::RankSource source = rankSource(pass, tree);
             params.before = source.before;
             params.voxels_before_leaf = source.voxels_before_leaf;
             params.first_short_place = source.first_short_place;
-            params.ranks = {pass.readWrite(tree.ranks).address - tree.ranksSkipped()};
+            params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
         }
         params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
         params.level = level;
@@ -138,7 +135,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         params.first_node = job.region.first_node;
         params.first_partial = first_partial;
         params.attribute_offset = tree.attributeOffset();
-        params.static_root = tree.static_root;
+        params.static_root = tree.overlays.static_root;
         pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, groups_max);
     }
     {
@@ -159,7 +156,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     }
     vk::Pass pass = graph.addPass(gpu::update::Assign{});
     gpu::OverlayAssignParams params{};
-    params.nodes = pass.readWrite(octree.nodes);
+    params.nodes = pass.readWrite(tree.nodes);
     params.counts = pass.read(buffers.counts);
     params.partials = pass.read(buffers.partials);
     params.levels = pass.read(buffers.levels);
@@ -174,25 +171,24 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
 // Of update/merge or update/merge_emission.
 template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
-    Octree& octree = job.tree.dag.tree;
-    const bool emits = octree.emission_words.count() != 0;
-    vk::Pass pass = graph.addPass(Kernel{.merge = job.merge, .emits = emits, .ranks = job.tree.hasRanks()});
+    const bool emits = job.tree.emission_words.count() != 0;
+    vk::Pass pass = graph.addPass(Kernel{.merge = job.merge, .emits = emits, .ranks = job.tree.overlays.hasRanks()});
     gpu::MergeParams params{};
     params.view = pass.read(job.view);
     pass.read(job.tables);
-    pass.read(job.static_sums.sums);
-    pass.read(job.static_sums.emission_sums);
+    pass.read(job.tree.sums.sums);
+    pass.read(job.tree.sums.emission_sums);
     params.items = pass.read(buffers.work.items);
     params.ranges = pass.read(buffers.work.ranges);
     params.touched = pass.read(buffers.touched);
     params.heads = pass.read(buffers.heads);
     params.links = pass.read(buffers.links);
     params.layers = readLayers(pass, job, buffers);
-    params.nodes = pass.read(octree.nodes);
-    params.ranks = {pass.read(job.tree.ranks).address - job.tree.ranksSkipped()};
-    params.attributes = pass.readWrite(octree.voxel_attributes);
-    params.emission_words = pass.readWrite(octree.emission_words);
-    params.emission = pass.readWrite(octree.emission);
+    params.nodes = pass.read(job.tree.nodes);
+    params.ranks = {pass.read(job.tree.overlays.ranks).address - job.tree.overlays.ranksSkipped()};
+    params.attributes = pass.readWrite(job.tree.voxel_attributes);
+    params.emission_words = pass.readWrite(job.tree.emission_words);
+    params.emission = pass.readWrite(job.tree.emission);
     params.status = pass.readWrite(buffers.status);
     params.sum_shift = job.sum_shift;
     pass.dispatchIndirect(buffers.args, gpu::kArgsMerge, params, buffers.bricks.count());
@@ -200,13 +196,12 @@ template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const Update
 
 void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
-    Octree& octree = job.tree.dag.tree;
-    const bool emits = octree.emission_words.count() != 0;
+    const bool emits = job.tree.emission_words.count() != 0;
     if (emits)
     {
         vk::Pass pass = graph.addPass(gpu::update::EmissionPlaces{});
         gpu::EmissionPlacesParams params{};
-        params.words = pass.readWrite(octree.emission_words);
+        params.words = pass.readWrite(job.tree.emission_words);
         params.first_word = job.region.first_voxel / kVoxelBlock;
         params.word_count = job.region.voxel_capacity / kVoxelBlock;
         params.first_place = job.region.first_voxel + job.emission_offset;
@@ -217,7 +212,7 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
     {
         addMergePass<gpu::update::MergeEmission>(graph, job, buffers);
     }
-    for (std::uint32_t step = 0; step < octree.grid.nodeLevels() && octree.node_attributes.count() != 0; ++step)
+    for (std::uint32_t step = 0; step < job.tree.grid.nodeLevels() && job.tree.node_attributes.count() != 0; ++step)
     {
         vk::Pass pass = graph.addPass(gpu::update::Average{});
         gpu::OverlayAverageParams params{};
@@ -225,9 +220,9 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
         params.items = pass.read(buffers.work.items);
         params.ranges = pass.read(buffers.work.ranges);
         params.touched = pass.read(buffers.touched);
-        params.nodes = pass.read(octree.nodes);
-        params.children = step == 0 ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes);
-        params.averages = pass.readWrite(octree.node_attributes);
+        params.nodes = pass.read(job.tree.nodes);
+        params.children = step == 0 ? pass.read(job.tree.voxel_attributes) : pass.read(job.tree.node_attributes);
+        params.averages = pass.readWrite(job.tree.node_attributes);
         params.status = pass.read(buffers.status);
         params.item_range = step;
         params.children_offset = step == 0 ? 0 : job.tree.attributeOffset();
@@ -240,11 +235,10 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
 
 void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last)
 {
-    Octree& octree = job.tree.dag.tree;
-    vk::Pass pass = graph.addPass(gpu::update::Finish{.attributes = octree.node_attributes.count() != 0});
+    vk::Pass pass = graph.addPass(gpu::update::Finish{.attributes = job.tree.node_attributes.count() != 0});
     gpu::FinishParams params{};
-    params.nodes = pass.readWrite(octree.nodes);
-    params.node_attributes = pass.readWrite(octree.node_attributes);
+    params.nodes = pass.readWrite(job.tree.nodes);
+    params.node_attributes = pass.readWrite(job.tree.node_attributes);
     params.counters = pass.read(buffers.counters);
     params.status = pass.read(buffers.status);
     params.results = pass.readWrite(job.results);
@@ -289,25 +283,23 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
             listTouched(graph, job, buffers);
             mergeRoots(graph, job, buffers);
         });
-    const Octree& octree = job.tree.dag.tree;
-    for (std::uint32_t level = 1; level < octree.grid.nodeLevels(); ++level)
+    for (std::uint32_t level = 1; level < job.tree.grid.nodeLevels(); ++level)
     {
         add("copy and merge a level",
             [&job, &buffers, level](vk::FrameGraph& graph) { expandLevel(graph, job, buffers, level); });
     }
-    if (octree.hasAttributes())
+    if (job.tree.hasAttributes())
     {
         add("merge attributes", [&job, &buffers](vk::FrameGraph& graph) { mergeAttributes(graph, job, buffers); });
     }
 }
 
-void showRoot(vk::FrameGraph& graph, OverlaidTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)
+void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)
 {
-    Octree& octree = tree.dag.tree;
-    vk::Pass pass = graph.addPass(gpu::update::Show{.attributes = octree.node_attributes.count() != 0});
+    vk::Pass pass = graph.addPass(gpu::update::Show{.attributes = tree.node_attributes.count() != 0});
     gpu::ShowParams params{};
-    params.nodes = pass.readWrite(octree.nodes);
-    params.node_attributes = pass.readWrite(octree.node_attributes);
+    params.nodes = pass.readWrite(tree.nodes);
+    params.node_attributes = pass.readWrite(tree.node_attributes);
     params.roots = pass.read(roots);
     params.root = root.root;
     params.place = root.place;

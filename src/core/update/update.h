@@ -3,7 +3,7 @@
 
 #include "core/octree/octree_build.h"
 #include "core/overlay/overlay_arena.h"
-#include "core/tree/overlaid_tree.h"
+#include "core/tree/device_tree.h"
 #include "core/update/layer.h"
 #include "core/update/merge_rule.h"
 #include "update/update.h"
@@ -57,7 +57,7 @@ struct RootPlace
 /// One update: which layers are merged with which base tree, and where the result goes.
 struct UpdateJob
 {
-    OverlaidTree& tree;
+    DeviceTree& tree;
     std::vector<const LayerBuffers*> layers; // at most kLayersMax
     OverlayRegion region;
     std::uint32_t base_root = 0; // node of what is merged with: the static root, or that of an edited tree
@@ -66,8 +66,7 @@ struct UpdateJob
     std::uint32_t emission_offset = 0;          // from a voxel of an overlay to its place among emission values
     const vk::BufferOf<gpu::MergeView>& view;   // [1]
     const vk::BufferOf<gpu::SceneView>& tables; // [1] of sRGB codes
-    const FragmentSums& static_sums;
-    std::uint32_t place = 0; // element of roots, and of results, for this update
+    std::uint32_t place = 0;                    // element of roots, and of results, for this update
     vk::BufferOf<gpu::uint>& roots;
     vk::BufferOf<gpu::UpdateStatus>& results; // host-visible
 };
@@ -82,6 +81,6 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
 void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last);
 
 /// Records the pass that shows an earlier root again. Cost: constant.
-void showRoot(vk::FrameGraph& graph, OverlaidTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root);
+void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root);
 
 } // namespace zvo

@@ -2,7 +2,7 @@
 #include "core/voxelize/voxelize.h"
 
 #include "core/base/divide_up.h"
-#include "core/tree/octree.h"
+#include "core/tree/device_tree.h"
 #include "octree/octree.h"
 
 #include <algorithm>
@@ -111,7 +111,7 @@ void walkAll(vk::FrameGraph& graph, const RasterWalk& walk)
     }
 }
 
-void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Octree& octree)
+void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, DeviceTree& octree)
 {
     const auto word_count = static_cast<std::uint32_t>(octree.emission_words.count());
     const std::uint64_t threads = divideUp(word_count, gpu::kScanItems);
@@ -133,7 +133,7 @@ void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Oct
     pass.dispatch(threads, params);
 }
 
-AttributeSums sumsOf(AttributeBuffers& attributes, Octree& octree)
+AttributeSums sumsOf(AttributeBuffers& attributes, DeviceTree& octree)
 {
     return {octree.nodes, attributes.sums, octree.emission_words, attributes.emission_sums, attributes.sum_shift};
 }
@@ -247,7 +247,7 @@ void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Gri
 }
 
 void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
-                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree)
+                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree)
 {
     const bool emission = octree.emission_words.count() != 0;
     graph.fill(attributes.sums, 0);
@@ -278,7 +278,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const G
 }
 
 void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
-                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree)
+                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree)
 {
     graph.fill(attributes.emission_sums, 0);
     const AttributeSums sums = sumsOf(attributes, octree);

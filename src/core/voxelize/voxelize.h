@@ -3,6 +3,7 @@
 
 #include "core/base/grid.h"
 #include "core/deform/mover.h"
+#include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "shared/bricks.h"
 #include "vk/frame_graph.h"
@@ -79,16 +80,6 @@ struct AttributeBuffers
     std::uint32_t sum_shift = 0; // value bits dropped, so that sums of max_fragments >> sum_shift fragments fit
 };
 
-/// The sums that an octree's attributes were made of.
-struct FragmentSums
-{
-    vk::BufferOf<gpu::VoxelSums> sums;             // [voxel_count], or empty
-    vk::BufferOf<gpu::EmissionSums> emission_sums; // [emissive voxels], or empty
-    std::uint32_t sum_shift = 0;                   // value bits dropped
-};
-
-struct Octree;
-
 /// Where the second and third walk over the triangles add up what fragments look like.
 struct AttributeSums
 {
@@ -135,11 +126,11 @@ void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const Gri
 /// mark emissive voxels in octree.emission_words. The brick table must hold the first voxel of each leaf (numberNodes).
 /// Cost: triangles plus fragments plus voxels.
 void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
-                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree);
+                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree);
 
 /// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
 /// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.
 void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
-                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, Octree& octree);
+                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree);
 
 } // namespace zvo

@@ -5,7 +5,7 @@
 
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "oracle/attribute_forms.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
@@ -275,7 +275,7 @@ TEST_P(PackAttributes, ReplacesThoseOfATree)
 {
     std::mt19937 random(2);
     const AttributeForm form = GetParam();
-    Octree octree = test::octreeOf(device(), test::randomCodes(6, 3000, random), 6);
+    DeviceTree octree = test::octreeOf(device(), test::randomCodes(6, 3000, random), 6);
     test::addAttributes(device(), octree);
     const Attributes voxels = device().download(octree.voxel_attributes);
     const Attributes nodes = device().download(octree.node_attributes);
@@ -290,13 +290,13 @@ TEST_P(PackAttributes, ReplacesThoseOfATree)
     EXPECT_EQ(device().download(octree.packed.voxels), packByOracle(voxels, form));
     EXPECT_EQ(device().download(octree.packed.nodes), packByOracle(nodes, nodeForm(form)));
     EXPECT_TRUE(packTree(device(), form, octree).empty()); // once is enough
-    Octree bare = test::octreeOf(device(), test::randomCodes(6, 30, random), 6);
+    DeviceTree bare = test::octreeOf(device(), test::randomCodes(6, 30, random), 6);
     EXPECT_TRUE(packTree(device(), form, bare).empty());
     EXPECT_EQ(bare.attributeForm(), AttributeForm::None);
 }
 
 // The attributes that a packed tree has, in 8 bytes, with their flags.
-void unpackTree(Octree& octree)
+void unpackTree(DeviceTree& octree)
 {
     const PackedAttributes packed = std::exchange(octree.packed, {});
     const Words voxels = device().download(packed.voxels);
@@ -318,10 +318,10 @@ void unpackTree(Octree& octree)
     octree.node_attributes = device().makeBuffer<gpu::Attribute>("unpacked", of_nodes);
 }
 
-std::vector<gpu::uint> pictureOf(const TreeView& tree, const TraceOptions& options)
+std::vector<gpu::uint> pictureOf(const DeviceTree& tree, const TraceOptions& options)
 {
-    const ViewCamera view = test::manyCameras(tree.octree().grid).front();
-    const TraceCamera camera = traceCamera(view, tree.octree().grid, 70);
+    const ViewCamera view = test::manyCameras(tree.grid).front();
+    const TraceCamera camera = traceCamera(view, tree.grid, 70);
     const test::Picture picture = test::takePicture(device(), tree, camera, 99, 70, options);
     EXPECT_GT(test::hitCount(picture), 500U);
     return picture.image;
@@ -332,13 +332,13 @@ TEST_P(PackAttributes, ShowsInPictures)
 {
     for (const std::uint32_t depth : {5U, 7U})
     {
-        Octree packed = test::octreeOf(device(), test::sphereShell(depth, depth == 5 ? 12.0 : 50.0), depth);
+        DeviceTree packed = test::octreeOf(device(), test::sphereShell(depth, depth == 5 ? 12.0 : 50.0), depth);
         test::addAttributes(device(), packed);
-        Svdag dag = test::svdagOf(device(), packed);
-        Octree unpacked = test::octreeOf(device(), test::sphereShell(depth, depth == 5 ? 12.0 : 50.0), depth);
+        DeviceTree dag = test::svdagOf(device(), packed);
+        DeviceTree unpacked = test::octreeOf(device(), test::sphereShell(depth, depth == 5 ? 12.0 : 50.0), depth);
         test::addAttributes(device(), unpacked);
         packTree(device(), GetParam(), packed);
-        packTree(device(), GetParam(), dag.tree);
+        packTree(device(), GetParam(), dag);
         packTree(device(), GetParam(), unpacked);
         unpackTree(unpacked);
         for (const View view : {View::Color, View::Albedo, View::Normal})
@@ -363,17 +363,17 @@ TEST_P(PackAttributes, AndCompressingGoInAnyOrder)
     {
         std::mt19937 random(depth);
         const test::Codes codes = test::randomCodes(depth, 3000, random);
-        Octree octree = test::octreeOf(device(), codes, depth);
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
         test::addAttributes(device(), octree);
-        Svdag late = compress(device(), std::move(octree)).dag;
-        packTree(device(), GetParam(), late.tree);
+        DeviceTree late = compress(device(), std::move(octree)).dag;
+        packTree(device(), GetParam(), late);
         octree = test::octreeOf(device(), codes, depth);
         test::addAttributes(device(), octree);
         packTree(device(), GetParam(), octree);
-        const Svdag early = compress(device(), std::move(octree)).dag;
+        const DeviceTree early = compress(device(), std::move(octree)).dag;
         EXPECT_EQ(test::difference(device(), early, late), "") << depth;
-        EXPECT_EQ(early.tree.attributeForm(), GetParam());
-        const Svdag again = compress(device(), std::move(late)).dag;
+        EXPECT_EQ(early.attributeForm(), GetParam());
+        const DeviceTree again = compress(device(), std::move(late)).dag;
         EXPECT_EQ(test::difference(device(), again, early), "") << depth;
     }
 }

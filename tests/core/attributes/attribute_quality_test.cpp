@@ -82,7 +82,7 @@ std::string lossText(const Loss& loss)
                        loss.max_degrees);
 }
 
-std::vector<gpu::uint> pictureOf(const Octree& octree, const Scene& scene)
+std::vector<gpu::uint> pictureOf(const DeviceTree& octree, const Scene& scene)
 {
     const ViewCamera view = scene.cameras.empty() ? ViewCamera::framing(scene, double{kWidth} / kHeight)
                                                   : ViewCamera::of(scene.cameras.front());
@@ -119,7 +119,7 @@ std::vector<Quality> measure(const std::filesystem::path& path, std::uint32_t de
     for (const AttributeForm form : {AttributeForm::Bytes4, AttributeForm::Blocks})
     {
         BuildResult built = buildOctree(device(), uploaded, Grid::around(scene.bounds(), depth), {});
-        Octree& octree = built.octree;
+        DeviceTree& octree = built.octree;
         const std::vector<gpu::Attribute> voxels = device().download(octree.voxel_attributes);
         const std::vector<gpu::Attribute> nodes = device().download(octree.node_attributes);
         const std::vector<gpu::uint> picture = pictureOf(octree, scene);

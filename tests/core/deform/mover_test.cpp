@@ -203,7 +203,7 @@ TEST(Mover, WithoutNormalsEachVertexFollowsTheSideOfItsJoints)
     const glm::mat4 turned = glm::scale(glm::mat4(1.0F), glm::vec3(-2, 2, -2));
     const Pose pose{{glm::mat4(1.0F)}, {{mirrored, turned}}, {{}}};
     EXPECT_GT(expectEqualsPosed(mover, scene, pose), 1000U);
-    const Octree octree =
+    const DeviceTree octree =
         buildOctree(device(), {mover.uploaded(), mover.buffers()}, kGrid, {Coverage::Thin, true, {}}).octree;
     const std::vector<std::uint64_t> codes = voxelCodes(device(), octree);
     const std::vector<gpu::Attribute> attributes = device().download(octree.voxel_attributes);

@@ -86,7 +86,7 @@ public:
     bool undo() { return test::undo(m_device, *m_octree); }
     bool redo() { return test::redo(m_device, *m_octree); }
 
-    std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->tree().octree()); }
+    std::vector<Cell> shown() { return test::cellsOf(m_device, m_octree->tree()); }
     std::vector<Cell> rebuilt(const std::multiset<Item>& items)
     {
         return m_scenery.rebuilt(m_setting, true, items)->cells;
@@ -240,9 +240,9 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         BuildOptions build;
         build.coverage = Coverage::Conservative;
         build.keep_sums = true;
-        DynamicOctree octree(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build),
+        DynamicOctree octree(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build).octree,
                              {.coverage = Coverage::Conservative});
-        const std::vector<Cell> before = test::cellsOf(device(), octree.tree().octree());
+        const std::vector<Cell> before = test::cellsOf(device(), octree.tree());
         const MoverId mover = octree.add(uploadMover(device(), dot, true, 0), {{place}, {}, {}});
         std::uint32_t failed = 0;
         const auto update = [&]
@@ -265,7 +265,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         all.append(std::move(dot));
         const std::vector<Cell> expected =
             test::cellsOf(device(), buildOctree(device(), uploadScene(device(), all, true), grid, build).octree);
-        const std::vector<Cell> shown = test::cellsOf(device(), octree.tree().octree());
+        const std::vector<Cell> shown = test::cellsOf(device(), octree.tree());
         ASSERT_EQ(shown.size(), expected.size());
         for (std::size_t i = 0; i < shown.size(); ++i)
         {
@@ -279,7 +279,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         }
         octree.remove(mover);
         update();
-        EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree().octree()), before), "");
+        EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), before), "");
 
         // Fewer fragments: from the second update on, bit for bit again.
         const Scene box = test::boxScene(glm::vec3(2.2F), glm::vec3(4.4F));
@@ -289,7 +289,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         fixed.append(Scene(box));
         EXPECT_EQ(
             test::difference(
-                test::cellsOf(device(), octree.tree().octree()),
+                test::cellsOf(device(), octree.tree()),
                 test::cellsOf(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build).octree)),
             "");
     }
@@ -411,8 +411,8 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
     expectError(ErrorCode::Usage, "attributes of 8 bytes",
                 [&]
                 {
-                    StaticTree built = world.scenery().buildStatic(setting);
-                    packTree(device(), AttributeForm::Bytes4, built.dag.tree);
+                    DeviceTree built = world.scenery().buildStatic(setting);
+                    packTree(device(), AttributeForm::Bytes4, built);
                     DynamicOctree(device(), std::move(built), setting.options(scale));
                 });
 }

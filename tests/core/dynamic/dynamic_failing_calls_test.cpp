@@ -134,7 +134,7 @@ private:
         std::vector<Cell> cells;
     };
 
-    std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->tree().octree()); }
+    std::vector<Cell> cells() { return test::cellsOf(m_device, m_octree->tree()); }
 
     void expectCells(const std::vector<Cell>& expected)
     {

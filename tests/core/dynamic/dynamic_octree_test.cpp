@@ -41,7 +41,8 @@ public:
         const GpuScene scene = uploadScene(device(), m_static, true, m_scale);
         BuildOptions build{.coverage = m_options.coverage};
         build.keep_sums = true;
-        m_octree = std::make_unique<DynamicOctree>(device(), buildOctree(device(), scene, m_grid, build), m_options);
+        m_octree =
+            std::make_unique<DynamicOctree>(device(), buildOctree(device(), scene, m_grid, build).octree, m_options);
         m_mesh = uploadMover(device(), m_mover, true, m_scale);
     }
 
@@ -63,7 +64,7 @@ public:
     bool undo() { return test::undo(device(), *m_octree); }
     bool redo() { return test::redo(device(), *m_octree); }
 
-    std::vector<Cell> shown() const { return test::cellsOf(device(), m_octree->tree().octree()); }
+    std::vector<Cell> shown() const { return test::cellsOf(device(), m_octree->tree()); }
 
     // Everything voxelized at once.
     std::vector<Cell> rebuilt(const std::vector<glm::mat4>& places) const
@@ -105,7 +106,7 @@ TEST(DynamicOctree, IsMadeOfTheCellsThatItHas)
     const MovingWorld world(6);
     const std::vector<Cell> cells = world.shown();
     ASSERT_GT(cells.size(), 1000U);
-    const Octree octree = test::octreeOf(device(), cells, world.grid(), 1.0F);
+    const DeviceTree octree = test::octreeOf(device(), cells, world.grid(), 1.0F);
     EXPECT_EQ(test::difference(test::cellsOf(device(), octree), cells), "");
     EXPECT_GT(octree.emission.count(), 0U);
 }

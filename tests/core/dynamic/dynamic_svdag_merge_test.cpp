@@ -112,27 +112,27 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
 {
     const DynamicSetting setting = {.depth = 6, .compressed = true, .minimal_capacities = true};
     MoverScenery scenery(device(), true);
-    StaticTree fixed = scenery.buildStatic(setting);
-    const std::uint64_t node_end = fixed.dag.tree.nodes.count();
-    ASSERT_GT(fixed.dag.entry_count, 100U);
-    const auto bytes = [&](const Svdag& dag)
+    DeviceTree fixed = scenery.buildStatic(setting);
+    const std::uint64_t node_end = fixed.nodes.count();
+    ASSERT_GT(fixed.lists.entry_count, 100U);
+    const auto bytes = [&](const DeviceTree& dag)
     {
         std::vector<gpu::uint> words;
-        addWords(words, dag.tree.nodes, 1, node_end - 1); // behind the slot; lists included
-        addWords(words, dag.tree.node_attributes, 1, dag.octree_node_count - 1);
-        addWords(words, dag.tree.voxel_attributes, 0, dag.tree.voxel_count);
-        addWords(words, dag.before, 0, dag.before.count());
-        addWords(words, dag.voxels_before_leaf, 0, dag.voxels_before_leaf.count());
+        addWords(words, dag.nodes, 1, node_end - 1); // behind the slot; lists included
+        addWords(words, dag.node_attributes, 1, dag.octreeNodeCount() - 1);
+        addWords(words, dag.voxel_attributes, 0, dag.voxel_count);
+        addWords(words, dag.lists.before, 0, dag.lists.before.count());
+        addWords(words, dag.lists.voxels_before_leaf, 0, dag.lists.voxels_before_leaf.count());
         return words;
     };
-    const gpu::Node root = device().download(fixed.dag.tree.nodes, 0, 1).front();
-    const std::vector<gpu::uint> before = bytes(fixed.dag);
+    const gpu::Node root = device().download(fixed.nodes, 0, 1).front();
+    const std::vector<gpu::uint> before = bytes(fixed);
     DynamicOctree octree(device(), std::move(fixed), setting.options(scenery.emissionScale()));
     EXPECT_EQ(octree.staticRoot(), node_end);
     const auto expectUnchanged = [&]
     {
-        EXPECT_TRUE(bytes(*octree.tree().svdag()) == before);
-        const gpu::Node shown = device().download(octree.tree().octree().nodes, octree.staticRoot(), 1).front();
+        EXPECT_TRUE(bytes(octree.tree()) == before);
+        const gpu::Node shown = device().download(octree.tree().nodes, octree.staticRoot(), 1).front();
         EXPECT_EQ(shown.mask_lo, root.mask_lo);
         EXPECT_EQ(shown.base_lo, root.base_lo);
         EXPECT_EQ(shown.mask_hi, root.mask_hi);
@@ -156,7 +156,7 @@ TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
     test::updateAll(device(), world.octree());
     const auto bytes = [&]
     {
-        const Octree& octree = world.octree().tree().octree();
+        const DeviceTree& octree = world.octree().tree();
         std::vector<gpu::uint> words;
         addWords(words, octree.nodes, 0, octree.nodes.count());
         addWords(words, octree.node_attributes, 0, octree.node_attributes.count());
@@ -171,7 +171,7 @@ TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
     const std::vector<gpu::uint> after = bytes();
     // The overlay that was undone is left behind it, where there was nothing.
     const RootEntry step = world.octree().history().current();
-    const Octree& octree = world.octree().tree().octree();
+    const DeviceTree& octree = world.octree().tree();
     const std::uint64_t words_per_node = sizeof(gpu::Node) / sizeof(gpu::uint);
     const std::uint64_t end = words_per_node * (step.region->first_node + step.region->node_capacity);
     ASSERT_LT(end, octree.nodes.count() * words_per_node);
@@ -203,9 +203,8 @@ TEST(DynamicSvdagMerge, MoreNodesThanKernelsReachAreRefused)
     vk::Retired retired;
     const auto make = [&](std::uint64_t room)
     {
-        Svdag dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
-        auto octree = std::make_unique<OverlayOctree>(device(), StaticTree(std::move(dag), {}),
-                                                      OverlayContents{false, 0.0F}, retired);
+        DeviceTree dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
+        auto octree = std::make_unique<OverlayBuffers>(device(), std::move(dag), OverlayContents{false, 0.0F}, retired);
         octree->reserve(room);
         device().perform([&](vk::FrameGraph& graph, vk::Retired& later) { octree->settle(graph, later); });
         return octree;

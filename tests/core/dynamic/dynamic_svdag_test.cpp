@@ -50,11 +50,8 @@ public:
         options.history = {16, UINT64_MAX};
         options.emission_scale = 1.0F;
         options.minimal_capacities = depth % 2 == 0;
-        BuildResult built;
-        built.octree = fixed(codes, depth);
-        m_octree = std::make_unique<DynamicOctree>(device(), std::move(built), options);
-        m_dag = std::make_unique<DynamicOctree>(device(), StaticTree(compress(device(), fixed(codes, depth)).dag, {}),
-                                                options);
+        m_octree = std::make_unique<DynamicOctree>(device(), fixed(codes, depth), options);
+        m_dag = std::make_unique<DynamicOctree>(device(), compress(device(), fixed(codes, depth)).dag, options);
     }
 
     [[nodiscard]] const DynamicOctree& octree() const { return *m_octree; }
@@ -115,9 +112,9 @@ public:
     }
 
 private:
-    [[nodiscard]] Octree fixed(const test::Codes& codes, std::uint32_t depth) const
+    [[nodiscard]] DeviceTree fixed(const test::Codes& codes, std::uint32_t depth) const
     {
-        Octree octree = test::octreeOf(device(), codes, depth);
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
         if (m_attributes)
         {
             test::addAttributes(device(), octree);
@@ -252,7 +249,7 @@ TEST(DynamicSvdag, WithoutAttributesItLooksLikeTheOctree)
         SCOPED_TRACE("depth " + std::to_string(depth));
         const test::Codes targets = codes.empty() ? test::Codes{0, 7, 100} : codes;
         Pair pair(codes, depth, MergeRule::Average, false);
-        EXPECT_EQ(pair.dag().tree().overlaid()->ranks.count(), 0U);
+        EXPECT_EQ(pair.dag().tree().overlays.ranks.count(), 0U);
         std::uint32_t step = 0;
         moveBoxes(pair,
                   [&]
@@ -309,7 +306,7 @@ TEST(DynamicSvdag, RaysBeginAtTheLowestNodesOfOverlaysAndOfTheDagBelow)
         moveBoxes(pair,
                   [&]
                   {
-                      const std::vector<gpu::Node> nodes = device().download(pair.dag().tree().octree().nodes);
+                      const std::vector<gpu::Node> nodes = device().download(pair.dag().tree().nodes);
                       BeamGrid beam(device().device());
                       device().run([&](vk::FrameGraph& graph) { buildBeam(graph, pair.dag().tree(), beam); });
                       const std::vector<std::uint64_t> words = device().download(beam.paths);

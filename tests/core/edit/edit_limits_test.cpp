@@ -5,7 +5,7 @@
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "io/gltf/gltf_loader.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
@@ -55,9 +55,7 @@ public:
         DynamicOptions options;
         options.emission_scale = emission_scale;
         options.edits = bounds;
-        StaticTree fixed = compressed
-                               ? StaticTree(compress(device(), std::move(built.octree)).dag, std::move(built.sums))
-                               : StaticTree(std::move(built));
+        DeviceTree fixed = compressed ? compress(device(), std::move(built.octree)).dag : std::move(built.octree);
         m_octree = std::make_unique<DynamicOctree>(device(), std::move(fixed), options);
         const glm::dvec3 center = glm::dvec3(scene.bounds().min + scene.bounds().max) / 2.0;
         const glm::dvec3 size = scene.bounds().max - scene.bounds().min;
@@ -116,11 +114,10 @@ public:
             const auto* begin = reinterpret_cast<const gpu::uint*>(values.data());
             words.insert(words.end(), begin, begin + std::as_bytes(std::span(values)).size() / sizeof(gpu::uint));
         };
-        const Octree& octree = m_octree->tree().octree();
+        const DeviceTree& octree = m_octree->tree();
         const std::uint32_t root = m_octree->staticRoot();
-        const Svdag* dag = m_octree->tree().svdag();
         add(device().download(octree.nodes, 1, root));
-        add(device().download(octree.node_attributes, 1, dag != nullptr ? dag->octree_node_count : root));
+        add(device().download(octree.node_attributes, 1, octree.octreeNodeCount()));
         add(device().download(octree.voxel_attributes, 0, octree.voxel_count));
         return words;
     }

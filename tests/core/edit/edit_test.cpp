@@ -98,7 +98,7 @@ TEST(Edit, ManyStrokesAndAsManyUndosLeaveTheSameBytes)
         const auto nodes = [&]
         {
             const std::vector<gpu::Node> all =
-                device().download(machine.octree().tree().octree().nodes, 0, machine.octree().staticRoot() + 1);
+                device().download(machine.octree().tree().nodes, 0, machine.octree().staticRoot() + 1);
             const auto* words = reinterpret_cast<const gpu::uint*>(all.data());
             return std::vector<gpu::uint>(words, words + 4 * all.size());
         };

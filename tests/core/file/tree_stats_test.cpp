@@ -65,7 +65,7 @@ TEST(TreeStats, UniqueNodesAreThoseThatADagHas)
     {
         const TreeData dag = sample.tree.structure == TreeStructure::Svo ? dagOf(sample.tree) : sample.tree;
         std::vector<std::uint64_t> expected;
-        for (const Octree::Level& level : dag.levels)
+        for (const DeviceTree::Level& level : dag.levels)
         {
             expected.push_back(level.node_count);
         }

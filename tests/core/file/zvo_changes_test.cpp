@@ -5,7 +5,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "io/gltf/gltf_loader.h"
 #include "support/dags.h"
 #include "support/engine_device.h"
@@ -37,9 +37,9 @@ const TreeData& atrium()
     {
         const Scene scene = loadGltf(ownScene("atrium.glb"));
         const GpuScene gpu_scene = uploadScene(device(), scene, true);
-        Octree octree = buildOctree(device(), gpu_scene, Grid::around(scene.bounds(), 7), {}).octree;
-        Svdag dag = compress(device(), std::move(octree)).dag;
-        packTree(device(), AttributeForm::Blocks, dag.tree);
+        DeviceTree octree = buildOctree(device(), gpu_scene, Grid::around(scene.bounds(), 7), {}).octree;
+        DeviceTree dag = compress(device(), std::move(octree)).dag;
+        packTree(device(), AttributeForm::Blocks, dag);
         return downloadTree(device(), dag);
     }();
     return tree;
@@ -196,7 +196,7 @@ TEST(ZvoChanges, OfTheHeaderWithItsChecksumsAreRefusedOrMeanWhatTheySay)
 void expectSoundDag(const TreeData& tree)
 {
     const DeviceTree uploaded = uploadTree(device(), tree);
-    const oracle::DagContents contents = contentsOf(device(), std::get<Svdag>(uploaded));
+    const oracle::DagContents contents = dagContentsOf(device(), uploaded);
     EXPECT_EQ(contents.violations, std::vector<std::string>{});
     ASSERT_EQ(contents.voxels.size(), tree.voxel_count);
     for (std::size_t i = 0; i < contents.voxels.size(); ++i)

@@ -57,7 +57,7 @@ Sums sumsOf(const Scene& scene, const Grid& grid, AttributeForm form)
 {
     const bool attributes = form != AttributeForm::None;
     const GpuScene gpu_scene = uploadScene(device(), scene, attributes);
-    Octree octree = buildOctree(device(), gpu_scene, grid, {Coverage::Thin, attributes, {}}).octree;
+    DeviceTree octree = buildOctree(device(), gpu_scene, grid, {Coverage::Thin, attributes, {}}).octree;
     packTree(device(), form, octree);
     Sums sums;
     sums.svo = sha256Of(downloadTree(device(), octree));

@@ -12,7 +12,7 @@
 #include "core/scene/animation.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "runtime/octree_sha256.h"
 #include "support/device.h"
 #include "support/failing_vulkan.h"
@@ -83,7 +83,7 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
     {
         const GpuScene gpu_scene = uploadScene(device, job.scene, job.attributes);
         const Grid grid = Grid::around(job.scene.bounds(), 4);
-        const Octree octree =
+        const DeviceTree octree =
             buildOctree(device, gpu_scene, grid, {Coverage::Thin, job.attributes, job.capacities}).octree;
         BeamGrid beam(device.device());
         TraceBuffers buffers(device.device(), kEdge, kEdge);
@@ -119,8 +119,8 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
 TreeData makeDag(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid)
 {
     BuildResult built = buildOctree(device, scene, grid, {});
-    Svdag dag = compress(device, std::move(built.octree), {.table_slots = 64}).dag;
-    packTree(device, AttributeForm::Blocks, dag.tree);
+    DeviceTree dag = compress(device, std::move(built.octree), {.table_slots = 64}).dag;
+    packTree(device, AttributeForm::Blocks, dag);
     return downloadTree(device, dag);
 }
 

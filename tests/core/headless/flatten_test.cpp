@@ -45,12 +45,11 @@ TEST(FlattenTree, OfWhatWasJustBuiltIsWhatIsDownloaded)
     {
         if (isPacked(sample.tree.attributeForm()))
         {
-            EXPECT_ANY_THROW((void)std::visit([](const auto& tree) { return flattenTree(device(), tree); },
-                                              uploadTree(device(), sample.tree)));
+            EXPECT_ANY_THROW((void)flattenTree(device(), uploadTree(device(), sample.tree)));
             continue;
         }
         const DeviceTree uploaded = uploadTree(device(), sample.tree);
-        const TreeData flat = std::visit([](const auto& tree) { return flattenTree(device(), tree); }, uploaded);
+        const TreeData flat = flattenTree(device(), uploaded);
         EXPECT_EQ(checkTree(flat), std::nullopt) << sample.name;
         EXPECT_EQ(flat.structure, TreeStructure::Svo);
         if (sample.tree.structure == TreeStructure::Svo)
@@ -102,7 +101,7 @@ TEST(FlattenTree, OfAnEditedTreeHasWhatTheModelHas)
         machine.run({test::EditCommand::Action::Compare, {}});
         const TreeData flat = flattenTree(device(), machine.octree().tree());
         EXPECT_EQ(checkTree(flat), std::nullopt);
-        const Octree again = std::get<Octree>(uploadTree(device(), flat));
+        const DeviceTree again = uploadTree(device(), flat);
         EXPECT_EQ(test::difference(test::cellsOf(device(), again), machine.model().cells()), "");
     }
 }

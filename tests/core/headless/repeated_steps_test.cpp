@@ -75,7 +75,7 @@ Outcome outcome(const Scene& scene, const Grid& grid, std::uint64_t failing_kern
     Outcome result;
     OctreeBuilder octree(device.device(), uploaded, grid, {Coverage::Thin, true, {}});
     result.failures += takeSteps(device, octree);
-    Octree built = octree.take().octree;
+    DeviceTree built = octree.take().octree;
     result.octree = test::zvoSha256(downloadTree(device, built));
     if (result.failures != 0)
     {

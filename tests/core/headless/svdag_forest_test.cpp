@@ -29,20 +29,20 @@ template <typename T> void expectSame(const vk::BufferOf<T>& a, const vk::Buffer
     EXPECT_TRUE(of_a.empty() || std::memcmp(of_a.data(), of_b.data(), of_a.size() * sizeof(T)) == 0) << what;
 }
 
-void expectSame(const Svdag& a, const Svdag& b)
+void expectSame(const DeviceTree& a, const DeviceTree& b)
 {
-    ASSERT_EQ(a.tree.node_count, b.tree.node_count);
-    EXPECT_EQ(a.entry_count, b.entry_count);
-    EXPECT_EQ(a.long_entry_count, b.long_entry_count);
-    ASSERT_EQ(a.tree.levels.size(), b.tree.levels.size());
-    for (std::size_t level = 0; level < a.tree.levels.size(); ++level)
+    ASSERT_EQ(a.node_count, b.node_count);
+    EXPECT_EQ(a.lists.entry_count, b.lists.entry_count);
+    EXPECT_EQ(a.lists.long_entry_count, b.lists.long_entry_count);
+    ASSERT_EQ(a.levels.size(), b.levels.size());
+    for (std::size_t level = 0; level < a.levels.size(); ++level)
     {
-        EXPECT_EQ(a.tree.levels[level].first_node, b.tree.levels[level].first_node);
-        EXPECT_EQ(a.tree.levels[level].node_count, b.tree.levels[level].node_count);
+        EXPECT_EQ(a.levels[level].first_node, b.levels[level].first_node);
+        EXPECT_EQ(a.levels[level].node_count, b.levels[level].node_count);
     }
-    expectSame(a.tree.nodes, b.tree.nodes, "nodes and lists");
-    expectSame(a.before, b.before, "before");
-    expectSame(a.voxels_before_leaf, b.voxels_before_leaf, "voxels before leaves");
+    expectSame(a.nodes, b.nodes, "nodes and lists");
+    expectSame(a.lists.before, b.lists.before, "before");
+    expectSame(a.lists.voxels_before_leaf, b.lists.voxels_before_leaf, "voxels before leaves");
 }
 
 void expectTilesMakeTheWhole(const Scene& scene, std::uint32_t depth, std::uint32_t tile_depth, bool ranks)
@@ -56,7 +56,7 @@ void expectTilesMakeTheWhole(const Scene& scene, std::uint32_t depth, std::uint3
     {
         top_nodes += whole.octree.levels[level].node_count;
     }
-    const Svdag expected = std::move(compress(device(), std::move(whole.octree), {.ranks = ranks}).dag);
+    const DeviceTree expected = std::move(compress(device(), std::move(whole.octree), {.ranks = ranks}).dag);
 
     SvdagForest forest(device(), grid, tile_depth);
     std::uint32_t tile_count = 0;
@@ -71,8 +71,8 @@ void expectTilesMakeTheWhole(const Scene& scene, std::uint32_t depth, std::uint3
     }
     EXPECT_GT(tile_count, 1U);
     EXPECT_EQ(forest.topNodeCount(), top_nodes);
-    const Svdag dag = forest.finish(ranks);
-    EXPECT_EQ(dag.before.count() != 0, ranks && grid.nodeLevels() > 2);
+    const DeviceTree dag = forest.finish(ranks);
+    EXPECT_EQ(dag.lists.before.count() != 0, ranks && grid.nodeLevels() > 2);
     expectSame(dag, expected);
 }
 
@@ -100,8 +100,8 @@ TEST(SvdagForest, OfTheSmallestTilesIsTheDagOfTheWhole)
 
 TEST(SvdagForest, OfNothingIsEmpty)
 {
-    const Svdag dag = SvdagForest(device(), Grid{{}, 1.0F, 6}, 4).finish(true);
-    EXPECT_EQ(dag.tree.node_count, 0U);
+    const DeviceTree dag = SvdagForest(device(), Grid{{}, 1.0F, 6}, 4).finish(true);
+    EXPECT_EQ(dag.node_count, 0U);
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 #include "core/headless/pipeline.h"
 #include "core/headless/tiled_build.h"
 #include "core/headless/tree_download.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "support/device.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
@@ -57,8 +57,8 @@ void expectSame(const TreeData& a, const TreeData& b)
 TreeData wholeDag(vk::HeadlessDevice& on, const GpuScene& scene, const Grid& grid, AttributeForm attributes)
 {
     BuildResult built = buildOctree(on, scene, grid, {Coverage::Thin, attributes != AttributeForm::None, {}});
-    Svdag dag = compress(on, std::move(built.octree)).dag;
-    packTree(on, attributes, dag.tree);
+    DeviceTree dag = compress(on, std::move(built.octree)).dag;
+    packTree(on, attributes, dag);
     return downloadTree(on, dag);
 }
 

@@ -140,7 +140,7 @@ protected:
             });
     }
 
-    Octree m_octree;
+    DeviceTree m_octree;
     BeamGrid m_beam;
 };
 

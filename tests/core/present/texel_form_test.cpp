@@ -34,7 +34,7 @@ struct Shown
     std::vector<gpu::Hit> hits;
 };
 
-Shown show(const Octree& octree, const ViewCamera& view, TexelForm form, const TraceOptions& options)
+Shown show(const DeviceTree& octree, const ViewCamera& view, TexelForm form, const TraceOptions& options)
 {
     BeamGrid beam(device().device());
     TraceBuffers buffers(device().device(), kTexelsWide, kTexelsHigh, form);
@@ -83,9 +83,9 @@ double toneMap(double radiance)
 }
 
 // A shell in all attributes, lit from the side, with sky around it.
-Octree coloredSphere()
+DeviceTree coloredSphere()
 {
-    Octree octree = test::octreeOf(device(), test::sphereShell(6, 25.0), 6);
+    DeviceTree octree = test::octreeOf(device(), test::sphereShell(6, 25.0), 6);
     test::addAttributes(device(), octree);
     return octree;
 }
@@ -97,7 +97,7 @@ ViewCamera sphereView()
 
 TEST(TexelForm, BlueFirstIsTheSamePictureWithItsBytesSwapped)
 {
-    const Octree octree = coloredSphere();
+    const DeviceTree octree = coloredSphere();
     for (const View view : kTexelViews)
     {
         TraceOptions options;
@@ -113,7 +113,7 @@ TEST(TexelForm, BlueFirstIsTheSamePictureWithItsBytesSwapped)
 
 TEST(TexelForm, TenBitsShowWhatEightDo)
 {
-    const Octree octree = coloredSphere();
+    const DeviceTree octree = coloredSphere();
     for (const View view : kTexelViews)
     {
         SCOPED_TRACE(static_cast<int>(view));
@@ -144,7 +144,7 @@ TEST(TexelForm, TenBitsShowWhatEightDo)
 
 TEST(TexelForm, HalfFloatsToneMappedAreTheCodesOfThePicture)
 {
-    const Octree octree = coloredSphere();
+    const DeviceTree octree = coloredSphere();
     TraceOptions options;
     options.exposure = 1.7F;
     options.occlusion_rays = 3;
@@ -172,7 +172,7 @@ TEST(TexelForm, HalfFloatsToneMappedAreTheCodesOfThePicture)
 
 TEST(TexelForm, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
 {
-    const Octree octree = coloredSphere();
+    const DeviceTree octree = coloredSphere();
     for (const View view : kTexelViews)
     {
         if (view == View::Color)
@@ -226,7 +226,7 @@ void expectNear(const glm::dvec4& half, const glm::dvec3& expected)
 TEST(TexelForm, HalfFloatsAreExposedRadiance)
 {
     const test::Codes codes = test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; });
-    Octree octree = test::octreeOf(device(), codes, 4);
+    DeviceTree octree = test::octreeOf(device(), codes, 4);
     const gpu::uint color = 200U | 100U << 8 | 50U << 16 | gpu::kAttributeEmissive << 24;
     const std::vector<gpu::Attribute> attributes(codes.size(), {color, 0U}); // normal +z
     octree.voxel_attributes = device().makeBuffer<gpu::Attribute>("attributes", attributes);
@@ -265,7 +265,7 @@ TEST(TexelForm, HalfFloatsAreExposedRadiance)
 
 TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
 {
-    const Octree octree = test::octreeOf(device(), {}, 4);
+    const DeviceTree octree = test::octreeOf(device(), {}, 4);
     const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2; // sizes are odd: the ray along forward
     TraceOptions options;
     options.exposure = 0.5F;
@@ -285,7 +285,7 @@ TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
 
 TEST(TexelForm, ViewsWithoutSkyOfAnEmptyOctreeAreBlackInEveryForm)
 {
-    const Octree octree = test::octreeOf(device(), {}, 5);
+    const DeviceTree octree = test::octreeOf(device(), {}, 5);
     const std::size_t pixels = std::size_t{kTexelsWide} * kTexelsHigh;
     for (const View view : kTexelViews)
     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compression against the oracle, byte for byte: so the result does not depend on threads, subgroups or tables either.
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
@@ -38,11 +38,11 @@ using test::Codes;
 using test::device;
 
 /// octree compressed, checked against what the oracle makes of it.
-CompressResult compressedAsExpected(Octree octree, const CompressOptions& options = {})
+CompressResult compressedAsExpected(DeviceTree octree, const CompressOptions& options = {})
 {
-    const Svdag expected = test::svdagOf(device(), octree, options.entries_per_word);
+    const DeviceTree expected = test::svdagOf(device(), octree, options.entries_per_word);
     std::vector<std::uint32_t> candidate_counts;
-    for (const Octree::Level& level : octree.levels)
+    for (const DeviceTree::Level& level : octree.levels)
     {
         candidate_counts.push_back(level.node_count);
     }
@@ -56,23 +56,23 @@ CompressResult compressedAsExpected(Octree octree, const CompressOptions& option
 void expectCompressed(const Codes& codes, std::uint32_t depth)
 {
     compressedAsExpected(test::octreeOf(device(), codes, depth));
-    Octree octree = test::octreeOf(device(), codes, depth);
+    DeviceTree octree = test::octreeOf(device(), codes, depth);
     test::addAttributes(device(), octree);
     compressedAsExpected(std::move(octree));
 }
 
 /// dag holds the voxels of octree (which has not been compressed) with their ranks, and all nodes.
-void expectExpandsTo(const Svdag& dag, const std::vector<std::uint64_t>& codes)
+void expectExpandsTo(const DeviceTree& dag, const std::vector<std::uint64_t>& codes)
 {
-    const oracle::DagContents contents = test::contentsOf(device(), dag);
+    const oracle::DagContents contents = test::dagContentsOf(device(), dag);
     EXPECT_EQ(contents.violations, std::vector<std::string>{});
     ASSERT_EQ(contents.voxels.size(), codes.size());
-    ASSERT_EQ(contents.nodes.size(), dag.octree_node_count);
+    ASSERT_EQ(contents.nodes.size(), dag.octreeNodeCount());
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < codes.size(); ++i)
     {
         const std::uint64_t rank =
-            dag.before.count() + dag.voxels_before_leaf.count() != 0 ? i : contents.voxels[i].rank;
+            dag.lists.before.count() + dag.lists.voxels_before_leaf.count() != 0 ? i : contents.voxels[i].rank;
         wrong += contents.voxels[i].code != codes[i] || contents.voxels[i].rank != rank ? 1 : 0;
     }
     EXPECT_EQ(wrong, 0U) << "of " << codes.size() << " voxels";
@@ -95,14 +95,14 @@ TEST(Svdag, OfNothingHasNoNodes)
 {
     for (const std::uint32_t depth : {1U, 4U, 17U})
     {
-        Octree octree;
+        DeviceTree octree;
         octree.grid.depth = depth;
         const CompressResult result = compress(device(), std::move(octree));
-        EXPECT_EQ(result.dag.tree.grid.depth, depth);
-        EXPECT_EQ(result.dag.tree.node_count, 0U);
-        EXPECT_EQ(result.dag.octree_node_count, 0U);
+        EXPECT_EQ(result.dag.grid.depth, depth);
+        EXPECT_EQ(result.dag.node_count, 0U);
+        EXPECT_EQ(result.dag.octreeNodeCount(), 0U);
         EXPECT_EQ(result.dag.geometryBytes(), 0U);
-        EXPECT_TRUE(result.dag.tree.levels.empty());
+        EXPECT_TRUE(result.dag.levels.empty());
         EXPECT_TRUE(result.passes.empty());
     }
 }
@@ -128,9 +128,9 @@ TEST(Svdag, OfAFullGridHasANodeALevel)
         SCOPED_TRACE(depth);
         const Codes codes = test::codesWhere(depth, [](const glm::uvec3&) { return true; });
         expectCompressed(codes, depth);
-        Octree octree = test::octreeOf(device(), codes, depth);
-        const Svdag dag = compress(device(), std::move(octree)).dag;
-        EXPECT_EQ(dag.tree.node_count, dag.tree.grid.nodeLevels());
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
+        const DeviceTree dag = compress(device(), std::move(octree)).dag;
+        EXPECT_EQ(dag.node_count, dag.grid.nodeLevels());
     }
 }
 
@@ -141,9 +141,9 @@ TEST(Svdag, OfACheckerboardHasANodeALevel)
         SCOPED_TRACE(depth);
         const Codes codes = test::codesWhere(depth, [](const glm::uvec3& v) { return ((v.x + v.y + v.z) & 1U) != 0; });
         expectCompressed(codes, depth);
-        Octree octree = test::octreeOf(device(), codes, depth);
-        const Svdag dag = compress(device(), std::move(octree)).dag;
-        EXPECT_EQ(dag.tree.node_count, dag.tree.grid.nodeLevels());
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
+        const DeviceTree dag = compress(device(), std::move(octree)).dag;
+        EXPECT_EQ(dag.node_count, dag.grid.nodeLevels());
     }
 }
 
@@ -155,9 +155,9 @@ TEST(Svdag, OfNoiseIsTheOctree)
         std::mt19937 random(depth);
         const Codes codes = test::codesWhere(depth, [&](const glm::uvec3&) { return (random() >> 7 & 1U) != 0; });
         expectCompressed(codes, depth);
-        Octree octree = test::octreeOf(device(), codes, depth);
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
         const std::uint32_t node_count = octree.node_count;
-        EXPECT_EQ(compress(device(), std::move(octree)).dag.tree.node_count, node_count);
+        EXPECT_EQ(compress(device(), std::move(octree)).dag.node_count, node_count);
     }
 }
 
@@ -177,10 +177,10 @@ TEST(Svdag, OfMoreThan65536NodesHasThreeEntriesAWord)
                 }
             }
         }
-        Octree octree = test::octreeOf(device(), codes, 8);
+        DeviceTree octree = test::octreeOf(device(), codes, 8);
         EXPECT_GT(octree.node_count, 65536U);
         const CompressResult result = compressedAsExpected(std::move(octree));
-        EXPECT_EQ(result.dag.entries_per_word, 3U);
+        EXPECT_EQ(result.dag.lists.entries_per_word, 3U);
     }
 }
 
@@ -193,16 +193,16 @@ TEST(Svdag, OfAnyEntriesAWordIsTheOracles)
         for (const std::uint32_t entries : {2U, 3U, 4U})
         {
             SCOPED_TRACE(testing::Message() << entries << " entries a word at depth " << depth);
-            Octree octree = test::octreeOf(device(), codes, depth);
+            DeviceTree octree = test::octreeOf(device(), codes, depth);
             test::addAttributes(device(), octree);
             CompressOptions options;
             options.entries_per_word = entries;
             CompressResult result = compressedAsExpected(std::move(octree), options);
-            EXPECT_EQ(result.dag.entries_per_word, entries);
+            EXPECT_EQ(result.dag.lists.entries_per_word, entries);
             expectExpandsTo(result.dag, codes);
             // A DAG of it has four again.
-            const Svdag again = compress(device(), std::move(result.dag)).dag;
-            EXPECT_EQ(again.entries_per_word, 4U);
+            const DeviceTree again = compress(device(), std::move(result.dag)).dag;
+            EXPECT_EQ(again.lists.entries_per_word, 4U);
             expectExpandsTo(again, codes);
         }
     }
@@ -227,8 +227,8 @@ TEST(Svdag, OfLeavesThatDifferInOneVoxelKeepsThemApart)
         }
     }
     expectCompressed(codes, depth);
-    const Svdag dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
-    EXPECT_EQ(dag.tree.levels.back().node_count, 64U);
+    const DeviceTree dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
+    EXPECT_EQ(dag.levels.back().node_count, 64U);
 }
 
 TEST(Svdag, OfEqualBlocksIsOneOfThem)
@@ -247,8 +247,8 @@ TEST(Svdag, OfEqualBlocksIsOneOfThem)
         }
     }
     expectCompressed(codes, depth);
-    const Svdag dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
-    EXPECT_EQ(dag.tree.node_count, 1U + 1 + 1 + 64); // leaves, the block, eight of them in 64, four of those
+    const DeviceTree dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
+    EXPECT_EQ(dag.node_count, 1U + 1 + 1 + 64); // leaves, the block, eight of them in 64, four of those
 }
 
 TEST(Svdag, OfShapesIsTheOracles)
@@ -263,7 +263,7 @@ TEST(Svdag, TablesOfOneSlotGrowAndGiveTheSameBytes)
     for (const std::uint64_t slots : {1U, 2U, 100U})
     {
         SCOPED_TRACE(slots);
-        Octree octree = test::octreeOf(device(), test::sphereShell(7, 50.0), 7);
+        DeviceTree octree = test::octreeOf(device(), test::sphereShell(7, 50.0), 7);
         test::addAttributes(device(), octree);
         EXPECT_GT(compressedAsExpected(std::move(octree), {.table_slots = slots}).retry_count, 0U);
     }
@@ -289,7 +289,7 @@ TEST(Svdag, NodesWhoseHashesCollideAreToldApart)
     {
         const CompressResult result =
             compressedAsExpected(test::octreeOf(device(), codes, depth), {.hash_mask = hash_mask});
-        EXPECT_EQ(result.dag.tree.node_count, 1U + 64 + 2);
+        EXPECT_EQ(result.dag.node_count, 1U + 64 + 2);
         compressedAsExpected(test::octreeOf(device(), test::spongeCodes(6), 6), {.hash_mask = hash_mask});
         compressedAsExpected(test::octreeOf(device(), test::sphereShell(6, 25.0), 6), {.hash_mask = hash_mask});
     }
@@ -311,7 +311,7 @@ TEST(Svdag, NodesOfWhichMoreCollideThanAreProbedAreGivenUp)
 }
 
 /// The DAG of octree's nodes that shares nothing: every node has a list of its own children.
-Svdag listedOctree(const Octree& octree)
+DeviceTree listedOctree(const DeviceTree& octree)
 {
     std::vector<gpu::Node> pool = device().download(octree.nodes);
     std::vector<gpu::uint> words;
@@ -336,20 +336,21 @@ Svdag listedOctree(const Octree& octree)
             node.base_hi = node.base_lo + static_cast<gpu::uint>(std::popcount(node.mask_lo));
         }
     }
-    Svdag dag;
-    dag.octree_node_count = octree.node_count;
-    dag.entry_count = words.size();
-    dag.tree.grid = octree.grid;
-    dag.tree.node_count = octree.node_count;
-    dag.tree.voxel_count = octree.voxel_count;
-    dag.tree.levels = octree.levels;
+    DeviceTree dag;
+    dag.structure = TreeStructure::Svdag;
+    dag.lists.octree_node_count = octree.node_count;
+    dag.lists.entry_count = words.size();
+    dag.grid = octree.grid;
+    dag.node_count = octree.node_count;
+    dag.voxel_count = octree.voxel_count;
+    dag.levels = octree.levels;
     for (std::size_t i = 0; i < words.size(); i += 4)
     {
         gpu::Node four{};
         std::memcpy(&four, &words[i], std::min<std::size_t>(words.size() - i, 4) * sizeof(gpu::uint));
         pool.push_back(four);
     }
-    dag.tree.nodes = device().makeBuffer("pool", std::span<const gpu::Node>(pool));
+    dag.nodes = device().makeBuffer("pool", std::span<const gpu::Node>(pool));
     return dag;
 }
 
@@ -369,18 +370,16 @@ TEST(Svdag, OfADagWithEqualNodesSharesThem)
     for (const Case& c : cases)
     {
         SCOPED_TRACE(c.depth);
-        Octree octree = test::octreeOf(device(), c.codes, c.depth);
+        DeviceTree octree = test::octreeOf(device(), c.codes, c.depth);
         test::addAttributes(device(), octree);
-        const Svdag expected = test::svdagOf(device(), octree);
-        Svdag listed = listedOctree(octree);
-        Svdag again = compress(device(), std::move(octree)).dag;
-        listed.tree.voxel_attributes =
-            device().makeBuffer<gpu::Attribute>("a", device().download(expected.tree.voxel_attributes));
-        listed.tree.node_attributes =
-            device().makeBuffer<gpu::Attribute>("a", device().download(expected.tree.node_attributes));
-        listed.tree.emission_words =
-            device().makeBuffer<gpu::uvec2>("w", device().download(expected.tree.emission_words));
-        listed.tree.emission = device().makeBuffer<gpu::uint>("e", device().download(expected.tree.emission));
+        const DeviceTree expected = test::svdagOf(device(), octree);
+        DeviceTree listed = listedOctree(octree);
+        DeviceTree again = compress(device(), std::move(octree)).dag;
+        listed.voxel_attributes =
+            device().makeBuffer<gpu::Attribute>("a", device().download(expected.voxel_attributes));
+        listed.node_attributes = device().makeBuffer<gpu::Attribute>("a", device().download(expected.node_attributes));
+        listed.emission_words = device().makeBuffer<gpu::uvec2>("w", device().download(expected.emission_words));
+        listed.emission = device().makeBuffer<gpu::uint>("e", device().download(expected.emission));
         EXPECT_EQ(test::difference(device(), compress(device(), std::move(listed)).dag, expected), "");
         EXPECT_EQ(test::difference(device(), compress(device(), std::move(again)).dag, expected), "");
     }
@@ -395,7 +394,7 @@ TEST(Svdag, DoesNotDependOnTheOrderOfTriangles)
         std::shuffle(primitive.triangles.begin(), primitive.triangles.end(), std::mt19937(1));
     }
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 0.5F, .depth = 7};
-    std::vector<Svdag> dags;
+    std::vector<DeviceTree> dags;
     for (const Scene* each : std::array<const Scene*, 2>{&scene, &shuffled})
     {
         const GpuScene gpu_scene = uploadScene(device(), *each, true);
@@ -409,24 +408,24 @@ TEST(Svdag, DoesNotDependOnHowWorkIsSplit)
     vk::HeadlessOptions options = test::deviceOptions();
     options.slices.most_units = 3;
     vk::HeadlessDevice sliced(options, zvoKernels());
-    Octree octree = test::octreeOf(sliced, test::sphereShell(7, 50.0), 7);
+    DeviceTree octree = test::octreeOf(sliced, test::sphereShell(7, 50.0), 7);
     test::addAttributes(sliced, octree);
-    const Svdag expected = test::svdagOf(sliced, octree);
-    const Svdag dag = compress(sliced, std::move(octree)).dag;
+    const DeviceTree expected = test::svdagOf(sliced, octree);
+    const DeviceTree dag = compress(sliced, std::move(octree)).dag;
     EXPECT_GT(sliced.submissionCount(), 1U);
     EXPECT_EQ(test::difference(sliced, dag, expected), "");
 }
 
 TEST(Svdag, OfAnOctreeWithoutLevelsIsRefused)
 {
-    Octree octree = test::octreeOf(device(), Codes{1, 2, 3}, 4);
+    DeviceTree octree = test::octreeOf(device(), Codes{1, 2, 3}, 4);
     octree.levels.clear();
     EXPECT_THROW(compress(device(), std::move(octree)), Error);
 }
 
 /// Whether the octree of codes with attributes could be made and compressed under a memory limit. What was too much is
 /// an error of exit code 6 that names a size beyond the limit; failures counts the steps of compression it came from.
-bool compressesUnder(std::uint64_t limit, const Codes& codes, std::uint32_t depth, const Svdag& expected,
+bool compressesUnder(std::uint64_t limit, const Codes& codes, std::uint32_t depth, const DeviceTree& expected,
                      std::map<std::string, int>& failures)
 {
     vk::HeadlessOptions options = test::deviceOptions();
@@ -434,12 +433,12 @@ bool compressesUnder(std::uint64_t limit, const Codes& codes, std::uint32_t dept
     vk::HeadlessDevice limited(options, zvoKernels());
     try
     {
-        Octree octree = test::octreeOf(limited, codes, depth);
+        DeviceTree octree = test::octreeOf(limited, codes, depth);
         test::addAttributes(limited, octree);
-        const Svdag dag = compress(limited, std::move(octree)).dag;
+        const DeviceTree dag = compress(limited, std::move(octree)).dag;
         EXPECT_LE(limited.device().memory().peakHeldBytes(), limit);
         EXPECT_EQ(dag.geometryBytes(), expected.geometryBytes());
-        EXPECT_EQ(test::contentsOf(limited, dag).violations, std::vector<std::string>{});
+        EXPECT_EQ(test::dagContentsOf(limited, dag).violations, std::vector<std::string>{});
         return true;
     }
     catch (const Error& error)
@@ -459,9 +458,9 @@ TEST(Svdag, MemoryLimitIsKeptAndEitherSufficesOrNamesASize)
     const std::uint32_t depth = 7;
     std::mt19937 random(6);
     const Codes codes = test::randomCodes(depth, 200000, random);
-    Octree octree = test::octreeOf(device(), codes, depth);
+    DeviceTree octree = test::octreeOf(device(), codes, depth);
     test::addAttributes(device(), octree);
-    const Svdag expected = test::svdagOf(device(), octree);
+    const DeviceTree expected = test::svdagOf(device(), octree);
     std::map<std::string, int> failures;
     bool suffices = false;
     for (std::uint64_t limit = 1 << 20; limit < 16 << 20; limit += limit / 8)
@@ -512,7 +511,7 @@ TEST_P(SvdagOfScenes, IsTheOctree)
     }
     const Scene scene = loadGltf(*path);
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
-    Octree octree = buildOctree(device(), gpu_scene, Grid::around(scene.bounds(), depth), {}).octree;
+    DeviceTree octree = buildOctree(device(), gpu_scene, Grid::around(scene.bounds(), depth), {}).octree;
     const std::vector<std::uint64_t> codes = voxelCodes(device(), octree);
     const CompressResult result = compressedAsExpected(std::move(octree));
     EXPECT_EQ(result.retry_count, 0U);

@@ -117,7 +117,7 @@ struct DepthPicture
     std::vector<float> depth;
 };
 
-DepthPicture take(const Octree& octree, const ViewCamera& view, const ClipDepth& clip, std::uint32_t width,
+DepthPicture take(const DeviceTree& octree, const ViewCamera& view, const ClipDepth& clip, std::uint32_t width,
                   std::uint32_t height, const TraceOptions& options = {})
 {
     BeamGrid beam(device().device());
@@ -207,8 +207,8 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
     {
         SCOPED_TRACE(grid_case.depth);
         SCOPED_TRACE(grid_case.voxel_size);
-        Octree octree = test::octreeOf(device(), test::sphereShell(grid_case.depth, 0.4 * (1U << grid_case.depth)),
-                                       grid_case.depth);
+        DeviceTree octree = test::octreeOf(device(), test::sphereShell(grid_case.depth, 0.4 * (1U << grid_case.depth)),
+                                           grid_case.depth);
         octree.grid.origin = grid_case.origin;
         octree.grid.voxel_size = grid_case.voxel_size;
         const Grid& grid = octree.grid;
@@ -315,7 +315,7 @@ Winner nearer(double box, std::optional<double> plane)
 }
 
 // A host draws a plane and puts the picture over it, pixel by pixel, where its depth test passes.
-void expectComposited(const Octree& octree, const Geometry& geometry, const Projection& projection)
+void expectComposited(const DeviceTree& octree, const Geometry& geometry, const Projection& projection)
 {
     constexpr std::uint32_t kWidth = 163;
     constexpr std::uint32_t kHeight = 123;
@@ -392,13 +392,13 @@ TEST_P(TraceDepthProjections, ABoxIsCompositedWithAPlaneAsExactGeometrySays)
     constexpr std::uint32_t kDepth = 6;
     const glm::uvec3 low(14, 9, 20);
     const glm::uvec3 high(47, 50, 41);
-    const Octree octree = test::octreeOf(device(),
-                                         test::codesWhere(kDepth,
-                                                          [&](const glm::uvec3& voxel) {
-                                                              return glm::all(glm::greaterThanEqual(voxel, low)) &&
-                                                                     glm::all(glm::lessThan(voxel, high));
-                                                          }),
-                                         kDepth);
+    const DeviceTree octree = test::octreeOf(device(),
+                                             test::codesWhere(kDepth,
+                                                              [&](const glm::uvec3& voxel) {
+                                                                  return glm::all(glm::greaterThanEqual(voxel, low)) &&
+                                                                         glm::all(glm::lessThan(voxel, high));
+                                                              }),
+                                             kDepth);
     const Geometry geometry = {
         {{glm::dvec3(low), glm::dvec3(high)}}, glm::normalize(glm::dvec3(0.2, 1.0, 0.3)), {31.3, 28.1, 30.7}, 22.0};
     expectComposited(octree, geometry, GetParam());
@@ -412,7 +412,7 @@ TEST_P(TraceDepthProjections, ASphereIsCompositedWithAPlaneAsItsVoxelsSay)
         const double distance = glm::length(glm::dvec3(voxel) + 0.5 - glm::dvec3(8.0));
         return std::abs(distance - 6.5) <= 0.9;
     };
-    Octree octree = test::octreeOf(
+    DeviceTree octree = test::octreeOf(
         device(), test::codesWhere(kDepth, [&](const glm::uvec3& voxel) { return inside(glm::ivec3(voxel)); }), kDepth);
     // As large as the box.
     octree.grid.origin = glm::vec3(6.0F, 4.0F, 5.0F);
@@ -432,7 +432,7 @@ TEST(TraceDepth, TakesAnyTransform)
 {
     constexpr std::uint32_t kWidth = 67;
     constexpr std::uint32_t kHeight = 41;
-    const Octree octree = test::octreeOf(device(), test::sphereShell(6, 25.0), 6);
+    const DeviceTree octree = test::octreeOf(device(), test::sphereShell(6, 25.0), 6);
     ClipDepth clip;
     clip.z = {0.003, 0.008, -0.002, 0.2};
     clip.w = {0.004, -0.002, 0.001, 1.0};
@@ -465,7 +465,7 @@ TEST(TraceDepth, TakesAnyTransform)
 TEST(TraceDepth, PointsBeforeTheNearPlaneAndBehindTheFarOneHaveTheirDepth)
 {
     // A wall at z = 3 to 4, seen from z = 24: 20 away.
-    const Octree octree =
+    const DeviceTree octree =
         test::octreeOf(device(), test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; }), 4);
     const ViewCamera view = ViewCamera::lookAt({8, 8, 24}, {8, 8, 0}, 0.2);
     for (const bool reversed : {false, true})
@@ -486,7 +486,7 @@ TEST(TraceDepth, PointsBeforeTheNearPlaneAndBehindTheFarOneHaveTheirDepth)
 
 TEST(TraceDepth, InsideAVoxelItIsThatOfTheNearPlane)
 {
-    const Octree octree = test::octreeOf(device(), test::codesWhere(3, [](const glm::uvec3&) { return true; }), 3);
+    const DeviceTree octree = test::octreeOf(device(), test::codesWhere(3, [](const glm::uvec3&) { return true; }), 3);
     const ViewCamera view = ViewCamera::lookAt({4.5, 4.5, 4.5}, {4.5, 4.7, 1.0}, 1.0);
     for (const Projection& projection : kProjections)
     {
@@ -501,7 +501,7 @@ TEST(TraceDepth, InsideAVoxelItIsThatOfTheNearPlane)
 
 TEST(TraceDepth, AnEmptyOctreeIsMissedEverywhere)
 {
-    const Octree octree = test::octreeOf(device(), {}, 5);
+    const DeviceTree octree = test::octreeOf(device(), {}, 5);
     const ViewCamera view = ViewCamera::lookAt({60, 40, 50}, {16, 16, 16}, 0.7);
     ClipDepth clip = ClipDepth::of(kProjections[0].matrix(view, 1.0), 0.25F);
     EXPECT_EQ(take(octree, view, clip, 33, 17).depth, std::vector<float>(33 * 17, 0.25F));

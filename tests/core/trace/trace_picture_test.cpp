@@ -26,14 +26,14 @@ using test::Picture;
 
 using test::device;
 
-Picture takeAny(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
+Picture takeAny(const DeviceTree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
                 const TraceOptions& options)
 {
     return test::takePicture(device(), octree, camera, width, height, options);
 }
 
 /// A picture all of whose rays got an answer.
-Picture take(const Octree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
+Picture take(const DeviceTree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
              const TraceOptions& options)
 {
     Picture picture = takeAny(octree, camera, width, height, options);
@@ -72,7 +72,7 @@ TEST(TracePicture, BeamDoesNotChangeThePicture)
     std::uint32_t saved_tiles = 0;
     for (const auto& [depth, codes] : sets)
     {
-        Octree octree = test::octreeOf(device(), codes, depth);
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
         test::addAttributes(device(), octree);
         std::size_t number = 0;
         for (const ViewCamera& camera : manyCameras(octree.grid))
@@ -97,7 +97,7 @@ TEST(TracePicture, BeamDoesNotChangeThePictureOfCoarserNodes)
     std::uint32_t saved_tiles = 0;
     for (const std::uint32_t depth : {5U, 6U, 9U})
     {
-        const Octree octree = test::octreeOf(device(), test::randomCodes(depth, 300, random), depth);
+        const DeviceTree octree = test::octreeOf(device(), test::randomCodes(depth, 300, random), depth);
         std::size_t number = 0;
         for (const ViewCamera& camera : manyCameras(octree.grid))
         {
@@ -130,7 +130,7 @@ TEST(TracePicture, BeamDoesNotChangeThePictureOfCoarserNodes)
 TEST(TracePicture, EveryStackGivesTheSamePicture)
 {
     std::mt19937 random(7);
-    Octree octree = test::octreeOf(device(), test::randomCodes(7, 30000, random), 7);
+    DeviceTree octree = test::octreeOf(device(), test::randomCodes(7, 30000, random), 7);
     test::addAttributes(device(), octree);
     const TraceCamera camera =
         traceCamera(ViewCamera::framing({glm::vec3(0.0F), glm::vec3(128.0F)}, 1.0), octree.grid, 120);
@@ -161,7 +161,7 @@ TEST(TracePicture, EveryStackSurvivesRaysThatLeaveAndReturn)
 {
     // Deep enough that rays begin below the root, which they come back to on their way out.
     std::mt19937 random(8);
-    Octree octree = test::octreeOf(device(), test::randomCodes(9, 4000, random), 9);
+    DeviceTree octree = test::octreeOf(device(), test::randomCodes(9, 4000, random), 9);
     test::addAttributes(device(), octree);
     for (const ViewCamera& view : manyCameras(octree.grid))
     {
@@ -182,7 +182,7 @@ TEST(TracePicture, HitsEqualTheReference)
 {
     constexpr std::uint32_t kDepth = 6;
     const test::Codes codes = test::spongeCodes(kDepth);
-    const Octree octree = test::octreeOf(device(), codes, kDepth);
+    const DeviceTree octree = test::octreeOf(device(), codes, kDepth);
     const oracle::VoxelTracer tracer(codes, kDepth);
     for (const ViewCamera& view : manyCameras(octree.grid))
     {
@@ -228,7 +228,7 @@ TEST(TracePicture, ItsBuffersTellAllTheMemoryThatTheyTake)
 
 TEST(TracePicture, SizesThatDoNotFillTilesLeaveNothingUnwritten)
 {
-    const Octree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
+    const DeviceTree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
     for (const auto& [width, height] : {std::pair{1U, 1U}, {8U, 8U}, {9U, 7U}, {65U, 3U}, {130U, 67U}})
     {
         const ViewCamera view = ViewCamera::framing({glm::vec3(0.0F), glm::vec3(32.0F)}, double(width) / height);
@@ -244,7 +244,7 @@ TEST(TracePicture, SizesThatDoNotFillTilesLeaveNothingUnwritten)
 TEST(TracePicture, MoreLiveTilesThanOneRowOfWorkgroupsAreAllTraced)
 {
     // Inside a shell every tile lives. The tiles past the first row of workgroups do not fill the last one.
-    const Octree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
+    const DeviceTree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
     const ViewCamera view = ViewCamera::lookAt(glm::dvec3(16.0), glm::dvec3(17.0, 16.5, 16.2), 1.0);
     constexpr std::uint32_t kWidth = 8 * 331;
     constexpr std::uint32_t kHeight = 8 * 100;
@@ -256,7 +256,7 @@ TEST(TracePicture, MoreLiveTilesThanOneRowOfWorkgroupsAreAllTraced)
 
 TEST(TracePicture, EveryViewOfAnEmptyOctreeIsBackground)
 {
-    const Octree octree = test::octreeOf(device(), {}, 5);
+    const DeviceTree octree = test::octreeOf(device(), {}, 5);
     const ViewCamera view = ViewCamera::framing({glm::vec3(0.0F), glm::vec3(32.0F)}, 1.0);
     for (const View shown : {View::Color, View::Albedo, View::Normal, View::Depth, View::Level, View::Iterations,
                              View::Voxel, View::Bricks, View::Origin})
@@ -277,7 +277,7 @@ TEST(TracePicture, ViewsShowWhatTheyAreNamedAfter)
 {
     // One wall of voxels across the grid, seen from the front, that fills the picture.
     const test::Codes codes = test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; });
-    Octree octree = test::octreeOf(device(), codes, 4);
+    DeviceTree octree = test::octreeOf(device(), codes, 4);
     const std::vector<gpu::Attribute> attributes(codes.size(), {200U | 100U << 8 | 50U << 16, 0U}); // normal +z
     octree.voxel_attributes = device().makeBuffer("attributes", std::span<const gpu::Attribute>(attributes));
     const ViewCamera front = ViewCamera::lookAt({8, 8, 24}, {8, 8, 0}, 0.2);
@@ -302,7 +302,7 @@ TEST(TracePicture, AWallShadesWhatIsBehindIt)
     // A floor, and a roof over half of it; the sun is straight above.
     const test::Codes codes =
         test::codesWhere(5, [](const glm::uvec3& voxel) { return voxel.y == 0 || (voxel.y == 12 && voxel.x < 16); });
-    const Octree octree = test::octreeOf(device(), codes, 5);
+    const DeviceTree octree = test::octreeOf(device(), codes, 5);
     const TraceCamera camera = traceCamera(ViewCamera::lookAt({16, 8, 60}, {16, 0, 16}, 0.3), octree.grid, 32);
     TraceOptions options;
     options.to_sun = {0.0, 1.0, 0.0};
@@ -317,7 +317,7 @@ TEST(TracePicture, AWallShadesWhatIsBehindIt)
 TEST(TracePicture, OcclusionDarkensCorners)
 {
     // A floor and a wall behind it, seen from above, in the shade.
-    const Octree octree = test::octreeOf(
+    const DeviceTree octree = test::octreeOf(
         device(), test::codesWhere(6, [](const glm::uvec3& v) { return v.y == 0 || (v.z == 0 && v.y < 30); }), 6);
     const TraceCamera camera = traceCamera(ViewCamera::lookAt({32, 60, 33}, {32, 0, 32}, 0.9), octree.grid, 64);
     TraceOptions options;
@@ -338,7 +338,7 @@ TEST(TracePicture, RoundsDoNotChangeThePicture)
 {
     constexpr std::uint32_t kStepsMax = 9;
     constexpr std::uint32_t kDepth = 6;
-    Octree octree = test::octreeOf(device(), test::spongeCodes(kDepth), kDepth);
+    DeviceTree octree = test::octreeOf(device(), test::spongeCodes(kDepth), kDepth);
     test::addAttributes(device(), octree);
     std::uint32_t iterations_max = 0;
     std::size_t number = 0;
@@ -362,7 +362,7 @@ TEST(TracePicture, RoundsDoNotChangeThePicture)
 TEST(TracePicture, OcclusionRaysOfAPixelShareItsIterations)
 {
     constexpr std::uint32_t kDepth = 6;
-    const Octree octree = test::octreeOf(device(), test::spongeCodes(kDepth), kDepth);
+    const DeviceTree octree = test::octreeOf(device(), test::spongeCodes(kDepth), kDepth);
     const TraceCamera camera =
         traceCamera(ViewCamera::framing({glm::vec3(0.0F), glm::vec3(64.0F)}, 1.0), octree.grid, 64);
     TraceOptions options;
@@ -382,7 +382,7 @@ TEST(TracePicture, OcclusionRaysOfAPixelShareItsIterations)
 
 TEST(TracePicture, DetailShowsCoarserNodesFartherAway)
 {
-    Octree octree = test::octreeOf(device(), test::codesWhere(7, [](const glm::uvec3& v) { return v.y == 3; }), 7);
+    DeviceTree octree = test::octreeOf(device(), test::codesWhere(7, [](const glm::uvec3& v) { return v.y == 3; }), 7);
     const TraceCamera camera = traceCamera(ViewCamera::lookAt({64, 30, 130}, {64, 0, 40}, 1.0), octree.grid, 64);
     TraceOptions options;
     options.detail_pixels = 3.0F;

@@ -33,9 +33,9 @@ constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, Trac
 
 using test::device;
 
-Octree withAttributes(const test::Codes& codes, std::uint32_t depth)
+DeviceTree withAttributes(const test::Codes& codes, std::uint32_t depth)
 {
-    Octree octree = test::octreeOf(device(), codes, depth);
+    DeviceTree octree = test::octreeOf(device(), codes, depth);
     test::addAttributes(device(), octree);
     return octree;
 }
@@ -91,7 +91,7 @@ std::vector<test::RelocateOptions> updates()
     };
 }
 
-std::vector<Relocated> relocations(const Octree& octree)
+std::vector<Relocated> relocations(const DeviceTree& octree)
 {
     std::vector<Relocated> result;
     for (const test::RelocateOptions& update : updates())
@@ -101,14 +101,14 @@ std::vector<Relocated> relocations(const Octree& octree)
     return result;
 }
 
-std::string traceOf(const Octree& octree, std::size_t update, std::size_t number)
+std::string traceOf(const DeviceTree& octree, std::size_t update, std::size_t number)
 {
     return "depth " + std::to_string(octree.grid.depth) + " update " + std::to_string(update) + " number " +
            std::to_string(number);
 }
 
 // Takes a picture of octree and of each of its relocations.
-void expectSamePictures(const Octree& octree, const std::vector<Relocated>& relocated, const ViewCamera& view,
+void expectSamePictures(const DeviceTree& octree, const std::vector<Relocated>& relocated, const ViewCamera& view,
                         std::uint32_t width, std::uint32_t height, const TraceOptions& options, std::size_t number)
 {
     const TraceCamera camera = traceCamera(view, octree.grid, height);
@@ -129,7 +129,7 @@ TEST(TraceRoots, EveryViewOfARelocatedOctreeIsTheSame)
 {
     for (const auto& [depth, codes] : codeSets())
     {
-        const Octree octree = withAttributes(codes, depth);
+        const DeviceTree octree = withAttributes(codes, depth);
         const std::vector<Relocated> relocated = relocations(octree);
         const ViewCamera view = test::manyCameras(octree.grid).front();
         for (const View shown : kRootViews)
@@ -146,7 +146,7 @@ TEST(TraceRoots, EveryStackGivesTheSamePictureWithAndWithoutBeam)
 {
     for (const auto& [depth, codes] : codeSets())
     {
-        const Octree octree = withAttributes(codes, depth);
+        const DeviceTree octree = withAttributes(codes, depth);
         const std::vector<Relocated> relocated = relocations(octree);
         const std::vector<ViewCamera> views = test::manyCameras(octree.grid);
         for (std::size_t i = 0; i < views.size(); ++i)
@@ -165,7 +165,7 @@ TEST(TraceRoots, RaysHitTheSame)
     std::mt19937 random(12);
     for (const auto& [depth, codes] : codeSets())
     {
-        const Octree octree = test::octreeOf(device(), codes, depth);
+        const DeviceTree octree = test::octreeOf(device(), codes, depth);
         const std::vector<Relocated> relocated = relocations(octree);
         std::vector<gpu::Ray> rays;
         for (int i = 0; i < 2049; ++i)
@@ -193,7 +193,7 @@ TEST(TraceRoots, RaysHitTheSame)
 TEST(TraceRoots, LevelsOfDetailStopAtTheSameNodes)
 {
     std::mt19937 random(13);
-    const Octree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
+    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
     const std::vector<Relocated> relocated = relocations(octree);
     const ViewCamera view = test::manyCameras(octree.grid).front();
     for (const std::uint32_t level : {1U, 2U, 3U, UINT32_MAX})
@@ -241,7 +241,7 @@ std::vector<Path> pathsOf(const std::vector<gpu::Node>& nodes)
 }
 
 // As shaders/trace/trace.h describes them.
-std::vector<Path> devicePathsOf(const Octree& octree, const std::vector<gpu::Node>& nodes)
+std::vector<Path> devicePathsOf(const DeviceTree& octree, const std::vector<gpu::Node>& nodes)
 {
     BeamGrid beam(device().device());
     device().run([&](vk::FrameGraph& graph) { buildBeam(graph, octree, beam); });
@@ -263,7 +263,7 @@ TEST(TraceRoots, RaysBeginAtTheLowestNodesOfEveryUpdate)
     std::mt19937 random(14);
     for (const std::uint32_t depth : {7U, 8U, 11U})
     {
-        const Octree octree = test::octreeOf(device(), test::randomCodes(depth, 20000, random), depth);
+        const DeviceTree octree = test::octreeOf(device(), test::randomCodes(depth, 20000, random), depth);
         const std::vector<gpu::Node> nodes = device().download(octree.nodes);
         EXPECT_EQ(devicePathsOf(octree, nodes), pathsOf(nodes));
         for (const Relocated& relocated : relocations(octree))
@@ -277,7 +277,7 @@ TEST(TraceRoots, RaysBeginAtTheLowestNodesOfEveryUpdate)
 TEST(TraceRoots, RaysBeginAboveNodesThatPathsCannotName)
 {
     std::mt19937 random(15);
-    const Octree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
+    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
     const Relocated relocated =
         test::relocate(device(), octree, {.gap = kFar, .level_gap = kFar, .touched_percent = 50});
     const std::vector<gpu::Node> nodes = device().download(relocated.octree.nodes);
@@ -305,7 +305,7 @@ TEST(TraceRoots, RaysBeginAboveNodesThatPathsCannotName)
 TEST(TraceRoots, LevelsOfTheOctreeThatWasChangedMayStay)
 {
     std::mt19937 random(18);
-    const Octree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
+    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
     std::vector<Relocated> relocated = relocations(octree);
     for (Relocated& each : relocated)
     {
@@ -319,7 +319,7 @@ TEST(TraceRoots, HalvesOfARootMayStandApart)
 {
     // Nothing in the format says that the children of both halves are neighbours.
     std::mt19937 random(16);
-    const Octree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
+    const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
     Relocated relocated = test::relocate(device(), octree, {.touched_percent = 0});
     std::vector<gpu::Node> nodes = device().download(relocated.octree.nodes);
     const auto upper_count = static_cast<std::uint32_t>(std::popcount(nodes[0].mask_hi));
@@ -347,8 +347,8 @@ TEST(TraceRoots, ARootThatWasEmptyInBetweenIsTheSame)
     for (const auto& [depth, codes] : codeSets())
     {
         SCOPED_TRACE(depth);
-        Octree octree = withAttributes(codes, depth);
-        const Octree nothing = test::octreeOf(device(), {}, depth);
+        DeviceTree octree = withAttributes(codes, depth);
+        const DeviceTree nothing = test::octreeOf(device(), {}, depth);
         const gpu::Node root = device().download(octree.nodes, 0, 1).at(0);
         // The bases of an empty root say nothing.
         const gpu::Node empty = {.mask_lo = 0, .base_lo = 12345, .mask_hi = 0, .base_hi = ~0U};
@@ -393,7 +393,7 @@ TEST(TraceRoots, AnOctreeOfAnEmptyRootIsNeverHit)
     std::mt19937 random(17);
     for (const std::uint32_t depth : {1U, 2U, 3U, 8U, 17U})
     {
-        Octree octree = test::octreeOf(device(), {}, depth);
+        DeviceTree octree = test::octreeOf(device(), {}, depth);
         const gpu::Node empty = {.mask_lo = 0, .base_lo = 12345, .mask_hi = 0, .base_hi = ~0U};
         octree.nodes = device().makeBuffer("nodes", std::span(&empty, 1));
         octree.node_count = 1;

@@ -40,7 +40,7 @@ TEST_P(TraceScenes, HitsEqualTheReference)
         for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
         {
             const Grid grid = Grid::around(scene.bounds(), depth);
-            const Octree octree = buildOctree(device(), gpu_scene, grid, {coverage, false, {}}).octree;
+            const DeviceTree octree = buildOctree(device(), gpu_scene, grid, {coverage, false, {}}).octree;
             test::expectEqualsReference(device(), octree, voxelCodes(device(), octree), kRayCount, {}, false);
         }
     }

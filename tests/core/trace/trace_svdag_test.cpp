@@ -40,9 +40,9 @@ using test::device;
 struct Pair
 {
     test::Codes codes;
-    Octree octree;
+    DeviceTree octree;
     oracle::ReferenceDag reference;
-    Svdag dag;
+    DeviceTree dag;
 
     Pair(const test::Codes& voxels, std::uint32_t depth, bool attributes = true)
         : codes(voxels), octree(test::octreeOf(device(), voxels, depth))
@@ -103,7 +103,7 @@ void expectSameHits(const std::vector<gpu::Hit>& expected, const std::vector<gpu
 }
 
 // Takes a picture of both trees.
-void expectSamePictures(const Octree& octree, const Svdag& dag, const oracle::ReferenceDag& reference,
+void expectSamePictures(const DeviceTree& octree, const DeviceTree& dag, const oracle::ReferenceDag& reference,
                         const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
                         const TraceOptions& options, bool must_hit, bool table = true)
 {
@@ -132,7 +132,7 @@ void expectSamePictures(const Pair& pair, const ViewCamera& view, std::uint32_t 
                        height, options, must_hit, table);
 }
 
-void expectSameRays(const Octree& octree, const Svdag& dag, const oracle::ReferenceDag& reference,
+void expectSameRays(const DeviceTree& octree, const DeviceTree& dag, const oracle::ReferenceDag& reference,
                     const std::vector<gpu::Ray>& rays, const TraceOptions& options)
 {
     SCOPED_TRACE("depth " + std::to_string(octree.grid.depth));
@@ -156,8 +156,8 @@ TEST(TraceSvdag, UploadedDagIsTheOctree)
     for (const auto& [depth, codes] : codeSets())
     {
         const Pair pair(codes, depth);
-        EXPECT_LE(pair.dag.tree.node_count, pair.octree.node_count);
-        const oracle::DagContents contents = test::contentsOf(device(), pair.dag);
+        EXPECT_LE(pair.dag.node_count, pair.octree.node_count);
+        const oracle::DagContents contents = test::dagContentsOf(device(), pair.dag);
         EXPECT_EQ(contents.violations, std::vector<std::string>{});
         ASSERT_EQ(contents.voxels.size(), codes.size());
         for (std::size_t i = 0; i < codes.size(); ++i)
@@ -222,13 +222,13 @@ TEST(TraceSvdag, AnyEntriesAWordGiveTheSame)
 {
     for (const auto& [depth, codes] : codeSets())
     {
-        Octree octree = test::octreeOf(device(), codes, depth);
+        DeviceTree octree = test::octreeOf(device(), codes, depth);
         test::addAttributes(device(), octree);
         const std::vector<ViewCamera> views = test::manyCameras(octree.grid);
         for (const std::uint32_t entries : {2U, 3U})
         {
             const oracle::ReferenceDag reference = test::referenceDagOf(device(), octree, entries);
-            const Svdag dag = test::svdagOf(device(), octree, reference);
+            const DeviceTree dag = test::svdagOf(device(), octree, reference);
             for (const bool table : {true, false})
             {
                 const TraceCamera camera = traceCamera(views[entries], octree.grid, 41);
@@ -386,9 +386,9 @@ TEST_P(TraceSvdagScenes, LookTheSame)
     const Scene scene = loadGltf(*path);
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
     const Grid grid = Grid::around(scene.bounds(), 9);
-    const Octree octree = buildOctree(device(), gpu_scene, grid, {}).octree;
+    const DeviceTree octree = buildOctree(device(), gpu_scene, grid, {}).octree;
     const oracle::ReferenceDag reference = test::referenceDagOf(device(), octree);
-    const Svdag dag = test::svdagOf(device(), octree, reference);
+    const DeviceTree dag = test::svdagOf(device(), octree, reference);
     EXPECT_LT(dag.geometryBytes(), octree.geometryBytes());
     const Bounds bounds = scene.bounds();
     const glm::dvec3 middle = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));

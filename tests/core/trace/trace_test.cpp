@@ -30,7 +30,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 using test::device;
 
-std::vector<gpu::Hit> traceOnDevice(const Octree& octree, const std::vector<gpu::Ray>& rays,
+std::vector<gpu::Hit> traceOnDevice(const DeviceTree& octree, const std::vector<gpu::Ray>& rays,
                                     const TraceOptions& options = {})
 {
     return test::traceOnDevice(device(), octree, rays, options);
@@ -120,7 +120,7 @@ TEST(Trace, RaysWithoutAnAnswerAreCounted)
     // A floor along x: rays just above it look into every cell, up to a wall at the end.
     constexpr std::uint32_t kDepth = 7;
     const test::Codes codes = test::codesWhere(kDepth, [](const glm::uvec3& v) { return v.y == 64 || v.x == 127; });
-    const Octree octree = test::octreeOf(device(), codes, kDepth);
+    const DeviceTree octree = test::octreeOf(device(), codes, kDepth);
     const float edge = 1.0F / static_cast<float>(octree.grid.rootResolution());
     std::vector<gpu::Ray> rays;
     for (std::uint32_t i = 0; i < 100; ++i) // all but every tenth begin far from the wall
@@ -154,7 +154,7 @@ TEST(Trace, RaysAlongTheDeepestGridAreAnswered)
     }
     codes.push_back(oracle::mortonEncode({kLast, 7, 9}));
     std::sort(codes.begin(), codes.end());
-    const Octree octree = test::octreeOf(device(), codes, Grid::kDepthMax);
+    const DeviceTree octree = test::octreeOf(device(), codes, Grid::kDepthMax);
     const float edge = 1.0F / static_cast<float>(octree.grid.rootResolution());
     const glm::vec3 origin = 1.0F + edge * glm::vec3(0.5F, 7.5F, 9.5F);
     const std::vector<gpu::Hit> hits =
@@ -181,7 +181,7 @@ TEST(Trace, RayCountsThatDoNotFillAWorkgroup)
 TEST(Trace, NoRayLeaksThroughAClosedSphere)
 {
     constexpr std::uint32_t kDepth = 7;
-    const Octree octree = test::octreeOf(device(), test::sphereShell(kDepth, 50.0), kDepth);
+    const DeviceTree octree = test::octreeOf(device(), test::sphereShell(kDepth, 50.0), kDepth);
     const auto edge = 1.0F / static_cast<float>(octree.grid.rootResolution());
     std::mt19937 random(4);
     std::normal_distribution<float> normal;
@@ -207,7 +207,7 @@ TEST(Trace, NoRayLeaksThroughAClosedSphere)
 TEST(Trace, InvalidRaysMiss)
 {
     const test::Codes codes = test::codesWhere(3, [](const glm::uvec3&) { return true; });
-    const Octree octree = test::octreeOf(device(), codes, 3);
+    const DeviceTree octree = test::octreeOf(device(), codes, 3);
     const gpu::Ray good = {{1.1F, 1.2F, 0.5F}, gpu::kTraceTimeMin, {1e20F, -1e20F, 1.0F}, kInfinity};
     std::vector<gpu::Ray> rays;
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity})
@@ -245,7 +245,7 @@ TEST(Trace, InvalidRaysMiss)
 TEST(Trace, NothingIsHitAfterTheEnd)
 {
     const test::Codes codes = {oracle::mortonEncode({5, 3, 3})};
-    const Octree octree = test::octreeOf(device(), codes, 4);
+    const DeviceTree octree = test::octreeOf(device(), codes, 4);
     const auto middle = 1.0F + 3.5F / 16.0F;
     const float entry = 0.5F + 5.0F / 16.0F; // from 0.5
     const auto ray = [&](float t_max) {
@@ -262,7 +262,7 @@ TEST(Trace, NothingIsHitAfterTheEnd)
 
 TEST(Trace, EmptyOctreeIsNeverHit)
 {
-    const Octree octree = test::octreeOf(device(), {}, 5);
+    const DeviceTree octree = test::octreeOf(device(), {}, 5);
     const gpu::Ray ray = {{1.1F, 1.2F, 0.5F}, gpu::kTraceTimeMin, {1e20F, -1e20F, 1.0F}, kInfinity};
     for (const gpu::Hit& hit : traceOnDevice(octree, {ray, ray, ray}))
     {
@@ -275,7 +275,7 @@ TEST(Trace, DetailStopsAtTheNodesOfALevel)
     constexpr std::uint32_t kDepth = 8;
     std::mt19937 random(5);
     const test::Codes codes = test::randomCodes(kDepth, 20000, random);
-    const Octree octree = test::octreeOf(device(), codes, kDepth);
+    const DeviceTree octree = test::octreeOf(device(), codes, kDepth);
     std::vector<oracle::Ray> rays;
     std::vector<gpu::Ray> device_rays;
     for (int i = 0; i < 4000; ++i)

@@ -6,7 +6,7 @@
 #include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
 #include "core/trace/trace.h"
-#include "core/tree/svdag.h"
+#include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
 #include "core/upload/gpu_scene.h"
 #include "support/dags.h"
@@ -44,13 +44,13 @@ constexpr gpu::uint kBackground = 255U << 24;
 
 using test::device;
 
-Picture take(const TreeView& tree, const ViewCamera& camera, View view, float detail_pixels = 0)
+Picture take(const DeviceTree& tree, const ViewCamera& camera, View view, float detail_pixels = 0)
 {
     TraceOptions options;
     options.view = view;
     options.detail_pixels = detail_pixels;
-    return test::takePicture(device(), tree, traceCamera(camera, tree.octree().grid, kViewHeight), kViewWidth,
-                             kViewHeight, options);
+    return test::takePicture(device(), tree, traceCamera(camera, tree.grid, kViewHeight), kViewWidth, kViewHeight,
+                             options);
 }
 
 std::array<int, 3> rgb(gpu::uint pixel)
@@ -59,16 +59,16 @@ std::array<int, 3> rgb(gpu::uint pixel)
 }
 
 /// A sponge of depth 6 with attributes.
-Octree sponge()
+DeviceTree sponge()
 {
-    Octree octree = test::octreeOf(device(), test::spongeCodes(6), 6);
+    DeviceTree octree = test::octreeOf(device(), test::spongeCodes(6), 6);
     test::addAttributes(device(), octree);
     return octree;
 }
 
 TEST(TraceViews, EveryVoxelHasAColourOfItsOwn)
 {
-    const Octree octree = sponge();
+    const DeviceTree octree = sponge();
     using Face = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
     std::map<Face, gpu::uint> colours;
     for (const ViewCamera& camera : test::manyCameras(octree.grid))
@@ -115,7 +115,7 @@ int borderOf(const DeviceHit& hit)
 
 TEST(TraceViews, BricksAreAlbedoWithTheBordersOfNodes)
 {
-    const Octree octree = sponge();
+    const DeviceTree octree = sponge();
     constexpr std::array<std::array<double, 3>, 4> kLines = {{{}, {1, 1, 1}, {1, 0.8, 0.1}, {1, 0.2, 0.1}}};
     std::array<int, 4> counts{};
     for (const ViewCamera& camera : test::manyCameras(octree.grid))
@@ -157,15 +157,12 @@ public:
         options.merge = MergeRule::DynamicWins;
         BuildResult built =
             buildOctree(device(), uploadScene(device(), test::boxScene({4, 20, 20}, {26, 44, 44}), true), grid, {});
+        DeviceTree tree = std::move(built.octree);
         if (structure == TreeStructure::Svdag)
         {
-            m_octree = std::make_unique<DynamicOctree>(
-                device(), StaticTree(compress(device(), std::move(built.octree)).dag, {}), options);
+            tree = compress(device(), std::move(tree)).dag;
         }
-        else
-        {
-            m_octree = std::make_unique<DynamicOctree>(device(), std::move(built), options);
-        }
+        m_octree = std::make_unique<DynamicOctree>(device(), std::move(tree), options);
         step([&](vk::FrameGraph& graph) { m_octree->update(graph); });
     }
 
@@ -184,7 +181,7 @@ public:
         step([&](vk::FrameGraph& graph) { ASSERT_TRUE(m_octree->undo(graph)); });
     }
 
-    [[nodiscard]] TreeView tree() const { return m_octree->tree(); }
+    [[nodiscard]] const DeviceTree& tree() const { return m_octree->tree(); }
 
 private:
     void step(const std::function<void(vk::FrameGraph&)>& record)
@@ -238,10 +235,10 @@ TEST(TraceViews, WhatAnUpdateMadeIsOrange)
     }
 }
 
-gpu::PixelReport inspect(const TreeView& tree, const ViewCamera& view, const TraceOptions& options, glm::uvec2 pixel)
+gpu::PixelReport inspect(const DeviceTree& tree, const ViewCamera& view, const TraceOptions& options, glm::uvec2 pixel)
 {
-    const TraceCamera camera = traceCamera(view, tree.octree().grid, kViewHeight);
-    BeamGrid beam(device().device(), tree.hasLists());
+    const TraceCamera camera = traceCamera(view, tree.grid, kViewHeight);
+    BeamGrid beam(device().device(), tree.isDag());
     TraceBuffers buffers(device().device(), kViewWidth, kViewHeight);
     vk::BufferOf<gpu::PixelReport> report(device().device(), "report", 1, vk::MemoryKind::Readback);
     device().run(
@@ -259,7 +256,7 @@ constexpr std::array<glm::uvec2, 6> kPixels = {{{30, 23}, {0, 0}, {60, 46}, {17,
 
 TEST(InspectPixel, TellsWhatThePictureShows)
 {
-    const Octree octree = sponge();
+    const DeviceTree octree = sponge();
     const std::vector<gpu::Attribute> voxels = device().download(octree.voxel_attributes);
     const std::vector<gpu::Attribute> averages = device().download(octree.node_attributes);
     const std::vector<gpu::Node> nodes = device().download(octree.nodes);
@@ -308,7 +305,7 @@ TEST(InspectPixel, TellsWhatThePictureShows)
 
 TEST(InspectPixel, StepsAreThoseOfTheIterationsViewWithoutShortcuts)
 {
-    const Octree octree = sponge();
+    const DeviceTree octree = sponge();
     TraceOptions options;
     options.view = View::Iterations;
     options.beam = false;
@@ -326,8 +323,8 @@ TEST(InspectPixel, StepsAreThoseOfTheIterationsViewWithoutShortcuts)
 
 TEST(InspectPixel, OfADagLooksLikeThatOfItsOctree)
 {
-    const Octree octree = sponge();
-    const Svdag dag = test::svdagOf(device(), octree);
+    const DeviceTree octree = sponge();
+    const DeviceTree dag = test::svdagOf(device(), octree);
     int hit_count = 0;
     for (const ViewCamera& camera : test::manyCameras(octree.grid))
     {
@@ -352,7 +349,7 @@ TEST(InspectPixel, OfADagLooksLikeThatOfItsOctree)
 
 TEST(InspectPixel, OfNothingIsNothing)
 {
-    const Octree octree = test::octreeOf(device(), {}, 5);
+    const DeviceTree octree = test::octreeOf(device(), {}, 5);
     const ViewCamera camera = ViewCamera::framing({glm::vec3(0.0F), glm::vec3(32.0F)}, 1.0);
     EXPECT_EQ(inspect(octree, camera, {}, {3, 4}).hit, 0U);
 }

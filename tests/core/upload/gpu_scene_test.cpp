@@ -28,7 +28,7 @@ using test::mixedScene;
 using test::device;
 
 /// Emission of every emissive voxel, by Morton code.
-std::map<std::uint64_t, gpu::uint> emissionOf(const Octree& octree)
+std::map<std::uint64_t, gpu::uint> emissionOf(const DeviceTree& octree)
 {
     std::map<std::uint64_t, gpu::uint> result;
     const std::vector<std::uint64_t> codes = voxelCodes(device(), octree);
@@ -63,8 +63,8 @@ TEST(EmissionScale, OfSeveralScenesGivesTheBytesOfTheirUnion)
         const GpuScene uploaded = uploadScene(device(), scene, true, scale);
         return buildOctree(device(), uploaded, kGrid, {Coverage::Thin, true, {}}).octree;
     };
-    const Octree whole = build(both, std::nullopt);
-    const Octree part = build(dim, brightestEmission(both));
+    const DeviceTree whole = build(both, std::nullopt);
+    const DeviceTree part = build(dim, brightestEmission(both));
     EXPECT_EQ(part.emission_scale, whole.emission_scale);
     const std::map<std::uint64_t, gpu::uint> expected = emissionOf(whole);
     const std::map<std::uint64_t, gpu::uint> seen = emissionOf(part);

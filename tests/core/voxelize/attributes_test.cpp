@@ -25,7 +25,7 @@ using test::device;
 
 struct Built
 {
-    Octree octree;
+    DeviceTree octree;
     std::vector<gpu::Attribute> voxels;
     std::vector<gpu::Attribute> nodes;
 };

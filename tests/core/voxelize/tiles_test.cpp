@@ -28,7 +28,7 @@ struct Contents
     std::vector<gpu::uint> emission;
 };
 
-Contents contentsOf(const Octree& octree)
+Contents contentsOf(const DeviceTree& octree)
 {
     if (octree.node_count == 0)
     {

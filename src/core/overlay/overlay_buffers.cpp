@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/overlay/overlay_octree.h"
+#include "core/overlay/overlay_buffers.h"
 
 #include "core/base/divide_up.h"
 #include "core/tree/tree_limits.h"
@@ -30,17 +30,14 @@ std::uint64_t grownRoom(std::uint64_t room, std::uint64_t asked)
 }
 
 // An empty tree is a root without children.
-OverlaidTree adopted(Svdag&& dag, bool has_lists)
+DeviceTree adopted(DeviceTree&& tree)
 {
-    OverlaidTree tree;
-    tree.dag = std::move(dag);
-    tree.dag.octree_node_count = std::max(tree.dag.octree_node_count, 1U);
-    Octree& octree = tree.dag.tree;
-    octree.node_count = std::max(octree.node_count, 1U);
-    octree.levels.clear();
-    tree.has_lists = has_lists;
-    tree.static_root = std::max(has_lists ? static_cast<std::uint32_t>(octree.nodes.count()) : octree.node_count, 1U);
-    return tree;
+    tree.lists.octree_node_count = std::max(tree.lists.octree_node_count, 1U);
+    tree.node_count = std::max(tree.node_count, 1U);
+    tree.levels.clear();
+    const std::uint32_t nodes = tree.isDag() ? static_cast<std::uint32_t>(tree.nodes.count()) : tree.node_count;
+    tree.overlays.static_root = std::max(nodes, 1U);
+    return std::move(tree);
 }
 
 template <typename T> void copyAll(vk::FrameGraph& graph, const vk::BufferOf<T>& from, vk::BufferOf<T>& to)
@@ -53,97 +50,85 @@ template <typename T> void copyAll(vk::FrameGraph& graph, const vk::BufferOf<T>&
 
 } // namespace
 
-StaticTree::StaticTree(BuildResult built) : has_lists(false), sums(std::move(built.sums))
+OverlayBuffers::OverlayBuffers(vk::Uploader& uploads, DeviceTree fixed, const OverlayContents& contents,
+                               vk::Retired& retired)
+    : m_uploads(uploads), m_device(uploads.device()), m_retired(retired), m_is_empty(fixed.node_count == 0),
+      m_has_attributes(m_is_empty ? contents.attributes : fixed.hasAttributes()),
+      m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(fixed.emission.count()),
+      m_tree(adopted(std::move(fixed))), m_arena(staticSpace())
 {
-    dag.tree = std::move(built.octree);
-    dag.octree_node_count = dag.tree.node_count;
+    m_tree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
 }
 
-StaticTree::StaticTree(Svdag static_dag, FragmentSums kept)
-    : dag(std::move(static_dag)), has_lists(true), sums(std::move(kept))
-{
-}
-
-OverlayOctree::OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents,
-                             vk::Retired& retired)
-    : m_uploads(uploads), m_device(uploads.device()), m_retired(retired), m_is_empty(fixed.dag.tree.node_count == 0),
-      m_has_attributes(m_is_empty ? contents.attributes : fixed.dag.tree.hasAttributes()),
-      m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(fixed.dag.tree.emission.count()),
-      m_sums(std::move(fixed.sums)), m_tree(adopted(std::move(fixed.dag), fixed.has_lists)), m_arena(staticSpace())
-{
-    m_tree.dag.tree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
-}
-
-OverlayOctree::~OverlayOctree()
+OverlayBuffers::~OverlayBuffers()
 {
     if (!m_is_settled) // frames under way may show the static tree
     {
-        m_uploads.keep(std::make_shared<OverlaidTree>(std::move(m_tree)));
+        m_uploads.keep(std::make_shared<DeviceTree>(std::move(m_tree)));
     }
 }
 
-void OverlayOctree::reserve(std::uint64_t room)
+void OverlayBuffers::reserve(std::uint64_t room)
 {
     m_room = grownCapacities(room, room);
     m_reserved = makeBuffers(m_room);
 }
 
-void OverlayOctree::settle(vk::FrameGraph& graph, vk::Retired& retired)
+void OverlayBuffers::settle(vk::FrameGraph& graph, vk::Retired& retired)
 {
     lengthen(graph, std::move(m_reserved));
     m_arena.grow(m_room.nodes, m_room.voxels);
-    Octree& octree = m_tree.dag.tree;
     if (m_is_empty)
     {
-        graph.fill(octree.nodes, 0);
-        graph.fill(octree.node_attributes, 0);
+        graph.fill(m_tree.nodes, 0);
+        graph.fill(m_tree.node_attributes, 0);
     }
-    graph.copy(octree.nodes, 0, octree.nodes, m_tree.static_root * sizeof(gpu::Node), sizeof(gpu::Node));
+    graph.copy(m_tree.nodes, 0, m_tree.nodes, m_tree.overlays.static_root * sizeof(gpu::Node), sizeof(gpu::Node));
     if (m_has_attributes)
     {
-        graph.copy(octree.node_attributes, 0, octree.node_attributes,
-                   m_tree.dag.octree_node_count * sizeof(gpu::Attribute), sizeof(gpu::Attribute));
+        graph.copy(m_tree.node_attributes, 0, m_tree.node_attributes, m_tree.octreeNodeCount() * sizeof(gpu::Attribute),
+                   sizeof(gpu::Attribute));
     }
     retireBefore(retired);
     m_is_settled = true;
 }
 
-OverlaySpace OverlayOctree::staticSpace() const
+OverlaySpace OverlayBuffers::staticSpace() const
 {
     return {
-        .static_nodes = m_tree.static_root + 1,
-        .node_capacity = m_tree.static_root + 1,
-        .static_voxels = octree().voxel_count,
-        .voxel_capacity = octree().voxel_count,
+        .static_nodes = m_tree.overlays.static_root + 1,
+        .node_capacity = m_tree.overlays.static_root + 1,
+        .static_voxels = m_tree.voxel_count,
+        .voxel_capacity = m_tree.voxel_count,
         .node_bytes = nodeBytes(),
         .voxel_block_bytes = voxelBlockBytes(),
     };
 }
 
-std::uint32_t OverlayOctree::nodeBytes() const
+std::uint32_t OverlayBuffers::nodeBytes() const
 {
     return static_cast<std::uint32_t>(sizeof(gpu::Node) + (m_has_attributes ? sizeof(gpu::Attribute) : 0) +
                                       (hasRanks() ? sizeof(gpu::BeforeChild) : 0));
 }
 
-std::uint32_t OverlayOctree::voxelBlockBytes() const
+std::uint32_t OverlayBuffers::voxelBlockBytes() const
 {
     std::size_t bytes = m_has_attributes ? kVoxelBlock * sizeof(gpu::Attribute) : 0;
     bytes += m_emits ? kVoxelBlock * sizeof(gpu::uint) + sizeof(gpu::uvec2) : 0;
     return static_cast<std::uint32_t>(bytes);
 }
 
-std::uint32_t OverlayOctree::firstOverlayVoxel() const
+std::uint32_t OverlayBuffers::firstOverlayVoxel() const
 {
-    return static_cast<std::uint32_t>(roundUp(octree().voxel_count, kVoxelBlock));
+    return static_cast<std::uint32_t>(roundUp(m_tree.voxel_count, kVoxelBlock));
 }
 
-std::uint32_t OverlayOctree::emissionOffset() const
+std::uint32_t OverlayBuffers::emissionOffset() const
 {
     return static_cast<std::uint32_t>(m_static_emissive - firstOverlayVoxel());
 }
 
-void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels)
+void OverlayBuffers::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels)
 {
     const Capacities capacities = grownCapacities(nodes, voxels);
     lengthen(graph, makeBuffers(capacities)); // all of them, before anything is recorded
@@ -151,14 +136,14 @@ void OverlayOctree::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64
 }
 
 // With room for one more region of that many.
-OverlayOctree::Capacities OverlayOctree::grownCapacities(std::uint64_t nodes, std::uint64_t voxels) const
+OverlayBuffers::Capacities OverlayBuffers::grownCapacities(std::uint64_t nodes, std::uint64_t voxels) const
 {
     const OverlaySpace& space = m_arena.space();
     const std::uint64_t voxel_room = space.voxel_capacity - std::min(space.voxel_capacity, firstOverlayVoxel());
     const std::uint64_t node_capacity =
         space.static_nodes + grownRoom(std::uint64_t{space.node_capacity} - space.static_nodes, nodes);
     const std::uint64_t voxel_capacity = firstOverlayVoxel() + roundUp(grownRoom(voxel_room, voxels), kVoxelBlock);
-    const std::uint64_t attribute_nodes = m_tree.dag.octree_node_count + node_capacity - m_tree.static_root;
+    const std::uint64_t attribute_nodes = m_tree.octreeNodeCount() + node_capacity - m_tree.overlays.static_root;
     if (node_capacity > kNodesMax || voxel_capacity > kIndicesMax || attribute_nodes > kIndicesMax)
     {
         throw Error(ErrorCode::Memory, fmt::format("overlays need more than the {} nodes or {} voxels that kernels "
@@ -168,13 +153,12 @@ OverlayOctree::Capacities OverlayOctree::grownCapacities(std::uint64_t nodes, st
     return {static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity)};
 }
 
-OverlayOctree::Buffers OverlayOctree::makeBuffers(const Capacities& capacities)
+OverlayBuffers::Buffers OverlayBuffers::makeBuffers(const Capacities& capacities)
 {
     const std::uint64_t node_capacity = capacities.nodes;
     const std::uint64_t voxel_capacity = capacities.voxels;
-    Octree& octree = m_tree.dag.tree;
-    const std::uint64_t overlay_nodes = node_capacity - m_tree.static_root; // with the static root
-    const std::uint64_t attribute_nodes = m_has_attributes ? m_tree.dag.octree_node_count + overlay_nodes : 0;
+    const std::uint64_t overlay_nodes = node_capacity - m_tree.overlays.static_root; // with the static root
+    const std::uint64_t attribute_nodes = m_has_attributes ? m_tree.octreeNodeCount() + overlay_nodes : 0;
     const std::uint64_t rank_count = hasRanks() ? overlay_nodes - 1 : 0;
     const std::uint64_t attribute_voxels = m_has_attributes ? voxel_capacity : 0;
     const std::uint64_t emission_words = m_emits ? voxel_capacity / kVoxelBlock : 0;
@@ -184,50 +168,48 @@ OverlayOctree::Buffers OverlayOctree::makeBuffers(const Capacities& capacities)
                                   emission_words * sizeof(gpu::uvec2) + emission * sizeof(gpu::uint),
                               "room for overlays");
     vk::Device& d = m_device;
-    return {{d, octree.nodes.name(), node_capacity},
+    return {{d, m_tree.nodes.name(), node_capacity},
             {d, "update/ranks", rank_count},
-            {d, octree.node_attributes.name(), attribute_nodes},
-            {d, octree.voxel_attributes.name(), attribute_voxels},
-            {d, octree.emission_words.name(), emission_words},
-            {d, octree.emission.name(), emission}};
+            {d, m_tree.node_attributes.name(), attribute_nodes},
+            {d, m_tree.voxel_attributes.name(), attribute_voxels},
+            {d, m_tree.emission_words.name(), emission_words},
+            {d, m_tree.emission.name(), emission}};
 }
 
-void OverlayOctree::swapBuffers(Buffers& buffers)
+void OverlayBuffers::swapBuffers(Buffers& buffers)
 {
-    Octree& octree = m_tree.dag.tree;
-    std::swap(octree.nodes, buffers.nodes);
-    std::swap(m_tree.ranks, buffers.ranks);
-    std::swap(octree.node_attributes, buffers.node_attributes);
-    std::swap(octree.voxel_attributes, buffers.voxel_attributes);
-    std::swap(octree.emission_words, buffers.emission_words);
-    std::swap(octree.emission, buffers.emission);
+    std::swap(m_tree.nodes, buffers.nodes);
+    std::swap(m_tree.overlays.ranks, buffers.ranks);
+    std::swap(m_tree.node_attributes, buffers.node_attributes);
+    std::swap(m_tree.voxel_attributes, buffers.voxel_attributes);
+    std::swap(m_tree.emission_words, buffers.emission_words);
+    std::swap(m_tree.emission, buffers.emission);
 }
 
-void OverlayOctree::lengthen(vk::FrameGraph& graph, Buffers&& longer)
+void OverlayBuffers::lengthen(vk::FrameGraph& graph, Buffers&& longer)
 {
     // In safety before anything is recorded: that may fail half way, with the device at work on what went before.
     Buffers& from = m_before ? m_retired.keep(std::move(longer)) : m_before.emplace(std::move(longer));
     swapBuffers(from);
-    Octree& octree = m_tree.dag.tree;
-    copyAll(graph, from.nodes, octree.nodes);
+    copyAll(graph, from.nodes, m_tree.nodes);
     if (m_has_attributes)
     {
-        copyAll(graph, from.ranks, m_tree.ranks);
-        copyAll(graph, from.node_attributes, octree.node_attributes);
-        copyAll(graph, from.voxel_attributes, octree.voxel_attributes);
+        copyAll(graph, from.ranks, m_tree.overlays.ranks);
+        copyAll(graph, from.node_attributes, m_tree.node_attributes);
+        copyAll(graph, from.voxel_attributes, m_tree.voxel_attributes);
     }
     if (m_emits)
     {
-        copyAll(graph, from.emission_words, octree.emission_words);
-        copyAll(graph, from.emission, octree.emission);
+        copyAll(graph, from.emission_words, m_tree.emission_words);
+        copyAll(graph, from.emission, m_tree.emission);
         if (from.emission_words.count() == 0) // nothing of the static tree emits
         {
-            graph.fill(octree.emission_words, 0);
+            graph.fill(m_tree.emission_words, 0);
         }
     }
 }
 
-void OverlayOctree::retireBefore(vk::Retired& retired)
+void OverlayBuffers::retireBefore(vk::Retired& retired)
 {
     if (m_before)
     {
@@ -236,7 +218,7 @@ void OverlayOctree::retireBefore(vk::Retired& retired)
     }
 }
 
-void OverlayOctree::frameLost()
+void OverlayBuffers::frameLost()
 {
     if (m_before)
     {
@@ -245,10 +227,10 @@ void OverlayOctree::frameLost()
     }
 }
 
-void OverlayOctree::catchUp(vk::FrameGraph& graph)
+void OverlayBuffers::catchUp(vk::FrameGraph& graph)
 {
     const OverlaySpace& space = m_arena.space();
-    if (octree().nodes.count() != space.node_capacity)
+    if (m_tree.nodes.count() != space.node_capacity)
     {
         lengthen(graph, makeBuffers({space.node_capacity, space.voxel_capacity}));
     }

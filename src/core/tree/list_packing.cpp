@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree/svdag_lists.h"
+#include "core/tree/list_packing.h"
 
 #include <array>
 #include <bit>

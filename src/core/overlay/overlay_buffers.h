@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/octree/octree_builder.h"
 #include "core/overlay/overlay_arena.h"
-#include "core/tree/overlaid_tree.h"
+#include "core/tree/device_tree.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/frame_list.h"
@@ -16,18 +15,7 @@
 namespace zvo
 {
 
-/// A tree that stands still, and the sums that its voxels' attributes were made of, if they were kept.
-struct StaticTree
-{
-    StaticTree(BuildResult built);                   // implicit
-    StaticTree(Svdag static_dag, FragmentSums kept); // kept: BuildResult::sums of the octree that the DAG was made of
-
-    Svdag dag; // an octree is one without lists
-    bool has_lists;
-    FragmentSums sums;
-};
-
-/// What the overlays of an OverlayOctree have.
+/// What overlays have.
 struct OverlayContents
 {
     bool attributes = true;   // where the static tree is empty and does not say
@@ -41,15 +29,15 @@ struct OverlayContents
 ///
 /// nodes[0] is the root that is traced. Nothing static is ever written again. When the buffers grow their addresses
 /// change, and all contents stay.
-class OverlayOctree final : public vk::FrameParticipant
+class OverlayBuffers final : public vk::FrameParticipant
 {
 public:
     /// Takes over a static tree: traced and overlaid only behind settle(). uploads keeps it, should it not come so far.
     /// What retires later goes to retired. Both outlive this.
-    OverlayOctree(vk::Uploader& uploads, StaticTree fixed, const OverlayContents& contents, vk::Retired& retired);
-    ~OverlayOctree();
-    OverlayOctree(const OverlayOctree&) = delete;
-    OverlayOctree& operator=(const OverlayOctree&) = delete;
+    OverlayBuffers(vk::Uploader& uploads, DeviceTree fixed, const OverlayContents& contents, vk::Retired& retired);
+    ~OverlayBuffers();
+    OverlayBuffers(const OverlayBuffers&) = delete;
+    OverlayBuffers& operator=(const OverlayBuffers&) = delete;
 
     /// Makes the buffers that settle() takes, with room for that many nodes, and voxels. Throws Error{Memory} when the
     /// device's budget does not suffice.
@@ -73,18 +61,14 @@ public:
     /// does. Nothing to do otherwise. Throws as grow().
     void catchUp(vk::FrameGraph& graph);
 
-    [[nodiscard]] const OverlaidTree& tree() const { return m_tree; }
-    [[nodiscard]] OverlaidTree& tree() { return m_tree; }
-
-    /// What an octree and a DAG have in common.
-    [[nodiscard]] const Octree& octree() const { return m_tree.dag.tree; }
+    [[nodiscard]] const DeviceTree& tree() const { return m_tree; }
+    [[nodiscard]] DeviceTree& tree() { return m_tree; }
 
     [[nodiscard]] OverlayArena& arena() { return m_arena; }
-    [[nodiscard]] const FragmentSums& sums() const { return m_sums; }
     [[nodiscard]] bool hasAttributes() const { return m_has_attributes; }
     [[nodiscard]] bool emits() const { return m_emits; }
 
-    /// From the index of an overlay's voxel to its place in octree().emission, modulo 2^32.
+    /// From the index of an overlay's voxel to its place in tree().emission, modulo 2^32.
     [[nodiscard]] std::uint32_t emissionOffset() const;
 
 private:
@@ -109,7 +93,7 @@ private:
     void swapBuffers(Buffers& buffers);
     void lengthen(vk::FrameGraph& graph, Buffers&& longer);
     void retireBefore(vk::Retired& retired);
-    [[nodiscard]] bool hasRanks() const { return m_tree.has_lists && m_has_attributes; }
+    [[nodiscard]] bool hasRanks() const { return m_tree.isDag() && m_has_attributes; }
     [[nodiscard]] std::uint32_t nodeBytes() const;
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;
     [[nodiscard]] std::uint32_t firstOverlayVoxel() const;
@@ -122,8 +106,7 @@ private:
     bool m_has_attributes;
     bool m_emits;
     std::uint64_t m_static_emissive; // voxels
-    FragmentSums m_sums;
-    OverlaidTree m_tree;
+    DeviceTree m_tree;
     OverlayArena m_arena;
     bool m_is_settled = false;
     Buffers m_reserved;              // for settle()

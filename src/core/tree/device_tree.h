@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/base/grid.h"
+#include "core/tree/attribute_form.h"
+#include "core/tree/list_packing.h"
+#include "shared/octree.h"
+#include "shared/svdag.h"
+#include "vk/buffer.h"
+#include "vk/frame_graph.h"
+#include "voxelize/voxelize.h"
+#include "zvo/types.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace zvo
+{
+
+/// What a DAG has beside nodes; shaders/shared/svdag.h documents it.
+struct ChildLists
+{
+    std::uint32_t octree_node_count = 0; // before equal subtrees became one
+    std::uint64_t entry_count = 0;
+    std::uint32_t entries_per_word = 2;         // of 64 bits; as many as ListPacking::tightest for what compress makes
+    std::uint64_t long_entry_count = 0;         // of nodes above the parents of leaves
+    vk::BufferOf<gpu::BeforeChild> before;      // [long_entry_count], or empty without attributes
+    vk::BufferOf<gpu::uint> voxels_before_leaf; // [ceil((entry_count - long_entry_count) / 2)], likewise
+
+    /// Bytes of what stands beside the lists, so that voxels find their attributes.
+    [[nodiscard]] std::uint64_t rankBytes() const { return before.bytes() + voxels_before_leaf.bytes(); }
+};
+
+/// Room for overlays of dynamic update behind a tree (shaders/update/update.h; core/overlay/overlay_buffers.h).
+struct OverlayRoom
+{
+    std::uint32_t static_root = 0; // number of the node behind the static nodes and lists; 0: there is no room
+
+    /// Of the nodes behind static_root: the rank of the static octree's node in the same place, 0 where it has none.
+    /// Only of a DAG with attributes.
+    vk::BufferOf<gpu::BeforeChild> ranks;
+
+    [[nodiscard]] bool hasRanks() const { return ranks.count() != 0; }
+
+    /// Where ranks would begin if it had elements for all nodes.
+    [[nodiscard]] std::uint64_t ranksSkipped() const
+    {
+        return (std::uint64_t{static_root} + 1) * sizeof(gpu::BeforeChild);
+    }
+};
+
+/// The sums that the attributes of voxels were made of.
+struct FragmentSums
+{
+    vk::BufferOf<gpu::VoxelSums> sums;             // [voxel_count], or empty
+    vk::BufferOf<gpu::EmissionSums> emission_sums; // [emissive voxels], or empty
+    std::uint32_t sum_shift = 0;                   // value bits dropped
+
+    [[nodiscard]] std::uint64_t bytes() const { return sums.bytes() + emission_sums.bytes(); }
+};
+
+/// A sparse voxel octree in device memory, or the DAG that it was compressed to; either may have room for overlays
+/// behind it. shaders/shared/octree.h and svdag.h document the layout.
+struct DeviceTree
+{
+    /// The nodes of one level (level 0 is the root) stand together, in Morton order.
+    struct Level
+    {
+        std::uint32_t first_node = 0;
+        std::uint32_t node_count = 0;
+    };
+
+    TreeStructure structure = TreeStructure::Svo;
+    Grid grid;
+    std::uint32_t node_count = 0;  // without overlays
+    std::uint32_t voxel_count = 0; // likewise
+    std::vector<Level> levels;     // grid.nodeLevels() of them; empty without voxels, or where nodes stand elsewhere
+
+    /// [node_count]; of a DAG the pool, as many elements as nodes and lists take. With room for overlays: a slot for
+    /// the root that is traced, the other static nodes and lists, the static root, then overlays.
+    vk::BufferOf<gpu::Node> nodes;
+    vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, then those of overlays; or empty
+    /// [octreeNodeCount()], averages of what is below, or empty. Of a DAG depth first: a node before its children,
+    /// those in Morton order. With room for overlays: the slot's, those of the other nodes, the static root's, then
+    /// those of overlays.
+    vk::BufferOf<gpu::Attribute> node_attributes;
+    PackedAttributes packed;                 // the same in another form, in place of both
+    vk::BufferOf<gpu::uvec2> emission_words; // [ceil(voxel_count / 32)] bits of emissive voxels, rank of the first one
+    vk::BufferOf<gpu::uint> emission;        // [emissive voxels] radiance / emission_scale as RGB9E5
+    float emission_scale = 1.0F;
+    FragmentSums sums; // where they were kept (BuildOptions::keep_sums)
+
+    ChildLists lists;     // of a DAG
+    OverlayRoom overlays; // where there is room
+
+    [[nodiscard]] bool isDag() const { return structure == TreeStructure::Svdag; }
+    [[nodiscard]] bool hasOverlays() const { return overlays.static_root != 0; }
+
+    [[nodiscard]] AttributeForm attributeForm() const
+    {
+        return voxel_attributes.count() != 0 ? AttributeForm::Bytes8 : packed.form;
+    }
+    [[nodiscard]] bool hasAttributes() const { return attributeForm() != AttributeForm::None; }
+    [[nodiscard]] bool hasNodeAttributes() const { return node_attributes.count() + packed.nodes.count() != 0; }
+
+    /// Of a DAG's lists.
+    [[nodiscard]] ListPacking packing() const { return {node_count, lists.entry_count, lists.entries_per_word}; }
+
+    /// Nodes of the octree, which a DAG stands for.
+    [[nodiscard]] std::uint32_t octreeNodeCount() const { return isDag() ? lists.octree_node_count : node_count; }
+
+    /// As kernels take it: entries of a word of lists; 0: an octree, whose nodes have none.
+    [[nodiscard]] std::uint32_t entriesPerWord() const { return isDag() ? lists.entries_per_word : 0; }
+
+    /// From the number of the static root, or of a node behind it, to the index of its attributes, modulo 2^32.
+    [[nodiscard]] std::uint32_t attributeOffset() const { return octreeNodeCount() - overlays.static_root; }
+
+    /// Bytes of nodes and lists, without overlays.
+    [[nodiscard]] std::uint64_t geometryBytes() const
+    {
+        return std::uint64_t{node_count} * sizeof(gpu::Node) + (isDag() ? packing().bytes() : 0);
+    }
+
+    /// Bytes of what voxels and nodes look like, overlays included; without what stands beside lists.
+    [[nodiscard]] std::uint64_t attributeBytes() const
+    {
+        return voxel_attributes.bytes() + node_attributes.bytes() + packed.bytes() + emission_words.bytes() +
+               emission.bytes();
+    }
+};
+
+/// What ranks in dag, which has attributes, are summed up from; pass reads it.
+gpu::RankSource rankSource(vk::AnyPass& pass, const DeviceTree& dag);
+
+/// The same, without declaring that anything reads it.
+gpu::RankSource rankSource(const DeviceTree& dag);
+
+} // namespace zvo
