@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <set>
+#include <string>
 #include <string_view>
 
 namespace zvo::test
@@ -45,5 +47,9 @@ private:
     std::uint64_t m_step;
     std::uint64_t m_start;
 };
+
+/// Expects that a sweep over the calls of an octree's frames made hundreds of them fail, and every function of frames
+/// that can fail; of a sample fewer, and some functions. failed: functions that did.
+void expectFramesSwept(const std::set<std::string>& failed, std::uint64_t error_count);
 
 } // namespace zvo::test
