@@ -15,7 +15,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
-#include "core/trace/trace.h"
+#include "core/trace/tree_tracer.h"
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "zvo/error.h"
@@ -91,18 +91,19 @@ private:
     // Primary rays through the octree, compression, and rays through both.
     void measureTrees(const DeviceTree& octree, const TraceCamera& camera, BenchRow& row)
     {
-        TraceBuffers buffers(m_device.device(), kWidth, kHeight);
-        PrimaryRays octree_rays(m_device, octree, camera, buffers);
+        TreeTracer tracer(m_device.device());
+        tracer.resize(kWidth, kHeight);
+        PrimaryRays octree_rays(m_device, octree, camera, tracer);
         row.beam_grid_ms = octree_rays.beamGridMs();
-        row.rays = primaryRayCount(buffers);
-        row.hits = countHits(m_device, buffers);
+        row.rays = primaryRayCount(tracer.buffers());
+        row.hits = countHits(m_device, tracer.buffers());
         row.peak_device_bytes = m_device.device().memory().peakBytes();
         const std::uint32_t turn_count = kTraceTurns * m_options.run_count;
         TraceRuns runs;
         try
         {
             Compression compression = measureCompress(octree);
-            PrimaryRays dag_rays(m_device, compression.dag, camera, buffers);
+            PrimaryRays dag_rays(m_device, compression.dag, camera, tracer);
             runs = traceInTurns(octree_rays, dag_rays, turn_count);
             row.dag = compression.numbers;
             row.dag->trace_ms = runs.dag_ms;

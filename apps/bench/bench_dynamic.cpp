@@ -10,7 +10,7 @@
 #include "common/session.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
-#include "core/trace/trace.h"
+#include "core/trace/tree_tracer.h"
 #include "runtime/stage_octree.h"
 #include "zvo/version.h"
 
@@ -149,9 +149,9 @@ class DynamicBench
 {
 public:
     DynamicBench(const BenchOptions& options, vk::HeadlessDevice& device)
-        : m_options(options), m_device(device), m_beam(device.device(), options.structure == TreeStructure::Svdag),
-          m_buffers(device.device(), kWidth, kHeight)
+        : m_options(options), m_device(device), m_tracer(device.device())
     {
+        m_tracer.resize(kWidth, kHeight);
     }
 
     DynamicRow measure(const std::string& name, const Stage& stage, std::uint32_t depth, Progress& progress)
@@ -283,18 +283,14 @@ private:
     // The beam grid and primary rays.
     double traceMs(const DeviceTree& tree, const TraceCamera& camera)
     {
-        return sumMs(m_device.run(
-            [&](vk::FrameGraph& graph)
-            {
-                buildBeam(graph, tree, m_beam);
-                tracePrimary(graph, tree, m_beam, camera, TraceOptions{}, m_buffers);
-            }));
+        m_tracer.forget();
+        return sumMs(
+            m_device.run([&](vk::FrameGraph& graph) { m_tracer.tracePrimary(graph, tree, camera, TraceOptions{}); }));
     }
 
     const BenchOptions& m_options;
     vk::HeadlessDevice& m_device;
-    BeamGrid m_beam;
-    TraceBuffers m_buffers;
+    TreeTracer m_tracer;
 };
 
 std::string tableHead(const vk::DeviceReport& device, std::uint32_t run_count)

@@ -9,17 +9,21 @@ namespace zvo::cli
 {
 
 PrimaryRays::PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera,
-                         TraceBuffers& buffers)
-    : m_device(device), m_tree(tree), m_camera(camera), m_buffers(buffers), m_beam(device.device(), tree.isDag())
+                         TreeTracer& tracer)
+    : m_device(device), m_tree(tree), m_camera(camera), m_tracer(tracer), m_beam_grid_ms(prepare())
 {
-    m_beam_grid_ms = sumMs(m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, m_tree, m_beam); }));
     trace();
+}
+
+double PrimaryRays::prepare()
+{
+    return sumMs(m_device.run([&](vk::FrameGraph& graph) { m_tracer.prepare(graph, m_tree); }));
 }
 
 std::vector<vk::PassTime> PrimaryRays::trace()
 {
-    return m_device.run([&](vk::FrameGraph& graph)
-                        { tracePrimary(graph, m_tree, m_beam, m_camera, TraceOptions{}, m_buffers); });
+    prepare();
+    return m_device.run([&](vk::FrameGraph& graph) { m_tracer.tracePrimary(graph, m_tree, m_camera, TraceOptions{}); });
 }
 
 namespace

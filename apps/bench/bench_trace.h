@@ -3,7 +3,7 @@
 #pragma once
 
 #include "bench/bench_table.h"
-#include "core/trace/trace.h"
+#include "core/trace/tree_tracer.h"
 #include "core/tree/device_tree.h"
 #include "vk/headless.h"
 
@@ -18,19 +18,20 @@ class PrimaryRays
 {
 public:
     /// Makes the tree's beam grid and traces a picture, so that the next ones are warm.
-    PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, TraceBuffers& buffers);
+    PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, TreeTracer& tracer);
 
-    /// The passes of a picture: beam and primary rays.
+    /// The passes of a picture: beam and primary rays, once the beam grid is this tree's.
     std::vector<vk::PassTime> trace();
 
     [[nodiscard]] double beamGridMs() const { return m_beam_grid_ms; }
 
 private:
+    double prepare();
+
     vk::HeadlessDevice& m_device;
     const DeviceTree& m_tree;
     const TraceCamera& m_camera;
-    TraceBuffers& m_buffers;
-    BeamGrid m_beam;
+    TreeTracer& m_tracer;
     double m_beam_grid_ms = 0;
 };
 

@@ -29,11 +29,11 @@ double primaryMs(const std::vector<vk::PassTime>& passes)
     return ms_until_primary;
 }
 
-TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& options)
+void setSize(TreeTracer& tracer, const RenderOptions& options)
 {
     try
     {
-        return {device.device(), options.width, options.height};
+        tracer.resize(options.width, options.height);
     }
     catch (const Error& error)
     {
@@ -49,7 +49,8 @@ TraceBuffers makeBuffers(vk::HeadlessDevice& device, const RenderOptions& option
 
 } // namespace
 
-Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options) : m_device(device), m_options(options)
+Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
+    : m_device(device), m_options(options), m_tracer(device.device())
 {
     m_trace.view = options.view;
     m_trace.detail_pixels = options.detail_pixels;
@@ -60,20 +61,16 @@ Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options) : m
 
 std::vector<vk::PassTime> Renderer::show(const DeviceTree& tree)
 {
-    if (!m_buffers)
-    {
-        m_buffers.emplace(Buffers{BeamGrid(m_device.device(), tree.isDag()), makeBuffers(m_device, m_options)});
-    }
+    setSize(m_tracer, m_options);
     m_tree = &tree;
-    return m_device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, m_buffers->beam); });
+    return m_device.run([&](vk::FrameGraph& graph) { m_tracer.prepare(graph, tree); });
 }
 
 std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, PictureTimes& times)
 {
-    TraceBuffers& buffers = m_buffers.value().trace;
+    const TraceBuffers& buffers = m_tracer.buffers();
     const TraceCamera camera = traceCamera(view, m_tree->grid, buffers.height);
-    times.passes =
-        m_device.run([&](vk::FrameGraph& graph) { trace(graph, *m_tree, m_buffers->beam, camera, m_trace, buffers); });
+    times.passes = m_device.run([&](vk::FrameGraph& graph) { m_tracer.trace(graph, *m_tree, camera, m_trace); });
     times.trace_ms = primaryMs(times.passes);
     times.shade_ms = sumMs(times.passes) - times.trace_ms;
     m_capped_rays += m_device.download(buffers.status).front().capped_rays;

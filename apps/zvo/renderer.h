@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene/camera.h"
-#include "core/trace/trace.h"
+#include "core/trace/tree_tracer.h"
 #include "core/tree/device_tree.h"
 #include "options.h"
 #include "vk/headless.h"
@@ -22,8 +22,8 @@ struct PictureTimes
     double shade_ms = 0; // shadow and occlusion rays, and colour
 };
 
-/// Pictures of one size, of one octree or DAG after the other. Its buffers are made for the first one, so that a scene
-/// that fits does not fail for want of memory before there is something to show.
+/// Pictures of one size, of one octree or DAG after the other. Their buffers are made for the first one, so that a
+/// scene that fits does not fail for want of memory before there is something to show.
 class Renderer
 {
 public:
@@ -40,17 +40,10 @@ public:
     [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }
 
 private:
-    // What a picture takes.
-    struct Buffers
-    {
-        BeamGrid beam;
-        TraceBuffers trace;
-    };
-
     vk::HeadlessDevice& m_device;
     const RenderOptions& m_options;
     TraceOptions m_trace;
-    std::optional<Buffers> m_buffers;
+    TreeTracer m_tracer;
     const DeviceTree* m_tree = nullptr; // that is shown
     std::uint64_t m_capped_rays = 0;
 };

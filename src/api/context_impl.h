@@ -61,7 +61,6 @@ struct ZVO_LOCAL Context::Impl
     std::optional<std::uint64_t> done = std::nullopt;    // number of the newest frame that is
     std::vector<std::unique_ptr<vk::TimerPool>> free_timers = {};
     std::vector<PassTime> times = {};
-    std::uint64_t next_version = 1; // of what can be traced
     bool is_recording = false;
     bool was_lost = false; // the frame that was begun last
 };

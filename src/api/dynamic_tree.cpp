@@ -83,7 +83,6 @@ void DynamicTree::Impl::learn()
     {
         octree->frameLost();
         frames.pop_back();
-        version = context.next_version++;
     }
     for (const NewMover& made : new_movers)
     {
@@ -107,7 +106,6 @@ void DynamicTree::Impl::enter(Recorder::Impl& recorder)
 
 void DynamicTree::Impl::publish(vk::FrameGraph& graph)
 {
-    version = context.next_version++;
     const gpu::TreeTable values = treeTable(octree->tree());
     graph.update(table, 0, std::span(&values, 1));
 }

@@ -72,7 +72,6 @@ struct ZVO_LOCAL DynamicTree::Impl
     std::shared_ptr<FrameState> made_in; // of the tree; null: known to be done
     std::vector<NewMover> new_movers;
     std::vector<UpdateFacts> updates;
-    std::uint64_t version = 0; // of what is traced
 };
 
 /// Throws Error{Usage} for a dynamic tree that was lost with its frame, or moved from.

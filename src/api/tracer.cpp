@@ -7,8 +7,8 @@
 #include "api/tree_impl.h"
 #include "core/present/image_target.h"
 #include "core/scene/camera.h"
-#include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"
+#include "core/trace/tree_tracer.h"
 
 #include <fmt/format.h>
 
@@ -95,92 +95,75 @@ Vec3 arrayOf(const gpu::vec3& v)
 struct ZVO_LOCAL Tracer::Impl
 {
     Impl(Context::Impl& context_impl, std::uint32_t width, std::uint32_t height, VkFormat format)
-        : context(context_impl), buffers(std::make_unique<TraceBuffers>(context.device, checkedEdge(width),
-                                                                        checkedEdge(height), texelForm(format)))
+        : context(context_impl),
+          tracer(std::make_unique<TreeTracer>(context.device, &context.retired, texelForm(format)))
     {
+        tracer->resize(checkedEdge(width), checkedEdge(height));
     }
 
     ~Impl()
     {
-        context.retire(std::move(buffers));
-        context.retire(std::move(beam));
+        context.retire(std::move(tracer));
         context.retire(std::move(depths));
     }
 
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    // What rays skip, made anew where another tree is traced than before.
-    void prepareBeam(Recorder::Impl& recorder, const DeviceTree& tree, std::uint64_t version)
+    void trace(Recorder& recorder, const DeviceTree& tree, const CameraInfo& camera_info, const TraceInfo& info,
+               const ImageTarget& color, const DepthTarget* depth)
     {
-        if (beam && version == beam_version && !beam_frame->is_lost)
-        {
-            return;
-        }
-        if (!beam || has_ranks != tree.isDag())
-        {
-            auto made = std::make_unique<BeamGrid>(context.device, tree.isDag());
-            context.retire(std::move(beam));
-            beam = std::move(made);
-            has_ranks = tree.isDag();
-        }
-        beam_version = 0; // should the next line throw
-        buildBeam(recorder.graph, tree, *beam);
-        beam_version = version;
-        beam_frame = recorder.frame;
-    }
-
-    void trace(Recorder& recorder, const DeviceTree& tree, std::uint64_t version, const CameraInfo& camera_info,
-               const TraceInfo& info, const ImageTarget& color, const DepthTarget* depth)
-    {
-        if (texelForm(color.format) != buffers->texels)
+        const TraceBuffers& buffers = tracer->buffers();
+        if (texelForm(color.format) != buffers.texels)
         {
             throw Error(ErrorCode::Usage, "this Tracer makes pictures for images of another format: make one with "
                                           "the format of the image");
         }
         requireImage(color, "color");
-        requireCopyable(*buffers, color);
+        requireCopyable(buffers, color);
         if (depth != nullptr)
         {
             requireImage(checked(*depth).image, "DepthTarget::image");
-            requireDepthCopyable(context.device, {buffers->width, buffers->height}, depth->image);
+            requireDepthCopyable(context.device, {buffers.width, buffers.height}, depth->image);
         }
         const Grid& grid = tree.grid;
-        const TraceCamera camera = traceCamera(viewOf(camera_info), grid, buffers->height);
+        const TraceCamera camera = traceCamera(viewOf(camera_info), grid, buffers.height);
         const TraceOptions options = optionsOf(info);
         recording(recorder,
                   [&](Recorder::Impl& impl)
                   {
-                      prepareBeam(impl, tree, version);
-                      zvo::trace(impl.graph, tree, *beam, camera, options, *buffers);
+                      if (frame && frame->is_lost)
+                      {
+                          tracer->forget();
+                      }
+                      frame = impl.frame;
+                      tracer->trace(impl.graph, tree, camera, options);
                       if (depth != nullptr)
                       {
                           traceDepthOf(impl.graph, grid, camera, *depth);
                       }
-                      copyToImage(impl.graph, *buffers, color);
+                      copyToImage(impl.graph, buffers, color);
                       if (depth != nullptr)
                       {
-                          copyDepthToImage(impl.graph, depths, {buffers->width, buffers->height}, depth->image);
+                          copyDepthToImage(impl.graph, depths, {buffers.width, buffers.height}, depth->image);
                       }
                   });
     }
 
     void traceDepthOf(vk::FrameGraph& graph, const Grid& grid, const TraceCamera& camera, const DepthTarget& target)
     {
+        const TraceBuffers& buffers = tracer->buffers();
         if (depths.count() == 0)
         {
-            depths = {context.device, "depth", std::uint64_t{buffers->width} * buffers->height};
+            depths = {context.device, "depth", primaryRayCount(buffers)};
         }
-        traceDepth(graph, grid, camera, ClipDepth::of(toGlm(target.view_projection), target.miss), *buffers, depths);
+        traceDepth(graph, grid, camera, ClipDepth::of(toGlm(target.view_projection), target.miss), buffers, depths);
     }
 
     Context::Impl& context;
-    std::unique_ptr<TraceBuffers> buffers;
-    std::unique_ptr<BeamGrid> beam = nullptr;
-    bool has_ranks = false;
-    std::uint64_t beam_version = 0;                   // of what it was made of
-    std::shared_ptr<FrameState> beam_frame = nullptr; // in which it was made
-    vk::BufferOf<float> depths = {};                  // none until depth is asked for
+    std::unique_ptr<TreeTracer> tracer;
+    std::shared_ptr<FrameState> frame = nullptr; // of the last picture
+    vk::BufferOf<float> depths = {};             // none until depth is asked for
 };
 
 CameraInfo CameraInfo::lookAt(const DVec3& eye, const DVec3& target, double vertical_fov)
@@ -213,7 +196,7 @@ void Tracer::trace(Recorder& recorder, const Tree& tree, const CameraInfo& camer
     const Tree::Impl& impl = usable(tree);
     requireSame(tracer.context, impl.context);
     requireSame(tracer.context, recorder.impl().context);
-    tracer.trace(recorder, impl.fixed, impl.version, camera, info, color, depth);
+    tracer.trace(recorder, impl.fixed, camera, info, color, depth);
 }
 
 void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,
@@ -223,7 +206,7 @@ void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& came
     DynamicTree::Impl& impl = usable(tree);
     requireSame(tracer.context, impl.context);
     impl.enter(recorder.impl());
-    tracer.trace(recorder, impl.octree->tree(), impl.version, camera, info, color, depth);
+    tracer.trace(recorder, impl.octree->tree(), camera, info, color, depth);
 }
 
 CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height)

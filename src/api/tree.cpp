@@ -52,8 +52,7 @@ Tree::Impl& usable(const Tree& tree)
 }
 
 Tree::Impl::Impl(Context::Impl& context_impl, DeviceTree&& tree)
-    : context(context_impl), fixed(std::move(tree)), facts(factsOf(fixed)), table(context.device, "tree table", 1),
-      version(context.next_version++)
+    : context(context_impl), fixed(std::move(tree)), facts(factsOf(fixed)), table(context.device, "tree table", 1)
 {
 }
 

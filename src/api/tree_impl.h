@@ -31,7 +31,6 @@ struct ZVO_LOCAL Tree::Impl
     DeviceTree fixed;
     TreeFacts facts;
     vk::BufferOf<gpu::TreeTable> table;
-    std::uint64_t version;
     std::shared_ptr<FrameState> made_in = nullptr; // null: by a TreeBuild, when the device was done
 };
 

@@ -204,7 +204,7 @@ void App::reloadChangedShaders()
     }
     finishAll();
     const ReloadedShaders result = reloadShaders(m_device.device().kernels(), m_shaders);
-    m_world->refresh();
+    m_renderer.forget();
     m_shader_message = result.message;
     if (!result.message.empty())
     {

@@ -139,6 +139,7 @@ void App::submit(Picture& picture, Flight flight)
     catch (...)
     {
         m_world->frameLost();
+        m_renderer.forget();
         throw;
     }
     m_flights.push_back(std::move(flight));

@@ -11,12 +11,7 @@ namespace zvo::demo
 void Renderer::begin(std::uint64_t frame, const Picture& picture, bool encodes_srgb)
 {
     m_retired.beginFrame(frame);
-    const PictureSize internal = picture.internal;
-    if (m_trace == nullptr || m_trace->width != internal.width || m_trace->height != internal.height)
-    {
-        auto trace = std::make_unique<TraceBuffers>(m_device.device(), internal.width, internal.height);
-        m_retired.keep(std::exchange(m_trace, std::move(trace)));
-    }
+    m_tracer.resize(picture.internal.width, picture.internal.height);
     if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
     {
         auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);
@@ -26,22 +21,19 @@ void Renderer::begin(std::uint64_t frame, const Picture& picture, bool encodes_s
 
 std::uint64_t Renderer::pictureBytes() const
 {
-    if (m_trace == nullptr || m_compose == nullptr)
-    {
-        return 0;
-    }
-    return m_trace->bytes() + m_compose->bytes();
+    return m_compose == nullptr ? 0 : m_tracer.buffers().bytes() + m_compose->bytes();
 }
 
 void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& picture)
 {
     const DeviceTree& tree = world.tree();
-    const TraceCamera camera = traceCamera(picture.camera, tree.grid, m_trace->height);
+    const TraceBuffers& buffers = m_tracer.buffers();
+    const TraceCamera camera = traceCamera(picture.camera, tree.grid, buffers.height);
     const TraceOptions options = picture.view.traceOptions();
     switch (picture.view.integrator)
     {
     case Integrator::Primary:
-        trace(graph, tree, world.beam(), camera, options, *m_trace);
+        m_tracer.trace(graph, tree, camera, options);
         break;
     }
     if (picture.inspected)
@@ -49,11 +41,11 @@ void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& 
         // The pixel that is shown there (scalePicture()).
         const auto place = [](std::uint32_t at, std::uint32_t shown, std::uint32_t traced)
         { return (2 * at + 1) * traced / (2 * shown); };
-        const glm::uvec2 pixel = {place(picture.inspected->x, picture.window.width, m_trace->width),
-                                  place(picture.inspected->y, picture.window.height, m_trace->height)};
-        inspectPixel(graph, tree, camera, options, *m_trace, pixel, *picture.report);
+        const glm::uvec2 pixel = {place(picture.inspected->x, picture.window.width, buffers.width),
+                                  place(picture.inspected->y, picture.window.height, buffers.height)};
+        inspectPixel(graph, tree, camera, options, buffers, pixel, *picture.report);
     }
-    m_compose->fill(graph, *m_trace);
+    m_compose->fill(graph, buffers);
     if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
     {
         m_compose->copyTo(graph, *picture.screenshot);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/present/present.h"
-#include "core/trace/trace.h"
+#include "core/trace/tree_tracer.h"
 #include "demo/world/compose.h"
 #include "demo/world/view_state.h"
 #include "demo/world/world.h"
@@ -38,7 +38,10 @@ struct Picture
 class Renderer
 {
 public:
-    Renderer(vk::HeadlessDevice& device, const ComposePass& pass) : m_device(device), m_pass(pass) {}
+    Renderer(vk::HeadlessDevice& device, const ComposePass& pass)
+        : m_device(device), m_pass(pass), m_tracer(device.device(), &m_retired)
+    {
+    }
 
     /// The frame with this number begins, upwards. encodes_srgb: of the swapchain's format. Throws Error{Memory} for
     /// pictures that the device's budget does not allow: then the last ones stay.
@@ -50,17 +53,21 @@ public:
     /// The device is done with that frame and all before it.
     void frameDone(std::uint64_t frame) { m_retired.frameDone(frame); }
 
+    /// The frame that began last does not reach the device, or the kernels may have changed: what they make for tracing
+    /// is made again.
+    void forget() { m_tracer.forget(); }
+
     /// Device memory of the picture on its way.
     [[nodiscard]] std::uint64_t pictureBytes() const;
 
     /// Primary rays of a frame.
-    [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(*m_trace); }
+    [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(m_tracer.buffers()); }
 
 private:
     vk::HeadlessDevice& m_device;
     const ComposePass& m_pass;
     vk::Retired m_retired;
-    std::unique_ptr<TraceBuffers> m_trace;
+    TreeTracer m_tracer;
     std::unique_ptr<ComposeImage> m_compose;
 };
 

@@ -92,8 +92,8 @@ std::string nameOf(const std::vector<std::filesystem::path>& files)
 
 } // namespace
 
-World::World(vk::HeadlessDevice& device, Stage stage, const Bounds& subject, bool has_lists)
-    : m_device(device), m_stage(std::move(stage)), m_subject(subject), m_beam(device.device(), has_lists)
+World::World(vk::HeadlessDevice& device, Stage stage, const Bounds& subject)
+    : m_device(device), m_stage(std::move(stage)), m_subject(subject)
 {
 }
 
@@ -134,7 +134,7 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
     }
     else
     {
-        world.reset(new World(device, {}, {glm::vec3(0.0F), glm::vec3(1.0F)}, false));
+        world.reset(new World(device, {}, {glm::vec3(0.0F), glm::vec3(1.0F)}));
     }
     world->m_info.name = nameOf(files);
     world->m_info.grid = world->tree().grid;
@@ -152,7 +152,7 @@ std::unique_ptr<World> World::ofTree(vk::HeadlessDevice& device, const WorldOpti
     }
     listener("copying to the device", kCopyingAt);
     const Bounds subject = cli::subjectOf(cli::boundsOf(tree), tree.grid);
-    std::unique_ptr<World> world(new World(device, {}, subject, tree.structure == TreeStructure::Svdag));
+    std::unique_ptr<World> world(new World(device, {}, subject));
     world->m_info.static_voxel_count = tree.voxel_count;
     world->m_info.static_node_count = tree.nodes.size();
     world->m_info.geometry_bytes = tree.geometryBytes();
@@ -182,8 +182,7 @@ std::unique_ptr<World> World::ofStage(vk::HeadlessDevice& device, const WorldOpt
 {
     const Bounds bounds = stageBounds(stage);
     const Grid grid = cli::placeGrid(options.voxels, stage, bounds);
-    std::unique_ptr<World> world(
-        new World(device, std::move(stage), cli::subjectOf(bounds, grid), options.structure == TreeStructure::Svdag));
+    std::unique_ptr<World> world(new World(device, std::move(stage), cli::subjectOf(bounds, grid)));
     world->build(options, grid, listener);
     return world;
 }
@@ -263,7 +262,6 @@ void World::updateMovers(vk::FrameGraph& graph, double seconds)
         return;
     }
     m_shown_seconds = seconds;
-    m_beam_is_stale = true;
     octree.update(graph);
     m_trouble.clear();
 }
@@ -294,7 +292,6 @@ bool World::record(vk::FrameGraph& graph, const EditRequest& request)
 // What brushes are to do, as far as it goes into a frame. A dab without memory is left out.
 void World::recordRequests(vk::FrameGraph& graph)
 {
-    m_beam_is_stale = m_beam_is_stale || !m_requests.empty();
     for (std::uint32_t i = 0; i < kDabsPerFrameMax && !m_requests.empty(); ++i)
     {
         try
@@ -339,16 +336,11 @@ void World::update(vk::FrameGraph& graph, double seconds)
             m_trouble = error.what();
         }
     }
-    if (m_beam_is_stale)
-    {
-        buildBeam(graph, tree(), m_beam);
-        m_beam_is_stale = false;
-    }
 }
 
 void World::settle(double seconds)
 {
-    if (!moves() && !m_beam_is_stale && isSettled())
+    if (!moves() && isSettled())
     {
         return;
     }
@@ -389,7 +381,6 @@ void World::frameLost()
     }
     m_requests.insert(m_requests.begin(), m_recorded.begin(), m_recorded.end());
     m_recorded.clear();
-    m_beam_is_stale = true;
 }
 
 Pose World::poseOf(std::size_t mover, double seconds) const

@@ -4,7 +4,6 @@
 #include "common/scene_options.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/scene/camera.h"
-#include "core/trace/trace.h"
 #include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/stage.h"
@@ -73,9 +72,9 @@ struct WorldInput
 /// Is told what is being done, and how much of everything is done before that: 0 to 1.
 using StepListener = std::function<void(std::string_view step, double done)>;
 
-/// What is shown: the voxels of what stands still with what moves merged into them, in device memory, and the grid that
-/// primary rays begin with. A frame: beginFrame(), then update() into the frame's commands, then frameDone() once the
-/// device is done with it. The device must be done with all frames when a World goes.
+/// What is shown: the voxels of what stands still with what moves merged into them, in device memory. A frame:
+/// beginFrame(), then update() into the frame's commands, then frameDone() once the device is done with it. The device
+/// must be done with all frames when a World goes.
 class World
 {
 public:
@@ -129,11 +128,7 @@ public:
     /// The frame that began last does not reach the device.
     void frameLost();
 
-    /// The kernels may have changed: what they make for tracing is made again.
-    void refresh() { m_beam_is_stale = true; }
-
     [[nodiscard]] const DeviceTree& tree() const { return m_dynamic ? m_dynamic->tree() : m_fixed; }
-    [[nodiscard]] const BeamGrid& beam() const { return m_beam; }
     [[nodiscard]] const WorldInfo& info() const { return m_info; }
     [[nodiscard]] const Stage& stage() const { return m_stage; }
 
@@ -149,7 +144,7 @@ public:
     [[nodiscard]] const std::string& trouble() const { return m_trouble; }
 
 private:
-    World(vk::HeadlessDevice& device, Stage stage, const Bounds& subject, bool has_lists);
+    World(vk::HeadlessDevice& device, Stage stage, const Bounds& subject);
 
     static std::unique_ptr<World> ofTree(vk::HeadlessDevice& device, const WorldOptions& options, TreeData tree,
                                          const StepListener& listener);
@@ -166,8 +161,6 @@ private:
     vk::HeadlessDevice& m_device;
     Stage m_stage;
     Bounds m_subject;
-    BeamGrid m_beam;
-    bool m_beam_is_stale = true;
     DeviceTree m_fixed; // that nothing can be merged with; otherwise
     std::unique_ptr<DynamicOctree> m_dynamic;
     std::vector<MoverId> m_movers;         // in the order of the stage

@@ -16,6 +16,7 @@ void DynamicOctree::frameLost()
         return;
     }
     dropJob();
+    m_overlays.renewVersion();
     const auto isLost = [&](const auto& pending) { return pending.frame == m_frames.current(); };
     m_result_count -= std::erase_if(m_pending_updates, isLost);
     std::erase_if(m_pending_slices, isLost);

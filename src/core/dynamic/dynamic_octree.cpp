@@ -86,6 +86,13 @@ void DynamicOctree::remove(MoverId mover)
     dropJob();
 }
 
+// The frame records what is shown from now on.
+void DynamicOctree::beginChange()
+{
+    m_has_recorded = true;
+    m_overlays.renewVersion();
+}
+
 // Drops the poses, and the movers, that nothing shows and no entry brings back, every now and then.
 void DynamicOctree::forgetPoses()
 {
@@ -173,7 +180,7 @@ bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
     {
         throw Error(ErrorCode::Usage, "more updates are under way than frames in flight were announced");
     }
-    m_has_recorded = true;
+    beginChange();
     try
     {
         return updateOrWait(graph, budget_ms);
@@ -320,6 +327,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
     {
         return false;
     }
+    m_overlays.renewVersion();
     try
     {
         showRoot(graph, m_overlays.tree(), m_roots, rootOf(*entry));
@@ -339,7 +347,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
 
 bool DynamicOctree::edit(vk::FrameGraph& graph, const Brush& brush)
 {
-    m_has_recorded = true;
+    beginChange();
     if (m_owes_root) // before anything is written where a lost frame wrote
     {
         showRoot(graph, m_overlays.tree(), m_roots, rootOf(m_history.current()));
@@ -377,7 +385,7 @@ bool DynamicOctree::redoEdit(vk::FrameGraph& graph)
 // Shows what strokes have left. What movers were merged with is another tree now, or stands elsewhere.
 void DynamicOctree::showEdited(vk::FrameGraph& graph)
 {
-    m_has_recorded = true;
+    beginChange();
     dropJob();
     m_history.forget();
     m_needs_update = true; // even without movers, should this fail

@@ -58,11 +58,11 @@ struct UpdateReport
 /// Every frame: beginFrame(), then the brush's calls, then at most four of update(), undo() and redo(), and the tracing
 /// of tree() into a command buffer, then, once the device is done with it, frameDone(). Frames share buffers: a command
 /// buffer is submitted after those of earlier frames and begins behind a full memory barrier. Nothing waits for the
-/// device. Whatever was made of the tree before (a BeamGrid, addresses of its buffers) is out of date after each of the
-/// three calls. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an update needs
-/// beyond the memory there is, it reports; the frame then shows the last root that is complete, and a later update has
-/// more memory. Where recording a frame or submitting it fails, whatever it was, frameLost() takes the frame back, and
-/// the octree goes on.
+/// device. Each of these calls gives the tree another version: what was made of it before (a BeamGrid, addresses of its
+/// buffers) is out of date. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an
+/// update needs beyond the memory there is, it reports; the frame then shows the last root that is complete, and a
+/// later update has more memory. Where recording a frame or submitting it fails, whatever it was, frameLost() takes the
+/// frame back, and the octree goes on.
 class DynamicOctree
 {
 public:
@@ -190,6 +190,7 @@ private:
 
     using HistoryMove = std::optional<RootEntry> (RootHistory::*)();
 
+    void beginChange();
     void forgetPoses();
     bool updateOrWait(vk::FrameGraph& graph, double budget_ms);
     bool beginJob(vk::FrameGraph& graph);

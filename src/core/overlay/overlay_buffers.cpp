@@ -58,6 +58,7 @@ OverlayBuffers::OverlayBuffers(vk::Uploader& uploads, DeviceTree fixed, const Ov
       m_tree(adopted(std::move(fixed))), m_arena(staticSpace())
 {
     m_tree.emission_scale = m_emits ? contents.emission_scale : 1.0F;
+    renewVersion();
 }
 
 OverlayBuffers::~OverlayBuffers()

@@ -64,6 +64,9 @@ public:
     [[nodiscard]] const DeviceTree& tree() const { return m_tree; }
     [[nodiscard]] DeviceTree& tree() { return m_tree; }
 
+    /// What is traced has changed.
+    void renewVersion() { m_tree.version = newTreeVersion(); }
+
     [[nodiscard]] OverlayArena& arena() { return m_arena; }
     [[nodiscard]] bool hasAttributes() const { return m_has_attributes; }
     [[nodiscard]] bool emits() const { return m_emits; }

@@ -11,6 +11,7 @@
 #include "voxelize/voxelize.h"
 #include "zvo/types.h"
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -59,6 +60,13 @@ struct FragmentSums
     [[nodiscard]] std::uint64_t bytes() const { return sums.bytes() + emission_sums.bytes(); }
 };
 
+/// A number that no other call returns.
+inline std::uint64_t newTreeVersion()
+{
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+}
+
 /// A sparse voxel octree in device memory, or the DAG that it was compressed to; either may have room for overlays
 /// behind it. shaders/shared/octree.h and svdag.h document the layout.
 struct DeviceTree
@@ -70,6 +78,7 @@ struct DeviceTree
         std::uint32_t node_count = 0;
     };
 
+    std::uint64_t version = newTreeVersion(); // of the contents: who changes them makes it anew
     TreeStructure structure = TreeStructure::Svo;
     Grid grid;
     std::uint32_t node_count = 0;  // without overlays

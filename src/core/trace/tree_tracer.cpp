@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "core/trace/tree_tracer.h"
+
+#include <utility>
+
+namespace zvo
+{
+
+template <typename T> void TreeTracer::replace(std::unique_ptr<T>& old, std::unique_ptr<T> made)
+{
+    std::swap(old, made);
+    if (m_retired != nullptr && made != nullptr)
+    {
+        m_retired->keep(std::move(made));
+    }
+}
+
+void TreeTracer::resize(std::uint32_t width, std::uint32_t height)
+{
+    if (m_buffers == nullptr || m_buffers->width != width || m_buffers->height != height)
+    {
+        replace(m_buffers, std::make_unique<TraceBuffers>(m_device, width, height, m_texels));
+    }
+}
+
+void TreeTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree)
+{
+    if (m_beam_version == tree.version)
+    {
+        return;
+    }
+    if (m_beam == nullptr || (tree.isDag() && !m_beam_is_for_dags))
+    {
+        replace(m_beam, std::make_unique<BeamGrid>(m_device, tree.isDag()));
+        m_beam_is_for_dags = tree.isDag();
+    }
+    forget(); // should the next line throw
+    buildBeam(graph, tree, *m_beam);
+    m_beam_version = tree.version;
+}
+
+void TreeTracer::tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
+                              const TraceOptions& options)
+{
+    prepare(graph, tree);
+    zvo::tracePrimary(graph, tree, *m_beam, camera, options, *m_buffers);
+}
+
+void TreeTracer::trace(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
+                       const TraceOptions& options)
+{
+    prepare(graph, tree);
+    zvo::trace(graph, tree, *m_beam, camera, options, *m_buffers);
+}
+
+} // namespace zvo
