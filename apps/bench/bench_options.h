@@ -3,6 +3,7 @@
 
 #include "common/scene_options.h"
 #include "io/scene/load_scene.h"
+#include "zvo/tree.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -26,7 +27,7 @@ struct BenchOptions
     LoadOptions load;
     std::optional<std::vector<std::uint32_t>> depths; // not given: 8, 9, 10, with balance 9, 10, 11, with edit 9
     std::uint32_t run_count = 5;
-    Coverage coverage = Coverage::Thin;
+    Coverage coverage = TreeBuildInfo().coverage;
     bool attributes = true;
     std::string camera; // as in RenderOptions
     bool passes = false;

@@ -5,6 +5,7 @@
 #include "core/scene/scene.h"
 #include "core/tree/attribute_form.h"
 #include "io/scene/load_scene.h"
+#include "zvo/tree.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -41,7 +42,7 @@ struct VoxelOptions
     std::optional<std::filesystem::path> scenes_folder; // where else what a scene file names may lie
     std::optional<double> time;                         // seconds, from 0 on
     std::optional<std::uint32_t> depth;                 // not given: the scene file's, or 9
-    Coverage coverage = Coverage::Thin;
+    Coverage coverage = TreeBuildInfo().coverage;
     AttributeForm attributes = AttributeForm::Bytes8; // of the voxels; packed ones are of build alone
     std::optional<Bounds> bounds;                     // the cube from this box's minimum corner on
     std::optional<GridPlace> grid_place;              // exactly this grid; neither: the cube around the scene

@@ -29,11 +29,11 @@ struct RenderOptions
     std::uint32_t height = 720;
     std::string camera; // as given; empty: the scene's first one, or a fitting one
     std::optional<std::filesystem::path> camera_path;
-    View view = View::Color;
-    std::uint32_t occlusion_rays = 0; // a pixel
-    std::optional<glm::dvec3> to_sun; // direction, any length
-    float exposure = 1.0F;
-    float detail_pixels = 0.0F;                                    // rays stop at octree nodes up to this wide
+    View view = TraceOptions().view;
+    std::uint32_t occlusion_rays = TraceOptions().occlusion_rays; // a pixel
+    std::optional<glm::dvec3> to_sun;                             // direction, any length
+    float exposure = TraceOptions().exposure;
+    float detail_pixels = TraceOptions().detail_pixels;            // rays stop at octree nodes up to this wide
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
     std::optional<TreeStructure> structure; // of what stands still; not given: an octree, or the file's
     bool rebuild = false; // what moves is not merged with what stands still: everything is voxelized for each picture

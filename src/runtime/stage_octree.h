@@ -7,6 +7,7 @@
 #include "core/tree/tree_data.h"
 #include "io/scene/stage.h"
 #include "vk/headless.h"
+#include "zvo/tree.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -21,10 +22,10 @@ namespace zvo
 /// How a StageOctree is made.
 struct StageOctreeOptions
 {
-    Coverage coverage = Coverage::Thin;
+    Coverage coverage = TreeBuildInfo().coverage;
     bool attributes = true;
     TreeStructure structure = TreeStructure::Svo; // of what is fixed
-    HistoryBounds history = {1, UINT64_MAX};
+    HistoryBounds history = {};
 };
 
 /// What the static part of a stage came to.

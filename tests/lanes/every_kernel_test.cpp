@@ -202,7 +202,8 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool 
     {
         fixed = std::move(built.octree);
     }
-    DynamicOctree octree(device(), std::move(fixed), {.coverage = coverage, .emission_scale = emission_scale});
+    DynamicOctree octree(device(), std::move(fixed),
+                         {.coverage = coverage, .merge = MergeRule::Average, .emission_scale = emission_scale});
     const std::vector<test::Cell> before = test::cellsOf(device(), octree.tree());
 
     Scene moved = scene;
@@ -241,6 +242,7 @@ Names editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
 {
     Names names;
     DynamicOptions options;
+    options.merge = MergeRule::Average;
     options.emission_scale = emission_scale;
     options.attributes = attributes;
     options.edits = {.entries_max = 4, .bytes_max = 0};

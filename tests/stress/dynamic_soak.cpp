@@ -72,6 +72,7 @@ public:
     {
         m_scale = std::max(brightestEmission(m_fixed), brightestEmission(m_moving));
         DynamicOptions options;
+        options.merge = MergeRule::Average;
         options.frames_in_flight = kFramesInFlight;
         options.history = {3, UINT64_MAX};
         options.emission_scale = m_scale;

@@ -7,6 +7,7 @@
 #include "core/tree/tree_data.h"
 #include "demo/input/elapsed.h"
 #include "vk/swapchain.h"
+#include "zvo/dynamic_tree.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -34,7 +35,7 @@ struct DemoOptions
     std::optional<float> detail_pixels;
     std::optional<double> internal_scale; // above 0, at most 1
     std::optional<vk::PresentMode> present_mode;
-    std::uint32_t frames_in_flight = 2;
+    std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight;
 
     std::optional<std::uint64_t> frame_count; // after which the program ends
     std::optional<FixedStep> fixed_step;

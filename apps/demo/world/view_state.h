@@ -14,13 +14,13 @@ namespace zvo::demo
 /// How the world is shown: what the view panel changes and the settings keep.
 struct ViewState
 {
-    View view = View::Color;
+    View view = TraceOptions().view;
     Integrator integrator = Integrator::Primary;
-    bool shadows = true;
-    std::uint32_t occlusion_rays = 0;
-    glm::dvec3 to_sun = TraceOptions{}.to_sun;
-    float exposure = 1.0F;
-    float detail_pixels = 0.0F;           // 0: rays go on to voxels
+    bool shadows = TraceOptions().shadows;
+    std::uint32_t occlusion_rays = TraceOptions().occlusion_rays;
+    glm::dvec3 to_sun = TraceOptions().to_sun;
+    float exposure = TraceOptions().exposure;
+    float detail_pixels = TraceOptions().detail_pixels; // 0: rays go on to voxels
     std::optional<double> internal_scale; // of the window's edges; not given: as fast as the device allows
     vk::PresentMode present_mode = vk::PresentMode::Fifo;
 

@@ -8,6 +8,7 @@
 #include "core/tree/tree_data.h"
 #include "io/scene/stage.h"
 #include "vk/headless.h"
+#include "zvo/dynamic_tree.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +30,7 @@ struct WorldOptions
 {
     cli::VoxelOptions voxels;               // scenes: the files; none: an empty world
     std::optional<TreeStructure> structure; // of what stands still; not given: an octree, or the file's
-    std::uint32_t frames_in_flight = 2;     // that may be recorded before frameDone() was told of the first
+    std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight;
 };
 
 /// What there is to tell of a world.

@@ -12,6 +12,7 @@
 #include "vk/frame_list.h"
 #include "vk/retired.h"
 #include "vk/uploader.h"
+#include "zvo/dynamic_tree.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -26,15 +27,16 @@
 namespace zvo
 {
 
-/// How a DynamicOctree works.
+/// How a DynamicOctree works. What a host can choose is what DynamicTreeInfo says (zvo/dynamic_tree.h), with the same
+/// defaults.
 struct DynamicOptions
 {
-    Coverage coverage = Coverage::Thin; // of the movers; as the static tree's
-    MergeRule merge = MergeRule::Average;
-    std::uint32_t frames_in_flight = 2; // that may be recorded before frameDone() was told of the first
-    HistoryBounds history = {1, UINT64_MAX};
+    Coverage coverage = DynamicTreeInfo().coverage; // of the movers; as the static tree's
+    MergeRule merge = DynamicTreeInfo().merge;
+    std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight; // recorded before frameDone() of the first
+    HistoryBounds history = {};
     EditBounds edits = {};
-    float emission_scale = 0;        // common to the static scene and all movers; 0: nothing emits light
+    float emission_scale = DynamicTreeInfo().emission_scale;
     bool attributes = true;          // of an empty static tree, which does not say
     bool minimal_capacities = false; // everything starts with room for one: for tests
 };

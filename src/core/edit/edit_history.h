@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "zvo/dynamic_tree.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -12,8 +14,8 @@ namespace zvo
 /// How much edits keep.
 struct EditBounds
 {
-    std::size_t entries_max = 1024;       // strokes that can be undone, at least 1
-    std::uint64_t bytes_max = 256U << 20; // of edited nodes and voxels; more only where a single entry needs it
+    std::size_t entries_max = DynamicTreeInfo().strokes;    // at least 1
+    std::uint64_t bytes_max = DynamicTreeInfo().edit_bytes; // more only where a single entry needs it
 };
 
 /// Dabs that may be recorded in a frame: so many places are kept free for them.

@@ -7,6 +7,7 @@
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"
 #include "vk/timer.h"
+#include "zvo/tree.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -23,7 +24,7 @@ namespace zvo
 /// What is made of a scene.
 struct BuildOptions
 {
-    Coverage coverage = Coverage::Thin;
+    Coverage coverage = TreeBuildInfo().coverage;
     bool attributes = true;
     std::optional<VoxelizeCapacities> capacities = std::nullopt; // where to start; by default, an estimate
     bool keep_sums = false;                                      // of attributes, in DeviceTree::sums: 28 bytes a voxel

@@ -5,6 +5,7 @@
 #include "core/tree/device_tree.h"
 #include "trace/trace.h"
 #include "vk/frame_graph.h"
+#include "zvo/tracer.h"
 #include "zvo/types.h"
 
 #include <cstdint>
@@ -40,19 +41,20 @@ constexpr std::uint32_t texelWords(TexelForm form)
 /// The most rays that TraceOptions::occlusion_rays asks for.
 inline constexpr std::uint32_t kOcclusionRaysMax = 64;
 
+/// What a host can choose is what TraceInfo says (zvo/tracer.h), with the same defaults.
 struct TraceOptions
 {
-    View view = View::Color;
+    View view = TraceInfo().view;
     TraceStack stack = TraceStack::Registers;
-    bool beam = true;                    // skip what the beam grid shows to be empty; the picture is the same
-    bool shadows = true;                 // View::Color: trace a ray to the sun
-    glm::dvec3 to_sun{-0.6, 0.75, 0.45}; // direction, any length
-    float sun = 2.2F;                    // strength
-    float exposure = 1.0F;
-    std::uint32_t occlusion_rays = 0;        // View::Color: for each hit, to find how much of the sky it sees
-    float occlusion_reach = 0.1F;            // of these rays, as a part of the grid's edge
-    float detail_pixels = 0.0F;              // stop at nodes that are at most this many pixels wide; 0: go on to voxels
-    std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
+    bool beam = true; // skip what the beam grid shows to be empty; the picture is the same
+    bool shadows = TraceInfo().shadows;
+    glm::dvec3 to_sun = {TraceInfo().to_sun[0], TraceInfo().to_sun[1], TraceInfo().to_sun[2]};
+    float sun = TraceInfo().sun;
+    float exposure = TraceInfo().exposure;
+    std::uint32_t occlusion_rays = TraceInfo().occlusion_rays;
+    float occlusion_reach = TraceInfo().occlusion_reach;
+    float detail_pixels = TraceInfo().detail_pixels;
+    std::uint32_t detail_level = UINT32_MAX;       // stop at this level of nodes
     std::uint32_t steps_max = gpu::kTraceStepsMax; // iterations of an invocation: fewer only to test what comes then
 
     [[nodiscard]] bool hasDetail() const { return detail_pixels > 0.0F || detail_level != UINT32_MAX; }

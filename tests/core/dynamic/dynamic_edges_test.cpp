@@ -241,7 +241,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         build.coverage = Coverage::Conservative;
         build.keep_sums = true;
         DynamicOctree octree(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build).octree,
-                             {.coverage = Coverage::Conservative});
+                             {.coverage = Coverage::Conservative, .merge = MergeRule::Average});
         const std::vector<Cell> before = test::cellsOf(device(), octree.tree());
         const MoverId mover = octree.add(uploadMover(device(), dot, true, 0), {{place}, {}, {}});
         std::uint32_t failed = 0;

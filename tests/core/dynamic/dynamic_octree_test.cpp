@@ -37,6 +37,7 @@ public:
           m_static(test::materialsScene(kExtent)), m_mover(test::materialsScene(kExtent / 3)), m_options(options)
     {
         m_scale = std::max(brightestEmission(m_static), brightestEmission(m_mover));
+        m_options.merge = MergeRule::Average;
         m_options.emission_scale = m_scale;
         const GpuScene scene = uploadScene(device(), m_static, true, m_scale);
         BuildOptions build{.coverage = m_options.coverage};

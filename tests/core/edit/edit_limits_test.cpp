@@ -53,6 +53,7 @@ public:
             m_centers.push_back(codes[i * codes.size() / center_count]);
         }
         DynamicOptions options;
+        options.merge = MergeRule::Average;
         options.emission_scale = emission_scale;
         options.edits = bounds;
         DeviceTree fixed = compressed ? compress(device(), std::move(built.octree)).dag : std::move(built.octree);

@@ -15,7 +15,7 @@ namespace
 
 TEST_F(RootHistoryTest, BeginsWithTheStaticOctreeAndNothingElse)
 {
-    RootHistory history(m_arena, {});
+    RootHistory history(m_arena, {64, UINT64_MAX});
     EXPECT_EQ(history.current().id, 0u);
     EXPECT_EQ(history.current().region, std::nullopt);
     EXPECT_TRUE(history.current().layers.empty());
