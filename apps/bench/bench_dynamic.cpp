@@ -10,8 +10,10 @@
 #include "common/session.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
+#include "core/headless/pipeline.h"
 #include "core/trace/tree_tracer.h"
-#include "runtime/stage_octree.h"
+#include "core/upload/gpu_scene.h"
+#include "runtime/live_scene.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>
@@ -164,38 +166,39 @@ public:
         DynamicRow row;
         row.scene = name;
         row.resolution = grid.resolution();
-        StageOctree octree(m_device, stage, grid, stageOptions());
-        row.triangles_static = octree.staticPart().triangle_count;
-        row.triangles_dynamic = octree.moverTriangleCount();
-        row.voxels_static = octree.staticPart().voxel_count;
-        row.nodes_static = octree.staticPart().node_count;
-        row.geometry_bytes_static = octree.staticPart().geometry_bytes;
-        row.voxelize_ms = operationMs(octree.staticPart().passes, "voxelize");
-        row.build_ms = operationMs(octree.staticPart().passes, "octree");
+        LiveScene live(m_device, Stage(stage), grid, liveOptions());
+        const StaticInfo& fixed = live.info().fixed;
+        row.triangles_static = fixed.triangle_count;
+        row.triangles_dynamic = live.info().moving_triangle_count;
+        row.voxels_static = fixed.voxel_count;
+        row.nodes_static = fixed.node_count;
+        row.geometry_bytes_static = fixed.geometry_bytes;
+        row.voxelize_ms = operationMs(fixed.passes, "voxelize");
+        row.build_ms = operationMs(fixed.passes, "octree");
         row.frame_count =
             static_cast<std::uint32_t>(std::max(1.0, std::round(stage.seconds * stage.frames_per_second)));
-        measureFrames(stage, octree, row, progress);
-        measureRebuilds(stage, octree, camera, row, progress);
+        measureFrames(stage, live, row, progress);
+        measureRebuilds(stage, live, camera, row, progress);
         measureEnlarged(stage, grid, row, progress);
         return row;
     }
 
 private:
-    [[nodiscard]] StageOctreeOptions stageOptions() const
+    [[nodiscard]] LiveOptions liveOptions() const
     {
         return {m_options.coverage, m_options.attributes, m_options.structure};
     }
 
     // Every frame once, after one that finds out how much room it takes.
-    void measureFrames(const Stage& stage, StageOctree& octree, DynamicRow& row, Progress& progress)
+    void measureFrames(const Stage& stage, LiveScene& live, DynamicRow& row, Progress& progress)
     {
         std::vector<double> voxelize_ms;
         std::vector<double> update_ms;
-        octree.update(frameTime(stage, row.frame_count - 1));
+        live.place(frameTime(stage, row.frame_count - 1));
         for (std::uint32_t frame = 0; frame < row.frame_count; ++frame)
         {
             progress.step(fmt::format("{} at {}: frame {}", row.scene, row.resolution, frame));
-            const StageUpdate update = octree.update(frameTime(stage, frame));
+            const LiveUpdate update = live.place(frameTime(stage, frame));
             row.retry_count += update.retry_count;
             if (update.retry_count != 0 && frame + 1 < row.frame_count)
             {
@@ -216,14 +219,14 @@ private:
     }
 
     // At times spread evenly over the stage. Pictures of both octrees are traced in turns.
-    void measureRebuilds(const Stage& stage, StageOctree& octree, const TraceCamera& camera, DynamicRow& row,
+    void measureRebuilds(const Stage& stage, LiveScene& live, const TraceCamera& camera, DynamicRow& row,
                          Progress& progress)
     {
         std::vector<double> rebuild_ms;
         std::vector<double> moving_ms;
         std::vector<double> rebuilt_trace_ms;
         std::vector<double> merged_trace_ms;
-        const Grid grid = octree.tree().grid;
+        const Grid grid = live.tree().grid;
         Stage moving;
         moving.movers = stage.movers;
         BuildOptions build;
@@ -246,10 +249,10 @@ private:
             const std::uint32_t frame = run * row.frame_count / m_options.run_count;
             const BuildResult built = rebuild(stage, frame, build);
             rebuild_ms.push_back(sumMs(built.passes));
-            octree.update(frameTime(stage, frame));
+            live.place(frameTime(stage, frame));
             for (std::uint32_t turn = 0; turn < kTraceTurns; ++turn)
             {
-                merged_trace_ms.push_back(traceMs(octree.tree(), camera));
+                merged_trace_ms.push_back(traceMs(live.tree(), camera));
                 rebuilt_trace_ms.push_back(traceMs(built.octree, camera));
             }
             moving_ms.push_back(sumMs(rebuild(moving, frame, moving_build).passes));
@@ -268,14 +271,14 @@ private:
         {
             return;
         }
-        StageOctree octree(m_device, stage, grid, stageOptions());
+        LiveScene live(m_device, Stage(stage), grid, liveOptions());
         std::vector<double> enlarged_ms;
-        octree.update(frameTime(stage, row.frame_count - 1));
+        live.place(frameTime(stage, row.frame_count - 1));
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
             progress.step(fmt::format("{} in {}: update {}", row.scene, grid.resolution(), run));
             const std::uint32_t frame = run * row.frame_count / m_options.run_count;
-            enlarged_ms.push_back(sumMs(octree.update(frameTime(stage, frame)).passes));
+            enlarged_ms.push_back(sumMs(live.place(frameTime(stage, frame)).passes));
         }
         row.enlarged_ms = Spread::of(enlarged_ms);
     }

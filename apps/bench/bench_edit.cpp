@@ -201,7 +201,6 @@ public:
         }
         m_codes = voxelCodes(device, built.octree);
         DynamicOptions dynamic;
-        dynamic.merge = MergeRule::DynamicWins; // nothing moves: no sums are needed
         dynamic.attributes = options.attributes;
         dynamic.emission_scale = built.octree.emission.count() != 0 ? built.octree.emission_scale : 0;
         dynamic.edits = kBounds;

@@ -9,15 +9,12 @@
 #include "common/view.h"
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/compress.h"
-#include "core/headless/pipeline.h"
 #include "core/tree/device_tree.h"
-#include "core/upload/gpu_scene.h"
 #include "io/scene/camera_path.h"
 #include "pictures.h"
 #include "render_report.h"
 #include "renderer.h"
-#include "runtime/stage_octree.h"
+#include "runtime/live_scene.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -76,10 +73,8 @@ public:
     // A camera that turns around what stands still, or flies.
     void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& centre)
     {
-        BuildResult result = voxelize(std::move(scene), grid);
-        m_report.addOctree(result, m_triangle_count);
-        const DeviceTree tree = structured(std::move(result.octree));
-        turn(tree, camera, centre);
+        const auto report = [&](const BuildResult& built) { m_report.addOctree(built, m_triangle_count); };
+        turn(makeTree(std::move(scene), grid, report), camera, centre);
     }
 
     // The same around what a file holds.
@@ -93,26 +88,26 @@ public:
     }
 
     // What stands still is voxelized once, what moves is merged with it at each time.
-    void play(const Stage& stage, const Grid& grid, const ViewCamera& camera)
+    void play(Stage&& stage, const Grid& grid, const ViewCamera& camera)
     {
         m_progress.step("voxelizing what stands still");
-        StageOctree octree(m_device, stage, grid,
-                           {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
+        LiveScene scene(m_device, std::move(stage), grid,
+                        {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             m_progress.step("updating");
-            const double seconds = timeOf(stage, i);
-            const StageUpdate update = octree.update(seconds);
-            const std::vector<vk::PassTime> beam_passes = m_renderer.show(octree.tree());
+            const double seconds = timeOf(scene.stage(), i);
+            const LiveUpdate update = scene.place(seconds);
+            const std::vector<vk::PassTime> beam_passes = m_renderer.show(scene.tree());
             if (i == 0)
             {
-                const StaticPart& part = octree.staticPart();
-                warnOfDropped(std::uint64_t{part.voxel_count} + update.report.dynamic_count, part.dropped);
-                m_report.addStage(stage, octree, update);
+                const StaticInfo& part = scene.info().fixed;
+                warnOfDropped(part.voxel_count + update.report.dynamic_count, part.dropped);
+                m_report.addStage(scene, update);
                 m_report.addBeam(beam_passes);
             }
             m_has_warned = m_has_warned || warnOfDroppedMovers(seconds, update.report.dropped);
-            draw(i, m_camera_work.at(m_pictures.number(i), stage.frames_per_second, camera));
+            draw(i, m_camera_work.at(m_pictures.number(i), scene.stage().frames_per_second, camera));
             m_report.addFrame(updateFrame(m_pictures.number(i), seconds, update));
         }
     }
@@ -123,13 +118,16 @@ public:
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             const double seconds = timeOf(stage, i);
-            BuildResult result = voxelize(stageAt(stage, seconds), grid);
-            if (i == 0)
+            Json frame;
+            const auto report = [&](const BuildResult& built)
             {
-                m_report.addOctree(result, m_triangle_count);
-            }
-            Json frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, result, m_triangle_count);
-            const DeviceTree tree = structured(std::move(result.octree));
+                if (i == 0)
+                {
+                    m_report.addOctree(built, m_triangle_count);
+                }
+                frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, built, m_triangle_count);
+            };
+            const DeviceTree tree = makeTree(stageAt(stage, seconds), grid, report);
             const std::vector<vk::PassTime> beam_passes = m_renderer.show(tree);
             if (i == 0)
             {
@@ -165,36 +163,31 @@ private:
 
     [[nodiscard]] TreeStructure structure() const { return m_options.structure.value_or(TreeStructure::Svo); }
 
-    // What was voxelized, as it is to be traced.
-    DeviceTree structured(DeviceTree&& octree)
-    {
-        if (structure() == TreeStructure::Svo)
-        {
-            return std::move(octree);
-        }
-        m_progress.step("compressing");
-        CompressResult result = compress(m_device, std::move(octree));
-        m_report.addDag(result);
-        return std::move(result.dag);
-    }
-
     [[nodiscard]] double timeOf(const Stage& stage, std::uint32_t index) const
     {
         return m_options.frames ? frameTime(stage, m_pictures.number(index))
                                 : loopedTime(stage, m_options.voxels.time.value_or(0.0));
     }
 
-    BuildResult voxelize(Scene scene, const Grid& grid)
+    // A scene, as it is to be traced; report is shown the octree.
+    template <typename Report> DeviceTree makeTree(Scene&& scene, const Grid& grid, const Report& report)
     {
-        m_progress.step("copying to the device");
         m_triangle_count = scene.triangleCount();
-        const GpuScene gpu_scene = uploadScene(m_device, scene, m_options.voxels.hasAttributes());
-        scene = {};
-        m_progress.step("voxelizing");
-        BuildResult result =
-            buildOctree(m_device, gpu_scene, grid, {m_options.voxels.coverage, m_options.voxels.hasAttributes(), {}});
-        m_has_warned = m_has_warned || warnOfDropped(result.octree.voxel_count, result.dropped); // not for each frame
-        return result;
+        StaticListener listener;
+        listener.step = [&](std::string_view step) { m_progress.step(step); };
+        listener.built = [&](const BuildResult& built)
+        {
+            m_has_warned = m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped); // not for each frame
+            report(built);
+        };
+        StaticPart part =
+            makeStaticPart(m_device, std::move(scene), grid,
+                           {m_options.voxels.coverage, m_options.voxels.hasAttributes(), {}}, structure(), listener);
+        if (structure() == TreeStructure::Svdag)
+        {
+            m_report.addDag(part);
+        }
+        return std::move(part.tree);
     }
 
     void draw(std::uint32_t index, const ViewCamera& camera)
@@ -321,7 +314,7 @@ void render(const RenderOptions& options)
     }
     else if (moves)
     {
-        run.play(stage, grid, camera);
+        run.play(std::move(stage), grid, camera);
     }
     else
     {

@@ -4,7 +4,6 @@
 #include "common/progress.h"
 #include "common/session.h"
 #include "core/file/zvo_file.h"
-#include "core/headless/compress.h"
 #include "runtime/octree_sha256.h"
 #include "zvo/version.h"
 
@@ -13,7 +12,7 @@
 namespace zvo::cli
 {
 
-Json updateFrame(std::uint32_t number, double seconds, const StageUpdate& update)
+Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update)
 {
     return {{"frame", number},
             {"seconds", seconds},
@@ -36,13 +35,13 @@ void RenderReport::addOctree(const BuildResult& result, std::uint64_t triangle_c
     }
 }
 
-void RenderReport::addDag(const CompressResult& result)
+void RenderReport::addDag(const StaticPart& part)
 {
     if (!m_json.empty() && !m_json.contains("dag"))
     {
-        m_json["dag"] = {{"nodes", result.dag.node_count},
-                         {"geometry_bytes", result.dag.geometryBytes()},
-                         {"compress_ms", result.ms()}};
+        m_json["dag"] = {{"nodes", part.info.node_count},
+                         {"geometry_bytes", part.info.geometry_bytes},
+                         {"compress_ms", sumMs(part.info.compress_passes)}};
     }
 }
 
@@ -61,11 +60,11 @@ void RenderReport::addFile(const TreeData& tree)
     m_json["passes"] = Json::array();
 }
 
-void RenderReport::addStage(const Stage& stage, StageOctree& octree, const StageUpdate& update)
+void RenderReport::addStage(const LiveScene& scene, const LiveUpdate& update)
 {
-    const StaticPart& part = octree.staticPart();
-    const Grid& grid = octree.tree().grid;
-    const std::uint64_t triangle_count = part.triangle_count + octree.moverTriangleCount();
+    const StaticInfo& part = scene.info().fixed;
+    const Grid& grid = scene.tree().grid;
+    const std::uint64_t triangle_count = part.triangle_count + scene.info().moving_triangle_count;
     const double voxelize_ms = operationMs(part.passes, "voxelize");
     const double build_ms = operationMs(part.passes, "octree");
     m_built = fmt::format("{} static and {} dynamic voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build "
@@ -73,10 +72,10 @@ void RenderReport::addStage(const Stage& stage, StageOctree& octree, const Stage
                           part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count, voxelize_ms,
                           build_ms, sumMs(update.passes));
     m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
-    m_json["merge"] = mergeRuleName(stage.merge);
+    m_json["merge"] = mergeRuleName(scene.stage().merge);
     m_json["scene"] = {{"triangles_static", part.triangle_count},
-                       {"triangles_dynamic", octree.moverTriangleCount()},
-                       {"movers", stage.movers.size()},
+                       {"triangles_dynamic", scene.info().moving_triangle_count},
+                       {"movers", scene.stage().movers.size()},
                        {"dropped", part.dropped}};
     m_json["voxels_static"] = part.voxel_count;
     m_json["nodes_static"] = part.node_count;

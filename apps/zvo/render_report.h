@@ -4,13 +4,11 @@
 
 #include "common/report.h"
 #include "core/headless/pipeline.h"
-#include "core/svdag/svdag_builder.h"
-#include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/stage.h"
 #include "options.h"
 #include "renderer.h"
-#include "runtime/stage_octree.h"
+#include "runtime/live_scene.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -22,7 +20,7 @@ namespace zvo::cli
 {
 
 /// A frame of a stage in which what moves is merged with what stands still.
-Json updateFrame(std::uint32_t number, double seconds, const StageUpdate& update);
+Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update);
 
 /// Gathers what there is to tell: first what was made, by exactly one of addOctree(), addFile() and addStage(), then
 /// the pictures of it. What is given must outlive this.
@@ -35,13 +33,13 @@ public:
     void addOctree(const BuildResult& result, std::uint64_t triangle_count);
 
     /// The DAG that was made of it; later ones are not told of.
-    void addDag(const CompressResult& result);
+    void addDag(const StaticPart& part);
 
     /// What a file holds.
     void addFile(const TreeData& tree);
 
     /// What stands still, and the first update.
-    void addStage(const Stage& stage, StageOctree& octree, const StageUpdate& update);
+    void addStage(const LiveScene& scene, const LiveUpdate& update);
 
     /// The passes of the first beam grid.
     void addBeam(std::vector<vk::PassTime> passes) { m_beam_passes = std::move(passes); }

@@ -85,9 +85,9 @@ App::App(const DemoOptions& options, Clock::time_point start)
       m_swapchain(m_device, [this](VkInstance instance) { return m_window.makeSurface(instance); },
                   {options.present_mode.value_or(m_settings.view.present_mode), options.frames_in_flight}),
       m_compose_pass(m_device.device()), m_ui(m_device, m_compose_pass, m_window, options.frames_in_flight),
-      m_world(World::make(m_device, m_world_options, m_first_input.get(), [](std::string_view, double) {})),
-      m_renderer(m_device, m_compose_pass), m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
-      m_camera(cli::chooseCamera(options.camera, m_world->stage(), m_world->subject(), aspect()), m_world->subject()),
+      m_world(World::make(m_device, m_world_options, m_first_input.get())), m_renderer(m_device, m_compose_pass),
+      m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
+      m_camera(cli::chooseCamera(options.camera, m_world->scene.stage(), m_world->subject, aspect()), m_world->subject),
       m_flight(options.fixed_step), m_shaders(options.shaders ? *options.shaders : shadersOf(thisProgram())),
       m_frame_start(Clock::now())
 {
@@ -281,7 +281,7 @@ void App::buildPanels()
                    if (beginPanels("measurements", true))
                    {
                        performancePanel(m_stats, memoryUse());
-                       inspectorPanel(m_inspected, m_world->info());
+                       inspectorPanel(m_inspected, m_world->scene.tree().grid);
                    }
                    ImGui::End();
                    shadersPanel(m_shader_message);
@@ -321,7 +321,7 @@ std::optional<glm::uvec2> App::pixelUnderMouse() const
 
 void App::showTitle()
 {
-    const std::string& name = m_world->info().name;
+    const std::string& name = m_world->name;
     m_window.setTitle(name.empty() ? "zvo" : name + " - zvo");
 }
 
@@ -338,7 +338,7 @@ double App::internalScale() const
 
 double App::worldSeconds() const
 {
-    return m_timeline.secondsIn(m_world->stage());
+    return m_timeline.secondsIn(m_world->scene.stage());
 }
 
 void App::note(const std::string& text)

@@ -79,7 +79,7 @@ void App::perform(const KeyBinding& binding, Key key)
         m_timeline.play(!m_timeline.plays());
         break;
     case Action::StepScene:
-        m_timeline.step(m_world->stage());
+        m_timeline.step(m_world->scene.stage());
         break;
     case Action::ReloadShaders:
         reloadChangedShaders();
@@ -124,8 +124,8 @@ void App::perform(const KeyBinding& binding, Key key)
 void App::frameScene()
 {
     m_flight.stop();
-    m_camera.show(ViewCamera::framing(m_world->subject(), aspect()));
-    m_camera.setSubject(m_world->subject());
+    m_camera.show(ViewCamera::framing(m_world->subject, aspect()));
+    m_camera.setSubject(m_world->subject);
 }
 
 void App::copyCamera()

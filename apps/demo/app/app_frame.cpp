@@ -44,7 +44,7 @@ void App::draw()
     {
         // What this frame shows does not depend on which frames the device is done with.
         finishAll();
-        m_world->settle(worldSeconds());
+        m_world->scene.settle(worldSeconds());
     }
     Picture picture;
     picture.camera = m_camera.camera();
@@ -120,7 +120,7 @@ void App::submit(Picture& picture, Flight flight)
     flight.frame = m_drawn_count;
     flight.internal_scale = internalScale();
     flight.ray_count = m_renderer.rayCount();
-    flight.world_frame = m_world->beginFrame();
+    flight.world_frame = m_world->scene.beginFrame();
     vk::SubmitSync sync;
     if (picture.target != nullptr)
     {
@@ -131,14 +131,14 @@ void App::submit(Picture& picture, Flight flight)
         flight.submission = m_device.submit(
             [&](vk::FrameGraph& graph)
             {
-                m_world->update(graph, worldSeconds());
-                m_renderer.record(graph, *m_world, picture);
+                m_world->scene.update(graph, worldSeconds());
+                m_renderer.record(graph, m_world->scene.tree(), picture);
             },
             sync);
     }
     catch (...)
     {
-        m_world->frameLost();
+        m_world->scene.frameLost();
         m_renderer.forget();
         throw;
     }
@@ -150,7 +150,7 @@ void App::finishOldest()
     Flight flight = std::move(m_flights.front());
     m_flights.pop_front();
     const std::vector<vk::PassTime> passes = flight.submission.wait();
-    m_world->frameDone(flight.world_frame, passes);
+    m_world->scene.frameDone(flight.world_frame, passes);
     m_renderer.frameDone(flight.frame);
     m_swapchain.frameDone(flight.frame);
     m_stats.addPasses(passes, flight.ray_count);
@@ -205,8 +205,8 @@ void App::finishAll()
 MemoryUse App::memoryUse()
 {
     const vk::MemoryAllocator& memory = m_device.device().memory();
-    const WorldInfo& info = m_world->info();
-    return {info.geometry_bytes, info.attribute_bytes, m_renderer.pictureBytes(), memory.usedBytes(),
+    const StaticInfo& fixed = m_world->scene.info().fixed;
+    return {fixed.geometry_bytes, fixed.attribute_bytes, m_renderer.pictureBytes(), memory.usedBytes(),
             memory.heldBytes()};
 }
 
@@ -238,14 +238,15 @@ void App::writeStats()
         pass.update(timesOf(m_stats.pass(name)));
         json["passes"].push_back(std::move(pass));
     }
-    const WorldInfo& info = m_world->info();
-    json["scene"] = {{"name", info.name},
+    const DeviceTree& tree = m_world->scene.tree();
+    const StaticInfo& fixed = m_world->scene.info().fixed;
+    json["scene"] = {{"name", m_world->name},
                      {"seconds", worldSeconds()},
-                     {"structure", structureName(info.structure)},
-                     {"resolution", info.grid.resolution()},
-                     {"voxels", info.static_voxel_count},
-                     {"nodes", info.static_node_count},
-                     {"movers", info.mover_count}};
+                     {"structure", structureName(tree.structure)},
+                     {"resolution", tree.grid.resolution()},
+                     {"voxels", fixed.voxel_count},
+                     {"nodes", fixed.node_count},
+                     {"movers", m_world->scene.stage().movers.size()}};
     const MemoryUse memory = memoryUse();
     json["bytes"] = {{"geometry", memory.geometry},
                      {"attributes", memory.attributes},

@@ -83,7 +83,7 @@ void App::loadAtOnce(const WorldOptions& options)
     finishAll(); // loading uses the device, too
     try
     {
-        show(World::load(m_device, options), options);
+        show(World::make(m_device, options, World::read(options)), options);
     }
     catch (const std::exception& error)
     {
@@ -147,7 +147,7 @@ void App::show(std::unique_ptr<World> world, const WorldOptions& options)
     m_world_options = options;
     m_editor.release();
     m_inspected.reset();
-    m_camera.setSubject(m_world->subject());
+    m_camera.setSubject(m_world->subject);
     if (is_same)
     {
         return;
@@ -155,13 +155,13 @@ void App::show(std::unique_ptr<World> world, const WorldOptions& options)
     m_bookmarks = {};
     m_flight.stop();
     m_timeline.start(0);
-    m_camera.show(cli::chooseCamera("", m_world->stage(), m_world->subject(), aspect()));
+    m_camera.show(cli::chooseCamera("", m_world->scene.stage(), m_world->subject, aspect()));
     showTitle();
 }
 
 void App::request(const EditRequest& request)
 {
-    if (m_world->canEdit())
+    if (m_world->scene.canEdit())
     {
         m_editor.request(request, *m_world);
     }
@@ -187,12 +187,11 @@ void App::save()
     finishAll();
     try
     {
-        const std::string stem = std::filesystem::path(m_world->info().name).stem().string();
+        const std::string stem = std::filesystem::path(m_world->name).stem().string();
         const std::string name = freeName((stem.empty() ? "zvo" : stem) + "-edited");
-        m_world->settle(worldSeconds());
+        m_world->scene.settle(worldSeconds());
         cli::Output output(name, false);
-        writeZvo(m_world->copyTree(m_world->info().structure),
-                 [&output](std::span<const std::byte> bytes) { output.write(bytes); });
+        writeZvo(m_world->copyTree(m_device), [&output](std::span<const std::byte> bytes) { output.write(bytes); });
         output.finish();
         note("saved " + name);
     }

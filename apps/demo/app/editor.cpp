@@ -28,7 +28,7 @@ void Editor::handle(const InputEvent& event, const ViewCamera& camera, const glm
         m_stroke.release();
         m_drag.reset();
     }
-    else if (hasButton() && !button->modifiers.alt && world.canEdit())
+    else if (hasButton() && !button->modifiers.alt && world.scene.canEdit())
     {
         if (!m_stroke.isActive())
         {
@@ -69,13 +69,13 @@ void Editor::perform(Action action)
 
 void Editor::found(std::uint64_t look, const gpu::PixelReport& report, World& world)
 {
-    const bool has_voxel = report.hit != 0 && report.level == world.info().grid.nodeLevels();
+    const bool has_voxel = report.hit != 0 && report.level == world.scene.tree().grid.nodeLevels();
     if (m_stroke.found(look, has_voxel))
     {
         const glm::ivec3 voxel(report.cell);
         if (m_used.tool == Tool::Brush)
         {
-            world.request(m_used.brushAt(voxel));
+            world.scene.request(m_used.brushAt(voxel));
         }
         else if (m_stroke.isDown())
         {
@@ -95,11 +95,11 @@ void Editor::grab(const glm::ivec3& voxel, World& world)
     {
         return;
     }
-    const Grid& grid = world.info().grid;
+    const Grid& grid = world.scene.tree().grid;
     const glm::dvec3 point = glm::dvec3(grid.origin) + (glm::dvec3(voxel) + 0.5) * static_cast<double>(grid.voxel_size);
     if (const std::optional<std::size_t> mover = world.moverAt(point))
     {
-        m_drag = {*mover, point, world.offset(*mover)};
+        m_drag = {*mover, point, world.scene.offset(*mover)};
     }
 }
 
@@ -108,11 +108,11 @@ void Editor::finishStroke(World& world)
     m_drag.reset();
     if (m_used.tool == Tool::Brush)
     {
-        world.request(EndStroke{});
+        world.scene.request(EndStroke{});
     }
     for (const EditRequest& request : std::exchange(m_behind, {}))
     {
-        world.request(request);
+        world.scene.request(request);
     }
 }
 
@@ -124,7 +124,7 @@ void Editor::request(const EditRequest& request, World& world)
     }
     else
     {
-        world.request(request);
+        world.scene.request(request);
     }
 }
 
@@ -134,7 +134,7 @@ void Editor::drag(World& world)
     if (m_drag)
     {
         const glm::dvec3 point = onPlane(pointerRay(m_camera, m_pointer, m_size), m_camera, m_drag->grabbed);
-        world.setOffset(m_drag->mover, m_drag->offset + point - m_drag->grabbed);
+        world.scene.setOffset(m_drag->mover, m_drag->offset + point - m_drag->grabbed);
     }
 }
 

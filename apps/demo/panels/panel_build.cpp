@@ -63,14 +63,14 @@ BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Lo
         return answer;
     }
     WorldOptions wanted = options;
-    bool is_chosen = chooseResolution(wanted, world.info().grid.depth);
+    bool is_chosen = chooseResolution(wanted, world.scene.tree().grid.depth);
     std::size_t coverage = options.voxels.coverage == Coverage::Thin ? 0 : 1;
     if (chooseOne("coverage", kCoverageNames, coverage))
     {
         wanted.voxels.coverage = coverage == 0 ? Coverage::Thin : Coverage::Conservative;
         is_chosen = true;
     }
-    std::size_t structure = world.info().structure == TreeStructure::Svo ? 0 : 1;
+    std::size_t structure = world.scene.tree().isDag() ? 1 : 0;
     if (chooseOne("structure", kStructureNames, structure))
     {
         wanted.structure = structure == 0 ? TreeStructure::Svo : TreeStructure::Svdag;

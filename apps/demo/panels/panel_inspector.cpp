@@ -24,7 +24,7 @@ const char* faceName(std::uint32_t face)
 
 } // namespace
 
-void inspectorPanel(const std::optional<InspectedPixel>& pixel, const WorldInfo& info)
+void inspectorPanel(const std::optional<InspectedPixel>& pixel, const Grid& grid)
 {
     if (!ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen))
     {
@@ -41,7 +41,7 @@ void inspectorPanel(const std::optional<InspectedPixel>& pixel, const WorldInfo&
         return;
     }
     const gpu::PixelReport& report = pixel->report;
-    const std::uint32_t levels = info.grid.nodeLevels();
+    const std::uint32_t levels = grid.nodeLevels();
     const bool is_voxel = report.level == levels;
     tell(fmt::format("pixel {}, {}: {} {}, {}, {}", pixel->place.x, pixel->place.y, is_voxel ? "voxel" : "cell",
                      report.cell.x, report.cell.y, report.cell.z));

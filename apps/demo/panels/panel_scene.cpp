@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "common/report.h"
 #include "demo/panels/panel_text.h"
 #include "demo/panels/panels.h"
 
@@ -11,11 +12,11 @@ namespace zvo::demo
 namespace
 {
 
-void motionControls(const World& world, Timeline& timeline)
+void motionControls(const LiveScene& scene, Timeline& timeline)
 {
-    const WorldInfo& info = world.info();
-    tell(fmt::format("{} moving: {} voxels, overlay of {} nodes", info.mover_count, info.update.dynamic_count,
-                     info.update.node_count));
+    const UpdateReport& update = scene.info().update;
+    tell(fmt::format("{} moving: {} voxels, overlay of {} nodes", scene.stage().movers.size(), update.dynamic_count,
+                     update.node_count));
     if (ImGui::Button(timeline.plays() ? "stop" : "play"))
     {
         timeline.play(!timeline.plays());
@@ -23,15 +24,15 @@ void motionControls(const World& world, Timeline& timeline)
     ImGui::SameLine();
     if (ImGui::Button("step"))
     {
-        timeline.step(world.stage());
+        timeline.step(scene.stage());
     }
     auto speed = static_cast<float>(timeline.speed());
     if (ImGui::SliderFloat("speed", &speed, 0.0F, 4.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp))
     {
         timeline.setSpeed(double{speed});
     }
-    auto seconds = static_cast<float>(timeline.secondsIn(world.stage()));
-    if (ImGui::SliderFloat("time", &seconds, 0.0F, static_cast<float>(world.stage().seconds), "%.2f s",
+    auto seconds = static_cast<float>(timeline.secondsIn(scene.stage()));
+    if (ImGui::SliderFloat("time", &seconds, 0.0F, static_cast<float>(scene.stage().seconds), "%.2f s",
                            ImGuiSliderFlags_AlwaysClamp))
     {
         timeline.start(double{seconds});
@@ -46,32 +47,35 @@ void scenePanel(const World& world, Timeline& timeline)
     {
         return;
     }
-    const WorldInfo& info = world.info();
-    if (info.name.empty())
+    const LiveScene& scene = world.scene;
+    const StaticInfo& info = scene.info().fixed;
+    if (world.name.empty())
     {
         tell("drop a file onto the window");
         return;
     }
-    tell(fmt::format("{}: {} of {}^3", info.name, structureName(info.structure), info.grid.resolution()));
-    tell(fmt::format("{} voxels, {} nodes", info.static_voxel_count, info.static_node_count));
-    if (info.static_voxel_count != 0)
+    tell(fmt::format("{}: {} of {}^3", world.name, structureName(scene.tree().structure),
+                     scene.tree().grid.resolution()));
+    tell(fmt::format("{} voxels, {} nodes", info.voxel_count, info.node_count));
+    if (info.voxel_count != 0)
     {
-        const auto voxels = static_cast<double>(info.static_voxel_count);
+        const auto voxels = static_cast<double>(info.voxel_count);
         tell(fmt::format("bytes a voxel: geometry {:.2f}, attributes {:.2f}",
                          static_cast<double>(info.geometry_bytes) / voxels,
                          static_cast<double>(info.attribute_bytes) / voxels));
     }
-    if (info.build_ms > 0)
+    if (world.isVoxelized())
     {
-        tell(fmt::format("{} triangles, voxelized and built in {:.0f} ms", info.static_triangle_count, info.build_ms));
+        tell(fmt::format("{} triangles, voxelized and built in {:.0f} ms", info.triangle_count,
+                         cli::sumMs(info.passes) + cli::sumMs(info.compress_passes)));
     }
-    if (world.moves())
+    if (scene.moves())
     {
-        motionControls(world, timeline);
+        motionControls(scene, timeline);
     }
-    if (!world.trouble().empty())
+    if (!scene.trouble().empty())
     {
-        ImGui::TextWrapped("%s", world.trouble().c_str());
+        ImGui::TextWrapped("%s", scene.trouble().c_str());
     }
 }
 

@@ -53,10 +53,10 @@ ToolsAnswer toolsPanel(ToolState& state, const World& world)
         return answer;
     }
     choose(state.tool, kToolNames);
-    const Edits* const edits = world.edits();
+    const Edits* const edits = world.scene.edits();
     if (edits == nullptr)
     {
-        tell(world.info().name.empty() ? "nothing to edit" : "packed attributes: nothing can be edited");
+        tell(world.name.empty() ? "nothing to edit" : "packed attributes: nothing can be edited");
         return answer;
     }
     if (state.tool == Tool::Brush)

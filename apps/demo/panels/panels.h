@@ -82,7 +82,7 @@ struct InspectedPixel
 };
 
 /// What the pixel under the pointer shows.
-void inspectorPanel(const std::optional<InspectedPixel>& pixel, const WorldInfo& info);
+void inspectorPanel(const std::optional<InspectedPixel>& pixel, const Grid& grid);
 
 /// Why shaders do not compile, until the user closes it, which clears the message; nothing for no message.
 void shadersPanel(std::string& message);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "demo/world/loading.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 namespace zvo::demo
@@ -19,6 +22,14 @@ struct Cancelled
 Loading::Loading(WorldOptions options)
     : m_options(std::move(options)), m_input(std::async(std::launch::async, [this] { return World::read(m_options); }))
 {
+}
+
+double Loading::done() const
+{
+    constexpr std::pair<std::string_view, double> kBegins[] = {
+        {"copying to the device", 0.3}, {"voxelizing", 0.45}, {"compressing", 0.8}, {"copying what moves", 0.9}};
+    const auto* const begins = std::ranges::find(kBegins, m_step, [](const auto& begin) { return begin.first; });
+    return begins != std::end(kBegins) ? begins->second : 0;
 }
 
 bool Loading::isRead() const
@@ -50,16 +61,13 @@ std::unique_ptr<World> Loading::finish(vk::HeadlessDevice& device, double interv
             throw Cancelled();
         }
     };
-    const auto listen = [&](std::string_view step, double done)
-    {
-        m_step = step;
-        m_done = done;
-    };
+    StaticListener listener;
+    listener.step = [&](std::string_view step) { m_step = step; };
     std::unique_ptr<World> world;
     try
     {
         device.withPauses(pause, interval_ms,
-                          [&] { world = World::make(device, m_options, std::move(input), listen); });
+                          [&] { world = World::make(device, m_options, std::move(input), listener); });
     }
     catch (const Cancelled&)
     {

@@ -31,20 +31,19 @@ public:
     [[nodiscard]] bool isRead() const;
 
     /// Makes the world; frame is called again and again meanwhile, about every interval_ms, and draws what was shown
-    /// before. Null where it was cancelled. Throws as World::load(), and what frame throws.
+    /// before. Null where it was cancelled. Throws as World::make(), and what frame throws.
     std::unique_ptr<World> finish(vk::HeadlessDevice& device, double interval_ms, const std::function<void()>& frame);
 
     void cancel() { m_is_cancelled = true; }
 
-    /// What is being done, and how much of everything is done: 0 to 1.
+    /// What is being done, and how much of everything is done before that, more or less: 0 to 1.
     [[nodiscard]] const std::string& step() const { return m_step; }
-    [[nodiscard]] double done() const { return m_done; }
+    [[nodiscard]] double done() const;
 
 private:
     WorldOptions m_options;
     std::future<WorldInput> m_input;
     std::string m_step = "reading";
-    double m_done = 0;
     bool m_is_cancelled = false;
 };
 

@@ -24,9 +24,8 @@ std::uint64_t Renderer::pictureBytes() const
     return m_compose == nullptr ? 0 : m_tracer.buffers().bytes() + m_compose->bytes();
 }
 
-void Renderer::record(vk::FrameGraph& graph, const World& world, const Picture& picture)
+void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
 {
-    const DeviceTree& tree = world.tree();
     const TraceBuffers& buffers = m_tracer.buffers();
     const TraceCamera camera = traceCamera(picture.camera, tree.grid, buffers.height);
     const TraceOptions options = picture.view.traceOptions();

@@ -5,7 +5,6 @@
 #include "core/trace/tree_tracer.h"
 #include "demo/world/compose.h"
 #include "demo/world/view_state.h"
-#include "demo/world/world.h"
 #include "vk/headless.h"
 #include "vk/retired.h"
 #include "vk/swapchain.h"
@@ -47,8 +46,8 @@ public:
     /// pictures that the device's budget does not allow: then the last ones stay.
     void begin(std::uint64_t frame, const Picture& picture, bool encodes_srgb);
 
-    /// Records it.
-    void record(vk::FrameGraph& graph, const World& world, const Picture& picture);
+    /// Records it, of a tree.
+    void record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture);
 
     /// The device is done with that frame and all before it.
     void frameDone(std::uint64_t frame) { m_retired.frameDone(frame); }

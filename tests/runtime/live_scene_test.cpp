@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The scenes that come with zvo, as time goes by: updated octrees and their pictures against ones built anew. By
-// default some frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and ZVO_TEST_STAGE_FRAMES ask for more
-// (scripts/check-dynamic).
+// Scenes that live: brushes, offsets, and those that come with zvo, as time goes by: updated octrees and their pictures
+// against ones built anew. By default some frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and ZVO_TEST_STAGE_FRAMES ask
+// for more (scripts/check-dynamic).
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
-#include "runtime/stage_octree.h"
+#include "runtime/live_scene.h"
 #include "support/engine_device.h"
 #include "support/octree_contents.h"
 #include "support/scenes.h"
+#include "support/tree_samples.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,15 +56,88 @@ template <typename T> void append(std::vector<std::byte>& bytes, const std::vect
 
 // Everything static: nodes and lists with the copy of the root behind them, the nodes' averages, and the voxels'
 // attributes.
-std::vector<std::byte> staticBytes(StageOctree& stage)
+std::vector<std::byte> staticBytes(const DeviceTree& tree)
 {
-    const DeviceTree& tree = stage.tree();
-    const std::uint32_t root = stage.dynamic().staticRoot();
+    const std::uint32_t root = tree.overlays.static_root;
     std::vector<std::byte> bytes;
     append(bytes, device().download(tree.nodes, 1, root));
     append(bytes, device().download(tree.node_attributes, 1, tree.octreeNodeCount()));
     append(bytes, device().download(tree.voxel_attributes, 0, tree.voxel_count));
     return bytes;
+}
+
+constexpr Grid kGrid64 = {.origin = glm::vec3(0.0F), .voxel_size = 0.25F, .depth = 6};
+constexpr Brush kCarve = {BrushShape::Sphere, BrushAction::Carve, gpu::ivec3(20, 20, 20), 9, 0};
+
+// A box that stands still, and one that may move.
+Stage boxes(const glm::dvec3& place)
+{
+    Stage stage;
+    stage.fixed = test::boxScene(glm::vec3(2.0F), glm::vec3(6.0F));
+    stage.movers.emplace_back();
+    stage.movers.back().scene = test::boxScene(glm::vec3(3.0F), glm::vec3(7.0F));
+    stage.movers.back().place = glm::translate(glm::dmat4(1.0), place);
+    return stage;
+}
+
+std::string difference(const LiveScene& a, const LiveScene& b)
+{
+    return test::difference(test::cellsOf(device(), a.tree()), test::cellsOf(device(), b.tree()));
+}
+
+TEST(LiveScene, RecordsAgainWhatALostFrameWasToShow)
+{
+    LiveScene lost(device(), boxes({}), kGrid64, {});
+    LiveScene kept(device(), boxes({}), kGrid64, {});
+    for (LiveScene* const live : {&lost, &kept})
+    {
+        live->settle(0);
+        live->request(kCarve);
+        live->request(EndStroke{});
+    }
+    EXPECT_NE(lost.edits(), nullptr);
+    lost.beginFrame();
+    device().run([&](vk::FrameGraph& graph) { lost.update(graph, 0); });
+    lost.frameLost();
+    lost.settle(0);
+    kept.settle(0);
+    EXPECT_EQ(lost.edits()->undoCount(), 1U);
+    EXPECT_EQ(difference(lost, kept), "");
+    kept.request(UndoStroke{});
+    kept.settle(0);
+    EXPECT_NE(difference(lost, kept), "");
+    kept.request(RedoStroke{});
+    kept.settle(0);
+    EXPECT_EQ(difference(lost, kept), "");
+}
+
+TEST(LiveScene, PutsWhatMovesElsewhere)
+{
+    const glm::dvec3 by(2.0, 0.5, -1.0);
+    LiveScene moved(device(), boxes({}), kGrid64, {});
+    LiveScene there(device(), boxes(by), kGrid64, {});
+    moved.settle(0);
+    there.settle(0);
+    EXPECT_NE(difference(moved, there), "");
+    moved.setOffset(0, by);
+    moved.settle(0);
+    EXPECT_EQ(difference(moved, there), "");
+    EXPECT_EQ(moved.shownPose(0).transforms, there.shownPose(0).transforms);
+}
+
+TEST(LiveScene, MergesNothingWithPackedAttributes)
+{
+    for (const auto& [name, tree] : test::treeSamples())
+    {
+        SCOPED_TRACE(name);
+        LiveScene live(device(), tree, {});
+        EXPECT_EQ(live.canEdit(), !isPacked(tree.attributeForm()));
+        EXPECT_EQ(live.edits() != nullptr, live.canEdit());
+        EXPECT_TRUE(live.settle(0).passes.empty());
+        EXPECT_EQ(live.tree().voxel_count, tree.voxel_count);
+        EXPECT_EQ(live.info().fixed.voxel_count, tree.voxel_count);
+    }
+    EXPECT_FALSE(LiveScene(device()).canEdit());
 }
 
 // By name, and what is fixed as an octree or a DAG.
@@ -94,25 +169,24 @@ TEST_P(Stages, UpdatedIsRebuilt)
     const ViewCamera view = ViewCamera::lookAt(high + 0.7 * (high - low), 0.5 * (low + high), 0.8);
     TraceBuffers buffers(device().device(), 160, 90);
 
-    StageOctreeOptions options;
+    LiveOptions options;
     options.structure = structure;
-    StageOctree octree(device(), stage, grid, options);
-    EXPECT_EQ(octree.tree().isDag(), structure == TreeStructure::Svdag);
-    const std::vector<std::byte> static_before = staticBytes(octree);
+    LiveScene live(device(), Stage(stage), grid, options);
+    EXPECT_EQ(live.tree().isDag(), structure == TreeStructure::Svdag);
+    const std::vector<std::byte> static_before = staticBytes(live.tree());
     for (std::uint32_t i = 0; i < shown; ++i)
     {
         const std::uint32_t frame = i * frame_count / shown;
         SCOPED_TRACE(frame);
         const double seconds = frameTime(stage, frame);
-        const StageUpdate update = octree.update(seconds);
+        const LiveUpdate update = live.place(seconds);
         EXPECT_GT(update.report.dynamic_count, 0U);
         const GpuScene scene = uploadScene(device(), stageAt(stage, seconds), true, emission_scale);
         const BuildResult rebuilt = buildOctree(device(), scene, grid, {});
-        ASSERT_EQ(test::difference(test::cellsOf(device(), octree.tree()), test::cellsOf(device(), rebuilt.octree)),
-                  "");
-        EXPECT_EQ(pictureOf(octree.tree(), view, buffers), pictureOf(rebuilt.octree, view, buffers));
+        ASSERT_EQ(test::difference(test::cellsOf(device(), live.tree()), test::cellsOf(device(), rebuilt.octree)), "");
+        EXPECT_EQ(pictureOf(live.tree(), view, buffers), pictureOf(rebuilt.octree, view, buffers));
     }
-    EXPECT_TRUE(staticBytes(octree) == static_before);
+    EXPECT_TRUE(staticBytes(live.tree()) == static_before);
 }
 
 std::string nameOfCase(const testing::TestParamInfo<Stages::ParamType>& info)

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/live_scene.h"
+
+#include "core/upload/gpu_scene.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr std::uint32_t kAttemptsMax = 64; // everything doubles in two attempts at most
+
+// A pose moved by so much.
+Pose moved(Pose pose, const glm::dvec3& by)
+{
+    const glm::dmat4 move = glm::translate(glm::dmat4(1.0), by);
+    const auto place = [&](glm::mat4& matrix) { matrix = glm::mat4(move * glm::dmat4(matrix)); };
+    std::ranges::for_each(pose.transforms, place);
+    for (std::vector<glm::mat4>& joints : pose.joint_matrices)
+    {
+        std::ranges::for_each(joints, place);
+    }
+    return pose;
+}
+
+} // namespace
+
+float brightestEmission(const Stage& stage)
+{
+    float brightest = brightestEmission(stage.fixed);
+    for (const Mover& mover : stage.movers)
+    {
+        brightest = std::max(brightest, brightestEmission(mover.scene));
+    }
+    return brightest;
+}
+
+LiveScene::LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const LiveOptions& options)
+    : m_device(device), m_warn(options.warn), m_fixed(uploadTree(device, tree))
+{
+    m_info.fixed.voxel_count = tree.voxel_count;
+    m_info.fixed.node_count = tree.nodes.size();
+    m_info.fixed.geometry_bytes = tree.geometryBytes();
+    m_info.fixed.attribute_bytes = tree.attributeBytes();
+    if (isPacked(m_fixed.attributeForm()))
+    {
+        return;
+    }
+    DynamicOptions dynamic;
+    dynamic.merge = MergeRule::DynamicWins; // a file has no sums
+    dynamic.frames_in_flight = options.frames_in_flight;
+    dynamic.attributes = m_fixed.hasAttributes();
+    dynamic.emission_scale = m_fixed.emission.count() != 0 ? m_fixed.emission_scale : 0.0F;
+    m_dynamic = std::make_unique<DynamicOctree>(device, std::move(m_fixed), dynamic);
+}
+
+LiveScene::LiveScene(vk::HeadlessDevice& device, Stage stage, const Grid& grid, const LiveOptions& options,
+                     const StaticListener& listener)
+    : m_device(device), m_stage(std::move(stage)), m_warn(options.warn), m_offsets(m_stage.movers.size())
+{
+    DynamicOptions dynamic;
+    dynamic.coverage = options.coverage;
+    dynamic.merge = m_stage.movers.empty() ? MergeRule::DynamicWins : m_stage.merge; // which needs no sums
+    dynamic.frames_in_flight = options.frames_in_flight;
+    dynamic.attributes = options.attributes;
+    dynamic.emission_scale = brightestEmission(m_stage);
+    const bool keep_sums = options.attributes && dynamic.merge == MergeRule::Average;
+    Scene fixed = std::exchange(m_stage.fixed, {});
+    m_stage.fixed.cameras = fixed.cameras;
+    StaticPart part =
+        makeStaticPart(device, std::move(fixed), grid, {options.coverage, options.attributes, {}, keep_sums},
+                       options.structure, listener, dynamic.emission_scale);
+    m_info.fixed = std::move(part.info);
+    m_dynamic = std::make_unique<DynamicOctree>(device, std::move(part.tree), dynamic);
+    listener.step("copying what moves");
+    for (const Mover& mover : m_stage.movers)
+    {
+        m_info.moving_triangle_count += mover.scene.triangleCount();
+        m_movers.push_back(m_dynamic->add(uploadMover(device, mover.scene, options.attributes, dynamic.emission_scale),
+                                          moverPose(mover, 0.0)));
+    }
+}
+
+// What moves, where it is at a time of the stage.
+void LiveScene::updateMovers(vk::FrameGraph& graph, double seconds)
+{
+    if (m_shown_seconds != seconds)
+    {
+        for (std::size_t i = 0; i < m_movers.size(); ++i)
+        {
+            m_dynamic->place(m_movers[i], poseOf(i, seconds));
+        }
+    }
+    else if (!m_dynamic->needsUpdate() && !m_dynamic->isUpdating())
+    {
+        return;
+    }
+    m_shown_seconds = seconds;
+    m_dynamic->update(graph);
+    m_trouble.clear();
+}
+
+// Whether the octree took it.
+bool LiveScene::record(vk::FrameGraph& graph, const EditRequest& request)
+{
+    if (const auto* const brush = std::get_if<Brush>(&request))
+    {
+        return m_dynamic->edit(graph, *brush);
+    }
+    if (std::holds_alternative<EndStroke>(request))
+    {
+        m_dynamic->endStroke();
+    }
+    else if (std::holds_alternative<UndoStroke>(request))
+    {
+        m_dynamic->undoEdit(graph);
+    }
+    else
+    {
+        m_dynamic->redoEdit(graph);
+    }
+    return true;
+}
+
+// What brushes are to do, as far as it goes into a frame. A dab without memory is left out.
+void LiveScene::recordRequests(vk::FrameGraph& graph)
+{
+    for (std::uint32_t i = 0; i < kDabsPerFrameMax && !m_requests.empty(); ++i)
+    {
+        try
+        {
+            if (!record(graph, m_requests.front()))
+            {
+                return; // in a later frame
+            }
+            m_recorded.push_back(m_requests.front());
+        }
+        catch (const Error& error)
+        {
+            if (error.code() != ErrorCode::Memory)
+            {
+                throw;
+            }
+            m_warn(error.what());
+        }
+        m_requests.pop_front();
+    }
+}
+
+void LiveScene::update(vk::FrameGraph& graph, double seconds)
+{
+    m_recorded.clear();
+    recordRequests(graph);
+    if (moves() || (canEdit() && m_dynamic->needsUpdate()))
+    {
+        try
+        {
+            updateMovers(graph, seconds);
+        }
+        catch (const Error& error)
+        {
+            if (error.code() != ErrorCode::Memory)
+            {
+                throw;
+            }
+            m_trouble = error.what();
+        }
+    }
+}
+
+LiveUpdate LiveScene::settle(double seconds)
+{
+    LiveUpdate result;
+    if (!moves() && isSettled())
+    {
+        return result;
+    }
+    for (; result.retry_count < kAttemptsMax; ++result.retry_count)
+    {
+        const std::uint64_t frame = beginFrame();
+        try
+        {
+            result.passes = m_device.run([&](vk::FrameGraph& graph) { update(graph, seconds); });
+            frameDone(frame, result.passes);
+        }
+        catch (...)
+        {
+            frameLost();
+            throw;
+        }
+        if (isSettled())
+        {
+            result.report = m_info.update;
+            return result;
+        }
+    }
+    throw Error(ErrorCode::Memory,
+                fmt::format("movers and strokes found no room in {} attempts; lower the resolution", kAttemptsMax));
+}
+
+LiveUpdate LiveScene::place(double seconds)
+{
+    m_shown_seconds.reset();
+    LiveUpdate result = settle(seconds);
+    if (!m_trouble.empty())
+    {
+        throw Error(ErrorCode::Memory, m_trouble);
+    }
+    return result;
+}
+
+bool LiveScene::isSettled() const
+{
+    const bool is_shown = !canEdit() || !m_trouble.empty() || !m_dynamic->needsUpdate();
+    return is_shown && m_requests.empty();
+}
+
+void LiveScene::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)
+{
+    const auto reports = m_dynamic ? m_dynamic->frameDone(frame, passes) : std::vector<UpdateReport>();
+    if (!reports.empty())
+    {
+        m_info.update = reports.back();
+    }
+}
+
+void LiveScene::frameLost()
+{
+    if (canEdit())
+    {
+        m_dynamic->frameLost();
+    }
+    m_requests.insert(m_requests.begin(), m_recorded.begin(), m_recorded.end());
+    m_recorded.clear();
+}
+
+void LiveScene::setOffset(std::size_t mover, const glm::dvec3& offset)
+{
+    m_offsets[mover] = offset;
+    m_shown_seconds.reset();
+}
+
+Pose LiveScene::poseOf(std::size_t mover, double seconds) const
+{
+    Pose pose = moverPose(m_stage.movers[mover], seconds);
+    return m_offsets[mover] == glm::dvec3(0.0) ? pose : moved(std::move(pose), m_offsets[mover]);
+}
+
+} // namespace zvo

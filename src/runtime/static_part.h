@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/base/grid.h"
+#include "core/headless/pipeline.h"
+#include "core/scene/scene.h"
+#include "core/tree/device_tree.h"
+#include "vk/headless.h"
+#include "zvo/types.h"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace zvo
+{
+
+/// Is told what is done next, and shown the octree before it is compressed.
+struct StaticListener
+{
+    std::function<void(std::string_view)> step = [](std::string_view) {};
+    std::function<void(const BuildResult&)> built = [](const BuildResult&) {};
+};
+
+/// What a static part came to.
+struct StaticInfo
+{
+    std::uint64_t triangle_count = 0;
+    std::uint64_t voxel_count = 0;
+    std::uint64_t node_count = 0;
+    std::uint64_t geometry_bytes = 0; // nodes; of a DAG lists, too
+    std::uint64_t attribute_bytes = 0;
+    std::map<std::string, std::uint64_t> dropped = {}; // triangles left out, by reason
+    std::vector<vk::PassTime> passes = {};             // of voxelization and construction; none: it came out of a file
+    std::vector<vk::PassTime> compress_passes = {};    // of a DAG
+};
+
+/// What stands still, in device memory.
+struct StaticPart
+{
+    DeviceTree tree;
+    StaticInfo info;
+};
+
+/// Uploads scene, voxelizes it and, for a DAG, compresses what comes of it. Waits. emission_scale: as of uploadScene().
+/// Throws Error{Memory}.
+StaticPart makeStaticPart(vk::HeadlessDevice& device, Scene scene, const Grid& grid, const BuildOptions& options,
+                          TreeStructure structure, const StaticListener& listener = {},
+                          std::optional<float> emission_scale = std::nullopt);
+
+} // namespace zvo
