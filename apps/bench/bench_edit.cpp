@@ -11,10 +11,8 @@
 #include "core/base/kernels.h"
 #include "core/base/morton.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/compress.h"
-#include "core/tree/device_tree.h"
 #include "core/tree/tree_data.h"
-#include "core/upload/gpu_scene.h"
+#include "runtime/static_part.h"
 #include "zvo/error.h"
 #include "zvo/version.h"
 
@@ -188,24 +186,22 @@ bool dabs(const std::string& pass)
 class Canvas
 {
 public:
-    Canvas(vk::HeadlessDevice& device, const BenchOptions& options, const GpuScene& scene, const Grid& grid)
+    Canvas(vk::HeadlessDevice& device, const BenchOptions& options, const Scene& scene, const Grid& grid)
         : m_device(device)
     {
-        BuildOptions build;
-        build.coverage = options.coverage;
-        build.attributes = options.attributes;
-        BuildResult built = buildOctree(device, scene, grid, build);
-        if (built.octree.voxel_count == 0)
+        StaticListener listener;
+        listener.built = [&](const BuildResult& built) { m_codes = voxelCodes(device, built.octree); };
+        DeviceTree fixed =
+            makeStaticPart(device, scene, grid, {options.coverage, options.attributes, {}}, options.structure, listener)
+                .tree;
+        if (m_codes.empty())
         {
             throw Error(ErrorCode::Input, "there are no voxels to edit");
         }
-        m_codes = voxelCodes(device, built.octree);
         DynamicOptions dynamic;
         dynamic.attributes = options.attributes;
-        dynamic.emission_scale = built.octree.emission.count() != 0 ? built.octree.emission_scale : 0;
+        dynamic.emission_scale = fixed.emission.count() != 0 ? fixed.emission_scale : 0;
         dynamic.edits = kBounds;
-        DeviceTree fixed = options.structure == TreeStructure::Svdag ? compress(device, std::move(built.octree)).dag
-                                                                     : std::move(built.octree);
         m_octree = std::make_unique<DynamicOctree>(device, std::move(fixed), dynamic);
     }
 
@@ -343,14 +339,14 @@ std::vector<HistoryRow> measureHistory(Canvas& canvas, Progress& progress)
 }
 
 EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const std::string& name, const Scene& scene,
-                const GpuScene& gpu_scene, std::uint32_t depth, Progress& progress)
+                std::uint32_t depth, Progress& progress)
 {
     const Grid grid = Grid::around(scene.bounds(), depth);
     EditRow row;
     row.scene = name;
     row.resolution = grid.resolution();
     {
-        Canvas canvas(device, options, gpu_scene, grid);
+        Canvas canvas(device, options, scene, grid);
         row.voxels = canvas.voxelCount();
         for (const std::uint32_t radius : kRadii)
         {
@@ -361,7 +357,7 @@ EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const s
             }
         }
     }
-    Canvas canvas(device, options, gpu_scene, grid);
+    Canvas canvas(device, options, scene, grid);
     row.history = measureHistory(canvas, progress);
     return row;
 }
@@ -428,10 +424,9 @@ void benchEdit(const BenchOptions& options)
     for (const fs::path& path : paths)
     {
         const Scene scene = loadWithWarnings(std::span(&path, 1), options.load);
-        const GpuScene gpu_scene = uploadScene(device, scene, options.attributes);
         for (const std::uint32_t depth : depths)
         {
-            rows.push_back(measure(device, options, path.stem().string(), scene, gpu_scene, depth, progress));
+            rows.push_back(measure(device, options, path.stem().string(), scene, depth, progress));
         }
     }
     clearProgressBar();

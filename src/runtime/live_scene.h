@@ -70,7 +70,7 @@ public:
     /// A scene of nothing, with which nothing can be merged.
     explicit LiveScene(vk::HeadlessDevice& device) : m_device(device) {}
 
-    /// What a file holds; of options, what is under way and warnings count. Packed attributes cannot be merged with
+    /// What a file holds. Of options, frames_in_flight and warn count. Packed attributes cannot be merged with
     /// anything. Throws Error{Memory}.
     LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const LiveOptions& options);
 
