@@ -140,8 +140,8 @@ Scene diagonalSlivers(std::uint32_t resolution)
     std::vector<glm::vec3> corners;
     for (int i = 0; i < 4 * kRows * kRows; ++i)
     {
-        const glm::vec2 place = glm::vec2(i / 4 % kRows, i / 4 / kRows) * (spread / kRows);
-        glm::vec3 triangle[3] = {{place, 0}, {place + (edge - spread), edge}, {place, 0}};
+        const glm::vec2 base = glm::vec2(i / 4 % kRows, i / 4 / kRows) * (spread / kRows);
+        glm::vec3 triangle[3] = {{base, 0}, {base + (edge - spread), edge}, {base, 0}};
         triangle[2].z += 2;
         for (glm::vec3& corner : triangle)
         {

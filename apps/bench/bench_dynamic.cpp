@@ -156,17 +156,18 @@ public:
         m_tracer.resize(kWidth, kHeight);
     }
 
-    DynamicRow measure(const std::string& name, const Stage& stage, std::uint32_t depth, Progress& progress)
+    DynamicRow measure(const std::string& name, const AnimatedScene& animated, std::uint32_t depth, Progress& progress)
     {
-        const Bounds bounds = stageBounds(stage);
-        const Grid grid = stage.grid_bounds ? Grid::withCorner(*stage.grid_bounds, depth) : Grid::around(bounds, depth);
+        const Bounds bounds = boundsOverTime(animated);
+        const Grid grid =
+            animated.grid_bounds ? Grid::withCorner(*animated.grid_bounds, depth) : Grid::around(bounds, depth);
         const ViewCamera view =
-            chooseCamera(m_options.camera, stage, subjectOf(bounds, grid), double{kWidth} / kHeight);
+            chooseCamera(m_options.camera, animated, subjectOf(bounds, grid), double{kWidth} / kHeight);
         const TraceCamera camera = traceCamera(view, grid, kHeight);
         DynamicRow row;
         row.scene = name;
         row.resolution = grid.resolution();
-        LiveScene live(m_device, Stage(stage), grid, liveOptions());
+        LiveScene live(m_device, AnimatedScene(animated), grid, liveOptions());
         const StaticInfo& fixed = live.info().fixed;
         row.triangles_static = fixed.triangle_count;
         row.triangles_dynamic = live.info().moving_triangle_count;
@@ -176,10 +177,10 @@ public:
         row.voxelize_ms = operationMs(fixed.passes, "voxelize");
         row.build_ms = operationMs(fixed.passes, "octree");
         row.frame_count =
-            static_cast<std::uint32_t>(std::max(1.0, std::round(stage.seconds * stage.frames_per_second)));
-        measureFrames(stage, live, row, progress);
-        measureRebuilds(stage, live, camera, row, progress);
-        measureEnlarged(stage, grid, row, progress);
+            static_cast<std::uint32_t>(std::max(1.0, std::round(animated.seconds * animated.frames_per_second)));
+        measureFrames(animated, live, row, progress);
+        measureRebuilds(animated, live, camera, row, progress);
+        measureEnlarged(animated, grid, row, progress);
         return row;
     }
 
@@ -190,15 +191,15 @@ private:
     }
 
     // Every frame once, after one that finds out how much room it takes.
-    void measureFrames(const Stage& stage, LiveScene& live, DynamicRow& row, Progress& progress)
+    void measureFrames(const AnimatedScene& animated, LiveScene& live, DynamicRow& row, Progress& progress)
     {
         std::vector<double> voxelize_ms;
         std::vector<double> update_ms;
-        live.place(frameTime(stage, row.frame_count - 1));
+        live.place(frameTime(animated, row.frame_count - 1));
         for (std::uint32_t frame = 0; frame < row.frame_count; ++frame)
         {
             progress.step(fmt::format("{} at {}: frame {}", row.scene, row.resolution, frame));
-            const LiveUpdate update = live.place(frameTime(stage, frame));
+            const LiveUpdate update = live.place(frameTime(animated, frame));
             row.retry_count += update.retry_count;
             if (update.retry_count != 0 && frame + 1 < row.frame_count)
             {
@@ -218,8 +219,8 @@ private:
         row.update_ms = Spread::of(update_ms);
     }
 
-    // At times spread evenly over the stage. Pictures of both octrees are traced in turns.
-    void measureRebuilds(const Stage& stage, LiveScene& live, const TraceCamera& camera, DynamicRow& row,
+    // At times spread evenly over the animated scene. Pictures of both octrees are traced in turns.
+    void measureRebuilds(const AnimatedScene& animated, LiveScene& live, const TraceCamera& camera, DynamicRow& row,
                          Progress& progress)
     {
         std::vector<double> rebuild_ms;
@@ -227,29 +228,29 @@ private:
         std::vector<double> rebuilt_trace_ms;
         std::vector<double> merged_trace_ms;
         const Grid grid = live.tree().grid;
-        Stage moving;
-        moving.movers = stage.movers;
+        AnimatedScene moving;
+        moving.objects = animated.objects;
         BuildOptions build;
         build.coverage = m_options.coverage;
         build.attributes = m_options.attributes;
         BuildOptions moving_build = build;
-        const auto rebuild = [&](const Stage& what, std::uint32_t frame, BuildOptions& options)
+        const auto rebuild = [&](const AnimatedScene& what, std::uint32_t frame, BuildOptions& options)
         {
-            const GpuScene scene = uploadScene(m_device, stageAt(what, frameTime(stage, frame)), m_options.attributes,
-                                               brightestEmission(stage));
+            const GpuScene scene = uploadScene(m_device, sceneAt(what, frameTime(animated, frame)),
+                                               m_options.attributes, brightestEmission(animated));
             BuildResult built = buildOctree(m_device, scene, grid, options);
             options.capacities = built.capacities; // warm from the second time on
             return built;
         };
-        rebuild(stage, 0, build);
+        rebuild(animated, 0, build);
         rebuild(moving, 0, moving_build);
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
             progress.step(fmt::format("{} at {}: rebuild {}", row.scene, row.resolution, run));
             const std::uint32_t frame = run * row.frame_count / m_options.run_count;
-            const BuildResult built = rebuild(stage, frame, build);
+            const BuildResult built = rebuild(animated, frame, build);
             rebuild_ms.push_back(sumMs(built.passes));
-            live.place(frameTime(stage, frame));
+            live.place(frameTime(animated, frame));
             for (std::uint32_t turn = 0; turn < kTraceTurns; ++turn)
             {
                 merged_trace_ms.push_back(traceMs(live.tree(), camera));
@@ -264,21 +265,21 @@ private:
     }
 
     // Some frames in a grid four times as large with voxels of the same size.
-    void measureEnlarged(const Stage& stage, Grid grid, DynamicRow& row, Progress& progress)
+    void measureEnlarged(const AnimatedScene& animated, Grid grid, DynamicRow& row, Progress& progress)
     {
         grid.depth += 2;
         if (grid.depth > Grid::kDepthMax)
         {
             return;
         }
-        LiveScene live(m_device, Stage(stage), grid, liveOptions());
+        LiveScene live(m_device, AnimatedScene(animated), grid, liveOptions());
         std::vector<double> enlarged_ms;
-        live.place(frameTime(stage, row.frame_count - 1));
+        live.place(frameTime(animated, row.frame_count - 1));
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
             progress.step(fmt::format("{} in {}: update {}", row.scene, grid.resolution(), run));
             const std::uint32_t frame = run * row.frame_count / m_options.run_count;
-            enlarged_ms.push_back(sumMs(live.place(frameTime(stage, frame)).passes));
+            enlarged_ms.push_back(sumMs(live.place(frameTime(animated, frame)).passes));
         }
         row.enlarged_ms = Spread::of(enlarged_ms);
     }
@@ -330,7 +331,7 @@ Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, con
 void benchDynamic(const BenchOptions& options)
 {
     std::optional<Output> report = openReport(options.output);
-    std::vector<Stage> stages;
+    std::vector<AnimatedScene> scenes;
     std::size_t steps = 0;
     for (const std::filesystem::path& path : options.scenes)
     {
@@ -338,9 +339,9 @@ void benchDynamic(const BenchOptions& options)
         voxels.scenes = {path};
         voxels.load = options.load;
         voxels.scenes_folder = options.scene_folder;
-        stages.push_back(loadStageWithWarnings(voxels, true));
+        scenes.push_back(loadAnimatedSceneWithWarnings(voxels, true));
         steps +=
-            static_cast<std::size_t>(stages.back().seconds * stages.back().frames_per_second) + 2 * options.run_count;
+            static_cast<std::size_t>(scenes.back().seconds * scenes.back().frames_per_second) + 2 * options.run_count;
     }
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     Output table("-", true);
@@ -352,12 +353,12 @@ void benchDynamic(const BenchOptions& options)
     DynamicBench measurements(options, device);
     std::vector<DynamicRow> rows;
     Progress progress(steps * options.depths.value_or(std::vector{kDepth}).size());
-    for (std::size_t i = 0; i < stages.size(); ++i)
+    for (std::size_t i = 0; i < scenes.size(); ++i)
     {
         const std::string name = options.scenes[i].stem().stem().string();
-        for (const std::uint32_t depth : options.depths.value_or(std::vector{stages[i].grid_depth.value_or(kDepth)}))
+        for (const std::uint32_t depth : options.depths.value_or(std::vector{scenes[i].grid_depth.value_or(kDepth)}))
         {
-            rows.push_back(measurements.measure(name, stages[i], depth, progress));
+            rows.push_back(measurements.measure(name, scenes[i], depth, progress));
             if (show_table)
             {
                 clearProgressBar();

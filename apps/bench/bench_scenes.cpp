@@ -100,7 +100,7 @@ void checkPresent(const std::vector<fs::path>& paths)
 {
     for (const fs::path& path : paths)
     {
-        if (isStageFile(path))
+        if (isSceneFile(path))
         {
             throw Error(ErrorCode::Usage,
                         fmt::format("{} is a scene file, which bench measures with --dynamic", path.string()));

@@ -19,7 +19,7 @@ constexpr float kVoxelSizeMin = 1e-35F; // 256 / voxel_size must be a finite num
 constexpr const char* kAttributesHelp =
     "colour, normal and emission of the voxels, or only their places (default full)";
 
-GridPlace parseGridPlace(std::string_view option, std::string_view text)
+GridPosition parseGridPosition(std::string_view option, std::string_view text)
 {
     const std::vector<float> v = parseFloats(option, text);
     if (v.size() != 4 || v[3] < kVoxelSizeMin)
@@ -84,10 +84,10 @@ void addAttributesOption(CLI::App& app, bool& attributes)
     addValue(app, "--attributes", attributes, parseAttributes, "full|none", kAttributesHelp);
 }
 
-void addAttributesOption(CLI::App& app, AttributeForm& attributes)
+void addAttributesOption(CLI::App& app, AttributeFormat& attributes)
 {
     const auto parse = [](std::string_view option, std::string_view text)
-    { return parseAttributes(option, text) ? AttributeForm::Bytes8 : AttributeForm::None; };
+    { return parseAttributes(option, text) ? AttributeFormat::Bytes8 : AttributeFormat::None; };
     addValue(app, "--attributes", attributes, parse, "full|none", kAttributesHelp);
 }
 
@@ -123,7 +123,7 @@ void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& al
     addCoverageOption(app, options.coverage);
     addValue(app, "--bounds", options.bounds, parseBounds, "x0,y0,z0,x1,y1,z1",
              "the grid is the cube from corner 0 on, as long as the box's longest edge");
-    addValue(app, "--grid", options.grid_place, parseGridPlace, "x,y,z,SIZE",
+    addValue(app, "--grid", options.grid_position, parseGridPosition, "x,y,z,SIZE",
              "the grid has exactly this origin and voxel size, as a JSON report states them");
 }
 

@@ -33,7 +33,7 @@ std::string oneOf(std::string_view option, std::string_view text, std::initializ
 void addDeviceOptions(CLI::App& app, DeviceOptions& options);
 void addCoverageOption(CLI::App& app, Coverage& coverage);
 void addAttributesOption(CLI::App& app, bool& attributes);
-void addAttributesOption(CLI::App& app, AttributeForm& attributes); // Bytes8 or None
+void addAttributesOption(CLI::App& app, AttributeFormat& attributes); // Bytes8 or None
 void addStructureOption(CLI::App& app, TreeStructure& structure);
 void addLoadOptions(CLI::App& app, LoadOptions& options);
 

@@ -54,7 +54,7 @@ std::optional<Output> openReport(const OutputOptions& options)
     return options.json.empty() ? std::nullopt : std::optional<Output>(std::in_place, options.json, options.overwrite);
 }
 
-void checkPlaces(const OutputOptions& options, std::span<const std::filesystem::path> inputs)
+void checkPaths(const OutputOptions& options, std::span<const std::filesystem::path> inputs)
 {
     const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b)
     {

@@ -35,7 +35,7 @@ private:
 std::optional<Output> openReport(const OutputOptions& options);
 
 /// Throws Error{Usage} if two results go to one place, or if one would overwrite an input.
-void checkPlaces(const OutputOptions& options, std::span<const std::filesystem::path> inputs);
+void checkPaths(const OutputOptions& options, std::span<const std::filesystem::path> inputs);
 
 /// The extension of a path in lower case, with its dot.
 std::string extensionOf(const std::string& path);

@@ -242,14 +242,14 @@ bool parseAttributes(std::string_view option, std::string_view text)
     return text == "full";
 }
 
-AttributeForm parseAttributeForm(std::string_view option, std::string_view text)
+AttributeFormat parseAttributeFormat(std::string_view option, std::string_view text)
 {
-    for (const AttributeForm form :
-         {AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8, AttributeForm::Blocks})
+    for (const AttributeFormat format :
+         {AttributeFormat::None, AttributeFormat::Bytes4, AttributeFormat::Bytes8, AttributeFormat::Blocks})
     {
-        if (text == formName(form))
+        if (text == formatName(format))
         {
-            return form;
+            return format;
         }
     }
     throw valueError(option, text, "none, 4, 8 or block");

@@ -63,7 +63,7 @@ UpAxis parseUpAxis(std::string_view option, std::string_view text);
 bool parseAttributes(std::string_view option, std::string_view text);
 
 /// "none", "4", "8" or "block".
-AttributeForm parseAttributeForm(std::string_view option, std::string_view text);
+AttributeFormat parseAttributeFormat(std::string_view option, std::string_view text);
 
 /// "svo" or "svdag".
 TreeStructure parseStructure(std::string_view option, std::string_view text);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
-#include "core/tree/attribute_form.h"
+#include "core/tree/attribute_format.h"
 #include "io/scene/load_scene.h"
 #include "zvo/tree.h"
 #include "zvo/types.h"
@@ -28,7 +28,7 @@ struct DeviceOptions
 };
 
 /// A grid's place as a report states it.
-struct GridPlace
+struct GridPosition
 {
     glm::vec3 origin{0.0F};
     float voxel_size = 1.0F;
@@ -43,11 +43,11 @@ struct VoxelOptions
     std::optional<double> time;                         // seconds, from 0 on
     std::optional<std::uint32_t> depth;                 // not given: the scene file's, or 9
     Coverage coverage = TreeBuildInfo().coverage;
-    AttributeForm attributes = AttributeForm::Bytes8; // of the voxels; packed ones are of build alone
-    std::optional<Bounds> bounds;                     // the cube from this box's minimum corner on
-    std::optional<GridPlace> grid_place;              // exactly this grid; neither: the cube around the scene
+    AttributeFormat attributes = AttributeFormat::Bytes8; // of the voxels; packed ones are of build alone
+    std::optional<Bounds> bounds;                         // the cube from this box's minimum corner on
+    std::optional<GridPosition> grid_position;            // exactly this grid; neither: the cube around the scene
 
-    [[nodiscard]] bool hasAttributes() const { return attributes != AttributeForm::None; }
+    [[nodiscard]] bool hasAttributes() const { return attributes != AttributeFormat::None; }
 };
 
 /// Where results go. "-" is standard output.

@@ -57,7 +57,7 @@ std::map<std::string, std::uint64_t> senselessAmong(std::map<std::string, std::u
 }
 
 // Options that a scene file takes no notice of must not look as if it did.
-void checkStageOptions(const VoxelOptions& options)
+void checkSceneFileOptions(const VoxelOptions& options)
 {
     if (options.scenes.size() > 1)
     {
@@ -100,52 +100,53 @@ Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadO
     return scene;
 }
 
-Stage loadStageWithWarnings(const VoxelOptions& options, bool in_motion)
+AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in_motion)
 {
-    const bool is_stage_file = std::any_of(options.scenes.begin(), options.scenes.end(), isStageFile);
-    if (!is_stage_file && options.scenes_folder)
+    const bool is_scene_file = std::any_of(options.scenes.begin(), options.scenes.end(), isSceneFile);
+    if (!is_scene_file && options.scenes_folder)
     {
         throw Error(ErrorCode::Usage, "--scenes goes with a scene file (.scene.json)");
     }
-    Stage stage;
-    if (is_stage_file)
+    AnimatedScene animated;
+    if (is_scene_file)
     {
-        checkStageOptions(options);
-        stage = loadStage(options.scenes.front(), {options.scenes_folder, "--scenes", options.load});
+        checkSceneFileOptions(options);
+        animated = loadAnimatedScene(options.scenes.front(), {options.scenes_folder, "--scenes", options.load});
     }
     else if (in_motion)
     {
-        stage = stageOf(loadScene(options.scenes, options.load), options.scenes.front().stem().string());
-        stage.files = options.scenes;
+        animated = animatedSceneOf(loadScene(options.scenes, options.load), options.scenes.front().stem().string());
+        animated.files = options.scenes;
     }
     else
     {
-        stage.fixed = loadScene(options.scenes, options.load);
-        stage.files = options.scenes;
-        tellWarnings(stage.fixed.warnings);
-        tellWarnings(stage.fixed.rest_warnings);
+        animated.fixed = loadScene(options.scenes, options.load);
+        animated.files = options.scenes;
+        tellWarnings(animated.fixed.warnings);
+        tellWarnings(animated.fixed.rest_warnings);
     }
-    tellWarnings(stage.warnings);
-    const bool has_triangles = stage.fixed.triangleCount() != 0 ||
-                               std::any_of(stage.movers.begin(), stage.movers.end(),
-                                           [](const Mover& mover) { return mover.scene.triangleCount() != 0; });
+    tellWarnings(animated.warnings);
+    const bool has_triangles =
+        animated.fixed.triangleCount() != 0 ||
+        std::any_of(animated.objects.begin(), animated.objects.end(),
+                    [](const DynamicObject& object) { return object.scene.triangleCount() != 0; });
     warnOfNothing(has_triangles);
-    if (options.time && stage.movers.empty())
+    if (options.time && animated.objects.empty())
     {
         talk("warning: nothing moves in this scene, it is the same at every --time");
     }
-    return stage;
+    return animated;
 }
 
-Grid placeGrid(const VoxelOptions& options, const Stage& stage, const Bounds& bounds)
+Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const Bounds& bounds)
 {
     constexpr std::uint32_t kDefaultDepth = 9;
-    const std::uint32_t depth = options.depth.value_or(stage.grid_depth.value_or(kDefaultDepth));
-    if (options.grid_place)
+    const std::uint32_t depth = options.depth.value_or(animated.grid_depth.value_or(kDefaultDepth));
+    if (options.grid_position)
     {
-        return {options.grid_place->origin, options.grid_place->voxel_size, depth};
+        return {options.grid_position->origin, options.grid_position->voxel_size, depth};
     }
-    const std::optional<Bounds>& wanted = options.bounds ? options.bounds : stage.grid_bounds;
+    const std::optional<Bounds>& wanted = options.bounds ? options.bounds : animated.grid_bounds;
     return wanted ? Grid::withCorner(*wanted, depth) : Grid::around(bounds, depth);
 }
 
@@ -165,7 +166,7 @@ bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::u
     return told;
 }
 
-bool warnOfDroppedMovers(double seconds, const std::map<std::string, std::uint64_t>& dropped)
+bool warnOfDroppedTriangles(double seconds, const std::map<std::string, std::uint64_t>& dropped)
 {
     std::vector<std::string> counts;
     for (const auto& [reason, count] : senselessAmong(dropped))
@@ -179,13 +180,13 @@ bool warnOfDroppedMovers(double seconds, const std::map<std::string, std::uint64
     return !counts.empty();
 }
 
-void warnOfMergeRule(const Stage& stage)
+void warnOfMergeRule(const AnimatedScene& animated)
 {
-    if (!stage.movers.empty() && stage.merge != MergeRule::Average)
+    if (!animated.objects.empty() && animated.merge != MergeRule::Average)
     {
         talk(fmt::format("warning: everything is voxelized together, which averages where objects overlap; the scene "
                          "file's merge, {}, has no effect",
-                         mergeRuleName(stage.merge)));
+                         mergeRuleName(animated.merge)));
     }
 }
 

@@ -95,8 +95,8 @@ ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bou
     if (wanted == "close")
     {
         ViewCamera camera = ViewCamera::framing(subject, aspect);
-        const glm::dvec3 centre = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
-        camera.position = centre + kCloseDistance * (camera.position - centre);
+        const glm::dvec3 center = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
+        camera.position = center + kCloseDistance * (camera.position - center);
         return camera;
     }
     if (const auto numbers = tryParseFloats(wanted))
@@ -106,14 +106,15 @@ ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bou
     throw noSuchCamera(wanted, scene);
 }
 
-ViewCamera chooseCamera(const std::string& wanted, const Stage& stage, const Bounds& subject, double aspect)
+ViewCamera chooseCamera(const std::string& wanted, const AnimatedScene& animated, const Bounds& subject, double aspect)
 {
-    if (!wanted.empty() || !stage.camera)
+    if (!wanted.empty() || !animated.camera)
     {
-        return chooseCamera(wanted, stage.fixed, subject, aspect);
+        return chooseCamera(wanted, animated.fixed, subject, aspect);
     }
-    const auto* const view = std::get_if<ViewCamera>(&*stage.camera);
-    return view != nullptr ? *view : chooseCamera(std::get<std::string>(*stage.camera), stage.fixed, subject, aspect);
+    const auto* const view = std::get_if<ViewCamera>(&*animated.camera);
+    return view != nullptr ? *view
+                           : chooseCamera(std::get<std::string>(*animated.camera), animated.fixed, subject, aspect);
 }
 
 View viewOf(std::string_view option, std::string_view name)

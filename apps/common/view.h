@@ -3,7 +3,7 @@
 
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
-#include "io/scene/stage.h"
+#include "io/scene/animated_scene.h"
 
 #include <span>
 #include <string>
@@ -21,8 +21,8 @@ Bounds subjectOf(const Bounds& scene, const Grid& grid);
 /// Throws Error{Usage} where there is no such camera.
 ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect);
 
-/// The same of a stage, whose own camera comes before the first one of what is fixed in it.
-ViewCamera chooseCamera(const std::string& wanted, const Stage& stage, const Bounds& subject, double aspect);
+/// The same of an animated scene, whose own camera comes before the first one of what is fixed in it.
+ViewCamera chooseCamera(const std::string& wanted, const AnimatedScene& animated, const Bounds& subject, double aspect);
 
 /// A camera by eye, target and, if it is there, vertical field of view in degrees. Throws Error{Usage} where they are
 /// not six or seven numbers, or make no camera.

@@ -79,7 +79,7 @@ Json builtJson(vk::HeadlessDevice& device, const BuildFileOptions& options, std:
     Json json = headJson("zvo.build/1", device.device().report(), options.voxels, tree.grid);
     json["scene"] = {{"triangles", triangle_count}, {"dropped", dropped}};
     json["structure"] = structureName(tree.structure);
-    json["attribute_form"] = formName(tree.attributeForm());
+    json["attribute_form"] = formatName(tree.attributeFormat());
     json["voxels"] = tree.voxel_count;
     json["nodes"] = tree.octree_node_count;
     json["nodes_stored"] = tree.nodes.size();
@@ -105,17 +105,17 @@ Json builtJson(vk::HeadlessDevice& device, const BuildFileOptions& options, std:
 void buildFile(const BuildFileOptions& options)
 {
     checkName(options.output);
-    checkPlaces(options.output, options.voxels.scenes);
+    checkPaths(options.output, options.voxels.scenes);
     Output output(options.output.path, options.output.overwrite);
     std::optional<Output> report = openReport(options.output);
 
     Progress progress(4);
     progress.step("loading");
-    Stage stage = loadStageWithWarnings(options.voxels, options.voxels.time.has_value());
-    checkPlaces(options.output, stage.files);
-    warnOfMergeRule(stage);
-    const Grid grid = placeGrid(options.voxels, stage, stageBounds(stage));
-    Scene scene = stageAt(std::move(stage), loopedTime(stage, options.voxels.time.value_or(0.0)));
+    AnimatedScene animated = loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value());
+    checkPaths(options.output, animated.files);
+    warnOfMergeRule(animated);
+    const Grid grid = placeGrid(options.voxels, animated, boundsOverTime(animated));
+    Scene scene = sceneAt(std::move(animated), loopedTime(animated, options.voxels.time.value_or(0.0)));
     const std::uint64_t triangle_count = scene.triangleCount();
 
     progress.step("copying to the device");

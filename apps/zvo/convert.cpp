@@ -80,7 +80,7 @@ void writeTree(const TreeData& tree, const std::string& format, Output& output)
 void convert(const ConvertOptions& options)
 {
     const std::string format = formatOf(options);
-    checkPlaces(options.output, std::span(&options.file, 1));
+    checkPaths(options.output, std::span(&options.file, 1));
     Output output(options.output.path, options.output.overwrite);
     const bool is_vox = isVoxFile(options.file);
     if (!is_vox && !isZvoFile(options.file))

@@ -89,7 +89,7 @@ std::string attributesText(const TreeData& tree)
     {
         return "none";
     }
-    return fmt::format("form {}: colour{} normal{}, {:.3f} bytes a voxel", formName(tree.attributeForm()),
+    return fmt::format("form {}: colour{} normal{}, {:.3f} bytes a voxel", formatName(tree.attributeFormat()),
                        tree.emission.empty() ? " and" : ",",
                        tree.emission.empty() ? "" : fmt::format(", and emission of {}", tree.emission.size()),
                        perVoxel(tree.attributeBytes(), tree));

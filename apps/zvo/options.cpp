@@ -156,7 +156,7 @@ CLI::App* addBuild(CLI::App& app, BuildFileOptions& options)
     CLI::App* build = app.add_subcommand("build", "voxelize scenes and write the tree to a .zvo file");
     addVoxelOptions(*build, options.voxels);
     addStructureOption(*build, options.structure);
-    addValue(*build, "--attributes", options.voxels.attributes, parseAttributeForm, "none|4|8|block",
+    addValue(*build, "--attributes", options.voxels.attributes, parseAttributeFormat, "none|4|8|block",
              "colour, normal and emission of the voxels: colour and normal in 4 or 8 bytes or in blocks of 16, "
              "which take 24; or only their places (default 8)");
     addOutputOptions(*build, options.output, "the tree, a .zvo file; - is standard output");
@@ -296,7 +296,7 @@ Command parseCommandLine(int argc, const char* const* argv)
     }
     for (const VoxelOptions* options : {&render.voxels, &voxelize.voxels, &build.voxels})
     {
-        if (options->bounds && options->grid_place)
+        if (options->bounds && options->grid_position)
         {
             throw usageError(app, "--bounds and --grid exclude each other");
         }

@@ -71,53 +71,53 @@ public:
     }
 
     // A camera that turns around what stands still, or flies.
-    void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& centre)
+    void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& center)
     {
         const auto report = [&](const BuildResult& built) { m_report.addOctree(built, m_triangle_count); };
-        turn(makeTree(std::move(scene), grid, report), camera, centre);
+        turn(makeTree(std::move(scene), grid, report), camera, center);
     }
 
     // The same around what a file holds.
-    void turn(TreeData&& tree, const ViewCamera& camera, const glm::dvec3& centre)
+    void turn(TreeData&& tree, const ViewCamera& camera, const glm::dvec3& center)
     {
         m_progress.step("copying to the device");
         m_report.addFile(tree);
         const DeviceTree uploaded = uploadTree(m_device, tree);
         tree = {};
-        turn(uploaded, camera, centre);
+        turn(uploaded, camera, center);
     }
 
     // What stands still is voxelized once, what moves is merged with it at each time.
-    void play(Stage&& stage, const Grid& grid, const ViewCamera& camera)
+    void play(AnimatedScene&& animated, const Grid& grid, const ViewCamera& camera)
     {
         m_progress.step("voxelizing what stands still");
-        LiveScene scene(m_device, std::move(stage), grid,
+        LiveScene scene(m_device, std::move(animated), grid,
                         {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             m_progress.step("updating");
-            const double seconds = timeOf(scene.stage(), i);
+            const double seconds = timeOf(scene.animated(), i);
             const LiveUpdate update = scene.place(seconds);
             const std::vector<vk::PassTime> beam_passes = m_renderer.show(scene.tree());
             if (i == 0)
             {
                 const StaticInfo& part = scene.info().fixed;
                 warnOfDropped(part.voxel_count + update.report.dynamic_count, part.dropped);
-                m_report.addStage(scene, update);
+                m_report.addAnimatedScene(scene, update);
                 m_report.addBeam(beam_passes);
             }
-            m_has_warned = m_has_warned || warnOfDroppedMovers(seconds, update.report.dropped);
-            draw(i, m_camera_work.at(m_pictures.number(i), scene.stage().frames_per_second, camera));
+            m_has_warned = m_has_warned || warnOfDroppedTriangles(seconds, update.report.dropped);
+            draw(i, m_camera_work.at(m_pictures.number(i), scene.animated().frames_per_second, camera));
             m_report.addFrame(updateFrame(m_pictures.number(i), seconds, update));
         }
     }
 
     // Everything is voxelized together, at each time anew.
-    void rebuild(const Stage& stage, const Grid& grid, const ViewCamera& camera)
+    void rebuild(const AnimatedScene& animated, const Grid& grid, const ViewCamera& camera)
     {
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
-            const double seconds = timeOf(stage, i);
+            const double seconds = timeOf(animated, i);
             Json frame;
             const auto report = [&](const BuildResult& built)
             {
@@ -127,13 +127,13 @@ public:
                 }
                 frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, built, m_triangle_count);
             };
-            const DeviceTree tree = makeTree(stageAt(stage, seconds), grid, report);
+            const DeviceTree tree = makeTree(sceneAt(animated, seconds), grid, report);
             const std::vector<vk::PassTime> beam_passes = m_renderer.show(tree);
             if (i == 0)
             {
                 m_report.addBeam(beam_passes);
             }
-            draw(i, m_camera_work.at(m_pictures.number(i), stage.frames_per_second, camera));
+            draw(i, m_camera_work.at(m_pictures.number(i), animated.frames_per_second, camera));
             m_report.addFrame(std::move(frame));
         }
     }
@@ -150,23 +150,24 @@ public:
     }
 
 private:
-    void turn(const DeviceTree& tree, const ViewCamera& camera, const glm::dvec3& centre)
+    void turn(const DeviceTree& tree, const ViewCamera& camera, const glm::dvec3& center)
     {
         m_report.addBeam(m_renderer.show(tree));
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
-            draw(i, m_camera_work.flies() ? m_camera_work.at(m_pictures.number(i), Stage().frames_per_second, camera)
-                                          : camera.turnedAround(centre, turn));
+            draw(i, m_camera_work.flies()
+                        ? m_camera_work.at(m_pictures.number(i), AnimatedScene().frames_per_second, camera)
+                        : camera.turnedAround(center, turn));
         }
     }
 
     [[nodiscard]] TreeStructure structure() const { return m_options.structure.value_or(TreeStructure::Svo); }
 
-    [[nodiscard]] double timeOf(const Stage& stage, std::uint32_t index) const
+    [[nodiscard]] double timeOf(const AnimatedScene& animated, std::uint32_t index) const
     {
-        return m_options.frames ? frameTime(stage, m_pictures.number(index))
-                                : loopedTime(stage, m_options.voxels.time.value_or(0.0));
+        return m_options.frames ? frameTime(animated, m_pictures.number(index))
+                                : loopedTime(animated, m_options.voxels.time.value_or(0.0));
     }
 
     // A scene, as it is to be traced; report is shown the octree.
@@ -234,7 +235,7 @@ void checkTreeOptions(const RenderOptions& options)
         {"--coverage", voxels.coverage != plain.coverage},
         {"--attributes", voxels.attributes != plain.attributes},
         {"--bounds", voxels.bounds.has_value()},
-        {"--grid", voxels.grid_place.has_value()},
+        {"--grid", voxels.grid_position.has_value()},
         {"--structure", options.structure.has_value()},
         {"--rebuild", options.rebuild},
     };
@@ -276,7 +277,7 @@ void render(const RenderOptions& options)
     {
         inputs.push_back(*options.camera_path);
     }
-    checkPlaces(options.output, inputs);
+    checkPaths(options.output, inputs);
     const CameraWork camera_work(options);
     Pictures pictures(options);
     std::optional<Output> report = openReport(options.output);
@@ -293,32 +294,32 @@ void render(const RenderOptions& options)
     {
         voxels.time.reset(); // it is the camera's where nothing else moves
     }
-    Stage stage = loadStageWithWarnings(voxels, options.frames || options.voxels.time);
-    const bool moves = !stage.movers.empty();
+    AnimatedScene animated = loadAnimatedSceneWithWarnings(voxels, options.frames || options.voxels.time);
+    const bool moves = !animated.objects.empty();
     const std::uint32_t compressions = options.structure == TreeStructure::Svdag ? 1 : 0;
     progress.expect(!moves            ? 3 + compressions + pictures.count()
                     : options.rebuild ? 1 + (3 + compressions) * pictures.count()
                                       : 2 + 2 * pictures.count());
-    checkPlaces(options.output, stage.files);
-    const Bounds bounds = stageBounds(stage);
-    const Grid grid = placeGrid(options.voxels, stage, bounds);
+    checkPaths(options.output, animated.files);
+    const Bounds bounds = boundsOverTime(animated);
+    const Grid grid = placeGrid(options.voxels, animated, bounds);
     const Bounds subject = subjectOf(bounds, grid);
     const ViewCamera camera =
-        chooseCamera(options.camera, stage, subject, static_cast<double>(options.width) / options.height);
+        chooseCamera(options.camera, animated, subject, static_cast<double>(options.width) / options.height);
 
     RenderRun run(options, camera_work, pictures, progress);
     if (moves && options.rebuild)
     {
-        warnOfMergeRule(stage);
-        run.rebuild(stage, grid, camera);
+        warnOfMergeRule(animated);
+        run.rebuild(animated, grid, camera);
     }
     else if (moves)
     {
-        run.play(std::move(stage), grid, camera);
+        run.play(std::move(animated), grid, camera);
     }
     else
     {
-        run.turn(std::move(stage.fixed), grid, camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
+        run.turn(std::move(animated.fixed), grid, camera, 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max)));
     }
     run.finish(report);
 }

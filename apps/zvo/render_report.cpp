@@ -60,7 +60,7 @@ void RenderReport::addFile(const TreeData& tree)
     m_json["passes"] = Json::array();
 }
 
-void RenderReport::addStage(const LiveScene& scene, const LiveUpdate& update)
+void RenderReport::addAnimatedScene(const LiveScene& scene, const LiveUpdate& update)
 {
     const StaticInfo& part = scene.info().fixed;
     const Grid& grid = scene.tree().grid;
@@ -72,10 +72,10 @@ void RenderReport::addStage(const LiveScene& scene, const LiveUpdate& update)
                           part.voxel_count, update.report.dynamic_count, grid.resolution(), triangle_count, voxelize_ms,
                           build_ms, sumMs(update.passes));
     m_json = headJson("zvo.render_dynamic/1", m_device.device().report(), m_options.voxels, grid);
-    m_json["merge"] = mergeRuleName(scene.stage().merge);
+    m_json["merge"] = mergeRuleName(scene.animated().merge);
     m_json["scene"] = {{"triangles_static", part.triangle_count},
                        {"triangles_dynamic", scene.info().moving_triangle_count},
-                       {"movers", scene.stage().movers.size()},
+                       {"movers", scene.animated().objects.size()},
                        {"dropped", part.dropped}};
     m_json["voxels_static"] = part.voxel_count;
     m_json["nodes_static"] = part.node_count;

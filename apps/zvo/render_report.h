@@ -5,7 +5,7 @@
 #include "common/report.h"
 #include "core/headless/pipeline.h"
 #include "core/tree/tree_data.h"
-#include "io/scene/stage.h"
+#include "io/scene/animated_scene.h"
 #include "options.h"
 #include "renderer.h"
 #include "runtime/live_scene.h"
@@ -19,11 +19,11 @@
 namespace zvo::cli
 {
 
-/// A frame of a stage in which what moves is merged with what stands still.
+/// A frame of an animated scene in which what moves is merged with what stands still.
 Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update);
 
-/// Gathers what there is to tell: first what was made, by exactly one of addOctree(), addFile() and addStage(), then
-/// the pictures of it. What is given must outlive this.
+/// Gathers what there is to tell: first what was made, by exactly one of addOctree(), addFile() and addAnimatedScene(),
+/// then the pictures of it. What is given must outlive this.
 class RenderReport
 {
 public:
@@ -39,7 +39,7 @@ public:
     void addFile(const TreeData& tree);
 
     /// What stands still, and the first update.
-    void addStage(const LiveScene& scene, const LiveUpdate& update);
+    void addAnimatedScene(const LiveScene& scene, const LiveUpdate& update);
 
     /// The passes of the first beam grid.
     void addBeam(std::vector<vk::PassTime> passes) { m_beam_passes = std::move(passes); }
@@ -49,7 +49,7 @@ public:
     /// A frame, whose picture was added last.
     void addFrame(Json frame);
 
-    /// A frame of a stage in which everything is voxelized anew; before the octree is used up.
+    /// A frame of an animated scene in which everything is voxelized anew; before the octree is used up.
     [[nodiscard]] Json rebuiltFrame(std::uint32_t number, double seconds, const BuildResult& result,
                                     std::uint64_t triangle_count) const;
 

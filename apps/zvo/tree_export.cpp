@@ -20,7 +20,7 @@ namespace
 
 static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
 
-glm::vec3 voxelCentre(const Grid& grid, std::uint64_t code)
+glm::vec3 voxelCenter(const Grid& grid, std::uint64_t code)
 {
     return glm::vec3(glm::dvec3(grid.origin) + (glm::dvec3(cellOfCode(code)) + 0.5) * double{grid.voxel_size});
 }
@@ -104,7 +104,7 @@ void writePly(const TreeData& tree, Output& output)
     forEachVoxel(tree,
                  [&](std::uint64_t code)
                  {
-                     append(pieces.bytes(), voxelCentre(tree.grid, code));
+                     append(pieces.bytes(), voxelCenter(tree.grid, code));
                      if (tree.hasAttributes())
                      {
                          appendAttribute(pieces.bytes(), tree.voxelAttribute(voxel));

@@ -44,18 +44,18 @@ std::string formatOf(const VoxelizeOptions& options)
 
 void voxelize(const VoxelizeOptions& options)
 {
-    checkPlaces(options.output, options.voxels.scenes);
+    checkPaths(options.output, options.voxels.scenes);
     const std::string format = formatOf(options);
     Output output(options.output.path, options.output.overwrite);
     std::optional<Output> report = openReport(options.output);
 
     Progress progress(4);
     progress.step("loading");
-    Stage stage = loadStageWithWarnings(options.voxels, options.voxels.time.has_value());
-    checkPlaces(options.output, stage.files);
-    warnOfMergeRule(stage);
-    const Grid grid = placeGrid(options.voxels, stage, stageBounds(stage));
-    Scene scene = stageAt(std::move(stage), loopedTime(stage, options.voxels.time.value_or(0.0)));
+    AnimatedScene animated = loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value());
+    checkPaths(options.output, animated.files);
+    warnOfMergeRule(animated);
+    const Grid grid = placeGrid(options.voxels, animated, boundsOverTime(animated));
+    Scene scene = sceneAt(std::move(animated), loopedTime(animated, options.voxels.time.value_or(0.0)));
     const std::uint64_t triangle_count = scene.triangleCount();
 
     progress.step("copying to the device");

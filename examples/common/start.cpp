@@ -66,7 +66,7 @@ zvo::Tree buildTree(const Device& device, zvo::Context& context, const Mesh& mes
     model_info.meshes = {&mesh_info, 1};
     std::optional<zvo::Model> model;
     std::optional<zvo::TreeBuild> build;
-    for (bool goes_on = true; goes_on;)
+    for (bool has_more = true; has_more;)
     {
         device.begin(commands);
         {
@@ -79,7 +79,7 @@ zvo::Tree buildTree(const Device& device, zvo::Context& context, const Mesh& mes
                 info.keep_sums = keep_sums;
                 build.emplace(context, *model, info);
             }
-            goes_on = build->record(recorder);
+            has_more = build->record(recorder);
         }
         device.submitAndWait(commands);
         context.frameDone(frame);

@@ -108,9 +108,9 @@ void embed(const host::Options& options)
         zvo::TreeBuildInfo build_info;
         build_info.grid = model->gridAround(7); // 2^7 voxels an edge
         zvo::TreeBuild build(context, *model, build_info);
-        for (bool goes_on = true; goes_on;)
+        for (bool has_more = true; has_more;)
         {
-            run([&](zvo::Recorder& recorder) { goes_on = build.record(recorder); });
+            run([&](zvo::Recorder& recorder) { has_more = build.record(recorder); });
         }
         tree.emplace(build.take());
     }
@@ -130,8 +130,8 @@ void embed(const host::Options& options)
     image.savePpm(options.arguments[0]);
 
     std::printf("%s: %llu voxels in %llu bytes\n", report->name.c_str(),
-                static_cast<unsigned long long>(tree->facts().voxel_count),
-                static_cast<unsigned long long>(tree->facts().bytes));
+                static_cast<unsigned long long>(tree->info().voxel_count),
+                static_cast<unsigned long long>(tree->info().bytes));
     for (const zvo::PassTime& pass : context.passTimes())
     {
         std::printf("%8.3f ms  %s\n", pass.ms, pass.name.c_str());

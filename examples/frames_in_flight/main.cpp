@@ -67,7 +67,7 @@ void embed(const host::Options& options)
     zvo::Tracer tracer(context, kSize.width, kSize.height, kFormat);
     const auto camera = zvo::CameraInfo::lookAt({1.5, 2, 3.5}, {0, 0, 0}, 26 * (std::numbers::pi / 180));
     std::optional<zvo::DynamicTree> tree;
-    zvo::MoverId ring = 0;
+    zvo::DynamicObjectId ring = 0;
     int failed_count = 0;
 
     for (std::uint64_t i = 1; i <= kFrames; ++i)
@@ -95,9 +95,9 @@ void embed(const host::Options& options)
                 const zvo::MeshInfo mesh_info = mesh.info();
                 zvo::ModelInfo model_info;
                 model_info.meshes = {&mesh_info, 1};
-                ring = tree->addMover(recorder, zvo::Model(recorder, model_info), placeOfRing(i));
+                ring = tree->addObject(recorder, zvo::Model(recorder, model_info), placeOfRing(i));
             }
-            tree->placeMover(ring, placeOfRing(i));
+            tree->setTransform(ring, placeOfRing(i));
             tree->update(recorder);
             // Nothing reads the image any more, the host has waited for it: no source for the first barrier.
             slot.image.barrier(slot.commands, {}, kZvoWrites);
@@ -109,9 +109,9 @@ void embed(const host::Options& options)
 
         // An update for which something was too small is reported when its frame is done. Until the next one, which has
         // more, the tree shows the last one that was complete.
-        for (const zvo::UpdateFacts& facts : tree->takeUpdates())
+        for (const zvo::UpdateStats& stats : tree->takeUpdates())
         {
-            failed_count += facts.failed ? 1 : 0;
+            failed_count += stats.failed ? 1 : 0;
         }
     }
 

@@ -80,7 +80,7 @@ public:
     void frameDone(std::uint64_t frame);
 
     /// A frame, the one that was begun last, did not reach the device: its command buffers were thrown away, and none
-    /// was submitted. Models, trees, dynamic trees and movers that were made in it are lost: using them throws
+    /// was submitted. Models, trees, dynamic trees and dynamic objects that were made in it are lost: using them throws
     /// Error{Usage}. Dynamic trees are as they were before it, steps of TreeBuild and TreeCompression are recorded
     /// again, unless what they are made of was lost. The number can be used again. Nothing happens for one that never
     /// began, as where its Recorder could not be made; throws Error{Usage} for those before the last, which must reach

@@ -21,14 +21,14 @@ namespace zvo
 /// How a dynamic tree works.
 struct DynamicTreeInfo
 {
-    Coverage coverage = Coverage::Thin; // of the movers: as the static tree's
+    Coverage coverage = Coverage::Thin; // of the dynamic objects: as the static tree's
     MergeRule merge = MergeRule::DynamicWins;
     std::uint32_t frames_in_flight = 2;       // recorded before Context::frameDone() of the first; 1 to 16
-    std::size_t history_steps = 1;            // updates that undo() can go back by, at least 1
+    std::size_t history_entries = 1;          // updates that undo() can go back by, at least 1
     std::uint64_t history_bytes = UINT64_MAX; // that they may hold
     std::size_t strokes = 1024;               // that undoEdit() can go back by, at least 1
     std::uint64_t edit_bytes = 256U << 20;    // that they may hold
-    float emission_scale = 0;                 // common to the static tree and all movers; 0: nothing emits light
+    float emission_scale = 0; // common to the static tree and all dynamic objects; 0: nothing emits light
 };
 
 /// A dab of a brush on the voxels of a grid.
@@ -42,22 +42,22 @@ struct BrushInfo
 };
 
 /// What an update came to, known once its frame is done.
-struct UpdateFacts
+struct UpdateStats
 {
     bool failed = false;            // something was too small: the last complete tree is shown, see needsUpdate()
     std::uint64_t node_count = 0;   // of the overlay
     std::uint64_t voxel_count = 0;  // with attributes of their own in the overlay
-    std::uint64_t moving_count = 0; // voxels that movers cover
-    std::map<std::string, std::uint64_t> dropped; // movers' triangles that were left out, by reason
+    std::uint64_t moving_count = 0; // voxels that dynamic objects cover
+    std::map<std::string, std::uint64_t> dropped; // dynamic objects' triangles that were left out, by reason
 };
 
-/// Number of a mover, never used again. undo() to a step from before the mover was added takes the mover away, and the
-/// next update() then for good; redo(), or undo() of its removal, brings it back under its number.
-using MoverId = std::uint32_t;
+/// Number of a dynamic object, never used again. undo() to an entry from before the dynamic object was added takes it
+/// away, and the next update() then for good; redo(), or undo() of its removal, brings it back under its number.
+using DynamicObjectId = std::uint32_t;
 
 /// A tree that a brush edits and into which moving models are merged, frame by frame (Y. Pan, Dynamic Update of Sparse
-/// Voxel Octree Based on Morton Code, 2021). The static tree never changes: an update copies the paths that movers
-/// touch behind it, and shows the copy; undo shows an older one. The result equals a rebuild of everything.
+/// Voxel Octree Based on Morton Code, 2021). The static tree never changes: an update copies the paths that dynamic
+/// objects touch behind it, and shows the copy; undo shows an older one. The result equals a rebuild of everything.
 ///
 /// At most 4 * frames_in_flight updates in all frames together that are recorded and not yet done
 /// (Context::frameDone()); undo() and redo() as often as one likes. All that records: first stages ALL_TRANSFER,
@@ -75,28 +75,30 @@ public:
     DynamicTree(DynamicTree&&) noexcept;
     DynamicTree& operator=(DynamicTree&&) noexcept;
 
-    /// Adds a mover; shown from the next update() on, as all changes are. to_world: finite and affine, else
-    /// Error{Usage}, which it also throws for more than 1024 movers and for another emission scale; Error{Memory}.
-    MoverId addMover(Recorder& recorder, const Model& model, const Mat4& to_world);
+    /// Adds a dynamic object; shown from the next update() on, as all changes are. to_world: finite and affine, else
+    /// Error{Usage}, which it also throws for more than 1024 dynamic objects and for another emission scale;
+    /// Error{Memory}.
+    DynamicObjectId addObject(Recorder& recorder, const Model& model, const Mat4& to_world);
 
     /// Moves it. Records nothing and costs nothing until update(). Throws Error{Usage} for one that is not there, as
-    /// removeMover() does, and for transforms as addMover().
-    void placeMover(MoverId mover, const Mat4& to_world);
-    void removeMover(MoverId mover);
+    /// removeObject() does, and for transforms as addObject().
+    void setTransform(DynamicObjectId object, const Mat4& to_world);
+    void removeObject(DynamicObjectId object);
 
-    /// Records an update: movers that changed are voxelized, all are merged with the static tree, and the result is
-    /// shown. Under a budget of device time, as much of it as is thought to fit, and the rest in the next calls; 0: no
-    /// bound. What fits is learnt from ContextInfo::timed_passes_per_frame: without, it is a guess that nothing puts
-    /// right. Returns whether the update is complete. Work is proportional to the voxels that move. Throws Error{Usage}
-    /// for more updates than frames_in_flight allow and for a budget that is negative or not finite, Error{Memory}.
+    /// Records an update: dynamic objects that changed are voxelized, all are merged with the static tree, and the
+    /// result is shown. Under a budget of device time, as much of it as is thought to fit, and the rest in the next
+    /// calls; 0: no bound. What fits is learnt from ContextInfo::timed_passes_per_frame: without, it is a guess that
+    /// nothing puts right. Returns whether the update is complete. Work is proportional to the voxels that move. Throws
+    /// Error{Usage} for more updates than frames_in_flight allow and for a budget that is negative or not finite,
+    /// Error{Memory}.
     bool update(Recorder& recorder, double budget_ms = 0);
 
     /// Whether something has to be shown by another update(): one failed, was given up, was lost or had to wait.
     [[nodiscard]] bool needsUpdate();
 
-    /// Records that the step before, or behind, the one that is shown is shown again, with the movers of that time
-    /// where they were. False if there is none. The first step is the static tree without movers; edit(), undoEdit()
-    /// and redoEdit() begin anew with the edited one. Cost: constant.
+    /// Records that the entry of the history before, or behind, the one that is shown is shown again, with the dynamic
+    /// objects of that time where they were. False if there is none. The first entry is the static tree without dynamic
+    /// objects; edit(), undoEdit() and redoEdit() begin anew with the edited one. Cost: constant.
     bool undo(Recorder& recorder);
     bool redo(Recorder& recorder);
 
@@ -112,10 +114,10 @@ public:
     bool redoEdit(Recorder& recorder);
 
     /// What updates came to whose frames are done since the last call, in order.
-    std::vector<UpdateFacts> takeUpdates();
+    std::vector<UpdateStats> takeUpdates();
 
     /// Of the static tree.
-    [[nodiscard]] const TreeFacts& facts() const;
+    [[nodiscard]] const TreeInfo& info() const;
 
     /// As Tree::address(): it stays the same, however the tree grows.
     [[nodiscard]] std::uint64_t address() const;

@@ -18,10 +18,10 @@ namespace zvo
 {
 
 /// What a tree is like.
-struct TreeFacts
+struct TreeInfo
 {
     TreeStructure structure = TreeStructure::Svo;
-    AttributeForm form = AttributeForm::None;
+    AttributeFormat format = AttributeFormat::None;
     GridInfo grid;
     std::uint64_t voxel_count = 0;
     std::uint64_t node_count = 0; // that are stored
@@ -43,7 +43,7 @@ public:
     Tree(Tree&& other) noexcept;
     Tree& operator=(Tree&& other) noexcept;
 
-    [[nodiscard]] const TreeFacts& facts() const;
+    [[nodiscard]] const TreeInfo& info() const;
 
     /// Device address of the table by which the host's shaders trace the tree (zvo/trace.glsl). It lives as long as the
     /// tree. The host's shaders read it, and what it names, behind Recorder::makeVisible().
@@ -63,7 +63,7 @@ struct TreeBuildInfo
 {
     GridInfo grid;
     Coverage coverage = Coverage::Thin;
-    AttributeForm form = AttributeForm::Bytes8; // None: no attributes
+    AttributeFormat format = AttributeFormat::Bytes8; // None: no attributes
     bool keep_sums = false; // for a DynamicTree with MergeRule::Average: 28 bytes a voxel more. Only with Bytes8
 };
 

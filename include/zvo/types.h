@@ -36,7 +36,7 @@ enum class TreeStructure : std::uint32_t
 };
 
 /// How trees store what their voxels and nodes look like (docs/attributes.md). The values are those of shaders.
-enum class AttributeForm : std::uint32_t
+enum class AttributeFormat : std::uint32_t
 {
     None = 0,   ///< voxels look all alike
     Bytes4 = 1, ///< colours of 16 bits, normals of 16
@@ -44,11 +44,11 @@ enum class AttributeForm : std::uint32_t
     Blocks = 3, ///< of voxels: 16 in 24 bytes; of nodes: Bytes4
 };
 
-/// What a voxel shows where a mover meets the static tree.
+/// What a voxel shows where a dynamic object meets the static tree.
 enum class MergeRule : std::uint32_t
 {
     Average = 0,     ///< the mean over the fragments of both: as if they were one scene
-    DynamicWins = 1, ///< the movers, the mean over their fragments
+    DynamicWins = 1, ///< the dynamic objects, the mean over their fragments
     StaticWins = 2,  ///< the static tree
 };
 

@@ -76,13 +76,13 @@ enum
     ZVO_TREE_STRUCTURE_SVDAG = 2
 };
 
-typedef uint32_t ZvoAttributeForm; // zvo::AttributeForm
+typedef uint32_t ZvoAttributeFormat; // zvo::AttributeFormat
 enum
 {
-    ZVO_ATTRIBUTE_FORM_NONE = 0,
-    ZVO_ATTRIBUTE_FORM_BYTES4 = 1,
-    ZVO_ATTRIBUTE_FORM_BYTES8 = 2,
-    ZVO_ATTRIBUTE_FORM_BLOCKS = 3
+    ZVO_ATTRIBUTE_FORMAT_NONE = 0,
+    ZVO_ATTRIBUTE_FORMAT_BYTES4 = 1,
+    ZVO_ATTRIBUTE_FORMAT_BYTES8 = 2,
+    ZVO_ATTRIBUTE_FORMAT_BLOCKS = 3
 };
 
 typedef uint32_t ZvoMergeRule; // zvo::MergeRule
@@ -211,7 +211,7 @@ ZVO_C_API int zvoVersion(void);
 // The host's device: before it exists, and when it is created.
 
 /// As zvo::DeviceReport. Texts live as long as the ZvoDeviceReport.
-typedef struct ZvoDeviceFacts
+typedef struct ZvoDeviceInfo
 {
     size_t struct_size;
     VkPhysicalDevice physical_device;
@@ -229,11 +229,11 @@ typedef struct ZvoDeviceFacts
     uint32_t timestamp_valid_bits;
     VkBool32 usable;
     uint32_t reserved;
-} ZvoDeviceFacts;
+} ZvoDeviceInfo;
 
-#define ZVO_DEVICE_FACTS_INIT                                                                                          \
+#define ZVO_DEVICE_INFO_INIT                                                                                           \
     {                                                                                                                  \
-        sizeof(ZvoDeviceFacts), VK_NULL_HANDLE, NULL, NULL, NULL, NULL, 0, 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0            \
+        sizeof(ZvoDeviceInfo), VK_NULL_HANDLE, NULL, NULL, NULL, NULL, 0, 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0             \
     }
 
 typedef uint32_t ZvoReportList; // of zvo::DeviceReport
@@ -248,7 +248,7 @@ enum
 ZVO_C_API ZvoResult zvoQuery(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
                              VkPhysicalDevice physical_device, ZvoDeviceReport** report);
 ZVO_C_API void zvoDeviceReportDestroy(ZvoDeviceReport* report); // not that of a context
-ZVO_C_API ZvoResult zvoDeviceReportFacts(const ZvoDeviceReport* report, ZvoDeviceFacts* facts);
+ZVO_C_API ZvoResult zvoDeviceReportInfo(const ZvoDeviceReport* report, ZvoDeviceInfo* info);
 
 /// A line of a list, which lives as long as the report; null behind the last one.
 ZVO_C_API ZvoResult zvoDeviceReportText(const ZvoDeviceReport* report, ZvoReportList list, uint32_t index,
@@ -442,49 +442,49 @@ typedef struct ZvoModelInfo
         sizeof(ZvoModelInfo), NULL, NULL, NULL, NULL, 0, 0, 0, 0, VK_TRUE, -1                                          \
     }
 
-typedef struct ZvoModelFacts
+typedef struct ZvoModelStats
 {
     size_t struct_size;
     uint64_t triangle_count; // with instances counted each time
     float emission_scale;    // 0: nothing emits light
     uint32_t reserved;
-} ZvoModelFacts;
+} ZvoModelStats;
 
-#define ZVO_MODEL_FACTS_INIT                                                                                           \
+#define ZVO_MODEL_STATS_INIT                                                                                           \
     {                                                                                                                  \
-        sizeof(ZvoModelFacts), 0, 0, 0                                                                                 \
+        sizeof(ZvoModelStats), 0, 0, 0                                                                                 \
     }
 
 ZVO_C_API ZvoResult zvoModelCreate(ZvoRecorder* recorder, const ZvoModelInfo* info, ZvoModel** model);
 ZVO_C_API void zvoModelDestroy(ZvoModel* model); // what was made of it may go on using it
-ZVO_C_API ZvoResult zvoModelFacts(const ZvoModel* model, ZvoModelFacts* facts);
+ZVO_C_API ZvoResult zvoModelStats(const ZvoModel* model, ZvoModelStats* stats);
 ZVO_C_API ZvoResult zvoModelGridAround(const ZvoModel* model, uint32_t depth, ZvoGrid* grid);
 
 // zvo::Tree.
 
-/// As zvo::TreeFacts.
-typedef struct ZvoTreeFacts
+/// As zvo::TreeInfo.
+typedef struct ZvoTreeInfo
 {
     size_t struct_size;
     ZvoTreeStructure structure;
-    ZvoAttributeForm form;
+    ZvoAttributeFormat format;
     ZvoGrid grid;
     float emission_scale;
     uint64_t voxel_count;
     uint64_t node_count;
     uint64_t bytes;
-} ZvoTreeFacts;
+} ZvoTreeInfo;
 
-#define ZVO_TREE_FACTS_INIT                                                                                            \
+#define ZVO_TREE_INFO_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(ZvoTreeFacts), ZVO_TREE_STRUCTURE_SVO, ZVO_ATTRIBUTE_FORM_NONE, ZVO_GRID_INIT, 0, 0, 0, 0               \
+        sizeof(ZvoTreeInfo), ZVO_TREE_STRUCTURE_SVO, ZVO_ATTRIBUTE_FORMAT_NONE, ZVO_GRID_INIT, 0, 0, 0, 0              \
     }
 
 /// path: in UTF-8.
 ZVO_C_API ZvoResult zvoTreeFromFile(ZvoRecorder* recorder, const char* path, ZvoTree** tree);
 ZVO_C_API ZvoResult zvoTreeFromMemory(ZvoRecorder* recorder, const void* file, size_t file_bytes, ZvoTree** tree);
 ZVO_C_API void zvoTreeDestroy(ZvoTree* tree);
-ZVO_C_API ZvoResult zvoTreeFacts(const ZvoTree* tree, ZvoTreeFacts* facts);
+ZVO_C_API ZvoResult zvoTreeInfo(const ZvoTree* tree, ZvoTreeInfo* info);
 ZVO_C_API ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address);
 
 // zvo::TreeBuild.
@@ -495,13 +495,13 @@ typedef struct ZvoTreeBuildInfo
     size_t struct_size;
     ZvoGrid grid;
     ZvoCoverage coverage;
-    ZvoAttributeForm form;
+    ZvoAttributeFormat format;
     VkBool32 keep_sums;
 } ZvoTreeBuildInfo;
 
 #define ZVO_TREE_BUILD_INFO_INIT                                                                                       \
     {                                                                                                                  \
-        sizeof(ZvoTreeBuildInfo), ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORM_BYTES8, VK_FALSE                \
+        sizeof(ZvoTreeBuildInfo), ZVO_GRID_INIT, ZVO_COVERAGE_THIN, ZVO_ATTRIBUTE_FORMAT_BYTES8, VK_FALSE              \
     }
 
 /// Triangles that were left out, by reason.
@@ -522,7 +522,7 @@ typedef struct ZvoDroppedTriangles
 ZVO_C_API ZvoResult zvoTreeBuildCreate(ZvoContext* context, const ZvoModel* model, const ZvoTreeBuildInfo* info,
                                        ZvoTreeBuild** build);
 ZVO_C_API void zvoTreeBuildDestroy(ZvoTreeBuild* build);
-ZVO_C_API ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* goes_on);
+ZVO_C_API ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* has_more);
 ZVO_C_API ZvoResult zvoTreeBuildIsDone(ZvoTreeBuild* build, VkBool32* is_done);
 ZVO_C_API ZvoResult zvoTreeBuildIsBroken(const ZvoTreeBuild* build, VkBool32* is_broken);
 ZVO_C_API ZvoResult zvoTreeBuildTake(ZvoTreeBuild* build, ZvoTree** tree);
@@ -534,7 +534,8 @@ ZVO_C_API ZvoResult zvoTreeBuildDropped(const ZvoTreeBuild* build, ZvoDroppedTri
 /// it for anything else may be ZVO_ERROR_USAGE: what it held can be gone.
 ZVO_C_API ZvoResult zvoTreeCompressionCreate(ZvoContext* context, ZvoTree* octree, ZvoTreeCompression** compression);
 ZVO_C_API void zvoTreeCompressionDestroy(ZvoTreeCompression* compression);
-ZVO_C_API ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder, VkBool32* goes_on);
+ZVO_C_API ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder,
+                                             VkBool32* has_more);
 ZVO_C_API ZvoResult zvoTreeCompressionIsDone(ZvoTreeCompression* compression, VkBool32* is_done);
 ZVO_C_API ZvoResult zvoTreeCompressionIsBroken(const ZvoTreeCompression* compression, VkBool32* is_broken);
 ZVO_C_API ZvoResult zvoTreeCompressionTake(ZvoTreeCompression* compression, ZvoTree** tree);
@@ -549,7 +550,7 @@ typedef struct ZvoDynamicTreeInfo
     ZvoMergeRule merge;
     uint32_t frames_in_flight;
     float emission_scale;
-    uint64_t history_steps;
+    uint64_t history_entries;
     uint64_t history_bytes;
     uint64_t strokes;
     uint64_t edit_bytes;
@@ -578,8 +579,8 @@ typedef struct ZvoBrushInfo
         sizeof(ZvoBrushInfo), ZVO_BRUSH_SHAPE_SPHERE, ZVO_BRUSH_ACTION_CARVE, {0, 0, 0}, 0, 0, 0                       \
     }
 
-/// As zvo::UpdateFacts.
-typedef struct ZvoUpdateFacts
+/// As zvo::UpdateStats.
+typedef struct ZvoUpdateStats
 {
     size_t struct_size;
     uint64_t node_count;
@@ -591,23 +592,23 @@ typedef struct ZvoUpdateFacts
     uint64_t dropped_zero_area;
     VkBool32 failed;
     uint32_t reserved;
-} ZvoUpdateFacts;
+} ZvoUpdateStats;
 
-#define ZVO_UPDATE_FACTS_INIT                                                                                          \
+#define ZVO_UPDATE_STATS_INIT                                                                                          \
     {                                                                                                                  \
-        sizeof(ZvoUpdateFacts), 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0                                                       \
+        sizeof(ZvoUpdateStats), 0, 0, 0, 0, 0, 0, 0, VK_FALSE, 0                                                       \
     }
 
-typedef uint32_t ZvoMoverId;
+typedef uint32_t ZvoDynamicObjectId;
 
 /// Takes the static tree over, under the same rule as zvoTreeCompressionCreate().
 ZVO_C_API ZvoResult zvoDynamicTreeCreate(ZvoRecorder* recorder, ZvoTree* fixed, const ZvoDynamicTreeInfo* info,
                                          ZvoDynamicTree** tree);
 ZVO_C_API void zvoDynamicTreeDestroy(ZvoDynamicTree* tree);
-ZVO_C_API ZvoResult zvoDynamicTreeAddMover(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
-                                           const float to_world[16], ZvoMoverId* mover);
-ZVO_C_API ZvoResult zvoDynamicTreePlaceMover(ZvoDynamicTree* tree, ZvoMoverId mover, const float to_world[16]);
-ZVO_C_API ZvoResult zvoDynamicTreeRemoveMover(ZvoDynamicTree* tree, ZvoMoverId mover);
+ZVO_C_API ZvoResult zvoDynamicTreeAddObject(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
+                                            const float to_world[16], ZvoDynamicObjectId* id);
+ZVO_C_API ZvoResult zvoDynamicTreeSetTransform(ZvoDynamicTree* tree, ZvoDynamicObjectId id, const float to_world[16]);
+ZVO_C_API ZvoResult zvoDynamicTreeRemoveObject(ZvoDynamicTree* tree, ZvoDynamicObjectId id);
 ZVO_C_API ZvoResult zvoDynamicTreeUpdate(ZvoDynamicTree* tree, ZvoRecorder* recorder, double budget_ms,
                                          VkBool32* is_complete);
 ZVO_C_API ZvoResult zvoDynamicTreeNeedsUpdate(ZvoDynamicTree* tree, VkBool32* needs_update);
@@ -619,9 +620,9 @@ ZVO_C_API ZvoResult zvoDynamicTreeEndStroke(ZvoDynamicTree* tree);
 ZVO_C_API ZvoResult zvoDynamicTreeUndoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_undone);
 ZVO_C_API ZvoResult zvoDynamicTreeRedoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, VkBool32* is_redone);
 
-/// The oldest update that was not taken yet, of those whose frames are done. VK_FALSE, and facts left alone: none.
-ZVO_C_API ZvoResult zvoDynamicTreeTakeUpdate(ZvoDynamicTree* tree, ZvoUpdateFacts* facts, VkBool32* is_taken);
-ZVO_C_API ZvoResult zvoDynamicTreeFacts(const ZvoDynamicTree* tree, ZvoTreeFacts* facts);
+/// The oldest update that was not taken yet, of those whose frames are done. VK_FALSE, and stats left alone: none.
+ZVO_C_API ZvoResult zvoDynamicTreeTakeUpdate(ZvoDynamicTree* tree, ZvoUpdateStats* stats, VkBool32* is_taken);
+ZVO_C_API ZvoResult zvoDynamicTreeInfo(const ZvoDynamicTree* tree, ZvoTreeInfo* info);
 ZVO_C_API ZvoResult zvoDynamicTreeAddress(const ZvoDynamicTree* tree, uint64_t* address);
 
 // zvo::Tracer.

@@ -3,7 +3,7 @@
 #ifndef ZVO_SHADERS_ATTRIBUTES_ATTRIBUTES_H
 #define ZVO_SHADERS_ATTRIBUTES_ATTRIBUTES_H
 
-#include "shared/attribute_forms.h"
+#include "shared/attribute_formats.h"
 
 GPU_NAMESPACE_BEGIN
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Colours in 5, 6 and 5 bits: lib/attribute_forms.glsl unpacks them.
-#include "shared/attribute_forms.h"
+// Colours in 5, 6 and 5 bits: lib/attribute_formats.glsl unpacks them.
+#include "shared/attribute_formats.h"
 
 // The channels of an attribute's colour.
 uvec3 splitColor(uint color)

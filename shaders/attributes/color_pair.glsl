@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Two colours between which the 16 of a block lie.
 #include "attributes/color.glsl"
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 
 const uvec3 kChannelMax = uvec3((1u << kRedBits) - 1u, (1u << kGreenBits) - 1u, (1u << kBlueBits) - 1u);
 

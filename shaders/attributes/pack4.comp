@@ -6,7 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
 #include "attributes/color.glsl"
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/dispatch.glsl"
 
 layout(local_size_x = kPackGroup) in;

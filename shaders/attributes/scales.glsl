@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two scales of coordinates for the 16 points of a block: x and y at once, each on its own. In integers; 1 is 4095.
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 
 const uint kStep = 65u;                      // from one end to the next
 const int kOne = kNormalEnd * int(kStep);    // 1 in coordinates and vectors

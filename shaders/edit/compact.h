@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the kernels that compact edits (edit/edit.h) share with the host.
 //
-// What places that are kept are made of moves to another region, the rest is forgotten. Nodes and voxels
+// What slots that are kept are made of moves to another region, the rest is forgotten. Nodes and voxels
 // keep their order, so that children stay together and states stay in the order of dabs.
 #ifndef ZVO_SHADERS_EDIT_COMPACT_H
 #define ZVO_SHADERS_EDIT_COMPACT_H
@@ -10,12 +10,12 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kMarkPlace = ~0u; // root of a place that is not used: kept where it is, whatever it is
+const uint kMarkSlot = ~0u; // root of a slot that is not used: kept where it is, whatever it is
 
 struct EditMarkParams // push constants of edit/mark: one thread a node of the region
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_PTR(uint) marks;      // [node_count] of the region: 1 + the node's level, kMarkPlace, or 0
+    GPU_PTR(uint) marks;      // [node_count] of the region: 1 + the node's level, kMarkSlot, or 0
     GPU_PTR(uint) voxel_bits; // [ceil(voxel_count / 32)] of the region: kept
     uint first_node;          // of the region
     uint node_count;
@@ -82,7 +82,7 @@ struct EditMoveEmissionParams // push constants of edit/move_emission: one threa
 };
 GPU_KERNEL(edit, move_emission, MoveEmission, EditMoveEmissionParams)
 
-struct EditMoveStatesParams // push constants of edit/move_states: one thread a place
+struct EditMoveStatesParams // push constants of edit/move_states: one thread a slot
 {
     GPU_CONST_PTR(EditState) states;
     GPU_PTR(EditState) new_states;
@@ -90,7 +90,7 @@ struct EditMoveStatesParams // push constants of edit/move_states: one thread a 
     GPU_CONST_PTR(uint) numbers;
     GPU_CONST_PTR(uint) voxel_bits; // or null
     GPU_CONST_PTR(uint) voxel_numbers;
-    uint place_count;
+    uint slot_count;
     uint first_node; // of the old region
     uint node_count;
     uint first_voxel;

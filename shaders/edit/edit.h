@@ -6,15 +6,15 @@
 // Making Data Structures Persistent, 1989; on voxel DAGs: V. Careil, M. Billeter, E. Eisemann, Interactively Modifying
 // Compressed Sparse Voxel Representations, 2020). Copies stand in one region behind the static tree's nodes and
 // attributes, and look like an overlay's nodes (update/update.h): children stand together, leaves have voxels' indices
-// as bases, and above a DAG each has the rank of the static octree's node in its place; of leaves, only that of the
-// node, as their bases are voxel numbers already.
+// as bases, and above a DAG each has the rank of the static octree's node at its position; of leaves, only that of
+// the node, as their bases are voxel numbers already.
 //
-//     nodes       | ... | roots, one a place | copies of dab 1 | dab 2 | ...                  room |
+//     nodes       | ... | roots, one a slot  | copies of dab 1 | dab 2 | ...                  room |
 //     attributes  | ... | voxels of changed leaves: dab 1 | dab 2 | ...                       room |
-//                                                             ▲ tops of the place that is shown
+//                                                             ▲ tops of the slot that is shown
 //
-// A *place* has a root and an EditState, which says how far up the copies reach that it is made of. A dab begins at the
-// state of the place that it changes, so what stood above that is forgotten: undo is another place, and a dab after it
+// A *slot* has a root and an EditState, which says how far up the copies reach that it is made of. A dab begins at the
+// state of the slot that it changes, so what stood above that is forgotten: undo is another slot, and a dab after it
 // takes the room of those that it undoes. But a frame may be lost, whether the device has run it or not: what was shown
 // before it keeps its room until its end.
 //
@@ -61,11 +61,11 @@ struct EditBox
     uint level_count;
 };
 
-/// A node, or a place where there is none, under the brush.
+/// A node under the brush, or the cell of one that is missing.
 struct EditCell
 {
     uint base;    // node of the base tree, or kNoEditNode
-    uint voxels;  // rank of the static octree's node in the same place; of a leaf, what its bases lack
+    uint voxels;  // rank of the static octree's node at the same position; of a leaf, what its bases lack
     uint rank;    // likewise, of nodes; of an octree, base
     uint mask_lo; // after the dab
     uint mask_hi;
@@ -77,7 +77,7 @@ GPU_BUFFER(EditCell, 4);
 
 const uint kNoEditNode = ~0u;
 
-/// How far up the copies of a place reach.
+/// How far up the copies of a slot reach.
 struct EditState
 {
     uint node_top;    // the first free node
@@ -88,14 +88,14 @@ struct EditState
 GPU_BUFFER(EditState, 4);
 
 /// Where a dab comes from and goes to.
-struct EditPlaces
+struct EditSlots
 {
-    uint region_node; // the root of place 0
+    uint region_node; // the root of slot 0
     uint from;
     uint to;
 };
 
-struct EditBeginParams // push constants of edit/begin: makes place 0 the static tree
+struct EditBeginParams // push constants of edit/begin: makes slot 0 the static tree
 {
     GPU_PTR(Node) nodes;
     GPU_PTR(Attribute) node_attributes; // or null
@@ -121,8 +121,8 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     GPU_CONST_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;
     GPU_PTR(EditState) states;
-    EditPlaces places;
-    uint first_short_place;
+    EditSlots slots;
+    uint first_short_entry;
     Brush brush;
     EditBox box;
 };
@@ -147,7 +147,7 @@ struct EditAllocateParams // push constants of edit/allocate: one workgroup
     uint inner_count; // cells that are no leaves
     uint from;
     uint to;
-    uint kept;     // a place that keeps its room, too
+    uint kept;     // a slot that keeps its room, too
     uint node_end; // of the region
     uint voxel_end;
 };
@@ -164,8 +164,8 @@ struct EditNodesParams // push constants of edit/nodes: a workgroup for each cel
     GPU_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;
     GPU_CONST_PTR(EditState) states;
-    EditPlaces places;
-    uint first_short_place;
+    EditSlots slots;
+    uint first_short_entry;
     uint static_root;
     uint attribute_offset;
     EditBox box;
@@ -182,7 +182,7 @@ struct EditEmissionWordsParams // push constants of edit/emission_words: one thr
     uint from;
     uint to;
     uint kept;            // as in EditAllocateParams
-    uint emission_offset; // from a voxel to the first place of its word, modulo 2^32
+    uint emission_offset; // from a voxel to the index of its word's first value, modulo 2^32
 };
 GPU_KERNEL(edit, emission_words, EmissionWords, EditEmissionWordsParams)
 

@@ -11,5 +11,5 @@ void main()
     if (!voxel.exists || ((params.attributes.data[voxel.index].color >> 24) & kAttributeEmissive) == 0u)
         return;
     uvec2_ConstPtr words = uvec2_ConstPtr(uint64_t(params.emission_words));
-    params.emission.data[emissionPlace(words, voxel.index)] = params.emission.data[emissionPlace(words, voxel.base)];
+    params.emission.data[emissionIndex(words, voxel.index)] = params.emission.data[emissionIndex(words, voxel.base)];
 }

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Clears the words of the emission table that a dab takes. Every voxel has a place, so that nothing needs to be
+// Clears the words of the emission table that a dab takes. Every voxel has an index, so that nothing needs to be
 // counted.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"

@@ -25,8 +25,8 @@ const bool kRanks = kEntriesPerWord != 0u && kAttributes;
 RankedNode baseNode(uint level, uvec3 cell)
 {
     RankSource source =
-        RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_place);
-    RankedNode at = RankedNode(params.places.region_node + params.places.from, 0u, 0u);
+        RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_entry);
+    RankedNode at = RankedNode(params.slots.region_node + params.slots.from, 0u, 0u);
     for (uint l = 0u; l < level && at.node != kNoEditNode; ++l)
     {
         uint child = cellInBlock(cell >> (2u * (level - 1u - l)));
@@ -59,7 +59,7 @@ void dab(Node base, uvec3 leaf, inout EditCell cell)
     cell.changed = (touched.x | touched.y) != 0u ? 1u : 0u;
     uint more = bitCount(made.x) + bitCount(made.y) - bitCount(taken.x) - bitCount(taken.y);
     if (more != 0u)
-        atomicAdd(params.states.data[params.places.to].voxel_count, more); // cleared
+        atomicAdd(params.states.data[params.slots.to].voxel_count, more); // cleared
 }
 
 void main()
@@ -69,13 +69,13 @@ void main()
     uint level = levelOf(params.box, number);
     if (level == params.box.level_count)
         return;
-    uvec3 place = cellOf(params.box, level, number);
-    RankedNode at = baseNode(level, place);
+    uvec3 position = cellOf(params.box, level, number);
+    RankedNode at = baseNode(level, position);
     Node base = Node(0u, 0u, 0u, 0u);
     if (at.node != kNoEditNode)
         base = params.nodes.data[at.node];
     EditCell cell = EditCell(at.node, at.voxels, at.rank, base.mask_lo, base.mask_hi, 0u, 0u, 0u);
     if (level + 1u == params.box.level_count)
-        dab(base, place, cell);
+        dab(base, position, cell);
     params.cells.data[index] = cell;
 }

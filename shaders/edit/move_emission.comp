@@ -22,6 +22,6 @@ void main()
         return;
     uint below = params.voxel_bits.data[i >> 5] & (bit - 1u);
     uint to = params.new_first_voxel + params.voxel_numbers.data[i >> 5] + bitCount(below);
-    params.emission.data[emissionPlace(params.emission_words, to)] =
-        params.emission.data[emissionPlace(params.emission_words, from)];
+    params.emission.data[emissionIndex(params.emission_words, to)] =
+        params.emission.data[emissionIndex(params.emission_words, from)];
 }

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// How far up the copies of places reach in the new region.
+// How far up the copies of slots reach in the new region.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
 #include "lib/dispatch.glsl"
@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push
 // Nodes kept before the i-th of the old region, which may be the one behind its last.
 uint nodesBefore(uint i)
 {
-    uint last = min(i, params.node_count) - 1u; // at least the root of place 0 stands before
+    uint last = min(i, params.node_count) - 1u; // at least the root of slot 0 stands before
     return params.numbers.data[last] + (i > last && params.marks.data[last] != 0u ? 1u : 0u);
 }
 
@@ -29,11 +29,11 @@ uint voxelsBefore(uint i)
 
 void main()
 {
-    uint place = threadIndex();
-    if (place >= params.place_count)
+    uint slot = threadIndex();
+    if (slot >= params.slot_count)
         return;
-    EditState state = params.states.data[place];
+    EditState state = params.states.data[slot];
     state.node_top = params.new_first_node + nodesBefore(state.node_top - params.first_node);
     state.voxel_top = params.new_first_voxel + voxelsBefore(state.voxel_top - params.first_voxel);
-    params.new_states.data[place] = state;
+    params.new_states.data[slot] = state;
 }

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes the root of the place, and the children of changed cells: changed ones, and copies of the others.
+// Writes the root of the slot, and the children of changed cells: changed ones, and copies of the others.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 #include "edit/cells.glsl"
@@ -29,7 +29,7 @@ Node copyOf(EditCell cell)
 Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
 {
     RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,
-                                   params.first_short_place);
+                                   params.first_short_entry);
     RankedNode at = RankedNode(parent.base, parent.voxels, parent.rank);
     descendBase(source, BeforeChild_ConstPtr(uint64_t(params.ranks)), bit, is_leaf, kRanks, at);
     Node child = params.nodes.data[at.node];
@@ -48,8 +48,8 @@ Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
 
 void writeRoot(bool failed)
 {
-    uint index = params.places.region_node + params.places.to;
-    uint from = params.places.region_node + params.places.from;
+    uint index = params.slots.region_node + params.slots.to;
+    uint from = params.slots.region_node + params.slots.from;
     EditCell cell = params.cells.data[0];
     bool changed = !failed && cell.changed != 0u;
     Node root = params.nodes.data[from];
@@ -66,7 +66,7 @@ void writeRoot(bool failed)
 
 void main()
 {
-    bool failed = params.states.data[params.places.to].failed != 0u;
+    bool failed = params.states.data[params.slots.to].failed != 0u;
     if (workgroupIndex() == 0u && gl_LocalInvocationIndex == 0u)
         writeRoot(failed);
     uint number = workgroupIndex();
@@ -80,12 +80,12 @@ void main()
         return;
     uint index = childIndex(copied, bit);
     bool is_leaf = level + 2u == params.box.level_count;
-    uvec3 place = 4u * cellOf(params.box, level, number) + cellAt(bit);
+    uvec3 position = 4u * cellOf(params.box, level, number) + cellAt(bit);
     uint child_index = 0u;
     bool changed = false;
-    if (isInBox(params.box, level + 1u, place))
+    if (isInBox(params.box, level + 1u, position))
     {
-        child_index = firstCell(params.box, level + 1u) + cellNumber(params.box, level + 1u, place);
+        child_index = firstCell(params.box, level + 1u) + cellNumber(params.box, level + 1u, position);
         changed = params.cells.data[child_index].changed != 0u;
     }
     if (changed)

@@ -23,10 +23,10 @@ void main()
     EditCell cell = params.cells.data[index];
     for (uint bit = 0u; bit < 64u; ++bit)
     {
-        uvec3 place = corner + cellAt(bit);
-        if (isInBox(params.box, params.level + 1u, place))
+        uvec3 position = corner + cellAt(bit);
+        if (isInBox(params.box, params.level + 1u, position))
         {
-            EditCell child = params.cells.data[first_child + cellNumber(params.box, params.level + 1u, place)];
+            EditCell child = params.cells.data[first_child + cellNumber(params.box, params.level + 1u, position)];
             uint is_there = (child.mask_lo | child.mask_hi) != 0u ? 1u : 0u;
             uint is_lower = bit < 32u ? 1u : 0u;
             cell.mask_lo = (cell.mask_lo & ~(is_lower << (bit & 31u))) | ((is_lower & is_there) << (bit & 31u));

@@ -9,7 +9,8 @@
 //
 // A tree is the address of a zvo_TreeTable, 8 bytes in a push constant or wherever you like: declare it as
 // zvo_TreeTable_ConstPtr, or make one of a uint64_t: zvo_TreeTable_ConstPtr(address). The table tells whether it is an
-// octree, a DAG, or one of them with overlays, how deep it is and what form its attributes have: one shader traces all.
+// octree, a DAG, or one of them with overlays, how deep it is and what format its attributes have: one shader traces
+// all.
 //
 // World space, lengths in world units, t in lengths of the direction that is given (which may have any):
 //   zvo_Hit zvo_trace(tree, origin, direction, t_min, t_max)          the first voxel on the way
@@ -24,7 +25,7 @@
 // zvo's own kernels, bit for bit, and hits of theirs may be given to the functions above.
 //   zvo_Ray zvo_unitRay(origin, direction, t_min, t_max)              both in unit space
 //   zvo_Hit zvo_traceRay(tree, ray), bool zvo_occludedRay(tree, ray)
-//   zvo_Hit zvo_goOn(tree, ray, hit)                                  a ray that was left unfinished
+//   zvo_Hit zvo_resume(tree, ray, hit)                                a ray that was left unfinished
 //   vec3 zvo_pixelOrigin(camera, orthographic, pixel, size), zvo_pixelDirection(...)   rays of a zvo_CameraRays
 //   vec3 zvo_toUnit(tree, position), vec3 zvo_toWorld(tree, position), float zvo_unitEdge(tree)
 //
@@ -38,10 +39,10 @@
 //                         wrongly.
 //   ZVO_ENTRIES_PER_WORD  zvo_TreeTable::entries_per_word of all trees, likewise; 0 leaves out what only DAGs need.
 //   ZVO_DETAIL            rays may stop at nodes that are small enough: zvo_traceDetail, zvo_traceRayDetail.
-//   ZVO_STEPS_MAX         iterations of a ray in one call, 40,000 by default: enough for any ray through 8192^3 voxels.
+//   ZVO_ITERATIONS_MAX    iterations of a ray in one call, 40,000 by default: enough for any ray through 8192^3 voxels.
 //
-// Cost: of a ray, its steps, which are long where there is nothing; of a hit in a DAG, two or three loads a level of
-// nodes beside that, which zvo_occluded saves; of zvo_surface, ten loads or so. Nothing here writes, waits or needs
+// Cost: of a ray, its iterations, which lead far where there is nothing; of a hit in a DAG, two or three loads a level
+// of nodes beside that, which zvo_occluded saves; of zvo_surface, ten loads or so. Nothing here writes, waits or needs
 // barriers of its own.
 //
 // Limits: a ray that uses up its iterations is unfinished, and counts as not occluded. A ray with numbers that are NaN,
@@ -51,7 +52,7 @@
 #ifndef ZVO_TRACE_GLSL
 #define ZVO_TRACE_GLSL
 
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/emission.glsl"
@@ -86,10 +87,10 @@ const bool kDetail = true;
 #else
 const bool kDetail = false;
 #endif
-#ifndef ZVO_STEPS_MAX
-#define ZVO_STEPS_MAX kTraceStepsMax
+#ifndef ZVO_ITERATIONS_MAX
+#define ZVO_ITERATIONS_MAX kTraceIterationsMax
 #endif
-const uint kStepsMax = ZVO_STEPS_MAX;
+const uint kIterationsMax = ZVO_ITERATIONS_MAX;
 
 #include "lib/traverse.glsl"
 #include "lib/ranks.glsl"
@@ -108,7 +109,7 @@ struct zvo_Surface
     uvec3 cell;       // coordinates of the voxel, or of the node among those of its level
     bool is_voxel;    // not a node at which a level of detail stopped
     bool is_inside;   // the ray began inside
-    bool is_dynamic;  // in a leaf, or a node, that a mover or a brush has changed; always false without attributes
+    bool is_dynamic;  // in a leaf, or a node, that a dynamic object or a brush has changed; false without attributes
 };
 
 // Edge of the root's cube in world units: what is 1 in unit space.
@@ -175,7 +176,7 @@ Traversal traverseTree(TreeTable_ConstPtr tree, Ray ray, vec2 detail, uvec3 from
     setTree(tree);
     bool valid = isTraceable(ray) && uint64_t(g_halves) != 0ul;
     return traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0), valid ? ray.t_min : 1.0,
-                    valid ? ray.t_max : 0.0, detail, from, kStepsMax);
+                    valid ? ray.t_max : 0.0, detail, from, kIterationsMax);
 }
 
 // From what a traversal of a DAG knows of a hit, the number of a voxel in its leaf, to the index of its attributes, as
@@ -183,7 +184,7 @@ Traversal traverseTree(TreeTable_ConstPtr tree, Ray ray, vec2 detail, uvec3 from
 uint rankOf(TreeTable_ConstPtr tree, Traversal met)
 {
     RankSource source = RankSource(tree.data[0].source.pool, tree.data[0].source.before,
-                                   tree.data[0].source.voxels_before_leaf, tree.data[0].source.first_short_place);
+                                   tree.data[0].source.voxels_before_leaf, tree.data[0].source.first_short_entry);
     BeforeChild_ConstPtr overlay_ranks = tree.data[0].overlay_ranks;
     RankedNode at = RankedNode(0u, 0u, 0u);
     bool in_overlay = uint64_t(overlay_ranks) != 0ul;
@@ -215,7 +216,7 @@ Hit toHit(TreeTable_ConstPtr tree, Traversal met)
         if (kEntriesPerWord != 0u && kNodeLevels > 1u && uint64_t(tree.data[0].source.voxels_before_leaf) != 0ul)
             index = rankOf(tree, met);
     }
-    return Hit(met.t, index, unpackUint2x32(packHitPlace(met.cell, met.level, met.face)));
+    return Hit(met.t, index, unpackUint2x32(packHitCell(met.cell, met.level, met.face)));
 }
 
 bool zvo_isHit(Hit hit)
@@ -223,7 +224,7 @@ bool zvo_isHit(Hit hit)
     return hit.index < kHitUnfinished;
 }
 
-// The ray used up its iterations: zvo_goOn() goes on with it.
+// The ray used up its iterations: zvo_resume() resumes it.
 bool zvo_isUnfinished(Hit hit)
 {
     return hit.index == kHitUnfinished;
@@ -240,7 +241,7 @@ bool zvo_occludedRay(TreeTable_ConstPtr tree, Ray ray)
 }
 
 // Of the same ray; best in another dispatch: some devices count the iterations of an invocation.
-Hit zvo_goOn(TreeTable_ConstPtr tree, Ray ray, Hit hit)
+Hit zvo_resume(TreeTable_ConstPtr tree, Ray ray, Hit hit)
 {
     return toHit(tree, traverseTree(tree, ray, vec2(0.0), limitsAfter(hit.t, hitFace(hit))));
 }
@@ -295,7 +296,7 @@ vec3 emissionOf(TreeTable_ConstPtr tree, uint voxel)
     vec3 radiance = vec3(0.0);
     if (uint64_t(words) != 0ul && ((words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u)
         radiance =
-            tree.data[0].emission_scale * decodeRgb9e5(tree.data[0].emission.data[emissionPlace(words, voxel)]);
+            tree.data[0].emission_scale * decodeRgb9e5(tree.data[0].emission.data[emissionIndex(words, voxel)]);
     return radiance;
 }
 
@@ -314,17 +315,17 @@ zvo_Surface zvo_surface(TreeTable_ConstPtr tree, Hit hit, vec3 direction)
     surface.base_color = kPlainColor;
     surface.normal = surface.face_normal;
     surface.emission = vec3(0.0);
-    uint form = tree.data[0].attribute_form;
+    uint format = tree.data[0].attribute_format;
     Attribute_ConstPtr voxels = tree.data[0].attributes;
     Attribute_ConstPtr nodes = tree.data[0].node_attributes;
-    if (zvo_isHit(hit) && form != kFormNone && (surface.is_voxel || uint64_t(nodes) != 0ul))
+    if (zvo_isHit(hit) && format != kFormatNone && (surface.is_voxel || uint64_t(nodes) != 0ul))
     {
-        Attribute stored = readAttribute(form, surface.is_voxel, voxels, nodes, hit.index);
+        Attribute stored = readAttribute(format, surface.is_voxel, voxels, nodes, hit.index);
         surface.base_color = decodeSrgb(unpackUnorm4x8(stored.color).rgb);
         surface.normal = shadingNormal(stored.normal, surface.face_normal, direction);
         surface.is_dynamic =
             hit.index >= (surface.is_voxel ? tree.data[0].first_dynamic_voxel : tree.data[0].first_dynamic_node);
-        if (surface.is_voxel && (form != kForm8 || ((stored.color >> 24) & kAttributeEmissive) != 0u))
+        if (surface.is_voxel && (format != kFormat8 || ((stored.color >> 24) & kAttributeEmissive) != 0u))
             surface.emission = emissionOf(tree, hit.index);
     }
     return surface;

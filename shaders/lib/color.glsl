@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Colours between their stored and their linear forms.
+// Colours between their stored and their linear values.
 
 vec3 decodeSrgb(vec3 code)
 {

@@ -4,7 +4,7 @@
 
 const uint kHitCoordinateMask = (1u << kHitCoordinateBits) - 1u;
 
-uint64_t packHitPlace(uvec3 cell, uint level, uint face)
+uint64_t packHitCell(uvec3 cell, uint level, uint face)
 {
     uint low = cell.x | (cell.y << 18);
     uint high = (cell.y >> 14) | (cell.z << 4) | (level << (kHitLevelShift - 32u)) | (face << (kHitFaceShift - 32u));
@@ -15,7 +15,7 @@ void storeHit(Hit_Ptr hits, uint i, float t, uint index, uvec3 cell, uint level,
 {
     uint64_t_Ptr words = uint64_t_Ptr(uint64_t(hits));
     words.data[2u * i] = packUint2x32(uvec2(floatBitsToUint(t), index));
-    words.data[2u * i + 1u] = packHitPlace(cell, level, face);
+    words.data[2u * i + 1u] = packHitCell(cell, level, face);
 }
 
 void storeMiss(Hit_Ptr hits, uint i)

@@ -5,17 +5,17 @@
 
 #include "shared/svdag.h"
 
-// The entry at a place. per_word: of all entries of the pool, 2, 3 or 4, best a constant.
-uint listEntry(uint64_t_ConstPtr pool, uint place, uint per_word)
+// The entry with an index. per_word: of all entries of the pool, 2, 3 or 4, best a constant.
+uint listEntry(uint64_t_ConstPtr pool, uint index, uint per_word)
 {
     if (per_word != 3u)
     {
         // By half words: shifts of 64 bits are dear.
-        uint half_word = uint_ConstPtr(uint64_t(pool)).data[per_word == 4u ? place >> 1 : place];
-        return per_word == 4u ? bitfieldExtract(half_word, int(16u * (place & 1u)), 16) : half_word;
+        uint half_word = uint_ConstPtr(uint64_t(pool)).data[per_word == 4u ? index >> 1 : index];
+        return per_word == 4u ? bitfieldExtract(half_word, int(16u * (index & 1u)), 16) : half_word;
     }
     uint bits = kListWordBits / per_word;
-    return uint(pool.data[place / per_word] >> (bits * (place % per_word))) & ((1u << bits) - 1u);
+    return uint(pool.data[index / per_word] >> (bits * (index % per_word))) & ((1u << bits) - 1u);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where rays start that gather light for a hit. The includer includes trace/trace.h, lib/attribute_forms.glsl,
+// Where rays start that gather light for a hit. The includer includes trace/trace.h, lib/attribute_formats.glsl,
 // lib/hit.glsl, lib/surface_normal.glsl and lib/traverse.glsl before.
 
 struct LitPoint
@@ -13,17 +13,17 @@ struct LitPoint
 const float kLiftFace = 0.75; // voxels
 const float kLiftNormal = 0.75;
 
-// direction: of the ray that hit; form: of attributes. Without any, nor for a miss, the pointers are not used.
-LitPoint litPoint(Hit hit, vec3 direction, uint form, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes)
+// direction: of the ray that hit; format: of attributes. Without any, nor for a miss, the pointers are not used.
+LitPoint litPoint(Hit hit, vec3 direction, uint format, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes)
 {
     vec3 face_normal = faceNormal(hitFace(hit), direction);
     LitPoint point;
     point.normal = face_normal;
-    if (form != kFormNone && !isMiss(hit))
+    if (format != kFormatNone && !isMiss(hit))
     {
         bool voxel = !kDetail || hitLevel(hit) == kNodeLevels;
         point.normal =
-            shadingNormal(readAttribute(form, voxel, voxels, nodes, hit.index).normal, face_normal, direction);
+            shadingNormal(readAttribute(format, voxel, voxels, nodes, hit.index).normal, face_normal, direction);
     }
     point.edge = exp2(-2.0 * float(hitLevel(hit)));
     vec3 middle = 1.0 + (vec3(hitCell(hit)) + 0.5) * point.edge;

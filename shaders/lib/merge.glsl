@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The voxels of touched leaves, and the layers' voxels in the same places. The includer includes update/update.h.
+// The voxels of touched leaves, and the layers' voxels at the same positions. The includer includes update/update.h.
 #include "lib/emission.glsl"
 #include "lib/node.glsl"
 
@@ -90,7 +90,7 @@ bool hasBaseSums(MergedVoxel voxel)
     return voxel.base != kNoVoxel && voxel.base < params.view.data[0].base_voxel_count;
 }
 
-// What a layer has in the place of a voxel.
+// What a layer has at the position of a voxel.
 struct LayerVoxel
 {
     Layer layer;
@@ -102,21 +102,21 @@ struct LayerVoxel
 
 LayerVoxel layerVoxel(MergedVoxel voxel, uint record)
 {
-    LayerVoxel place;
-    place.record = record;
-    place.next = 0u;
-    place.voxel = 0u;
-    place.exists = false;
+    LayerVoxel layer_voxel;
+    layer_voxel.record = record;
+    layer_voxel.next = 0u;
+    layer_voxel.voxel = 0u;
+    layer_voxel.exists = false;
     if (record != 0u)
     {
         LayerLink link = params.links.data[record - 1u];
-        place.layer = params.layers.data[link.layer];
-        Node leaf = place.layer.leaves.data[record - 1u - place.layer.first_record];
-        place.next = link.next;
-        place.voxel = childIndex(leaf, voxel.cell);
-        place.exists = hasChild(leaf, voxel.cell);
+        layer_voxel.layer = params.layers.data[link.layer];
+        Node leaf = layer_voxel.layer.leaves.data[record - 1u - layer_voxel.layer.first_record];
+        layer_voxel.next = link.next;
+        layer_voxel.voxel = childIndex(leaf, voxel.cell);
+        layer_voxel.exists = hasChild(leaf, voxel.cell);
     }
-    return place;
+    return layer_voxel;
 }
 
 LayerVoxel firstLayerVoxel(MergedVoxel voxel)
@@ -124,18 +124,18 @@ LayerVoxel firstLayerVoxel(MergedVoxel voxel)
     return layerVoxel(voxel, voxel.head);
 }
 
-LayerVoxel nextLayerVoxel(MergedVoxel voxel, LayerVoxel place)
+LayerVoxel nextLayerVoxel(MergedVoxel voxel, LayerVoxel layer_voxel)
 {
-    return layerVoxel(voxel, place.next);
+    return layerVoxel(voxel, layer_voxel.next);
 }
 
-bool emitsIn(LayerVoxel place)
+bool emitsIn(LayerVoxel layer_voxel)
 {
-    return kEmits && uint64_t(place.layer.emission_words) != 0ul &&
-           ((place.layer.emission_words.data[place.voxel >> 5].x >> (place.voxel & 31u)) & 1u) != 0u;
+    return kEmits && uint64_t(layer_voxel.layer.emission_words) != 0ul &&
+           ((layer_voxel.layer.emission_words.data[layer_voxel.voxel >> 5].x >> (layer_voxel.voxel & 31u)) & 1u) != 0u;
 }
 
-uint emissionPlaceIn(LayerVoxel place)
+uint emissionIndexIn(LayerVoxel layer_voxel)
 {
-    return emissionPlace(place.layer.emission_words, place.voxel);
+    return emissionIndex(layer_voxel.layer.emission_words, layer_voxel.voxel);
 }

@@ -8,7 +8,7 @@ bool hasChild(Node node, uint cell)
 }
 
 // Where the child in a cell stands, or, in a leaf, the voxel's attribute; or would, if it existed. For a list,
-// kChildList and the place of the entry that names the child.
+// kChildList and the index of the entry that names the child.
 uint childIndex(Node node, uint cell)
 {
     uint below = (1u << (cell & 31u)) - 1u;
@@ -16,10 +16,10 @@ uint childIndex(Node node, uint cell)
 }
 
 // The child that childIndex() found, and that exists, of a node in a pool where kChildList may occur.
-uint listedChild(Node_ConstPtr pool, uint place, uint per_word)
+uint listedChild(Node_ConstPtr pool, uint index, uint per_word)
 {
-    uint child = place;
-    if ((place & kChildList) != 0u)
-        child = listEntry(uint64_t_ConstPtr(uint64_t(pool)), place & ~kChildList, per_word);
+    uint child = index;
+    if ((index & kChildList) != 0u)
+        child = listEntry(uint64_t_ConstPtr(uint64_t(pool)), index & ~kChildList, per_word);
     return child;
 }

@@ -10,7 +10,7 @@ uvec2 loadHalf(uint half_index)
     return unpackUint2x32(g_halves.data[half_index]);
 }
 
-uint loadEntry(uint place, uint per_word)
+uint loadEntry(uint index, uint per_word)
 {
-    return listEntry(g_halves, place, per_word);
+    return listEntry(g_halves, index, per_word);
 }

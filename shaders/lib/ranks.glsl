@@ -13,8 +13,8 @@ struct RankedNode
     uint rank;   // depth first
 };
 
-// The place of the entry that names the child in a cell.
-uint entryPlace(RankSource source, uint node, uint cell)
+// The index of the entry that names the child in a cell.
+uint entryIndex(RankSource source, uint node, uint cell)
 {
     uvec2 half_node = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.pool)).data[2u * node + (cell >> 5)]);
     return (half_node.y & ~kChildList) + bitCount(half_node.x & ((1u << (cell & 31u)) - 1u));
@@ -23,9 +23,9 @@ uint entryPlace(RankSource source, uint node, uint cell)
 // From a node above the parents of leaves to the child in a cell.
 void descend(RankSource source, uint cell, inout RankedNode at)
 {
-    uint place = entryPlace(source, at.node, cell);
-    uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[place]);
-    at.node = listEntry(uint64_t_ConstPtr(uint64_t(source.pool)), place, kEntriesPerWord);
+    uint index = entryIndex(source, at.node, cell);
+    uvec2 before = unpackUint2x32(uint64_t_ConstPtr(uint64_t(source.before)).data[index]);
+    at.node = listEntry(uint64_t_ConstPtr(uint64_t(source.pool)), index, kEntriesPerWord);
     at.voxels += before.x;
     at.rank += 1u + before.y;
 }
@@ -33,30 +33,30 @@ void descend(RankSource source, uint cell, inout RankedNode at)
 // From a node of an overlay to the child in a cell, unless that stands in a list of the DAG below.
 bool descendInOverlay(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, inout RankedNode at)
 {
-    uint place = childIndex(source.pool.data[at.node], cell);
-    bool direct = (place & kChildList) == 0u;
+    uint index = childIndex(source.pool.data[at.node], cell);
+    bool direct = (index & kChildList) == 0u;
     if (direct)
     {
-        BeforeChild rank = overlay_ranks.data[place];
-        at = RankedNode(place, rank.voxels, rank.nodes);
+        BeforeChild rank = overlay_ranks.data[index];
+        at = RankedNode(index, rank.voxels, rank.nodes);
     }
     return direct;
 }
 
-// Voxels before a leaf in its parent; the entry at this place names the leaf.
-uint voxelsBeforeLeaf(RankSource source, uint place)
+// Voxels before a leaf in its parent; the entry with this index names the leaf.
+uint voxelsBeforeLeaf(RankSource source, uint index)
 {
-    uint entry = place - source.first_short_place;
+    uint entry = index - source.first_short_entry;
     return bitfieldExtract(source.voxels_before_leaf.data[entry >> 1], int(16u * (entry & 1u)), 16);
 }
 
 // From a parent of leaves to the leaf in a cell, whose node is not looked up.
 void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNode at)
 {
-    uint place = entryPlace(source, at.node, cell);
-    at.voxels += voxelsBeforeLeaf(source, place);
+    uint index = entryIndex(source, at.node, cell);
+    at.voxels += voxelsBeforeLeaf(source, index);
     if (with_rank)
-        at.rank += 1u + place - entryPlace(source, at.node, 0u);
+        at.rank += 1u + index - entryIndex(source, at.node, 0u);
 }
 
 // From a node of a base tree, which may have been edited (edit/edit.h), to the child in a cell, which exists. ranked:
@@ -65,16 +65,16 @@ void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNod
 void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, bool to_leaf, bool ranked,
                  inout RankedNode at)
 {
-    uint place = childIndex(source.pool.data[at.node], cell);
+    uint index = childIndex(source.pool.data[at.node], cell);
     if (!ranked)
     {
-        uint child = kEntriesPerWord != 0u ? listedChild(source.pool, place, kEntriesPerWord) : place;
+        uint child = kEntriesPerWord != 0u ? listedChild(source.pool, index, kEntriesPerWord) : index;
         at = RankedNode(child, 0u, child);
         return;
     }
     if (descendInOverlay(source, overlay_ranks, cell, at))
         return;
-    uint child = listedChild(source.pool, place, kEntriesPerWord);
+    uint child = listedChild(source.pool, index, kEntriesPerWord);
     if (to_leaf)
         descendToLeaf(source, cell, true, at);
     else

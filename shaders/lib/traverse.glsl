@@ -20,14 +20,14 @@
 //
 // The includer includes shared/trace.h and defines before:
 //   uvec2 loadHalf(uint half_index)    mask and base of half `half_index & 1` of node `half_index >> 1`
-//   uint loadEntry(uint place, uint per_word)  of a list; with kEntriesPerWord (shared/svdag.h)
+//   uint loadEntry(uint index, uint per_word)  of a list; with kEntriesPerWord (shared/svdag.h)
 //   TRAVERSE_GROUP                     threads of the workgroup, in a compute shader that may be specialized for
 //                                      kStackShared
 //   TRAVERSE_PATHS                     optional: a constant, true where rays may begin below the root; not with kDetail
 //                                      or fewer than four levels. Then also, as trace/trace.h describes it:
 //   TRAVERSE_PATHS_RELATIVE            a constant, false where the root's first child is node 1
 //   uvec2 loadPath(uint cell)          the nodes that contain a cell
-//   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the place of the entry that named their leaf
+//   TRAVERSE_ENTRIES                   optional: hits in a DAG come with the index of the entry that named their leaf
 //   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
 //   TRAVERSE_VARIABLES                 optional: then the includer declares what the five constants stand for, by their
 //                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
@@ -42,7 +42,7 @@
 layout(constant_id = TRAVERSE_CONSTANT_ID) const uint kNodeLevels = 5u; // of the octree
 layout(constant_id = TRAVERSE_CONSTANT_ID + 1) const uint kStack = kStackRegisters;
 layout(constant_id = TRAVERSE_CONSTANT_ID + 2) const bool kDetail = false; // stop at small nodes
-layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kStepsMax = kTraceStepsMax;
+layout(constant_id = TRAVERSE_CONSTANT_ID + 3) const uint kIterationsMax = kTraceIterationsMax;
 layout(constant_id = TRAVERSE_CONSTANT_ID + 4) const uint kEntriesPerWord = 0u; // of lists; 0: there are none
 #endif
 
@@ -61,7 +61,7 @@ const uint kSavedMax = 8u; // levels of nodes above a leaf
 struct Traversal
 {
     bool hit;
-    bool unfinished; // gave up after its last iteration: (t, face) is the last event, from which it can go on
+    bool unfinished; // gave up after its last iteration: (t, face) is the last event, from which it can resume
     uint iterations; // loop bodies
     float t;         // of a hit: of the entry, or t_min; of the last event otherwise
     uint index;      // of a hit: attribute index of the voxel, of a DAG its number in the leaf; node where a level of
@@ -70,7 +70,7 @@ struct Traversal
     uint level;      // of a hit: of nodes; kNodeLevels for a voxel
     uvec3 cell;      // of a hit: coordinates among the cells of that level
 #ifdef TRAVERSE_ENTRIES
-    uint leaf_place; // of a hit in a DAG: of the entry that named the leaf, unless the ray began there
+    uint leaf_entry; // of a hit in a DAG: of the entry that named the leaf, unless the ray began there
 #endif
 };
 
@@ -170,10 +170,11 @@ uvec3 limitsAfter(float t, uint axis)
 }
 
 // The first occupied cell that the ray enters in [t_min, t_max], found in at most steps_max iterations (at least one).
-// A ray that was left unfinished goes on from the state `from`; 0 for a new one. With kDetail, nodes count as occupied
+// A ray that was left unfinished resumes from the state `from`; 0 for a new one. With kDetail, nodes count as occupied
 // whose edge is at most max(detail.x * t, detail.y) in unit space. Nothing may be NaN; origin must be finite and
 // inverse as lib/ray.glsl's inverseDirection() makes it. What would be entered at an infinite time is never entered.
-Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail, uvec3 from, uint steps_max)
+Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail, uvec3 from,
+                   uint iterations_max)
 {
     const uint one = floatBitsToUint(1.0);
     bvec3 mirrored = lessThan(ray_inverse, vec3(0.0));
@@ -198,7 +199,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     uint iterations = 0u;
     bool stopped = false; // by the level of detail
 #ifdef TRAVERSE_ENTRIES
-    uint leaf_place = 0u;
+    uint leaf_entry = 0u;
 #endif
     bool go = limits.x <= limit_max &&
               all(greaterThanEqual(planeTimes(uvec3(one + (4u << kRootShift)), origin, inverse),
@@ -265,7 +266,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
             uint named = loadEntry(listed ? child & ~kChildList : 0u, kEntriesPerWord);
 #ifdef TRAVERSE_ENTRIES
             // No ray leaves a leaf for another one without a list.
-            leaf_place = listed ? child & ~kChildList : leaf_place;
+            leaf_entry = listed ? child & ~kChildList : leaf_entry;
 #endif
             child = listed ? named : child;
         }
@@ -280,7 +281,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         corner = occupied ? mix(cell, quarter, odd) : around;
         node = occupied ? child : around_node;
         shift = occupied ? shift - 2u : around_shift;
-        go = shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max && iterations < steps_max;
+        go = shift - kLeafShift <= kRootShift - kLeafShift && limits.x <= limit_max && iterations < iterations_max;
         if (kDetail)
             go = go && !stopped;
     }
@@ -295,7 +296,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
     result.level = (kRootShift - shift) >> 1;
     result.cell = ((corner - one) >> (shift + 2u)) ^ mix(uvec3(0u), uvec3((1u << (2u * result.level)) - 1u), mirrored);
 #ifdef TRAVERSE_ENTRIES
-    result.leaf_place = leaf_place;
+    result.leaf_entry = leaf_entry;
 #endif
     return result;
 }
@@ -303,5 +304,5 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
 // A new ray with all the iterations that an invocation has.
 Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, vec2 detail)
 {
-    return traverse(ray_origin, ray_inverse, t_min, t_max, detail, uvec3(0u), kStepsMax);
+    return traverse(ray_origin, ray_inverse, t_min, t_max, detail, uvec3(0u), kIterationsMax);
 }

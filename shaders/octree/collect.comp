@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Lists the occupied entries of the brick table, and counts the voxels in them. The order of the list is arbitrary:
-// nodes get their numbers from their place in the tree later.
+// nodes get their numbers from their position in the tree later.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/dispatch.glsl"

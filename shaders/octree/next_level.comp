@@ -16,9 +16,9 @@ void main()
     if (gl_LocalInvocationIndex != 0u)
         return;
     uint first = 0u;
-    if (params.step != 0u)
-        first = params.ranges.data[params.step - 1u].first + params.ranges.data[params.step - 1u].count;
+    if (params.height != 0u)
+        first = params.ranges.data[params.height - 1u].first + params.ranges.data[params.height - 1u].count;
     uint count = params.counters.data[0].node_count - first;
-    params.ranges.data[params.step] = LevelRange(first, count);
-    params.args.data[params.step] = foldedArgs((count + kNodesGroup - 1u) / kNodesGroup, params.max_groups_x);
+    params.ranges.data[params.height] = LevelRange(first, count);
+    params.args.data[params.height] = foldedArgs((count + kNodesGroup - 1u) / kNodesGroup, params.max_groups_x);
 }

@@ -24,7 +24,7 @@ struct WorkItem
 };
 GPU_BUFFER(WorkItem, 4);
 
-/// The work items of one level of nodes. Step 0 are the leaves, the last step is the root.
+/// The work items of one level of nodes. Element 0 is for the leaves, the last one for the root.
 struct LevelRange
 {
     uint first;
@@ -45,8 +45,8 @@ struct NextLevelParams // push constants of octree/next_level
 {
     GPU_CONST_PTR(BrickCounters) counters;
     GPU_PTR(LevelRange) ranges; // [kNodeLevelsMax]
-    GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] of each step: for one thread an item
-    uint step;
+    GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] of each level, leaves first: for one thread an item
+    uint height;                // 0: leaves
     uint max_groups_x;
 };
 GPU_KERNEL(octree, next_level, NextLevel, NextLevelParams)
@@ -58,7 +58,7 @@ struct ParentsParams // push constants of octree/parents
     GPU_PTR(BrickCounters) counters;
     GPU_CONST_PTR(LevelRange) ranges;
     uint brick_mask;
-    uint step;
+    uint height; // 0: leaves
 };
 GPU_KERNEL_BEGIN(octree, parents, Parents, ParentsParams)
     GPU_CONSTANT(bool, wide_keys, false)

@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform Push
 
 void main()
 {
-    LevelRange range = params.ranges.data[params.step];
+    LevelRange range = params.ranges.data[params.height];
     uint item = threadIndex();
     if (item >= range.count)
         return;

@@ -11,11 +11,11 @@ layout(push_constant, scalar) uniform Push
     ScaleParams params;
 };
 
-// The pixel of a line of from_size in which the centre of one of to_size lies: (2 place + 1) from_size / (2 to_size),
+// The pixel of a line of from_size in which the centre of one of to_size lies: (2 pixel + 1) from_size / (2 to_size),
 // rounded down, and what is left of the division. In integers, so that all devices show the same.
-uvec2 nearest(uint place, uint to_size, uint from_size)
+uvec2 nearest(uint pixel, uint to_size, uint from_size)
 {
-    uint product = (2u * place + 1u) * from_size;
+    uint product = (2u * pixel + 1u) * from_size;
     uint quotient = product / (2u * to_size);
     return uvec2(quotient, product - quotient * 2u * to_size);
 }

@@ -42,7 +42,7 @@ struct BrickCounters
     uint node_count;     // nodes listed so far
     uint voxel_count;    // voxels in the leaves, modulo 2^32
     uint voxel_carry;    // how often that wrapped around
-    uint overflow_count; // inserts that found no place
+    uint overflow_count; // inserts that found no slot
 };
 GPU_BUFFER(BrickCounters, 4);
 

@@ -20,7 +20,7 @@
 
 GPU_NAMESPACE_BEGIN
 
-/// A 4x4x4 block of cells: 16 bytes, of which a traversal step loads one half.
+/// A 4x4x4 block of cells: 16 bytes, of which an iteration of a ray loads one half.
 struct Node
 {
     uint mask_lo; // cells with z < 2

@@ -7,10 +7,10 @@
 //     nodes, level by level from the root on | lists, those of the root first | zeros up to a whole node
 //
 // Lists are entries, numbers of nodes, of which a word of 64 bits holds as many as the largest number allows: 4 of 16
-// bits, 3 of 21 or 2 of 32, the first one in the lowest bits. Entries have *places*, counted from the pool's first word
-// on as if all of it were entries: place p is in word p / entries per word, and lists start with a word.
+// bits, 3 of 21 or 2 of 32, the first one in the lowest bits. Entries have *indices*, counted from the pool's first
+// word on as if all of it were entries: index i is in word i / entries per word, and lists start with a word.
 //
-// A half of a node with kChildList in its base has a list: child c of it is the entry at place
+// A half of a node with kChildList in its base has a list: child c of it is the entry with the index
 // (base & ~kChildList) + popcount(mask & bits below c). Without, its children stand together, as an octree's do. Inner
 // nodes of a DAG have one list for both halves: base_hi = base_lo + popcount(mask_lo). In leaves base_lo is 0 and
 // base_hi popcount(mask_lo): what would be a child is the voxel's number in the leaf.
@@ -44,9 +44,9 @@ GPU_BUFFER(BeforeChild, 8);
 struct RankSource
 {
     GPU_CONST_PTR(Node) pool;
-    GPU_CONST_PTR(BeforeChild) before;      // by places of entries: those of the long ones
+    GPU_CONST_PTR(BeforeChild) before;      // by indices of entries: those of the long ones
     GPU_CONST_PTR(uint) voxels_before_leaf; // two entries a word
-    uint first_short_place;                 // of the first entry that is not long
+    uint first_short_entry;                 // of the first entry that is not long
 };
 
 GPU_NAMESPACE_END

@@ -62,8 +62,8 @@ const uint kFaceInside = 3u; // Hit's face when the ray started inside the cell
 const float kTraceTimeMin = 1.17549435e-38f; // smallest normal float: below it, devices may flush to zero
 const float kTraceTimeMax = 3.40282347e+38f; // largest float
 
-// Iterations of an invocation; lavapipe ends every loop after 65,535. Rays that need more go on in another round.
-const uint kTraceStepsMax = 40000u;
+// Iterations of an invocation; lavapipe ends every loop after 65,535. Rays that need more resume in another round.
+const uint kTraceIterationsMax = 40000u;
 const uint kTraceRoundsMax = 16u; // of rays through one octree; depth 17 needs 14
 
 // Where a ray keeps the nodes above the current one: specialization constant of all kernels that trace.

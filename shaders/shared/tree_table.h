@@ -4,7 +4,7 @@
 #ifndef ZVO_SHADERS_SHARED_TREE_TABLE_H
 #define ZVO_SHADERS_SHARED_TREE_TABLE_H
 
-#include "shared/attribute_forms.h"
+#include "shared/attribute_formats.h"
 #include "shared/svdag.h"
 
 GPU_NAMESPACE_BEGIN
@@ -14,12 +14,12 @@ struct TreeTable
 {
     RankSource source;                        // pool: the nodes, of a DAG with its lists; the rest for ranks in a DAG
     GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays above a DAG with ranks
-    GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the form of attribute_form
-    GPU_CONST_PTR(Attribute) node_attributes; // likewise; words of form 4 beside blocks
-    GPU_CONST_PTR(uvec2) emission_words;      // of 32 voxels: bits of those that emit, place of the first one's value
+    GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the format of attribute_format
+    GPU_CONST_PTR(Attribute) node_attributes; // likewise; words of format 4 beside blocks
+    GPU_CONST_PTR(uvec2) emission_words;      // of 32 voxels: bits of those that emit, index of the first one's value
     GPU_CONST_PTR(uint) emission;             // radiance / emission_scale as RGB9E5
     float emission_scale;
-    uint attribute_form;      // kFormNone to kFormBlocks
+    uint attribute_format;    // kFormatNone to kFormatBlocks
     uint entries_per_word;    // of lists; 0: there are none
     uint attribute_offset;    // from an overlay's node above a DAG to the index of its attributes, modulo 2^32
     uint depth;               // 1 << depth voxels per edge of the grid

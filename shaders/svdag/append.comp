@@ -21,7 +21,7 @@ void main()
         return;
     Node node = params.from.data[params.first_from + index];
     uint from = node.base_lo & ~kChildList;
-    uint to = from + params.place_shift;
+    uint to = from + params.entry_shift;
     uint low = bitCount(node.mask_lo);
     uint count = low + bitCount(node.mask_hi);
     for (uint i = 0u; i < count; ++i)

@@ -10,8 +10,8 @@ uint childCount(Node node)
     return bitCount(node.mask_lo) + bitCount(node.mask_hi);
 }
 
-// Where the child with so many before it in the node is named: its number, or the place of an entry.
-uint childPlace(Node node, uint before)
+// What names the child with so many before it in the node: its number, or kChildList and the index of an entry.
+uint childIndexAfter(Node node, uint before)
 {
     uint low = bitCount(node.mask_lo);
     return before < low ? node.base_lo + before : node.base_hi + (before - low);
@@ -20,8 +20,8 @@ uint childPlace(Node node, uint before)
 // The child of an inner node with so many before it in the node.
 uint childAt(Node node, Node_ConstPtr nodes, uint before)
 {
-    uint place = childPlace(node, before);
-    if (kEntriesPerWord != 0u && (place & kChildList) != 0u)
-        place = listEntry(uint64_t_ConstPtr(uint64_t(nodes)), place & ~kChildList, kEntriesPerWord);
-    return place;
+    uint index = childIndexAfter(node, before);
+    if (kEntriesPerWord != 0u && (index & kChildList) != 0u)
+        index = listEntry(uint64_t_ConstPtr(uint64_t(nodes)), index & ~kChildList, kEntriesPerWord);
+    return index;
 }

@@ -38,7 +38,7 @@ void main()
     uint first_entry = params.first_entries.data[params.classes.data[self]];
     for (uint i = 0u; i < count; ++i)
     {
-        uint child = childPlace(node, i);
+        uint child = childIndexAfter(node, i);
         uint child_rank = rank + 1u + (kAboveLeaves ? i : params.before.data[first_entry + i].nodes);
         if (kAboveLeaves)
             moveAttribute(child, child_rank);

@@ -38,15 +38,15 @@ void main()
     uint self = params.first_node + index;
     Node node = params.nodes.data[self];
     uvec2 hash = kLeaves ? uvec2(hashMask(node.mask_lo, node.mask_hi), 0u) : params.hashes.data[index];
-    uint place = hash.x & params.slot_mask;
+    uint slot = hash.x & params.slot_mask;
     uint first = self; // of the class
     bool searching = true;
     for (uint probe = 0u; searching && probe < kClassProbesMax; ++probe)
     {
-        first = params.table.data[params.first_slot + place];
+        first = params.table.data[params.first_slot + slot];
         if (first == kEmptySlot)
         {
-            first = atomicCompSwap(params.table.data[params.first_slot + place], kEmptySlot, self);
+            first = atomicCompSwap(params.table.data[params.first_slot + slot], kEmptySlot, self);
             first = first == kEmptySlot ? self : first;
         }
         Node other = params.nodes.data[first];
@@ -57,16 +57,16 @@ void main()
             equal = haveEqualChildren(node, other, equal && first != self) || first == self;
         }
         searching = !equal;
-        place = searching ? (place + 1u) & params.slot_mask : place;
+        slot = searching ? (slot + 1u) & params.slot_mask : slot;
     }
     if (searching)
     {
         atomicAdd(params.sizes.data[0].overflow_counts[params.level], 1u);
-        place = (place - 1u) & params.slot_mask; // joins a class, if a wrong one: no more classes than slots
+        slot = (slot - 1u) & params.slot_mask; // joins a class, if a wrong one: no more classes than slots
     }
     else if (self < first)
     {
-        atomicMin(params.table.data[params.first_slot + place], self);
+        atomicMin(params.table.data[params.first_slot + slot], self);
     }
-    params.classes.data[self] = params.first_slot + place;
+    params.classes.data[self] = params.first_slot + slot;
 }

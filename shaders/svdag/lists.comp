@@ -27,14 +27,14 @@ BeforeChild belowOf(uint number)
 }
 
 // Entries of two lists may share a word.
-void setEntry(uint place, uint child)
+void setEntry(uint index, uint child)
 {
     uint bits = kListWordBits / kPerWord;
-    uvec2 word = unpackUint2x32(uint64_t(child) << (bits * (place % kPerWord)));
+    uvec2 word = unpackUint2x32(uint64_t(child) << (bits * (index % kPerWord)));
     if (word.x != 0u)
-        atomicOr(params.halfwords.data[2u * (place / kPerWord)], word.x);
+        atomicOr(params.halfwords.data[2u * (index / kPerWord)], word.x);
     if (word.y != 0u)
-        atomicOr(params.halfwords.data[2u * (place / kPerWord) + 1u], word.y);
+        atomicOr(params.halfwords.data[2u * (index / kPerWord) + 1u], word.y);
 }
 
 void setBefore(uint entry, BeforeChild before)
@@ -64,7 +64,7 @@ void main()
     for (uint i = 0u; i < count; ++i)
     {
         uint child = params.numbers.data[params.classes.data[childAt(node, params.nodes, i)]];
-        setEntry(params.first_place + first_entry + i, child);
+        setEntry(params.first_index + first_entry + i, child);
         if (kBefore)
         {
             setBefore(first_entry + i, before);
@@ -75,6 +75,6 @@ void main()
     }
     if (kBefore)
         params.below.data[number] = BeforeChild(before.voxels, before.nodes + 1u);
-    uint base = kChildList | (params.first_place + first_entry);
+    uint base = kChildList | (params.first_index + first_entry);
     params.pool.data[number] = Node(node.mask_lo, base, node.mask_hi, base + bitCount(node.mask_lo));
 }

@@ -118,7 +118,7 @@ struct UniqueListsParams // push constants of svdag/lists
     GPU_PTR(uint) voxels_before_leaf; // [ceil(other entries / 2)] zeros
     uint first_node;                  // of the DAG
     uint node_count;
-    uint first_place;      // of entries
+    uint first_index;      // of entries
     uint long_entry_count; // entries before those of the parents of leaves
 };
 GPU_KERNEL_BEGIN(svdag, lists, Lists, UniqueListsParams)
@@ -154,7 +154,7 @@ struct AppendParams // push constants of svdag/append: one thread a node
     uint first_from;
     uint first_to;
     uint node_count;
-    uint place_shift; // from the place of an entry to that of its copy, modulo 2^32 as the next one
+    uint entry_shift; // from the index of an entry to that of its copy, modulo 2^32 as the next one
     uint child_shift; // from the number of a child to that of its copy
 };
 GPU_KERNEL_BEGIN(svdag, append, Append, AppendParams)

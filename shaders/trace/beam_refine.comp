@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Last step of the beam grid, for octrees with at least four levels of nodes: the finest level. Cells a quarter as
+// Last pass of the beam grid, for octrees with at least four levels of nodes: the finest level. Cells a quarter as
 // large below each set cell, set if they or a neighbour of their own size touch an occupied cell of the octree's fourth
 // level.
 #extension GL_GOOGLE_include_directive : require

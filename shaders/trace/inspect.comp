@@ -4,7 +4,7 @@
 // so that its iterations are those of the ray alone.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
@@ -13,7 +13,7 @@
 #include "lib/ray.glsl"
 
 layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const uint kForm = kForm8; // of attributes; kFormNone where hits have no index of any
+layout(constant_id = 6) const uint kFormat = kFormat8; // of attributes; kFormatNone where hits have no index of any
 
 layout(local_size_x = kArgsGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -31,8 +31,8 @@ uint nodeAround(uvec3 cell, uint level)
     uint node = 0u;
     for (uint k = 1u; k < level; ++k)
     {
-        uint place = childIndex(params.nodes.data[node], cellInBlock(cell >> (2u * (level - k))));
-        node = kEntriesPerWord != 0u ? listedChild(params.nodes, place, kEntriesPerWord) : place;
+        uint index = childIndex(params.nodes.data[node], cellInBlock(cell >> (2u * (level - k))));
+        node = kEntriesPerWord != 0u ? listedChild(params.nodes, index, kEntriesPerWord) : index;
     }
     return node;
 }
@@ -58,9 +58,9 @@ void main()
     report.node = met.hit ? nodeAround(met.cell, met.level) : 0u;
     report.index = met.hit ? loadHit(params.hits, params.pixel).index : 0u;
     report.look = Attribute(0u, 0u);
-    if (kForm != kFormNone && met.hit)
+    if (kFormat != kFormatNone && met.hit)
         report.look =
-            readAttribute(kForm, met.level == kNodeLevels, params.attributes, params.node_attributes, report.index);
+            readAttribute(kFormat, met.level == kNodeLevels, params.attributes, params.node_attributes, report.index);
     report.iterations = met.iterations;
     params.report.data[0] = report;
 }

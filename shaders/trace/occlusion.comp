@@ -5,7 +5,7 @@
 // iterations that an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
@@ -13,7 +13,7 @@
 #include "lib/surface_normal.glsl"
 
 layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const uint kForm = kForm8; // of attributes
+layout(constant_id = 6) const uint kFormat = kFormat8; // of attributes
 layout(constant_id = 7) const bool kShadows = true; // trace/shadow has run
 
 layout(local_size_x = kTilePixels) in;
@@ -55,12 +55,12 @@ void main()
     vec3 direction = params.forward;
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
-    LitPoint point = litPoint(hit, direction, kForm, params.attributes, params.node_attributes);
+    LitPoint point = litPoint(hit, direction, kFormat, params.attributes, params.node_attributes);
     mat3 frame = frameAround(point.normal);
     float end = isMiss(hit) ? 0.0 : params.radius;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     float open = 0.0;
-    uint steps_left = kStepsMax;
+    uint iterations_left = kIterationsMax;
     uint unfinished_count = 0u;
     for (uint k = 0u; k < params.ray_count; ++k)
     {
@@ -68,11 +68,11 @@ void main()
         float angle = kGoldenAngle * float(k);
         vec3 toward = frame * vec3(sqrt(u) * vec2(cos(angle), sin(angle)), sqrt(1.0 - u));
         Traversal ray = traverse(point.origin, inverseDirection(toward), kTraceTimeMin, end, vec2(0.0), uvec3(0u),
-                                 max(steps_left, 1u));
+                                 max(iterations_left, 1u));
         float way = ray.face == kFaceInside ? kInsideShare : ray.t / max(end, kTraceTimeMin);
         float reached = ray.hit ? way : 1.0;
         open += reached;
-        steps_left -= min(ray.iterations, steps_left);
+        iterations_left -= min(ray.iterations, iterations_left);
         unfinished_count += ray.unfinished ? 1u : 0u;
     }
     if (unfinished_count != 0u)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces the rays of all pixels in live tiles, one workgroup a tile. Rays that use up their iterations go on in another
-// round. The includer defines PRIMARY_RANKS, or does not: then hits in a DAG get the ranks that are the indices of
-// their attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface
+// Traces the rays of all pixels in live tiles, one workgroup a tile. Rays that use up their iterations resume in
+// another round. The includer defines PRIMARY_RANKS, or does not: then hits in a DAG get the ranks that are the indices
+// of their attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface
 // Geometry, 2017, who sum up during the traversal; here only the path of the hit is summed up).
 #include "trace/trace.h"
 #include "lib/camera.glsl"
@@ -53,13 +53,13 @@ uvec2 loadPath(uint cell)
 // (lib/traverse.glsl).
 uint rankOf(Traversal hit)
 {
-    RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_place);
+    RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_entry);
     BeforeChild_ConstPtr overlay_ranks = BeforeChild_ConstPtr(kOverlays ? g_paths.data[kRankTableOverlays] : 0ul);
     uvec3 cell = (hit.cell >> (2u * (kNodeLevels - kPathLevels))) & (kPathCells - 1u);
-    uint place = kRankTableFirst + (cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
-    RankedNode at = RankedNode(0u, uint_ConstPtr(uint64_t(g_paths)).data[2u * place + 1u], 0u);
+    uint index = kRankTableFirst + (cell.x | (cell.y << kPathCellBits) | (cell.z << (2u * kPathCellBits)));
+    RankedNode at = RankedNode(0u, uint_ConstPtr(uint64_t(g_paths)).data[2u * index + 1u], 0u);
     if (kNodeLevels > kPathLevels + 2u || kOverlays)
-        at.node = uint_ConstPtr(uint64_t(g_paths)).data[2u * place];
+        at.node = uint_ConstPtr(uint64_t(g_paths)).data[2u * index];
     bool in_overlay = kOverlays && (at.node & kChildList) != 0u;
     at.node &= kOverlays ? ~kChildList : ~0u;
     for (uint level = kPathLevels + 1u; level + 1u < kNodeLevels; ++level)
@@ -77,7 +77,7 @@ uint rankOf(Traversal hit)
             uint base = loadHalf(2u * (in_overlay ? at.node : 0u) + (cellInBlock(hit.cell >> 2u) >> 5u)).y;
             in_overlay = in_overlay && (base & kChildList) == 0u;
         }
-        at.voxels += voxelsBeforeLeaf(source, max(hit.leaf_place, params.first_short_place));
+        at.voxels += voxelsBeforeLeaf(source, max(hit.leaf_entry, params.first_short_entry));
     }
     return hit.index + (in_overlay ? 0u : at.voxels); // in leaves of overlays, voxels have numbers of their own
 }
@@ -113,7 +113,7 @@ void main()
         from = limitsAfter(last.t, hitFace(last));
     }
     Traversal result = traverse(origin, inverseDirection(direction), uintBitsToFloat(tile.y), kTraceTimeMax,
-                                detail, from, kStepsMax);
+                                detail, from, kIterationsMax);
     if (any(greaterThanEqual(pixel, size)))
         return;
     if (result.unfinished)

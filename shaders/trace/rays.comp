@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Traces a list of rays. Those that use up their iterations go on in another round.
+// Traces a list of rays. Those that use up their iterations resume in another round.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"
@@ -43,7 +43,7 @@ void main()
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     // An invalid ray goes through as one that ends before it starts.
     Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0),
-                                valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail, from, kStepsMax);
+                                valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail, from, kIterationsMax);
     if (result.unfinished)
         endUnfinished(kMore, params.rounds, params.round, (params.ray_count - 1u) / kRaysGroup + 1u, params.status);
     uint miss = kMore && result.unfinished ? kHitUnfinished : kHitMiss;

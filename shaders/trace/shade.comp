@@ -4,7 +4,7 @@
 // what is there (trace/sky).
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
@@ -15,7 +15,7 @@
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const bool kOrthographic = false;
-layout(constant_id = 2) const uint kForm = kForm8; // of attributes
+layout(constant_id = 2) const uint kFormat = kFormat8; // of attributes
 layout(constant_id = 3) const bool kEmission = false;
 layout(constant_id = 4) const bool kLight = true; // params.light was filled
 layout(constant_id = 5) const uint kTexels = kTexelRgba8;

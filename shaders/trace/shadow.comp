@@ -1,10 +1,10 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Which hits the sun reaches, one workgroup a live tile. Rays that use up their iterations go on in another round:
+// Which hits the sun reaches, one workgroup a live tile. Rays that use up their iterations resume in another round:
 // until then, light holds the time of the last event, a float greater than all light.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
@@ -12,7 +12,7 @@
 #include "lib/surface_normal.glsl"
 
 layout(constant_id = 5) const bool kOrthographic = false;
-layout(constant_id = 6) const uint kForm = kForm8; // of attributes
+layout(constant_id = 6) const uint kFormat = kFormat8; // of attributes
 layout(constant_id = 7) const bool kResume = false; // only rays that the round before left unfinished
 layout(constant_id = 8) const bool kMore = false;     // another round follows
 
@@ -52,12 +52,12 @@ void main()
     vec3 direction = params.forward;
     if (!kOrthographic)
         direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
-    LitPoint point = litPoint(hit, direction, kForm, params.attributes, params.node_attributes);
+    LitPoint point = litPoint(hit, direction, kFormat, params.attributes, params.node_attributes);
     vec3 origin = point.origin + kLiftSun * point.edge * params.to_sun;
     bool faces_sun = !isMiss(hit) && dot(point.normal, params.to_sun) > 0.0;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     Traversal shadow = traverse(origin, inverseDirection(params.to_sun), kTraceTimeMin, faces_sun ? kTraceTimeMax : 0.0,
-                                vec2(0.0), from, kStepsMax);
+                                vec2(0.0), from, kIterationsMax);
     if (shadow.unfinished)
         endUnfinished(kMore, params.rounds, params.round, params.status.data[0].live_tiles, params.status);
     uint light = kLightAll - (faces_sun && !shadow.hit ? 0u : kLightSun);

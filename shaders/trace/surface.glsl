@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a hit looks like, without its emission. The includer includes trace/trace.h, lib/attribute_forms.glsl,
-// lib/color.glsl, lib/hit.glsl and lib/surface_normal.glsl before, and declares kNodeLevels and kForm.
+// What a hit looks like, without its emission. The includer includes trace/trace.h, lib/attribute_formats.glsl,
+// lib/color.glsl, lib/hit.glsl and lib/surface_normal.glsl before, and declares kNodeLevels and kFormat.
 
 const vec3 kPlainAlbedo = vec3(0.6); // without attributes
 
@@ -15,13 +15,13 @@ Surface surfaceAt(Hit hit, vec3 direction, Attribute_ConstPtr attributes, Attrib
 {
     vec3 face_normal = faceNormal(hitFace(hit), direction);
     Surface surface = Surface(kPlainAlbedo, face_normal, false);
-    if (kForm != kFormNone && !isMiss(hit))
+    if (kFormat != kFormatNone && !isMiss(hit))
     {
         bool voxel = hitLevel(hit) == kNodeLevels;
-        Attribute stored = readAttribute(kForm, voxel, attributes, node_attributes, hit.index);
+        Attribute stored = readAttribute(kFormat, voxel, attributes, node_attributes, hit.index);
         surface.albedo = decodeSrgb(unpackUnorm4x8(stored.color).rgb);
         surface.normal = shadingNormal(stored.normal, face_normal, direction);
-        surface.may_emit = voxel && (kForm != kForm8 || ((stored.color >> 24) & kAttributeEmissive) != 0u);
+        surface.may_emit = voxel && (kFormat != kFormat8 || ((stored.color >> 24) & kAttributeEmissive) != 0u);
     }
     return surface;
 }

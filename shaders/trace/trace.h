@@ -3,21 +3,21 @@
 #ifndef ZVO_SHADERS_TRACE_TRACE_H
 #define ZVO_SHADERS_TRACE_TRACE_H
 
-#include "shared/attribute_forms.h"
+#include "shared/attribute_formats.h"
 #include "shared/svdag.h"
 #include "shared/trace.h"
 
-GPU_ENUM(AttributeForm, std::uint32_t) // kForm8 and so on (shared/attribute_forms.h)
-GPU_ENUM(TexelForm, std::uint32_t)     // kTexelRgba8 and so on
-GPU_ENUM(TraceStack, std::uint32_t)    // kStackRegisters and so on (shared/trace.h)
-GPU_ENUM(View, std::uint32_t)          // kViewColor and so on
+GPU_ENUM(AttributeFormat, std::uint32_t) // kFormat8 and so on (shared/attribute_formats.h)
+GPU_ENUM(TexelFormat, std::uint32_t)     // kTexelRgba8 and so on
+GPU_ENUM(TraceStack, std::uint32_t)      // kStackRegisters and so on (shared/trace.h)
+GPU_ENUM(View, std::uint32_t)            // kViewColor and so on
 
 GPU_NAMESPACE_BEGIN
 
 GPU_BUFFER(float, 4);
 
 const uint kRaysGroup = 64u; // threads of a workgroup of trace/rays
-const uint kSkyRows = 8u;    // pixels that a thread of trace/sky takes: the division for its place is dear
+const uint kSkyRows = 8u;    // pixels that a thread of trace/sky takes: the division for its position is dear
 const uint kSkyGroup = 64u;  // threads of a workgroup of trace/sky
 
 // Pictures are traced in square tiles, one workgroup each.
@@ -101,7 +101,7 @@ const float kHalfMax = 65504.0f; // largest half float
     GPU_CONSTANT(uint, node_levels, 5u)                                                                                \
     GPU_CONSTANT(TraceStack, stack, kStackRegisters)                                                                   \
     GPU_CONSTANT(bool, detail, false)                                                                                  \
-    GPU_CONSTANT(uint, steps_max, kTraceStepsMax)                                                                      \
+    GPU_CONSTANT(uint, iterations_max, kTraceIterationsMax)                                                            \
     GPU_CONSTANT(uint, entries_per_word, 0u)
 
 // Of every kernel with trace/primary.glsl, behind those.
@@ -263,7 +263,7 @@ struct PrimaryRanksParams // push constants of trace/primary_ranks
     CameraRays camera;
     uint width;
     uint height;
-    uint first_short_place;
+    uint first_short_entry;
     uint round;
 };
 GPU_KERNEL_BEGIN(trace, primary_ranks, PrimaryRanks, PrimaryRanksParams)
@@ -276,7 +276,7 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(uvec2) live;
     GPU_CONST_PTR(Hit) hits;
-    GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the form of kForm
+    GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the format of kFormat
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
     GPU_PTR(TraceStatus) status;
     GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
@@ -292,7 +292,7 @@ struct ShadowParams // push constants of trace/shadow
 GPU_KERNEL_BEGIN(trace, shadow, Shadow, ShadowParams)
     TRAVERSE_CONSTANTS
     GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeForm, form, kForm8)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
     GPU_CONSTANT(bool, resume, false)
     GPU_CONSTANT(bool, more, false)
 GPU_KERNEL_END
@@ -317,7 +317,7 @@ struct OcclusionParams // push constants of trace/occlusion
 GPU_KERNEL_BEGIN(trace, occlusion, Occlusion, OcclusionParams)
     TRAVERSE_CONSTANTS
     GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeForm, form, kForm8)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
     GPU_CONSTANT(bool, shadows, true)
 GPU_KERNEL_END
 
@@ -335,7 +335,7 @@ struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a
 };
 GPU_KERNEL_BEGIN(trace, sky, Sky, SkyParams)
     GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(TexelForm, texels, kTexelRgba8)
+    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
     GPU_CONSTANT(bool, black, false)
 GPU_KERNEL_END
 
@@ -365,7 +365,7 @@ struct PixelReport
     uint face;       // as in Hit
     uint node;       // that the cell is in: its number among the nodes
     uint index;      // of its attributes, as in Hit
-    Attribute look;  // base colour and normal, in 8 bytes whatever their form; 0 without attributes
+    Attribute look;  // base colour and normal, in 8 bytes whatever their format; 0 without attributes
     uint iterations; // of the traversal's loop, from the camera on
 };
 GPU_BUFFER(PixelReport, 4);
@@ -374,7 +374,7 @@ struct InspectParams // push constants of trace/inspect: kArgsGroup threads, of 
 {
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(Hit) hits;
-    GPU_CONST_PTR(Attribute) attributes; // of voxels, in the form of kForm
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
     GPU_CONST_PTR(Attribute) node_attributes;
     GPU_PTR(PixelReport) report; // [1]
     CameraRays camera;
@@ -386,7 +386,7 @@ struct InspectParams // push constants of trace/inspect: kArgsGroup threads, of 
 GPU_KERNEL_BEGIN(trace, inspect, Inspect, InspectParams)
     TRAVERSE_CONSTANTS
     GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeForm, form, kForm8)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
 GPU_KERNEL_END
 
 struct ShadeParams // push constants of trace/shade
@@ -411,10 +411,10 @@ struct ShadeParams // push constants of trace/shade
 GPU_KERNEL_BEGIN(trace, shade, Shade, ShadeParams)
     GPU_CONSTANT(uint, node_levels, 5u)
     GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeForm, form, kForm8)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
     GPU_CONSTANT(bool, emission, false)
     GPU_CONSTANT(bool, light, true)
-    GPU_CONSTANT(TexelForm, texels, kTexelRgba8)
+    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
 GPU_KERNEL_END
 
 struct ViewsParams // push constants of trace/views
@@ -438,8 +438,8 @@ GPU_KERNEL_BEGIN(trace, views, Views, ViewsParams)
     GPU_CONSTANT(View, view, kViewAlbedo)
     GPU_CONSTANT(uint, node_levels, 5u)
     GPU_CONSTANT(bool, orthographic, false)
-    GPU_CONSTANT(AttributeForm, form, kForm8)
-    GPU_CONSTANT(TexelForm, texels, kTexelRgba8)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
 GPU_KERNEL_END
 
 GPU_NAMESPACE_END

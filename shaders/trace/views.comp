@@ -4,7 +4,7 @@
 // for the heat map of iterations.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
-#include "lib/attribute_forms.glsl"
+#include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"
@@ -15,7 +15,7 @@
 layout(constant_id = 0) const uint kView = kViewAlbedo;
 layout(constant_id = 1) const uint kNodeLevels = 5u;
 layout(constant_id = 2) const bool kOrthographic = false;
-layout(constant_id = 3) const uint kForm = kForm8; // of attributes
+layout(constant_id = 3) const uint kFormat = kFormat8; // of attributes
 layout(constant_id = 4) const uint kTexels = kTexelRgba8;
 
 layout(local_size_x = kTilePixels) in;
@@ -65,7 +65,7 @@ vec3 originColor(Hit hit, vec3 color)
     float bright = 0.25 + 0.75 * dot(color, vec3(0.3, 0.6, 0.1));
     uint first_changed = hitLevel(hit) == kNodeLevels ? params.first_changed_voxel : params.first_changed_node;
     bool is_static = hit.index < first_changed;
-    return bright * (is_static || kForm == kFormNone ? vec3(1.0) : vec3(1.0, 0.5, 0.1));
+    return bright * (is_static || kFormat == kFormatNone ? vec3(1.0) : vec3(1.0, 0.5, 0.1));
 }
 
 void main()

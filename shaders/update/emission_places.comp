@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Where the emission of each word of 32 voxels stands: every voxel has a place, so that nothing needs to be counted.
+// The index of the first emission of each word of 32 voxels: every voxel has one, so that nothing needs to be counted.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/dispatch.glsl"
@@ -15,5 +15,5 @@ void main()
 {
     uint word = threadIndex();
     if (word < params.word_count)
-        params.words.data[params.first_word + word] = uvec2(0u, params.first_place + 32u * word);
+        params.words.data[params.first_word + word] = uvec2(0u, params.first_index + 32u * word);
 }

@@ -39,7 +39,7 @@ uvec2 childKey(uvec2 key, uint cell)
 RankedNode baseChild(TouchedNode parent, uint cell)
 {
     RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,
-                                   params.first_short_place);
+                                   params.first_short_entry);
     RankedNode at = RankedNode(parent.base, 0u, 0u);
     if (kRanks)
     {

@@ -22,10 +22,10 @@ void main()
         status.failed |= kFailedFragments;
     uint root = params.root;
     if (status.failed != 0u)
-        root = params.last_root != kNoNode ? params.last_root : params.roots.data[params.last_place];
-    params.roots.data[params.place] = root;
+        root = params.last_root != kNoNode ? params.last_root : params.roots.data[params.last_slot];
+    params.roots.data[params.slot] = root;
     params.nodes.data[0] = params.nodes.data[root];
     if (kAttributes)
         params.node_attributes.data[0] = params.node_attributes.data[root + params.attribute_offset];
-    params.results.data[params.place] = status;
+    params.results.data[params.slot] = status;
 }

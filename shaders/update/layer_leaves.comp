@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Lists the leaves in a layer's brick table and gives each a place for its voxels' sums. Their order is arbitrary: sums
+// Lists the leaves in a layer's brick table and gives each room for its voxels' sums. Their order is arbitrary: sums
 // are added up, whatever the order. Leaves without room lose their voxels, so that nothing is written past the end; the
 // layer is of no use then.
 #extension GL_GOOGLE_include_directive : require
@@ -32,9 +32,9 @@ void main()
         BrickEntry brick = params.bricks.data[entry];
         uint middle = first.y + bitCount(brick.mask_lo);
         uint end = middle + bitCount(brick.mask_hi);
-        bool has_place = first.x < params.leaf_capacity;
-        bool fits = has_place && end <= params.voxel_capacity && end >= first.y;
-        if (has_place)
+        bool has_slot = first.x < params.leaf_capacity;
+        bool fits = has_slot && end <= params.voxel_capacity && end >= first.y;
+        if (has_slot)
         {
             params.keys.data[first.x] = keyOf(brick);
             params.leaves.data[first.x] =
@@ -43,10 +43,10 @@ void main()
         if (!fits)
             params.bricks.data[entry].mask_hi = 0u;
         if (kWideKeys || !fits) // wide: the leaf's number
-            params.bricks.data[entry].mask_lo = kWideKeys && has_place ? first.x : 0u;
+            params.bricks.data[entry].mask_lo = kWideKeys && has_slot ? first.x : 0u;
         if (!kWideKeys)
             params.bricks.data[entry].base = fits ? first.y : 0u;
-        else if (!has_place) // half a key, which nobody finds
+        else if (!has_slot) // half a key, which nobody finds
             params.bricks.data[entry].base = 0u;
         ++first.x;
         first.y = end;

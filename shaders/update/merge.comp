@@ -17,15 +17,15 @@ void mergeVoxel(MergedVoxel voxel)
         look = params.attributes.data[voxel.base];
     VoxelSums sums = VoxelSums(0u, 0u, 0u, 0u, 0u, 0u, 0u);
     bool emits = false;
-    LayerVoxel place = firstLayerVoxel(voxel);
-    for (uint i = 0u; i < kLayersMax && place.record != 0u; ++i)
+    LayerVoxel layer_voxel = firstLayerVoxel(voxel);
+    for (uint i = 0u; i < kLayersMax && layer_voxel.record != 0u; ++i)
     {
-        if (place.exists)
+        if (layer_voxel.exists)
         {
-            addSums(sums, place.layer.sums.data[place.voxel], 0u);
-            emits = emits || emitsIn(place);
+            addSums(sums, layer_voxel.layer.sums.data[layer_voxel.voxel], 0u);
+            emits = emits || emitsIn(layer_voxel);
         }
-        place = nextLayerVoxel(voxel, place);
+        layer_voxel = nextLayerVoxel(voxel, layer_voxel);
     }
     bool dynamic = sums.fragments != 0u && !(kMerge == kMergeStatic && voxel.base != kNoVoxel);
     if (dynamic)

@@ -19,16 +19,16 @@ void mergeEmission(MergedVoxel voxel)
         base_emits = ((params.attributes.data[voxel.base].color >> 24) & kAttributeEmissive) != 0u;
     EmissionSums sums = EmissionSums(0u, 0u, 0u);
     uint fragments = 0u;
-    LayerVoxel place = firstLayerVoxel(voxel);
-    for (uint i = 0u; i < kLayersMax && place.record != 0u; ++i)
+    LayerVoxel layer_voxel = firstLayerVoxel(voxel);
+    for (uint i = 0u; i < kLayersMax && layer_voxel.record != 0u; ++i)
     {
-        if (place.exists)
+        if (layer_voxel.exists)
         {
-            fragments += place.layer.sums.data[place.voxel].fragments;
-            if (emitsIn(place))
-                addEmission(sums, place.layer.emission_sums.data[emissionPlaceIn(place)], 0u);
+            fragments += layer_voxel.layer.sums.data[layer_voxel.voxel].fragments;
+            if (emitsIn(layer_voxel))
+                addEmission(sums, layer_voxel.layer.emission_sums.data[emissionIndexIn(layer_voxel)], 0u);
         }
-        place = nextLayerVoxel(voxel, place);
+        layer_voxel = nextLayerVoxel(voxel, layer_voxel);
     }
     uint result = 0u;
     if (fragments != 0u && !(kMerge == kMergeStatic && voxel.base != kNoVoxel))
@@ -37,16 +37,16 @@ void mergeEmission(MergedVoxel voxel)
         {
             fragments += params.view.data[0].sums.data[voxel.base].fragments;
             if (base_emits)
-                addEmission(sums, params.view.data[0].emission_sums.data[emissionPlace(words, voxel.base)],
+                addEmission(sums, params.view.data[0].emission_sums.data[emissionIndex(words, voxel.base)],
                             params.view.data[0].base_shift);
         }
         result = resolveEmission(sums, fragments, params.sum_shift);
     }
     else
     {
-        result = params.emission.data[emissionPlace(words, voxel.base)];
+        result = params.emission.data[emissionIndex(words, voxel.base)];
     }
-    params.emission.data[emissionPlace(words, voxel.index)] = result;
+    params.emission.data[emissionIndex(words, voxel.index)] = result;
 }
 
 void main()

@@ -41,7 +41,7 @@ void main()
     }
     failed |= 1u + child_nodes > params.node_capacity ? kFailedNodes : 0u;
     failed |= voxels > params.voxel_capacity ? kFailedVoxels : 0u;
-    bool goes_on = touched && failed == 0u;
+    bool continues = touched && failed == 0u;
     if (failed == 0u)
     {
         params.nodes.data[params.first_node] = root;
@@ -53,11 +53,11 @@ void main()
     }
     params.levels.data[0] = OverlayLevel(params.first_node, 1u);
     if (!is_leaf)
-        params.levels.data[1] = OverlayLevel(params.first_node + 1u, goes_on ? child_nodes : 0u);
+        params.levels.data[1] = OverlayLevel(params.first_node + 1u, continues ? child_nodes : 0u);
     params.status.data[0].failed = failed;
     params.status.data[0].node_count = 1u + child_nodes;
     params.status.data[0].voxel_count = voxels;
-    params.args.data[kArgsExpand] = DispatchArgs(goes_on && !is_leaf ? 1u : 0u, 1u, 1u);
+    params.args.data[kArgsExpand] = DispatchArgs(continues && !is_leaf ? 1u : 0u, 1u, 1u);
     params.args.data[kArgsAssign] = DispatchArgs(0u, 1u, 1u);
-    params.args.data[kArgsMerge] = DispatchArgs(goes_on && is_leaf ? 1u : 0u, 1u, 1u);
+    params.args.data[kArgsMerge] = DispatchArgs(continues && is_leaf ? 1u : 0u, 1u, 1u);
 }

@@ -40,11 +40,11 @@ void main()
     uint failed = params.status.data[0].failed |
                   (node_count > params.node_capacity || (wrapped && !are_leaves) ? kFailedNodes : 0u) |
                   (voxel_count > params.voxel_capacity || (wrapped && are_leaves) ? kFailedVoxels : 0u);
-    bool goes_on = failed == 0u;
+    bool continues = failed == 0u;
     params.status.data[0].failed = failed;
     params.status.data[0].node_count = node_count;
     params.status.data[0].voxel_count = voxel_count;
-    uint touched = goes_on ? params.ranges.data[params.level_count - 1u - params.level].count : 0u; // of this level
+    uint touched = continues ? params.ranges.data[params.level_count - 1u - params.level].count : 0u; // of this level
     if (are_leaves)
     {
         const uint leaves_per_group = kUpdateGroup / kMergeThreads;
@@ -53,8 +53,9 @@ void main()
     }
     else
     {
-        params.levels.data[params.level + 1u] = OverlayLevel(level.first_node + level.node_count, goes_on ? carry : 0u);
+        params.levels.data[params.level + 1u] =
+            OverlayLevel(level.first_node + level.node_count, continues ? carry : 0u);
         params.args.data[kArgsExpand] = foldedArgs(touched, params.max_groups_x);
     }
-    params.args.data[kArgsAssign] = foldedArgs(goes_on ? block_count : 0u, params.max_groups_x);
+    params.args.data[kArgsAssign] = foldedArgs(continues ? block_count : 0u, params.max_groups_x);
 }

@@ -11,11 +11,11 @@
 //     base tree's nodes, whose own children stay where they are.
 //   - A touched leaf of an overlay has attributes of its own for all of its voxels, in the order of the leaves.
 //
-// The base tree is an octree or a DAG (shared/svdag.h). A DAG's nodes stand at many places, and so do not tell
+// The base tree is an octree or a DAG (shared/svdag.h). A DAG's nodes stand at many positions, and so do not tell
 // which attributes are theirs: with attributes, every node of an overlay has, in an array beside it, the rank of the
-// base octree's node in its place. A copy of a leaf has the index of its first voxel's attribute, as an octree's leaf.
-// Attributes of a DAG's nodes stand depth first, as many as the octree had; those of overlays' nodes stand behind them,
-// attribute_offset from the nodes' numbers.
+// base octree's node at its position. A copy of a leaf has the index of its first voxel's attribute, as an octree's
+// leaf. Attributes of a DAG's nodes stand depth first, as many as the octree had; those of overlays' nodes stand behind
+// them, attribute_offset from the nodes' numbers.
 //
 // A node of the overlay that stands above a leaf of a layer is touched. Touched nodes have entries in a brick table, as
 // nodes under construction do (shared/bricks.h).
@@ -56,7 +56,7 @@ struct LayerCounters
     uint leaf_count;
     uint voxel_count;
     uint failed;         // 1: something had no room, the layer is of no use
-    uint overflow_count; // leaves that found no place in the brick table
+    uint overflow_count; // leaves that found no slot in the brick table
     uint big_count;      // the largest counts of a material class, as in RasterCounters
     uint block_count;
     uint blocks_exceeded;
@@ -77,7 +77,7 @@ struct Layer
     GPU_CONST_PTR(uvec2)
     emission_words;                            // [ceil(voxel_capacity / 32)] bits of voxels that emit, index in
                                                // emission_sums of the word's first; null if nothing does
-    GPU_CONST_PTR(EmissionSums) emission_sums; // [voxel_capacity], in places
+    GPU_CONST_PTR(EmissionSums) emission_sums; // [voxel_capacity], by the indices of emission_words
     uint first_record;                         // the records before it: the leaf capacities of the layers before
     uint leaf_capacity;
 };
@@ -95,7 +95,7 @@ GPU_BUFFER(LayerLink, 4);
 struct TouchedNode
 {
     uint node; // its index
-    uint base; // the node of the base tree in the same place, or kNoNode
+    uint base; // the node of the base tree at the same position, or kNoNode
 };
 GPU_BUFFER(TouchedNode, 4);
 
@@ -158,7 +158,7 @@ struct EmissionPlacesParams // push constants of update/emission_places
     GPU_PTR(uvec2) words;
     uint first_word;
     uint word_count;
-    uint first_place; // of the first word's voxels
+    uint first_index; // of the first word's voxels
 };
 GPU_KERNEL(update, emission_places, EmissionPlaces, EmissionPlacesParams)
 
@@ -225,7 +225,7 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     uint first_node;        // of the overlay
     uint first_partial;     // of the level
     uint attribute_offset;  // 0 for an octree
-    uint first_short_place; // as in RankSource
+    uint first_short_entry; // as in RankSource
     uint static_root;
 };
 GPU_KERNEL_BEGIN(update, expand, Expand, ExpandParams)
@@ -331,9 +331,9 @@ struct FinishParams // push constants of update/finish
     GPU_PTR(UpdateStatus) results; // copies that the host can read
     GPU_PTR(uint) roots;           // of updates of which the host does not know yet whether they failed
     uint root;                     // of the overlay
-    uint last_root;                // the one that stays if the update failed, or kNoNode: roots[last_place]
-    uint last_place;
-    uint place;     // element of roots and of results for this update
+    uint last_root;                // the one that stays if the update failed, or kNoNode: roots[last_slot]
+    uint last_slot;
+    uint slot;      // element of roots and of results for this update
     uint sum_shift; // of the layers
     uint attribute_offset;
 };
@@ -346,8 +346,8 @@ struct ShowParams // push constants of update/show
     GPU_PTR(Node) nodes;
     GPU_PTR(Attribute) node_attributes; // or null
     GPU_CONST_PTR(uint) roots;
-    uint root; // or kNoNode: roots[place]
-    uint place;
+    uint root; // or kNoNode: roots[slot]
+    uint slot;
     uint attribute_offset;
 };
 GPU_KERNEL_BEGIN(update, show, Show, ShowParams)

@@ -70,8 +70,8 @@ Tile coverTile(RasterTriangle t, ivec2 column)
             EDGE_IVEC3 least = min(cell.uv, min(cell.vw, cell.wu));
             bool covered = in_rows && u >= t.low.x && u <= t.high.x && cell.w >= t.low.z && cell.w <= t.high.z &&
                            min(least.x, min(least.y, least.z)) >= 0;
-            uint place = cellBits(uint(i), axis_u) | cellBits(uint(j), axis_v) | cellBits(uint(cell.w), t.axis);
-            addToMasks(covered, place, uint(cell.w - leaf_low), tile.masks);
+            uint number = cellBits(uint(i), axis_u) | cellBits(uint(j), axis_v) | cellBits(uint(cell.w), t.axis);
+            addToMasks(covered, number, uint(cell.w - leaf_low), tile.masks);
             int move = stepLayer(t, -t.n_u, cell.rest);
             cell.w += move;
             cell.uv += uv_column;

@@ -127,9 +127,9 @@ void rasterizeThin(RasterTriangle t, Surface surface, uvec2 extent, bool selecte
     {
         uint number = uint(findLSB(covered));
         uint y = divideSmall(number, extent.x);
-        ivec2 place = t.low.xy + ivec2(number - y * extent.x, y);
-        RasterCell fragment = startColumn(t, place);
-        emitFragment(t, surface, cornerWeights(t, fragment), uvec3(voxelOf(t, place, fragment.w)), cursor);
+        ivec2 column = t.low.xy + ivec2(number - y * extent.x, y);
+        RasterCell fragment = startColumn(t, column);
+        emitFragment(t, surface, cornerWeights(t, fragment), uvec3(voxelOf(t, column, fragment.w)), cursor);
     }
 }
 

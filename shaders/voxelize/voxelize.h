@@ -23,10 +23,10 @@ const int kSmallExtent = 8192;       // lattice units: a triangle up to this siz
 const uint kRowBlocksMax = 1u << 28; // row blocks that one run may list
 const uint kFragmentsMax = 65535u;   // fragments of a voxel that 32-bit sums hold
 
-// RasterParams::window, from the lowest bit on: depth of the grid 5 bits | depth of the cube 5 | its place among cubes
+// RasterParams::window, from the lowest bit on: depth of the grid 5 bits | depth of the cube 5 | its index among cubes
 // of its size, x 7 | y 7 | z 7
 const uint kWindowDepthBits = 5u;
-const uint kWindowPlaceBits = 7u;
+const uint kWindowIndexBits = 7u;
 
 const int kLatticeLimit = 1 << 29; // vertices beyond are dropped
 const int kVoxelLattice = 256;     // lattice units a voxel

@@ -15,8 +15,8 @@ int gridResolution()
 void clipToWindow(inout ivec3 low, inout ivec3 high)
 {
     int depth = int(bitfieldExtract(params.window, int(kWindowDepthBits), int(kWindowDepthBits)));
-    uvec3 places = uvec3(params.window) >> (2u * kWindowDepthBits + kWindowPlaceBits * uvec3(0u, 1u, 2u));
-    ivec3 first = ivec3(places & ((1u << kWindowPlaceBits) - 1u)) << depth;
+    uvec3 indices = uvec3(params.window) >> (2u * kWindowDepthBits + kWindowIndexBits * uvec3(0u, 1u, 2u));
+    ivec3 first = ivec3(indices & ((1u << kWindowIndexBits) - 1u)) << depth;
     low = max(low, first);
     high = min(high, first + ((1 << depth) - 1));
 }

@@ -123,9 +123,9 @@ void zvoDeviceReportDestroy(ZvoDeviceReport* report)
     delete report;
 }
 
-ZvoResult zvoDeviceReportFacts(const ZvoDeviceReport* report, ZvoDeviceFacts* facts)
+ZvoResult zvoDeviceReportInfo(const ZvoDeviceReport* report, ZvoDeviceInfo* info)
 {
-    return guarded(__func__, [&] { writeStruct(facts, "facts", toC(at(report, "report").object)); });
+    return guarded(__func__, [&] { writeStruct(info, "info", toC(at(report, "report").object)); });
 }
 
 ZvoResult zvoDeviceReportText(const ZvoDeviceReport* report, ZvoReportList list, uint32_t index, const char** text)

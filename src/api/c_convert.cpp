@@ -27,10 +27,10 @@ ZVO_SAME(ZVO_COVERAGE_CONSERVATIVE, Coverage::Conservative);
 ZVO_SAME(ZVO_COVERAGE_THIN, Coverage::Thin);
 ZVO_SAME(ZVO_TREE_STRUCTURE_SVO, TreeStructure::Svo);
 ZVO_SAME(ZVO_TREE_STRUCTURE_SVDAG, TreeStructure::Svdag);
-ZVO_SAME(ZVO_ATTRIBUTE_FORM_NONE, AttributeForm::None);
-ZVO_SAME(ZVO_ATTRIBUTE_FORM_BYTES4, AttributeForm::Bytes4);
-ZVO_SAME(ZVO_ATTRIBUTE_FORM_BYTES8, AttributeForm::Bytes8);
-ZVO_SAME(ZVO_ATTRIBUTE_FORM_BLOCKS, AttributeForm::Blocks);
+ZVO_SAME(ZVO_ATTRIBUTE_FORMAT_NONE, AttributeFormat::None);
+ZVO_SAME(ZVO_ATTRIBUTE_FORMAT_BYTES4, AttributeFormat::Bytes4);
+ZVO_SAME(ZVO_ATTRIBUTE_FORMAT_BYTES8, AttributeFormat::Bytes8);
+ZVO_SAME(ZVO_ATTRIBUTE_FORMAT_BLOCKS, AttributeFormat::Blocks);
 ZVO_SAME(ZVO_MERGE_RULE_AVERAGE, MergeRule::Average);
 ZVO_SAME(ZVO_MERGE_RULE_DYNAMIC_WINS, MergeRule::DynamicWins);
 ZVO_SAME(ZVO_MERGE_RULE_STATIC_WINS, MergeRule::StaticWins);
@@ -199,7 +199,7 @@ TreeBuildInfo ofC(const ZvoTreeBuildInfo& info)
     TreeBuildInfo result;
     result.grid = ofC(info.grid);
     result.coverage = checkedEnum(info.coverage, Coverage::Thin, "ZvoTreeBuildInfo::coverage");
-    result.form = checkedEnum(info.form, AttributeForm::Blocks, "ZvoTreeBuildInfo::form");
+    result.format = checkedEnum(info.format, AttributeFormat::Blocks, "ZvoTreeBuildInfo::format");
     result.keep_sums = info.keep_sums != VK_FALSE;
     return result;
 }
@@ -210,7 +210,7 @@ DynamicTreeInfo ofC(const ZvoDynamicTreeInfo& info)
     result.coverage = checkedEnum(info.coverage, Coverage::Thin, "ZvoDynamicTreeInfo::coverage");
     result.merge = checkedEnum(info.merge, MergeRule::StaticWins, "ZvoDynamicTreeInfo::merge");
     result.frames_in_flight = info.frames_in_flight;
-    result.history_steps = info.history_steps;
+    result.history_entries = info.history_entries;
     result.history_bytes = info.history_bytes;
     result.strokes = info.strokes;
     result.edit_bytes = info.edit_bytes;
@@ -273,9 +273,9 @@ DepthTarget ofC(const ZvoDepthTarget& target)
     return {ofC(readStruct(target.image, "ZvoDepthTarget::image")), arrayOf(target.view_projection), target.miss};
 }
 
-ZvoDeviceFacts toC(const DeviceReport& report)
+ZvoDeviceInfo toC(const DeviceReport& report)
 {
-    auto result = initial<ZvoDeviceFacts>();
+    auto result = initial<ZvoDeviceInfo>();
     result.physical_device = report.physical_device;
     result.name = report.name.c_str();
     result.driver = report.driver.c_str();
@@ -312,16 +312,16 @@ ZvoGrid toC(const GridInfo& grid)
     return result;
 }
 
-ZvoTreeFacts toC(const TreeFacts& facts)
+ZvoTreeInfo toC(const TreeInfo& info)
 {
-    auto result = initial<ZvoTreeFacts>();
-    result.structure = static_cast<ZvoTreeStructure>(facts.structure);
-    result.form = static_cast<ZvoAttributeForm>(facts.form);
-    result.grid = toC(facts.grid);
-    result.emission_scale = facts.emission_scale;
-    result.voxel_count = facts.voxel_count;
-    result.node_count = facts.node_count;
-    result.bytes = facts.bytes;
+    auto result = initial<ZvoTreeInfo>();
+    result.structure = static_cast<ZvoTreeStructure>(info.structure);
+    result.format = static_cast<ZvoAttributeFormat>(info.format);
+    result.grid = toC(info.grid);
+    result.emission_scale = info.emission_scale;
+    result.voxel_count = info.voxel_count;
+    result.node_count = info.node_count;
+    result.bytes = info.bytes;
     return result;
 }
 
@@ -340,18 +340,18 @@ ZvoDroppedTriangles toC(const std::map<std::string, std::uint64_t>& dropped)
     return result;
 }
 
-ZvoUpdateFacts toC(const UpdateFacts& facts)
+ZvoUpdateStats toC(const UpdateStats& info)
 {
-    const ZvoDroppedTriangles dropped = toC(facts.dropped);
-    auto result = initial<ZvoUpdateFacts>();
-    result.node_count = facts.node_count;
-    result.voxel_count = facts.voxel_count;
-    result.moving_count = facts.moving_count;
+    const ZvoDroppedTriangles dropped = toC(info.dropped);
+    auto result = initial<ZvoUpdateStats>();
+    result.node_count = info.node_count;
+    result.voxel_count = info.voxel_count;
+    result.moving_count = info.moving_count;
     result.dropped_nonfinite = dropped.nonfinite;
     result.dropped_out_of_range = dropped.out_of_range;
     result.dropped_outside = dropped.outside;
     result.dropped_zero_area = dropped.zero_area;
-    result.failed = facts.failed ? VK_TRUE : VK_FALSE;
+    result.failed = info.failed ? VK_TRUE : VK_FALSE;
     return result;
 }
 

@@ -49,12 +49,12 @@ TraceInfo ofC(const ZvoTraceInfo& info);
 ImageTarget ofC(const ZvoImageTarget& target);
 DepthTarget ofC(const ZvoDepthTarget& target);
 
-ZvoDeviceFacts toC(const DeviceReport& report); // texts are the report's
+ZvoDeviceInfo toC(const DeviceReport& report); // texts are the report's
 ZvoMemoryUse toC(const MemoryUse& use);
 ZvoPassTime toC(const PassTime& time); // the name is time's
 ZvoGrid toC(const GridInfo& grid);
-ZvoTreeFacts toC(const TreeFacts& facts);
-ZvoUpdateFacts toC(const UpdateFacts& facts);
+ZvoTreeInfo toC(const TreeInfo& info);
+ZvoUpdateStats toC(const UpdateStats& info);
 ZvoDroppedTriangles toC(const std::map<std::string, std::uint64_t>& dropped);
 ZvoCameraInfo toC(const CameraInfo& info);
 ZvoCameraRays toC(const CameraRays& rays);

@@ -56,26 +56,27 @@ void zvoDynamicTreeDestroy(ZvoDynamicTree* tree)
     delete tree;
 }
 
-ZvoResult zvoDynamicTreeAddMover(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
-                                 const float to_world[16], ZvoMoverId* mover)
+ZvoResult zvoDynamicTreeAddObject(ZvoDynamicTree* tree, ZvoRecorder* recorder, const ZvoModel* model,
+                                  const float to_world[16], ZvoDynamicObjectId* id)
 {
     return guarded(__func__,
                    [&]
                    {
-                       ZvoMoverId& result = at(mover, "mover");
+                       ZvoDynamicObjectId& result = at(id, "id");
                        Recorder& object = at(recorder, "recorder").object;
-                       result = at(tree, "tree").object.addMover(object, at(model, "model").object, matrixOf(to_world));
+                       result =
+                           at(tree, "tree").object.addObject(object, at(model, "model").object, matrixOf(to_world));
                    });
 }
 
-ZvoResult zvoDynamicTreePlaceMover(ZvoDynamicTree* tree, ZvoMoverId mover, const float to_world[16])
+ZvoResult zvoDynamicTreeSetTransform(ZvoDynamicTree* tree, ZvoDynamicObjectId id, const float to_world[16])
 {
-    return guarded(__func__, [&] { at(tree, "tree").object.placeMover(mover, matrixOf(to_world)); });
+    return guarded(__func__, [&] { at(tree, "tree").object.setTransform(id, matrixOf(to_world)); });
 }
 
-ZvoResult zvoDynamicTreeRemoveMover(ZvoDynamicTree* tree, ZvoMoverId mover)
+ZvoResult zvoDynamicTreeRemoveObject(ZvoDynamicTree* tree, ZvoDynamicObjectId id)
 {
-    return guarded(__func__, [&] { at(tree, "tree").object.removeMover(mover); });
+    return guarded(__func__, [&] { at(tree, "tree").object.removeObject(id); });
 }
 
 ZvoResult zvoDynamicTreeUpdate(ZvoDynamicTree* tree, ZvoRecorder* recorder, double budget_ms, VkBool32* is_complete)
@@ -129,30 +130,30 @@ ZvoResult zvoDynamicTreeRedoEdit(ZvoDynamicTree* tree, ZvoRecorder* recorder, Vk
                     [&](DynamicTree& object) { return object.redoEdit(at(recorder, "recorder").object); });
 }
 
-ZvoResult zvoDynamicTreeTakeUpdate(ZvoDynamicTree* tree, ZvoUpdateFacts* facts, VkBool32* is_taken)
+ZvoResult zvoDynamicTreeTakeUpdate(ZvoDynamicTree* tree, ZvoUpdateStats* stats, VkBool32* is_taken)
 {
     return guarded(__func__,
                    [&]
                    {
                        auto& [object, updates] = at(tree, "tree");
                        VkBool32& result = at(is_taken, "is_taken");
-                       sizeOf(facts, "facts");
-                       for (UpdateFacts& update : object.takeUpdates())
+                       sizeOf(stats, "stats");
+                       for (UpdateStats& update : object.takeUpdates())
                        {
                            updates.push_back(std::move(update));
                        }
                        result = updates.empty() ? VK_FALSE : VK_TRUE;
                        if (!updates.empty())
                        {
-                           writeStruct(facts, "facts", toC(updates.front()));
+                           writeStruct(stats, "stats", toC(updates.front()));
                            updates.pop_front();
                        }
                    });
 }
 
-ZvoResult zvoDynamicTreeFacts(const ZvoDynamicTree* tree, ZvoTreeFacts* facts)
+ZvoResult zvoDynamicTreeInfo(const ZvoDynamicTree* tree, ZvoTreeInfo* info)
 {
-    return guarded(__func__, [&] { writeStruct(facts, "facts", toC(at(tree, "tree").object.facts())); });
+    return guarded(__func__, [&] { writeStruct(info, "info", toC(at(tree, "tree").object.info())); });
 }
 
 ZvoResult zvoDynamicTreeAddress(const ZvoDynamicTree* tree, uint64_t* address)

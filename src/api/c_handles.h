@@ -58,7 +58,7 @@ struct ZvoTreeCompression
 struct ZvoDynamicTree
 {
     zvo::DynamicTree object;
-    std::deque<zvo::UpdateFacts> updates = {}; // that the host has not taken
+    std::deque<zvo::UpdateStats> updates = {}; // that the host has not taken
 };
 
 struct ZvoTracer

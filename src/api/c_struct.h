@@ -27,7 +27,7 @@ template <typename Struct> Struct initial();
     static_assert(offsetof(Struct, last) + sizeof(Struct::last) == sizeof(Struct))
 
 ZVO_C_STRUCT(ZvoOptionalFeatures, subgroup_sizes, ZVO_OPTIONAL_FEATURES_INIT);
-ZVO_C_STRUCT(ZvoDeviceFacts, reserved, ZVO_DEVICE_FACTS_INIT);
+ZVO_C_STRUCT(ZvoDeviceInfo, reserved, ZVO_DEVICE_INFO_INIT);
 ZVO_C_STRUCT(ZvoContextInfo, subgroup_size, ZVO_CONTEXT_INFO_INIT);
 ZVO_C_STRUCT(ZvoMemoryUse, peak_held, ZVO_MEMORY_USE_INIT);
 ZVO_C_STRUCT(ZvoPassTime, ms, ZVO_PASS_TIME_INIT);
@@ -36,13 +36,13 @@ ZVO_C_STRUCT(ZvoMaterialInfo, reserved, ZVO_MATERIAL_INFO_INIT);
 ZVO_C_STRUCT(ZvoMeshInfo, reserved, ZVO_MESH_INFO_INIT);
 ZVO_C_STRUCT(ZvoInstanceInfo, reserved, ZVO_INSTANCE_INFO_INIT);
 ZVO_C_STRUCT(ZvoModelInfo, emission_scale, ZVO_MODEL_INFO_INIT);
-ZVO_C_STRUCT(ZvoModelFacts, reserved, ZVO_MODEL_FACTS_INIT);
-ZVO_C_STRUCT(ZvoTreeFacts, bytes, ZVO_TREE_FACTS_INIT);
+ZVO_C_STRUCT(ZvoModelStats, reserved, ZVO_MODEL_STATS_INIT);
+ZVO_C_STRUCT(ZvoTreeInfo, bytes, ZVO_TREE_INFO_INIT);
 ZVO_C_STRUCT(ZvoTreeBuildInfo, keep_sums, ZVO_TREE_BUILD_INFO_INIT);
 ZVO_C_STRUCT(ZvoDroppedTriangles, zero_area, ZVO_DROPPED_TRIANGLES_INIT);
 ZVO_C_STRUCT(ZvoDynamicTreeInfo, edit_bytes, ZVO_DYNAMIC_TREE_INFO_INIT);
 ZVO_C_STRUCT(ZvoBrushInfo, reserved, ZVO_BRUSH_INFO_INIT);
-ZVO_C_STRUCT(ZvoUpdateFacts, reserved, ZVO_UPDATE_FACTS_INIT);
+ZVO_C_STRUCT(ZvoUpdateStats, reserved, ZVO_UPDATE_STATS_INIT);
 ZVO_C_STRUCT(ZvoCameraInfo, reserved, ZVO_CAMERA_INFO_INIT);
 ZVO_C_STRUCT(ZvoTraceInfo, reserved, ZVO_TRACE_INFO_INIT);
 ZVO_C_STRUCT(ZvoImageTarget, extent, ZVO_IMAGE_TARGET_INIT);

@@ -19,12 +19,12 @@ VkBool32 boolean(bool value)
 
 // TreeBuild and TreeCompression have the same steps.
 
-template <typename Job> ZvoResult record(const char* function, Job* job, ZvoRecorder* recorder, VkBool32* goes_on)
+template <typename Job> ZvoResult record(const char* function, Job* job, ZvoRecorder* recorder, VkBool32* has_more)
 {
     return guarded(function,
                    [&]
                    {
-                       VkBool32& result = at(goes_on, "goes_on");
+                       VkBool32& result = at(has_more, "has_more");
                        result = boolean(at(job, "job").object.record(at(recorder, "recorder").object));
                    });
 }
@@ -65,16 +65,16 @@ void zvoModelDestroy(ZvoModel* model)
     delete model;
 }
 
-ZvoResult zvoModelFacts(const ZvoModel* model, ZvoModelFacts* facts)
+ZvoResult zvoModelStats(const ZvoModel* model, ZvoModelStats* stats)
 {
     return guarded(__func__,
                    [&]
                    {
                        const Model& object = at(model, "model").object;
-                       auto result = initial<ZvoModelFacts>();
+                       auto result = initial<ZvoModelStats>();
                        result.triangle_count = object.triangleCount();
                        result.emission_scale = object.emissionScale();
-                       writeStruct(facts, "facts", result);
+                       writeStruct(stats, "stats", result);
                    });
 }
 
@@ -109,9 +109,9 @@ void zvoTreeDestroy(ZvoTree* tree)
     delete tree;
 }
 
-ZvoResult zvoTreeFacts(const ZvoTree* tree, ZvoTreeFacts* facts)
+ZvoResult zvoTreeInfo(const ZvoTree* tree, ZvoTreeInfo* info)
 {
-    return guarded(__func__, [&] { writeStruct(facts, "facts", toC(at(tree, "tree").object.facts())); });
+    return guarded(__func__, [&] { writeStruct(info, "info", toC(at(tree, "tree").object.info())); });
 }
 
 ZvoResult zvoTreeAddress(const ZvoTree* tree, uint64_t* address)
@@ -137,9 +137,9 @@ void zvoTreeBuildDestroy(ZvoTreeBuild* build)
     delete build;
 }
 
-ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* goes_on)
+ZvoResult zvoTreeBuildRecord(ZvoTreeBuild* build, ZvoRecorder* recorder, VkBool32* has_more)
 {
-    return record(__func__, build, recorder, goes_on);
+    return record(__func__, build, recorder, has_more);
 }
 
 ZvoResult zvoTreeBuildIsDone(ZvoTreeBuild* build, VkBool32* is_done)
@@ -179,9 +179,9 @@ void zvoTreeCompressionDestroy(ZvoTreeCompression* compression)
     delete compression;
 }
 
-ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder, VkBool32* goes_on)
+ZvoResult zvoTreeCompressionRecord(ZvoTreeCompression* compression, ZvoRecorder* recorder, VkBool32* has_more)
 {
-    return record(__func__, compression, recorder, goes_on);
+    return record(__func__, compression, recorder, has_more);
 }
 
 ZvoResult zvoTreeCompressionIsDone(ZvoTreeCompression* compression, VkBool32* is_done)

@@ -74,7 +74,7 @@ Grid checkedGrid(const GridInfo& info)
     return grid;
 }
 
-const Mat4& checkedPlacement(const Mat4& transform, const std::string& what)
+const Mat4& checkedTransform(const Mat4& transform, const std::string& what)
 {
     if (!areFinite(transform))
     {
@@ -103,8 +103,8 @@ double checkedAmount(double amount, const char* name)
 const TreeBuildInfo& checked(const TreeBuildInfo& info)
 {
     checkedEnum(info.coverage, Coverage::Thin, "TreeBuildInfo::coverage");
-    checkedEnum(info.form, AttributeForm::Blocks, "TreeBuildInfo::form");
-    if (info.keep_sums && info.form != AttributeForm::Bytes8)
+    checkedEnum(info.format, AttributeFormat::Blocks, "TreeBuildInfo::format");
+    if (info.keep_sums && info.format != AttributeFormat::Bytes8)
     {
         throw Error(ErrorCode::Usage, "sums are kept only beside attributes of 8 bytes");
     }
@@ -120,7 +120,7 @@ const DynamicTreeInfo& checked(const DynamicTreeInfo& info)
         throw Error(ErrorCode::Usage, fmt::format("DynamicTreeInfo::frames_in_flight is {}: it must be from 1 to {}",
                                                   info.frames_in_flight, kFramesInFlightMax));
     }
-    requireOne(info.history_steps, "DynamicTreeInfo::history_steps");
+    requireOne(info.history_entries, "DynamicTreeInfo::history_entries");
     requireOne(info.strokes, "DynamicTreeInfo::strokes");
     checkedAmount(info.emission_scale, "DynamicTreeInfo::emission_scale");
     return info;

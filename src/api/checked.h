@@ -35,7 +35,7 @@ template <typename Enum> Enum checkedEnum(Enum value, Enum last, const char* nam
 Grid checkedGrid(const GridInfo& info);
 
 /// A transform that is finite and affine. what: whose it is.
-const Mat4& checkedPlacement(const Mat4& transform, const std::string& what);
+const Mat4& checkedTransform(const Mat4& transform, const std::string& what);
 
 /// A number that is finite and not negative.
 float checkedAmount(float amount, const char* name);

@@ -87,7 +87,7 @@ vk::DeviceHandles handlesOf(const ContextInfo& info)
 } // namespace
 
 Context::Impl::Impl(const ContextInfo& info)
-    : device(handlesOf(checked(info)), zvoKernels()), uploads(device, retired),
+    : device(handlesOf(checked(info)), zvoKernels()), uploads(device, deletion_queue),
       timed_passes(info.timed_passes_per_frame)
 {
 }
@@ -96,7 +96,7 @@ Context::Impl::Impl(const ContextInfo& info)
 Context::Impl::~Impl()
 {
     frames.clear();
-    retired = {};
+    deletion_queue = {};
 }
 
 std::shared_ptr<FrameState> Context::Impl::beginFrame(std::uint64_t number)
@@ -130,7 +130,7 @@ std::shared_ptr<FrameState> Context::Impl::beginFrame(std::uint64_t number)
     }
     frames.push_back(frame);
     was_lost = false;
-    retired.beginFrame(number);
+    deletion_queue.beginFrame(number);
     return frame;
 }
 
@@ -177,7 +177,7 @@ void Context::frameDone(std::uint64_t frame)
             failure = failure ? failure : std::current_exception();
         }
     }
-    impl.retired.frameDone(frame);
+    impl.deletion_queue.frameDone(frame);
     if (failure)
     {
         std::rethrow_exception(failure);
@@ -211,7 +211,7 @@ void Context::frameLost(std::uint64_t frame)
     impl.frames.pop_back();
     if (impl.frames.empty()) // nothing is under way
     {
-        impl.retired.frameDone(number);
+        impl.deletion_queue.frameDone(number);
     }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "vk/deletion_queue.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/recorded_uploads.h"
-#include "vk/retired.h"
 #include "vk/timer.h"
 #include "zvo/context.h"
 #include "zvo/error.h"
@@ -44,17 +44,17 @@ struct ZVO_LOCAL Context::Impl
     /// The times of its passes, of a frame that is done, where they can be had.
     void takeTimes(FrameState& frame);
 
-    /// Keeps thing until the device is done with all frames so far. It does not retire anything when it goes.
-    template <typename T> void retire(T&& thing)
+    /// Keeps thing until the device is done with all frames so far. It does not delete anything later when it goes.
+    template <typename T> void deleteLater(T&& thing)
     {
         if (!frames.empty())
         {
-            retired.keep(std::forward<T>(thing));
+            deletion_queue.keep(std::forward<T>(thing));
         }
     }
 
     vk::Device device;
-    vk::Retired retired;
+    vk::DeletionQueue deletion_queue;
     vk::RecordedUploads uploads;
     std::uint32_t timed_passes;
     std::deque<std::shared_ptr<FrameState>> frames = {}; // that the device is not known to be done with

@@ -22,18 +22,18 @@ DynamicOptions optionsOf(const DynamicTreeInfo& info)
     options.coverage = checked(info).coverage;
     options.merge = info.merge;
     options.frames_in_flight = info.frames_in_flight;
-    options.history = {info.history_steps, info.history_bytes};
+    options.history = {info.history_entries, info.history_bytes};
     options.edits = {info.strokes, info.edit_bytes};
     options.emission_scale = info.emission_scale;
     return options;
 }
 
-Pose poseOf(const MoverMesh& mesh, const Mat4& to_world)
+Pose poseOf(const DynamicMesh& mesh, const Mat4& to_world)
 {
-    return poseAt(mesh.scene, 0.0, glm::dmat4(toGlm(checkedPlacement(to_world, "a mover"))));
+    return poseAt(mesh.scene, 0.0, glm::dmat4(toGlm(checkedTransform(to_world, "a dynamic object"))));
 }
 
-UpdateFacts factsOf(const UpdateReport& report)
+UpdateStats statsOf(const UpdateReport& report)
 {
     return {report.failed != 0, report.node_count, report.voxel_count, report.dynamic_count, report.dropped};
 }
@@ -41,7 +41,7 @@ UpdateFacts factsOf(const UpdateReport& report)
 } // namespace
 
 DynamicTree::Impl::Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTreeInfo& info)
-    : context(recorder.context), facts(usable(fixed).facts), table(context.device, "tree table", 1)
+    : context(recorder.context), tree_info(usable(fixed).tree_info), table(context.device, "tree table", 1)
 {
     requireSame(context, usable(fixed).context);
     try
@@ -63,8 +63,8 @@ DynamicTree::Impl::Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTre
 
 DynamicTree::Impl::~Impl()
 {
-    context.retire(std::move(octree));
-    context.retire(std::move(table));
+    context.deleteLater(std::move(octree));
+    context.deleteLater(std::move(table));
 }
 
 void DynamicTree::Impl::learn()
@@ -76,7 +76,7 @@ void DynamicTree::Impl::learn()
         frames.pop_front();
         for (const UpdateReport& report : octree->frameDone(frame.number, frame.host->times))
         {
-            updates.push_back(factsOf(report));
+            updates.push_back(statsOf(report));
         }
     }
     if (!frames.empty() && frames.back().host->is_lost)
@@ -84,14 +84,14 @@ void DynamicTree::Impl::learn()
         octree->frameLost();
         frames.pop_back();
     }
-    for (const NewMover& made : new_movers)
+    for (const NewObject& made : new_objects)
     {
         if (made.made_in->is_lost)
         {
-            octree->remove(made.mover); // what its vertices are was not uploaded
+            octree->remove(made.object); // what its vertices are was not uploaded
         }
     }
-    std::erase_if(new_movers, [](const NewMover& made) { return made.made_in->is_lost || made.made_in->is_done; });
+    std::erase_if(new_objects, [](const NewObject& made) { return made.made_in->is_lost || made.made_in->is_done; });
 }
 
 void DynamicTree::Impl::enter(Recorder::Impl& recorder)
@@ -130,32 +130,33 @@ DynamicTree::~DynamicTree() = default;
 DynamicTree::DynamicTree(DynamicTree&&) noexcept = default;
 DynamicTree& DynamicTree::operator=(DynamicTree&&) noexcept = default;
 
-MoverId DynamicTree::addMover(Recorder& recorder, const Model& model, const Mat4& to_world)
+DynamicObjectId DynamicTree::addObject(Recorder& recorder, const Model& model, const Mat4& to_world)
 {
     Impl& impl = usable(*this);
-    const Model::Impl& mover_impl = usable(model);
-    requireSame(impl.context, mover_impl.context);
-    const auto& mesh = mover_impl.mesh;
+    const Model::Impl& model_impl = usable(model);
+    requireSame(impl.context, model_impl.context);
+    const auto& mesh = model_impl.mesh;
     Pose pose = poseOf(*mesh, to_world); // looks at to_world before anything is recorded
     impl.enter(recorder.impl());
-    const MoverId mover = recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, std::move(pose)); });
-    impl.new_movers.push_back({recorder.impl().frame, mover});
-    return mover;
+    const DynamicObjectId object =
+        recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, std::move(pose)); });
+    impl.new_objects.push_back({recorder.impl().frame, object});
+    return object;
 }
 
-void DynamicTree::placeMover(MoverId mover, const Mat4& to_world)
+void DynamicTree::setTransform(DynamicObjectId object, const Mat4& to_world)
 {
     Impl& impl = usable(*this);
     impl.learn();
-    impl.octree->place(mover, poseOf(impl.octree->mesh(mover), to_world));
+    impl.octree->setPose(object, poseOf(impl.octree->mesh(object), to_world));
 }
 
-void DynamicTree::removeMover(MoverId mover)
+void DynamicTree::removeObject(DynamicObjectId object)
 {
     Impl& impl = usable(*this);
     impl.learn();
-    impl.octree->remove(mover);
-    std::erase_if(impl.new_movers, [&](const Impl::NewMover& made) { return made.mover == mover; });
+    impl.octree->remove(object);
+    std::erase_if(impl.new_objects, [&](const Impl::NewObject& made) { return made.object == object; });
 }
 
 bool DynamicTree::update(Recorder& recorder, double budget_ms)
@@ -213,16 +214,16 @@ bool DynamicTree::redoEdit(Recorder& recorder)
                                 [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redoEdit(graph); });
 }
 
-std::vector<UpdateFacts> DynamicTree::takeUpdates()
+std::vector<UpdateStats> DynamicTree::takeUpdates()
 {
     Impl& impl = usable(*this);
     impl.learn();
     return std::exchange(impl.updates, {});
 }
 
-const TreeFacts& DynamicTree::facts() const
+const TreeInfo& DynamicTree::info() const
 {
-    return usable(*this).facts;
+    return usable(*this).tree_info;
 }
 
 std::uint64_t DynamicTree::address() const

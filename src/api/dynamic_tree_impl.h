@@ -21,7 +21,7 @@ struct ZVO_LOCAL DynamicTree::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// Learns what became of frames; movers that were lost with one go.
+    /// Learns what became of frames; dynamic objects that were lost with one go.
     void learn();
 
     /// The octree records into this frame.
@@ -57,21 +57,21 @@ struct ZVO_LOCAL DynamicTree::Impl
         std::uint64_t number;
     };
 
-    // A mover that was made in a frame that is not known to be done.
-    struct NewMover
+    // A dynamic object that was made in a frame that is not known to be done.
+    struct NewObject
     {
         std::shared_ptr<FrameState> made_in;
-        MoverId mover;
+        DynamicObjectId object;
     };
 
     Context::Impl& context;
-    TreeFacts facts;
+    TreeInfo tree_info;
     std::unique_ptr<DynamicOctree> octree;
     vk::BufferOf<gpu::TreeTable> table;
     std::deque<Frame> frames;
     std::shared_ptr<FrameState> made_in; // of the tree; null: known to be done
-    std::vector<NewMover> new_movers;
-    std::vector<UpdateFacts> updates;
+    std::vector<NewObject> new_objects;
+    std::vector<UpdateStats> updates;
 };
 
 /// Throws Error{Usage} for a dynamic tree that was lost with its frame, or moved from.

@@ -120,7 +120,7 @@ Instance instanceOf(const InstanceInfo& info, std::size_t mesh_count, std::size_
     }
     Instance instance;
     instance.primitive = info.mesh;
-    instance.transform = toGlm(checkedPlacement(info.transform, fmt::format("instance {}", number)));
+    instance.transform = toGlm(checkedTransform(info.transform, fmt::format("instance {}", number)));
     return instance;
 }
 
@@ -175,7 +175,7 @@ Model::Model(Recorder& recorder, const ModelInfo& info)
     const float scale = checkedAmount(info.emission_scale.value_or(info.attributes ? brightestEmission(scene) : 0.0F),
                                       "the emission scale");
     recording(recorder, [&](Recorder::Impl& impl)
-              { m_impl->mesh = uploadMover(impl.context.uploads, std::move(scene), info.attributes, scale); });
+              { m_impl->mesh = uploadDynamicMesh(impl.context.uploads, std::move(scene), info.attributes, scale); });
 }
 
 Model::~Model() = default;

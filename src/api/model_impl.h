@@ -2,7 +2,7 @@
 #pragma once
 
 #include "api/context_impl.h"
-#include "core/dynamic/mover_set.h"
+#include "core/dynamic/dynamic_objects.h"
 #include "zvo/model.h"
 
 #include <memory>
@@ -17,13 +17,13 @@ struct ZVO_LOCAL Model::Impl
         : context(context_impl), made_in(std::move(frame))
     {
     }
-    ~Impl() { context.retire(std::move(mesh)); }
+    ~Impl() { context.deleteLater(std::move(mesh)); }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
     Context::Impl& context;
     std::shared_ptr<FrameState> made_in;
-    std::shared_ptr<const MoverMesh> mesh = nullptr;
+    std::shared_ptr<const DynamicMesh> mesh = nullptr;
     Bounds bounds = {};
 };
 

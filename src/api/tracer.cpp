@@ -96,15 +96,15 @@ struct ZVO_LOCAL Tracer::Impl
 {
     Impl(Context::Impl& context_impl, std::uint32_t width, std::uint32_t height, VkFormat format)
         : context(context_impl),
-          tracer(std::make_unique<TreeTracer>(context.device, &context.retired, texelForm(format)))
+          tracer(std::make_unique<TreeTracer>(context.device, &context.deletion_queue, texelFormat(format)))
     {
         tracer->resize(checkedEdge(width), checkedEdge(height));
     }
 
     ~Impl()
     {
-        context.retire(std::move(tracer));
-        context.retire(std::move(depths));
+        context.deleteLater(std::move(tracer));
+        context.deleteLater(std::move(depths));
     }
 
     Impl(const Impl&) = delete;
@@ -114,7 +114,7 @@ struct ZVO_LOCAL Tracer::Impl
                const ImageTarget& color, const DepthTarget* depth)
     {
         const TraceBuffers& buffers = tracer->buffers();
-        if (texelForm(color.format) != buffers.texels)
+        if (texelFormat(color.format) != buffers.texels)
         {
             throw Error(ErrorCode::Usage, "this Tracer makes pictures for images of another format: make one with "
                                           "the format of the image");

@@ -28,17 +28,17 @@ std::unique_ptr<Tree::Impl> uploaded(Recorder& recorder, const TreeData& data)
 
 } // namespace
 
-TreeFacts factsOf(const DeviceTree& tree)
+TreeInfo infoOf(const DeviceTree& tree)
 {
-    TreeFacts facts;
-    facts.structure = tree.structure;
-    facts.form = tree.attributeForm();
-    facts.grid = gridInfo(tree.grid);
-    facts.voxel_count = tree.voxel_count;
-    facts.node_count = tree.node_count;
-    facts.bytes = tree.geometryBytes() + tree.lists.rankBytes() + tree.attributeBytes() + tree.sums.bytes();
-    facts.emission_scale = tree.emission.count() != 0 ? tree.emission_scale : 0;
-    return facts;
+    TreeInfo tree_info;
+    tree_info.structure = tree.structure;
+    tree_info.format = tree.attributeFormat();
+    tree_info.grid = gridInfo(tree.grid);
+    tree_info.voxel_count = tree.voxel_count;
+    tree_info.node_count = tree.node_count;
+    tree_info.bytes = tree.geometryBytes() + tree.lists.rankBytes() + tree.attributeBytes() + tree.sums.bytes();
+    tree_info.emission_scale = tree.emission.count() != 0 ? tree.emission_scale : 0;
+    return tree_info;
 }
 
 Tree::Impl& usable(const Tree& tree)
@@ -52,7 +52,7 @@ Tree::Impl& usable(const Tree& tree)
 }
 
 Tree::Impl::Impl(Context::Impl& context_impl, DeviceTree&& tree)
-    : context(context_impl), fixed(std::move(tree)), facts(factsOf(fixed)), table(context.device, "tree table", 1)
+    : context(context_impl), fixed(std::move(tree)), tree_info(infoOf(fixed)), table(context.device, "tree table", 1)
 {
 }
 
@@ -80,9 +80,9 @@ Tree::~Tree() = default;
 Tree::Tree(Tree&&) noexcept = default;
 Tree& Tree::operator=(Tree&&) noexcept = default;
 
-const TreeFacts& Tree::facts() const
+const TreeInfo& Tree::info() const
 {
-    return usable(*this).facts;
+    return usable(*this).tree_info;
 }
 
 std::uint64_t Tree::address() const

@@ -23,7 +23,7 @@ BuildOptions optionsOf(const TreeBuildInfo& info)
 {
     BuildOptions options;
     options.coverage = checked(info).coverage;
-    options.attributes = info.form != AttributeForm::None;
+    options.attributes = info.format != AttributeFormat::None;
     options.keep_sums = info.keep_sums;
     return options;
 }
@@ -98,7 +98,7 @@ private:
 struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
 {
     Impl(Context::Impl& context_impl, const Model::Impl& model, const TreeBuildInfo& info)
-        : TreeJob(context_impl, model.made_in, "model"), mesh(model.mesh), form(info.form),
+        : TreeJob(context_impl, model.made_in, "model"), mesh(model.mesh), format(info.format),
           builder(std::make_unique<OctreeBuilder>(context_impl.device, mesh->uploaded, checkedGrid(info.grid),
                                                   optionsOf(info)))
     {
@@ -107,10 +107,10 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
 
     ~Impl() override
     {
-        context.retire(std::move(builder));
-        context.retire(std::move(mesh));
-        context.retire(std::move(built));
-        context.retire(std::move(packer));
+        context.deleteLater(std::move(builder));
+        context.deleteLater(std::move(mesh));
+        context.deleteLater(std::move(built));
+        context.deleteLater(std::move(packer));
     }
 
     void endPart() override
@@ -119,7 +119,7 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
         {
             built = builder->take();
             dropped = built.dropped;
-            packer = std::make_unique<TreePacker>(context.device, form, built.octree);
+            packer = std::make_unique<TreePacker>(context.device, format, built.octree);
             begin(*packer);
         }
         if (packer->isDone())
@@ -128,8 +128,8 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
         }
     }
 
-    std::shared_ptr<const MoverMesh> mesh; // what builder reads
-    AttributeForm form;
+    std::shared_ptr<const DynamicMesh> mesh; // what builder reads
+    AttributeFormat format;
     std::unique_ptr<OctreeBuilder> builder;
     BuildResult built;
     std::unique_ptr<TreePacker> packer; // of built; null: that is not there yet
@@ -193,8 +193,8 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
 
     ~Impl() override
     {
-        context.retire(std::move(builder));
-        source.reset(); // it retires what it has
+        context.deleteLater(std::move(builder));
+        source.reset(); // it deletes what it has later
     }
 
     void endPart() override { setTree(builder->take().dag); }

@@ -18,8 +18,8 @@ struct ZVO_LOCAL Tree::Impl
     Impl(Context::Impl& context_impl, DeviceTree&& tree);
     ~Impl()
     {
-        context.retire(std::move(fixed));
-        context.retire(std::move(table));
+        context.deleteLater(std::move(fixed));
+        context.deleteLater(std::move(table));
     }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -29,13 +29,13 @@ struct ZVO_LOCAL Tree::Impl
 
     Context::Impl& context;
     DeviceTree fixed;
-    TreeFacts facts;
+    TreeInfo tree_info;
     vk::BufferOf<gpu::TreeTable> table;
     std::shared_ptr<FrameState> made_in = nullptr; // null: by a TreeBuild, when the device was done
 };
 
 /// What a tree is like.
-TreeFacts factsOf(const DeviceTree& tree);
+TreeInfo infoOf(const DeviceTree& tree);
 
 /// Throws Error{Usage} for a tree that was lost with its frame, or taken away.
 Tree::Impl& usable(const Tree& tree);

@@ -33,12 +33,12 @@ Pose moved(Pose pose, const glm::dvec3& by)
 
 } // namespace
 
-float brightestEmission(const Stage& stage)
+float brightestEmission(const AnimatedScene& animated)
 {
-    float brightest = brightestEmission(stage.fixed);
-    for (const Mover& mover : stage.movers)
+    float brightest = brightestEmission(animated.fixed);
+    for (const DynamicObject& object : animated.objects)
     {
-        brightest = std::max(brightest, brightestEmission(mover.scene));
+        brightest = std::max(brightest, brightestEmission(object.scene));
     }
     return brightest;
 }
@@ -50,7 +50,7 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const Liv
     m_info.fixed.node_count = tree.nodes.size();
     m_info.fixed.geometry_bytes = tree.geometryBytes();
     m_info.fixed.attribute_bytes = tree.attributeBytes();
-    if (isPacked(m_fixed.attributeForm()))
+    if (isPacked(m_fixed.attributeFormat()))
     {
         return;
     }
@@ -62,41 +62,41 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const Liv
     m_dynamic = std::make_unique<DynamicOctree>(device, std::move(m_fixed), dynamic);
 }
 
-LiveScene::LiveScene(vk::HeadlessDevice& device, Stage stage, const Grid& grid, const LiveOptions& options,
+LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const Grid& grid, const LiveOptions& options,
                      const StaticListener& listener)
-    : m_device(device), m_stage(std::move(stage)), m_warn(options.warn), m_offsets(m_stage.movers.size())
+    : m_device(device), m_animated(std::move(animated)), m_warn(options.warn), m_offsets(m_animated.objects.size())
 {
     DynamicOptions dynamic;
     dynamic.coverage = options.coverage;
-    dynamic.merge = m_stage.movers.empty() ? MergeRule::DynamicWins : m_stage.merge; // which needs no sums
+    dynamic.merge = m_animated.objects.empty() ? MergeRule::DynamicWins : m_animated.merge; // which needs no sums
     dynamic.frames_in_flight = options.frames_in_flight;
     dynamic.attributes = options.attributes;
-    dynamic.emission_scale = brightestEmission(m_stage);
+    dynamic.emission_scale = brightestEmission(m_animated);
     const bool keep_sums = options.attributes && dynamic.merge == MergeRule::Average;
-    Scene fixed = std::exchange(m_stage.fixed, {});
-    m_stage.fixed.cameras = fixed.cameras;
+    Scene fixed = std::exchange(m_animated.fixed, {});
+    m_animated.fixed.cameras = fixed.cameras;
     StaticPart part =
         makeStaticPart(device, std::move(fixed), grid, {options.coverage, options.attributes, {}, keep_sums},
                        options.structure, listener, dynamic.emission_scale);
     m_info.fixed = std::move(part.info);
     m_dynamic = std::make_unique<DynamicOctree>(device, std::move(part.tree), dynamic);
     listener.step("copying what moves");
-    for (const Mover& mover : m_stage.movers)
+    for (const DynamicObject& object : m_animated.objects)
     {
-        m_info.moving_triangle_count += mover.scene.triangleCount();
-        m_movers.push_back(m_dynamic->add(uploadMover(device, mover.scene, options.attributes, dynamic.emission_scale),
-                                          moverPose(mover, 0.0)));
+        m_info.moving_triangle_count += object.scene.triangleCount();
+        m_objects.push_back(m_dynamic->add(
+            uploadDynamicMesh(device, object.scene, options.attributes, dynamic.emission_scale), poseAt(object, 0.0)));
     }
 }
 
-// What moves, where it is at a time of the stage.
-void LiveScene::updateMovers(vk::FrameGraph& graph, double seconds)
+// What moves, where it is at a time of the animated scene.
+void LiveScene::updateObjects(vk::FrameGraph& graph, double seconds)
 {
     if (m_shown_seconds != seconds)
     {
-        for (std::size_t i = 0; i < m_movers.size(); ++i)
+        for (std::size_t i = 0; i < m_objects.size(); ++i)
         {
-            m_dynamic->place(m_movers[i], poseOf(i, seconds));
+            m_dynamic->setPose(m_objects[i], poseOf(i, seconds));
         }
     }
     else if (!m_dynamic->needsUpdate() && !m_dynamic->isUpdating())
@@ -163,7 +163,7 @@ void LiveScene::update(vk::FrameGraph& graph, double seconds)
     {
         try
         {
-            updateMovers(graph, seconds);
+            updateObjects(graph, seconds);
         }
         catch (const Error& error)
         {
@@ -202,8 +202,9 @@ LiveUpdate LiveScene::settle(double seconds)
             return result;
         }
     }
-    throw Error(ErrorCode::Memory,
-                fmt::format("movers and strokes found no room in {} attempts; lower the resolution", kAttemptsMax));
+    throw Error(
+        ErrorCode::Memory,
+        fmt::format("dynamic objects and strokes found no room in {} attempts; lower the resolution", kAttemptsMax));
 }
 
 LiveUpdate LiveScene::place(double seconds)
@@ -242,16 +243,16 @@ void LiveScene::frameLost()
     m_recorded.clear();
 }
 
-void LiveScene::setOffset(std::size_t mover, const glm::dvec3& offset)
+void LiveScene::setOffset(std::size_t object, const glm::dvec3& offset)
 {
-    m_offsets[mover] = offset;
+    m_offsets[object] = offset;
     m_shown_seconds.reset();
 }
 
-Pose LiveScene::poseOf(std::size_t mover, double seconds) const
+Pose LiveScene::poseOf(std::size_t object, double seconds) const
 {
-    Pose pose = moverPose(m_stage.movers[mover], seconds);
-    return m_offsets[mover] == glm::dvec3(0.0) ? pose : moved(std::move(pose), m_offsets[mover]);
+    Pose pose = poseAt(m_animated.objects[object], seconds);
+    return m_offsets[object] == glm::dvec3(0.0) ? pose : moved(std::move(pose), m_offsets[object]);
 }
 
 } // namespace zvo

@@ -3,7 +3,7 @@
 
 #include "core/dynamic/dynamic_octree.h"
 #include "core/tree/tree_data.h"
-#include "io/scene/stage.h"
+#include "io/scene/animated_scene.h"
 #include "runtime/static_part.h"
 
 #include <cstddef>
@@ -60,9 +60,9 @@ struct LiveUpdate
     std::uint32_t retry_count = 0;    // frames before it that had too little memory
 };
 
-/// A scene in device memory: a static part, made once, with the dynamic objects of a Stage merged into it at the time
-/// that is asked for, and edited by brushes. A frame: beginFrame(), then update() into the frame's commands, then
-/// frameDone() once the device is done with it, or frameLost(). The device must be done with all frames when a
+/// A scene in device memory: a static part, made once, with the dynamic objects of an AnimatedScene merged into it at
+/// the time that is asked for, and edited by brushes. A frame: beginFrame(), then update() into the frame's commands,
+/// then frameDone() once the device is done with it, or frameLost(). The device must be done with all frames when a
 /// LiveScene goes, and outlive it.
 class LiveScene
 {
@@ -76,15 +76,15 @@ public:
 
     /// Uploads and builds everything but the voxels of what moves. Waits. Keeps of what stands still the cameras alone.
     /// Throws Error{Memory} when the device's budget does not suffice.
-    LiveScene(vk::HeadlessDevice& device, Stage stage, const Grid& grid, const LiveOptions& options,
+    LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const Grid& grid, const LiveOptions& options,
               const StaticListener& listener = {});
 
     /// Numbers the frame that is to be recorded.
     std::uint64_t beginFrame() { return m_dynamic ? m_dynamic->beginFrame() : 0; }
 
-    /// Records what it takes to show the scene at a time of the stage; nothing where that is shown already. Memory may
-    /// not suffice for what moves: then it stays where it is, and trouble() says why. Throws what making a kernel
-    /// throws: then the frame is lost, if it is not submitted.
+    /// Records what it takes to show the scene at a time of the animated scene; nothing where that is shown already.
+    /// Memory may not suffice for what moves: then it stays where it is, and trouble() says why. Throws what making a
+    /// kernel throws: then the frame is lost, if it is not submitted.
     void update(vk::FrameGraph& graph, double seconds);
 
     /// The same, in frames of its own, until it is shown, and waits: update() has nothing more to do then. Throws
@@ -110,20 +110,20 @@ public:
     /// What was done by brushes, and what of it can be undone; null where nothing can be edited.
     [[nodiscard]] const Edits* edits() const { return m_dynamic ? &m_dynamic->edits() : nullptr; }
 
-    /// Puts something that moves elsewhere, beside its motion: so far, in world space, in all. 0: where the stage has
-    /// it.
-    void setOffset(std::size_t mover, const glm::dvec3& offset);
-    [[nodiscard]] const glm::dvec3& offset(std::size_t mover) const { return m_offsets[mover]; }
+    /// Puts something that moves elsewhere, beside its motion: so far, in world space, in all. 0: where the animated
+    /// scene has it.
+    void setOffset(std::size_t object, const glm::dvec3& offset);
+    [[nodiscard]] const glm::dvec3& offset(std::size_t object) const { return m_offsets[object]; }
 
     /// Where it is, as it is shown.
-    [[nodiscard]] Pose shownPose(std::size_t mover) const { return poseOf(mover, m_shown_seconds.value_or(0.0)); }
+    [[nodiscard]] Pose shownPose(std::size_t object) const { return poseOf(object, m_shown_seconds.value_or(0.0)); }
 
     /// What to trace.
     [[nodiscard]] const DeviceTree& tree() const { return m_dynamic ? m_dynamic->tree() : m_fixed; }
 
     [[nodiscard]] const LiveInfo& info() const { return m_info; }
-    [[nodiscard]] const Stage& stage() const { return m_stage; }
-    [[nodiscard]] bool moves() const { return !m_movers.empty(); }
+    [[nodiscard]] const AnimatedScene& animated() const { return m_animated; }
+    [[nodiscard]] bool moves() const { return !m_objects.empty(); }
 
     /// Why something does not move as it should; empty: nothing is wrong.
     [[nodiscard]] const std::string& trouble() const { return m_trouble; }
@@ -131,25 +131,25 @@ public:
 private:
     void recordRequests(vk::FrameGraph& graph);
     bool record(vk::FrameGraph& graph, const EditRequest& request);
-    void updateMovers(vk::FrameGraph& graph, double seconds);
-    [[nodiscard]] Pose poseOf(std::size_t mover, double seconds) const;
+    void updateObjects(vk::FrameGraph& graph, double seconds);
+    [[nodiscard]] Pose poseOf(std::size_t object, double seconds) const;
     [[nodiscard]] bool isSettled() const;
 
     vk::HeadlessDevice& m_device;
-    Stage m_stage;
+    AnimatedScene m_animated;
     LiveInfo m_info;
     std::function<void(std::string_view)> m_warn;
     DeviceTree m_fixed; // with which nothing can be merged; else empty
     std::unique_ptr<DynamicOctree> m_dynamic;
-    std::vector<MoverId> m_movers;         // in the order of the stage
-    std::vector<glm::dvec3> m_offsets;     // of movers
-    std::optional<double> m_shown_seconds; // that the movers were placed for
-    std::deque<EditRequest> m_requests;    // to be recorded
-    std::deque<EditRequest> m_recorded;    // in the last frame
+    std::vector<DynamicObjectId> m_objects; // in the order of the animated scene
+    std::vector<glm::dvec3> m_offsets;      // of dynamic objects
+    std::optional<double> m_shown_seconds;  // that the dynamic objects were placed for
+    std::deque<EditRequest> m_requests;     // to be recorded
+    std::deque<EditRequest> m_recorded;     // in the last frame
     std::string m_trouble;
 };
 
-/// The largest emission of anything in stage: the scale of everything that is voxelized into one octree.
-float brightestEmission(const Stage& stage);
+/// The largest emission of anything in animated scene: the scale of everything that is voxelized into one octree.
+float brightestEmission(const AnimatedScene& animated);
 
 } // namespace zvo

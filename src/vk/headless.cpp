@@ -3,11 +3,11 @@
 
 #include "vk/check.h"
 #include "vk/command_context.h"
+#include "vk/deletion_queue.h"
 #include "vk/flight.h"
 #include "vk/instance.h"
 #include "vk/owner_functions.h"
 #include "vk/pipeline_cache.h"
-#include "vk/retired.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -367,10 +367,10 @@ std::vector<PassTime> HeadlessDevice::run(const std::function<void(FrameGraph&)>
     return slicer.takeTimes();
 }
 
-void HeadlessDevice::perform(const std::function<void(FrameGraph&, Retired&)>& record)
+void HeadlessDevice::perform(const std::function<void(FrameGraph&, DeletionQueue&)>& record)
 {
-    Retired retired;
-    run([&](FrameGraph& graph) { record(graph, retired); });
+    DeletionQueue deletion_queue;
+    run([&](FrameGraph& graph) { record(graph, deletion_queue); });
 }
 
 Submission HeadlessDevice::submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync)

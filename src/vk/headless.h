@@ -81,7 +81,7 @@ public:
     [[nodiscard]] std::uint32_t submissionCount() const;
 
     /// Runs record's passes, as run().
-    void perform(const std::function<void(FrameGraph&, Retired&)>& record) override;
+    void perform(const std::function<void(FrameGraph&, DeletionQueue&)>& record) override;
 
     /// Does nothing: who submits knows what is under way.
     void keep(std::shared_ptr<void> /*thing*/) override {}

@@ -23,20 +23,20 @@ public:
     /// Begins anew: what was copied before is overwritten.
     void clear() { m_end = 0; }
 
-    /// Records the copy of count elements from first on. Returns the place to read them at.
+    /// Records the copy of count elements from first on. Returns the offset to read them at, in bytes.
     template <typename T>
     std::uint64_t copy(FrameGraph& graph, const BufferOf<T>& from, std::uint64_t first, std::uint64_t count)
     {
-        const std::uint64_t place = m_end;
-        graph.copy(from, first * sizeof(T), m_bytes, place, count * sizeof(T));
+        const std::uint64_t offset = m_end;
+        graph.copy(from, first * sizeof(T), m_bytes, offset, count * sizeof(T));
         m_end += (count * sizeof(T) + 7) / 8 * 8;
-        return place;
+        return offset;
     }
 
-    /// What was copied to that place.
-    template <typename T> [[nodiscard]] std::span<const T> at(std::uint64_t place, std::uint64_t count) const
+    /// What was copied to that offset.
+    template <typename T> [[nodiscard]] std::span<const T> at(std::uint64_t offset, std::uint64_t count) const
     {
-        return {reinterpret_cast<const T*>(m_bytes.mappedData() + place), count};
+        return {reinterpret_cast<const T*>(m_bytes.mappedData() + offset), count};
     }
 
 private:

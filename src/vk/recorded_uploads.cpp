@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "vk/recorded_uploads.h"
 
+#include "vk/deletion_queue.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
-#include "vk/retired.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ void RecordedUploads::flush()
     {
         Copy copy = std::move(m_copies.front());
         m_copies.pop_front();
-        const Buffer& from = m_retired.keep(std::move(copy.staging));
+        const Buffer& from = m_deletion_queue.keep(std::move(copy.staging));
         m_graph->record("upload " + copy.target_name,
                         {CopyUse::read(from), {copy.target, copy.target_name, Access::CopyWrite}},
                         [&](VkCommandBuffer commands)
@@ -33,16 +33,16 @@ void RecordedUploads::flush()
     }
 }
 
-void RecordedUploads::perform(const std::function<void(FrameGraph&, Retired&)>& record)
+void RecordedUploads::perform(const std::function<void(FrameGraph&, DeletionQueue&)>& record)
 {
     assert(m_graph != nullptr);
     flush();
-    record(*m_graph, m_retired);
+    record(*m_graph, m_deletion_queue);
 }
 
 void RecordedUploads::keep(std::shared_ptr<void> thing)
 {
-    m_retired.keep(std::move(thing));
+    m_deletion_queue.keep(std::move(thing));
 }
 
 void RecordedUploads::uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes)

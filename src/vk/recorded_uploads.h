@@ -16,8 +16,10 @@ namespace zvo::vk
 class RecordedUploads final : public Uploader
 {
 public:
-    /// Staging buffers go to retired, which outlives this.
-    RecordedUploads(Device& device, Retired& retired) : m_device(device), m_retired(retired) {}
+    /// Staging buffers go to deletion_queue, which outlives this.
+    RecordedUploads(Device& device, DeletionQueue& deletion_queue) : m_device(device), m_deletion_queue(deletion_queue)
+    {
+    }
 
     /// What is recorded from now on goes to graph; null: nothing can be.
     void attach(FrameGraph* graph) { m_graph = graph; }
@@ -29,7 +31,7 @@ public:
     void discard() noexcept { m_copies.clear(); }
 
     [[nodiscard]] Device& device() override { return m_device; }
-    void perform(const std::function<void(FrameGraph&, Retired&)>& record) override;
+    void perform(const std::function<void(FrameGraph&, DeletionQueue&)>& record) override;
     void keep(std::shared_ptr<void> thing) override;
 
 private:
@@ -44,7 +46,7 @@ private:
     void uploadBytes(Buffer& buffer, std::uint64_t offset, const void* data, std::uint64_t bytes) override;
 
     Device& m_device;
-    Retired& m_retired;
+    DeletionQueue& m_deletion_queue;
     FrameGraph* m_graph = nullptr;
     std::deque<Copy> m_copies;
 };

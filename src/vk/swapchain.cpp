@@ -168,7 +168,7 @@ void Swapchain::destroy()
 {
     Device& device = m_device.device();
     device.fn().vkDeviceWaitIdle(device.handle());
-    m_retired.frameDone(UINT64_MAX);
+    m_deletion_queue.frameDone(UINT64_MAX);
     m_chain = nullptr;
     for (const VkSemaphore semaphore : m_available)
     {
@@ -201,7 +201,7 @@ void Swapchain::loseSurface()
 {
     Device& device = m_device.device();
     device.fn().vkDeviceWaitIdle(device.handle());
-    m_retired.frameDone(UINT64_MAX);
+    m_deletion_queue.frameDone(UINT64_MAX);
     m_chain = nullptr;
     device.fn().vkDestroySurfaceKHR(device.handles().instance, std::exchange(m_surface, VK_NULL_HANDLE), nullptr);
     m_is_lost = false;
@@ -282,7 +282,7 @@ VkResult Swapchain::make(VkExtent2D framebuffer)
     if (m_chain != nullptr)
     {
         old = m_chain->handle;
-        m_retired.keep(std::move(m_chain));
+        m_deletion_queue.keep(std::move(m_chain));
     }
     VkSwapchainCreateInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
@@ -348,7 +348,7 @@ VkResult Swapchain::tryAcquire(VkExtent2D framebuffer, std::uint64_t frame, std:
 std::optional<SwapchainImage> Swapchain::acquire(VkExtent2D framebuffer, std::uint64_t frame)
 {
     constexpr int kAttempts = 3; // a window that is being resized may be out of date at once
-    m_retired.beginFrame(frame);
+    m_deletion_queue.beginFrame(frame);
     std::optional<SwapchainImage> image;
     if (framebuffer.width == 0 || framebuffer.height == 0)
     {

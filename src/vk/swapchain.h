@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "vk/deletion_queue.h"
 #include "vk/functions.h"
-#include "vk/retired.h"
 
 #include <cstdint>
 #include <functional>
@@ -76,7 +76,7 @@ public:
     void present(const SwapchainImage& image);
 
     /// The device is done with that frame and all before it.
-    void frameDone(std::uint64_t frame) { m_retired.frameDone(frame); }
+    void frameDone(std::uint64_t frame) { m_deletion_queue.frameDone(frame); }
 
     /// From the next acquire() on.
     void setMode(PresentMode mode);
@@ -111,7 +111,7 @@ private:
     std::uint32_t m_generation = 0;
     std::unique_ptr<Chain> m_chain;
     std::vector<VkSemaphore> m_available; // in turns
-    Retired m_retired;
+    DeletionQueue m_deletion_queue;
 };
 
 } // namespace zvo::vk

@@ -15,7 +15,7 @@ namespace zvo::vk
 
 class Device;
 class FrameGraph;
-class Retired;
+class DeletionQueue;
 
 /// Fills buffers from the host's memory. Who implements it decides when: HeadlessDevice copies at once and waits,
 /// RecordedUploads puts the copies into a frame.
@@ -27,8 +27,8 @@ public:
     [[nodiscard]] virtual Device& device() = 0;
 
     /// Has record's passes run behind all uploads before, and before whatever uses their results. What they need no
-    /// longer then goes to the Retired. Throws what record throws.
-    virtual void perform(const std::function<void(FrameGraph&, Retired&)>& record) = 0;
+    /// longer then goes to the DeletionQueue. Throws what record throws.
+    virtual void perform(const std::function<void(FrameGraph&, DeletionQueue&)>& record) = 0;
 
     /// Keeps thing for as long as work that was handed over earlier may use it.
     virtual void keep(std::shared_ptr<void> thing) = 0;

@@ -220,23 +220,25 @@ TEST_F(ApiArguments, HandlesAreNotNull)
     m_host.frame([](Recorder&, VkCommandBuffer) {}); // the context goes on
 }
 
-TEST_F(ApiArguments, MoversAndInstancesStandByAffineTransforms)
+TEST_F(ApiArguments, ObjectsAndInstancesStandByAffineTransforms)
 {
     const Model model = this->model();
     Tree fixed = m_host.build(model, {.grid = test::apiGrid(4)});
     std::optional<DynamicTree> tree;
-    MoverId mover = 0;
+    DynamicObjectId object = 0;
     m_host.frame(
         [&](Recorder& recorder, VkCommandBuffer)
         {
             tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{});
-            mover = tree->addMover(recorder, model, kIdentity);
+            object = tree->addObject(recorder, model, kIdentity);
         });
     for (const Mat4& transform : wrongTransforms())
     {
-        m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                     { expectUsage([&] { tree->addMover(recorder, model, transform); }, "the transform of a mover"); });
-        expectUsage([&] { tree->placeMover(mover, transform); }, "the transform of a mover");
+        m_host.frame(
+            [&](Recorder& recorder, VkCommandBuffer) {
+                expectUsage([&] { tree->addObject(recorder, model, transform); }, "the transform of a dynamic object");
+            });
+        expectUsage([&] { tree->setTransform(object, transform); }, "the transform of a dynamic object");
         const std::vector<InstanceInfo> instances = {{0, transform}};
         ModelInfo info = modelInfo();
         info.instances = instances;
@@ -272,8 +274,9 @@ TEST_F(ApiArguments, EnumerationsHaveTheirValues)
     }
     for (const int value : {-1, 4})
     {
-        expectUsage([&] { TreeBuild(m_host.context, model, {.grid = grid, .form = numbered<AttributeForm>(value)}); },
-                    "TreeBuildInfo::form");
+        expectUsage([&]
+                    { TreeBuild(m_host.context, model, {.grid = grid, .format = numbered<AttributeFormat>(value)}); },
+                    "TreeBuildInfo::format");
         ModelInfo info = modelInfo();
         const std::vector<MaterialInfo> materials(16, {.emission = {}, .alpha_mode = numbered<AlphaMode>(value)});
         info.materials = materials;
@@ -325,7 +328,7 @@ TEST_F(ApiArguments, DynamicTreesHaveNumbersThatTheyCanKeep)
     {
         making({.frames_in_flight = count}, "frames_in_flight");
     }
-    making({.history_steps = 0}, "history_steps");
+    making({.history_entries = 0}, "history_entries");
     making({.strokes = 0}, "strokes");
     for (const float value : kOddNumbers)
     {
@@ -336,7 +339,7 @@ TEST_F(ApiArguments, DynamicTreesHaveNumbersThatTheyCanKeep)
         making({.coverage = numbered<Coverage>(value)}, "DynamicTreeInfo::coverage");
         making({.merge = numbered<MergeRule>(value)}, "DynamicTreeInfo::merge");
     }
-    EXPECT_GT(fixed.facts().voxel_count, 0U); // it stays as it is
+    EXPECT_GT(fixed.info().voxel_count, 0U); // it stays as it is
     m_host.frame([&](Recorder& recorder, VkCommandBuffer)
                  { DynamicTree(recorder, std::move(fixed), {.frames_in_flight = 16}); });
 }

@@ -30,7 +30,7 @@ public:
     {
         const test::HostModel description(m_scene);
         const Model model = m_host.upload(description.info());
-        Tree octree = m_host.build(model, {.grid = test::apiGrid(4), .form = AttributeForm::Bytes4});
+        Tree octree = m_host.build(model, {.grid = test::apiGrid(4), .format = AttributeFormat::Bytes4});
         std::vector<std::vector<std::uint32_t>> pictures = {m_host.picture(octree, test::apiCamera())};
         TreeCompression compression(m_host.context, std::move(octree));
         m_host.finish(compression);
@@ -39,12 +39,12 @@ public:
 
         Tree fixed = m_host.build(model, {.grid = test::apiGrid(4)});
         std::optional<DynamicTree> tree;
-        MoverId mover = 0;
+        DynamicObjectId object = 0;
         m_host.frame(
             [&](Recorder& recorder, VkCommandBuffer)
             {
-                tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.history_steps = 2});
-                mover = tree->addMover(recorder, model, test::movedBy(1, 2, 0));
+                tree.emplace(recorder, std::move(fixed), DynamicTreeInfo{.history_entries = 2});
+                object = tree->addObject(recorder, model, test::movedBy(1, 2, 0));
             });
         m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
         for (int tries = 0; tree->needsUpdate() && tries < 8; ++tries)
@@ -219,7 +219,7 @@ TEST(ApiContract, WhatIsTooMuchForTheBudgetIsAnErrorThatNamesIt)
             << error.what();
     }
     const Tree small = host.build(model, {.grid = test::apiGrid(4)});
-    EXPECT_GT(small.facts().voxel_count, 0U);
+    EXPECT_GT(small.info().voxel_count, 0U);
     EXPECT_LE(host.context.memory().peak_held, 4U << 20);
 }
 
@@ -307,7 +307,7 @@ TEST(ApiContract, ATreeThatCannotBecomeDynamicStays)
     test::EmbeddingHost host;
     const test::HostModel description(test::apiScene());
     const Model model = host.upload(description.info());
-    Tree tree = host.build(model, {.grid = test::apiGrid(), .form = AttributeForm::Bytes4});
+    Tree tree = host.build(model, {.grid = test::apiGrid(), .format = AttributeFormat::Bytes4});
     const auto expected = host.picture(tree, test::apiCamera());
     const auto makeDynamic = [&]
     {

@@ -51,12 +51,12 @@ protected:
         return m_host.upload(info);
     }
 
-    DynamicTree dynamicTree(Tree&& fixed, std::size_t history_steps = 8)
+    DynamicTree dynamicTree(Tree&& fixed, std::size_t history_entries = 8)
     {
         std::optional<DynamicTree> tree;
         DynamicTreeInfo info;
         info.merge = MergeRule::Average;
-        info.history_steps = history_steps;
+        info.history_entries = history_entries;
         info.emission_scale = m_scale;
         m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree.emplace(recorder, std::move(fixed), info); });
         return std::move(*tree);
@@ -82,22 +82,22 @@ TEST_F(ApiDynamic, EqualsARebuildAndUndoEqualsBefore)
         DynamicTree tree = dynamicTree(fixedTree(as_dag));
         const std::uint64_t address = tree.address();
         const auto still = m_host.picture(tree, test::apiCamera());
-        MoverId mover = 0;
+        DynamicObjectId object = 0;
         const Model model = ball();
         m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                     { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+                     { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
         std::vector<std::vector<std::uint32_t>> pictures = {still};
         for (const float x : {2.0F, 4.5F, 8.25F})
         {
-            tree.placeMover(mover, test::movedBy(x, 5, 5));
+            tree.setTransform(object, test::movedBy(x, 5, 5));
             update(tree);
             pictures.push_back(m_host.picture(tree, test::apiCamera()));
             EXPECT_EQ(pictures.back(), rebuilt(x)) << x << (as_dag ? " above a DAG" : " above an octree");
         }
-        const std::vector<UpdateFacts> facts = tree.takeUpdates();
-        ASSERT_GE(facts.size(), 3U);
-        EXPECT_FALSE(facts.back().failed);
-        EXPECT_GT(facts.back().moving_count, 100U);
+        const std::vector<UpdateStats> stats = tree.takeUpdates();
+        ASSERT_GE(stats.size(), 3U);
+        EXPECT_FALSE(stats.back().failed);
+        EXPECT_GT(stats.back().moving_count, 100U);
         for (const std::size_t step : {2U, 1U})
         {
             m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.undo(recorder)); });
@@ -105,11 +105,11 @@ TEST_F(ApiDynamic, EqualsARebuildAndUndoEqualsBefore)
         }
         m_host.frame([&](Recorder& recorder, VkCommandBuffer) { EXPECT_TRUE(tree.redo(recorder)); });
         EXPECT_EQ(m_host.picture(tree, test::apiCamera()), pictures[2]);
-        tree.removeMover(mover);
+        tree.removeObject(object);
         update(tree);
         EXPECT_EQ(m_host.picture(tree, test::apiCamera()), still);
         EXPECT_EQ(tree.address(), address);
-        EXPECT_THROW(tree.placeMover(mover, kIdentity), Error);
+        EXPECT_THROW(tree.setTransform(object, kIdentity), Error);
     }
 }
 
@@ -137,12 +137,12 @@ TEST_F(ApiDynamic, ALostFrameTakesNothingAlong)
 {
     DynamicTree tree = dynamicTree(fixedTree(false));
     const Model model = ball();
-    MoverId mover = 0;
+    DynamicObjectId object = 0;
     m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+                 { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
     update(tree);
     const auto before = m_host.picture(tree, test::apiCamera());
-    tree.placeMover(mover, test::movedBy(8.25F, 5, 5));
+    tree.setTransform(object, test::movedBy(8.25F, 5, 5));
     m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); });
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
     EXPECT_TRUE(tree.needsUpdate());
@@ -150,33 +150,33 @@ TEST_F(ApiDynamic, ALostFrameTakesNothingAlong)
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
 }
 
-TEST_F(ApiDynamic, AMoverOfALostFrameIsLostAlone)
+TEST_F(ApiDynamic, AnObjectOfALostFrameIsLostAlone)
 {
     DynamicTree tree = dynamicTree(fixedTree(false));
     const Model model = ball();
     update(tree);
     const auto before = m_host.picture(tree, test::apiCamera());
-    MoverId lost = 0;
-    MoverId removed = 0;
+    DynamicObjectId lost = 0;
+    DynamicObjectId removed = 0;
     m_host.lostFrame(
         [&](Recorder& recorder, VkCommandBuffer)
         {
-            lost = tree.addMover(recorder, model, test::movedBy(2, 5, 5));
-            removed = tree.addMover(recorder, model, test::movedBy(3, 5, 5));
+            lost = tree.addObject(recorder, model, test::movedBy(2, 5, 5));
+            removed = tree.addObject(recorder, model, test::movedBy(3, 5, 5));
             tree.update(recorder);
-            tree.removeMover(removed);
+            tree.removeObject(removed);
         });
     update(tree);
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), before);
-    EXPECT_THROW(tree.placeMover(lost, test::movedBy(4, 5, 5)), Error);
-    EXPECT_THROW(tree.removeMover(lost), Error);
-    EXPECT_THROW(tree.removeMover(removed), Error);
+    EXPECT_THROW(tree.setTransform(lost, test::movedBy(4, 5, 5)), Error);
+    EXPECT_THROW(tree.removeObject(lost), Error);
+    EXPECT_THROW(tree.removeObject(removed), Error);
 
-    MoverId mover = 0;
+    DynamicObjectId object = 0;
     m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+                 { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
     m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); }); // it was made before
-    tree.placeMover(mover, test::movedBy(8.25F, 5, 5));
+    tree.setTransform(object, test::movedBy(8.25F, 5, 5));
     update(tree);
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
 }
@@ -212,9 +212,9 @@ TEST_F(ApiDynamic, FramesInFlightKeepWhatTheyUse)
 {
     DynamicTree tree = dynamicTree(fixedTree(false), 1);
     const Model model = ball();
-    MoverId mover = 0;
+    DynamicObjectId object = 0;
     m_host.frame([&](Recorder& recorder, VkCommandBuffer)
-                 { mover = tree.addMover(recorder, model, test::movedBy(2, 5, 5)); });
+                 { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
     Tracer tracer(m_host.context, m_host.kWidth, m_host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
     test::TargetImage image(m_host.device, VK_FORMAT_R8G8B8A8_UNORM, m_host.kWidth, m_host.kHeight);
     std::uint64_t frame = m_host.last_frame;
@@ -223,7 +223,7 @@ TEST_F(ApiDynamic, FramesInFlightKeepWhatTheyUse)
         VkCommandBuffer commands = m_host.device.begin();
         {
             Recorder recorder(m_host.context, commands, ++frame);
-            tree.placeMover(mover, test::movedBy(2.0F + 0.5F * static_cast<float>(i), 5, 5));
+            tree.setTransform(object, test::movedBy(2.0F + 0.5F * static_cast<float>(i), 5, 5));
             tree.update(recorder);
             image.beginCopies(commands);
             tracer.trace(recorder, tree, test::apiCamera(), {}, image.target());

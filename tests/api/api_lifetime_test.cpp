@@ -24,8 +24,8 @@ namespace
 
 using test::expectUsage;
 
-constexpr AttributeForm kForms[] = {AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8,
-                                    AttributeForm::Blocks};
+constexpr AttributeFormat kFormats[] = {AttributeFormat::None, AttributeFormat::Bytes4, AttributeFormat::Bytes8,
+                                        AttributeFormat::Blocks};
 
 const test::HostModel& description()
 {
@@ -33,9 +33,9 @@ const test::HostModel& description()
     return model;
 }
 
-TreeBuildInfo buildInfo(AttributeForm form = AttributeForm::Bytes8)
+TreeBuildInfo buildInfo(AttributeFormat format = AttributeFormat::Bytes8)
 {
-    return {.grid = test::apiGrid(4), .form = form};
+    return {.grid = test::apiGrid(4), .format = format};
 }
 
 // A .zvo file.
@@ -104,15 +104,15 @@ TEST(ApiLifetime, ABuildMayGoInEachOfItsSteps)
     test::EmbeddingHost host;
     const Model model = host.upload(description().info());
     const std::uint64_t used = host.context.memory().used;
-    for (const AttributeForm form : kForms)
+    for (const AttributeFormat format : kFormats)
     {
         int step = 0;
-        for (; dropBuild(host, model, buildInfo(form), step); ++step)
+        for (; dropBuild(host, model, buildInfo(format), step); ++step)
         {
             host.context.frameDone(host.last_frame);
             EXPECT_EQ(host.context.memory().used, used) << "in step " << step;
         }
-        EXPECT_GE(step, isPacked(form) ? 4 : 3);
+        EXPECT_GE(step, isPacked(format) ? 4 : 3);
     }
 }
 
@@ -121,10 +121,10 @@ TEST(ApiLifetime, ACompressionMayGoInEachOfItsSteps)
     test::EmbeddingHost host;
     const Model model = host.upload(description().info());
     const std::uint64_t used = host.context.memory().used;
-    for (const AttributeForm form : kForms)
+    for (const AttributeFormat format : kFormats)
     {
-        TreeBuildInfo info = buildInfo(form);
-        info.keep_sums = form == AttributeForm::Bytes8;
+        TreeBuildInfo info = buildInfo(format);
+        info.keep_sums = format == AttributeFormat::Bytes8;
         int step = 0;
         for (; dropCompression(host, model, info, step); ++step)
         {
@@ -177,7 +177,7 @@ TEST(ApiLifetime, AContextMayGoWithoutALastFrameDone)
     options.zvo_functions = test::failingVulkan();
     {
         test::EmbeddingHost host(options);
-        const TreeBuildInfo info = buildInfo(AttributeForm::Bytes4);
+        const TreeBuildInfo info = buildInfo(AttributeFormat::Bytes4);
         std::optional<Model> model = host.upload(description().info());
         const DynamicTreeInfo dynamic_info = {.emission_scale = model->emissionScale()};
         Tree fixed = host.build(*model, buildInfo());
@@ -204,7 +204,7 @@ TEST(ApiLifetime, AContextMayGoWithoutALastFrameDone)
             }
             image.beginCopies(commands);
             dynamic.emplace(recorder, std::move(fixed), dynamic_info);
-            dynamic->addMover(recorder, *model, test::movedBy(1, 0, 0));
+            dynamic->addObject(recorder, *model, test::movedBy(1, 0, 0));
             dynamic->update(recorder);
             tracer->trace(recorder, *dynamic, test::apiCamera(), {}, image.target());
             image.read(commands);
@@ -269,10 +269,10 @@ TEST(ApiLifetime, AJobEndsWhereItsSourceIsLost)
             records, "octree was lost with its frame");
     }
     const Model model = host.upload(description().info());
-    EXPECT_GT(host.build(model, buildInfo()).facts().voxel_count, 0U);
+    EXPECT_GT(host.build(model, buildInfo()).info().voxel_count, 0U);
 }
 
-TEST(ApiLifetime, AJobGoesOnWhereOnlyItsStepIsLost)
+TEST(ApiLifetime, AJobResumesWhereOnlyItsStepIsLost)
 {
     test::EmbeddingHost host;
     VkCommandBuffer commands = host.device.begin();
@@ -288,7 +288,7 @@ TEST(ApiLifetime, AJobGoesOnWhereOnlyItsStepIsLost)
     host.device.wait();
     host.context.frameDone(host.last_frame);
     host.finish(build);
-    EXPECT_GT(build.take().facts().voxel_count, 0U);
+    EXPECT_GT(build.take().info().voxel_count, 0U);
 }
 
 class ApiFrames : public testing::Test
@@ -404,11 +404,11 @@ TEST(ApiLifetime, WhatIsLostTellsNothing)
     expectUsage([&] { (void)model->triangleCount(); }, "model was " + lost);
     expectUsage([&] { (void)model->emissionScale(); }, "model was " + lost);
     expectUsage([&] { (void)model->gridAround(4); }, "model was " + lost);
-    expectUsage([&] { (void)tree->facts(); }, "tree was " + lost);
+    expectUsage([&] { (void)tree->info(); }, "tree was " + lost);
     expectUsage([&] { (void)tree->address(); }, "tree was " + lost);
     expectUsage([&] { TreeBuild(host.context, *model, buildInfo()); }, "model was " + lost);
     expectUsage([&] { TreeCompression(host.context, std::move(*tree)); }, "tree was " + lost);
-    expectUsage([&] { (void)dynamic->facts(); }, "dynamic tree was " + lost);
+    expectUsage([&] { (void)dynamic->info(); }, "dynamic tree was " + lost);
     expectUsage([&] { (void)dynamic->address(); }, "dynamic tree was " + lost);
     expectUsage([&] { (void)dynamic->needsUpdate(); }, "dynamic tree was " + lost);
     expectUsage([&] { (void)dynamic->takeUpdates(); }, "dynamic tree was " + lost);
@@ -442,14 +442,14 @@ TEST(ApiLifetime, WhatWasMovedFromIsEmpty)
     expectUsage([&] { (void)build.isBroken(); }, "build was " + empty);
     expectUsage([&] { (void)build.take(); }, "build was " + empty);
     expectUsage([&] { (void)build.dropped(); }, "build was " + empty);
-    expectUsage([&] { (void)tree.facts(); }, "tree was " + empty); // the dynamic tree took it over
+    expectUsage([&] { (void)tree.info(); }, "tree was " + empty); // the dynamic tree took it over
     expectUsage([&] { (void)tree.address(); }, "tree was " + empty);
     expectUsage([&] { TreeCompression(host.context, std::move(tree)); }, "tree was " + empty);
 
     host.finish(other_build);
     Tree octree = other_build.take();
     TreeCompression compression(host.context, std::move(octree));
-    expectUsage([&] { (void)octree.facts(); }, "tree was " + empty);
+    expectUsage([&] { (void)octree.info(); }, "tree was " + empty);
     const TreeCompression other_compression(std::move(compression));
     host.frame([&](Recorder& recorder, VkCommandBuffer)
                { expectUsage([&] { compression.record(recorder); }, "compression was " + empty); });
@@ -458,18 +458,18 @@ TEST(ApiLifetime, WhatWasMovedFromIsEmpty)
     expectUsage([&] { (void)compression.take(); }, "compression was " + empty);
 
     DynamicTree other(std::move(*dynamic));
-    expectUsage([&] { (void)dynamic->facts(); }, "dynamic tree was " + empty);
+    expectUsage([&] { (void)dynamic->info(); }, "dynamic tree was " + empty);
     expectUsage([&] { (void)dynamic->address(); }, "dynamic tree was " + empty);
     expectUsage([&] { (void)dynamic->needsUpdate(); }, "dynamic tree was " + empty);
     expectUsage([&] { (void)dynamic->takeUpdates(); }, "dynamic tree was " + empty);
-    expectUsage([&] { dynamic->placeMover(0, kIdentity); }, "dynamic tree was " + empty);
-    expectUsage([&] { dynamic->removeMover(0); }, "dynamic tree was " + empty);
+    expectUsage([&] { dynamic->setTransform(0, kIdentity); }, "dynamic tree was " + empty);
+    expectUsage([&] { dynamic->removeObject(0); }, "dynamic tree was " + empty);
     expectUsage([&] { dynamic->endStroke(); }, "dynamic tree was " + empty);
     expectUsage([&] { host.picture(*dynamic, test::apiCamera()); }, "dynamic tree was " + empty);
     host.frame(
         [&](Recorder& recorder, VkCommandBuffer)
         {
-            expectUsage([&] { dynamic->addMover(recorder, model, kIdentity); }, "dynamic tree was " + empty);
+            expectUsage([&] { dynamic->addObject(recorder, model, kIdentity); }, "dynamic tree was " + empty);
             expectUsage([&] { dynamic->update(recorder); }, "dynamic tree was " + empty);
             expectUsage([&] { dynamic->undo(recorder); }, "dynamic tree was " + empty);
             expectUsage([&] { dynamic->edit(recorder, {.radius = 1}); }, "dynamic tree was " + empty);
@@ -484,9 +484,9 @@ TEST(ApiLifetime, AnEmptyTreeIsAnErrorInC)
     const Model model = host.upload(description().info());
     ZvoTree handle{host.build(model, buildInfo())};
     const Tree taken = std::move(handle.object);
-    ZvoTreeFacts facts = ZVO_TREE_FACTS_INIT;
+    ZvoTreeInfo info = ZVO_TREE_INFO_INIT;
     std::uint64_t address = 0;
-    EXPECT_EQ(zvoTreeFacts(&handle, &facts), ZVO_ERROR_USAGE);
+    EXPECT_EQ(zvoTreeInfo(&handle, &info), ZVO_ERROR_USAGE);
     EXPECT_NE(std::string(zvoLastError()).find("taken over"), std::string::npos) << zvoLastError();
     EXPECT_EQ(zvoTreeAddress(&handle, &address), ZVO_ERROR_USAGE);
     EXPECT_EQ(address, 0U);

@@ -28,9 +28,9 @@ TEST(ApiPicture, AllViewsAreThoseOfTheEngineOfOctreesAndDags)
     EXPECT_EQ(uploaded.triangleCount(), test::apiScene().triangleCount());
     Tree octree = host.build(uploaded, {.grid = test::apiGrid()});
     const DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
-    EXPECT_EQ(octree.facts().voxel_count, expected.voxel_count);
-    EXPECT_EQ(octree.facts().node_count, expected.node_count);
-    EXPECT_EQ(octree.facts().bytes, expected.geometryBytes() + expected.attributeBytes());
+    EXPECT_EQ(octree.info().voxel_count, expected.voxel_count);
+    EXPECT_EQ(octree.info().node_count, expected.node_count);
+    EXPECT_EQ(octree.info().bytes, expected.geometryBytes() + expected.attributeBytes());
     std::set<std::vector<std::uint32_t>> different;
     for (std::uint32_t view = 0; view <= static_cast<std::uint32_t>(View::Origin); ++view)
     {
@@ -45,27 +45,27 @@ TEST(ApiPicture, AllViewsAreThoseOfTheEngineOfOctreesAndDags)
     TreeCompression compression(host.context, std::move(octree));
     EXPECT_GE(host.finish(compression), 3U);
     const Tree dag = compression.take();
-    EXPECT_EQ(dag.facts().structure, TreeStructure::Svdag);
-    EXPECT_LT(dag.facts().node_count, expected.node_count);
+    EXPECT_EQ(dag.info().structure, TreeStructure::Svdag);
+    EXPECT_LT(dag.info().node_count, expected.node_count);
     EXPECT_EQ(host.picture(dag, test::apiCamera()), lit);
 }
 
-TEST(ApiPicture, EveryFormOfAttributesIsBuiltAndTraced)
+TEST(ApiPicture, EveryFormatOfAttributesIsBuiltAndTraced)
 {
     test::EmbeddingHost host;
     const test::HostModel model(test::apiScene());
     const Model uploaded = host.upload(model.info());
     std::uint64_t bytes = UINT64_MAX;
-    for (const AttributeForm form :
-         {AttributeForm::Bytes8, AttributeForm::Bytes4, AttributeForm::Blocks, AttributeForm::None})
+    for (const AttributeFormat format :
+         {AttributeFormat::Bytes8, AttributeFormat::Bytes4, AttributeFormat::Blocks, AttributeFormat::None})
     {
-        const Tree tree = host.build(uploaded, {.grid = test::apiGrid(), .form = form});
-        EXPECT_EQ(tree.facts().form, form);
-        EXPECT_LT(tree.facts().bytes, bytes);
-        bytes = tree.facts().bytes;
+        const Tree tree = host.build(uploaded, {.grid = test::apiGrid(), .format = format});
+        EXPECT_EQ(tree.info().format, format);
+        EXPECT_LT(tree.info().bytes, bytes);
+        bytes = tree.info().bytes;
         DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid());
-        packTree(device(), form, expected);
-        if (form == AttributeForm::None)
+        packTree(device(), format, expected);
+        if (format == AttributeFormat::None)
         {
             expected.voxel_attributes = {};
             expected.node_attributes = {};
@@ -107,7 +107,7 @@ TEST(ApiPicture, AnEmptyModelGivesAnEmptyTreeAndABackground)
     test::EmbeddingHost host;
     const Model model = host.upload({});
     Tree tree = host.build(model, {.grid = test::apiGrid()});
-    EXPECT_EQ(tree.facts().voxel_count, 0U);
+    EXPECT_EQ(tree.info().voxel_count, 0U);
     const auto background = host.picture(tree, test::apiCamera(), {.view = View::Albedo});
     EXPECT_EQ(std::set<std::uint32_t>(background.begin(), background.end()).size(), 1U);
     TreeCompression compression(host.context, std::move(tree));

@@ -48,8 +48,8 @@ std::vector<std::vector<std::uint32_t>> picturesInCpp()
     host.frame(
         [&](Recorder& recorder, VkCommandBuffer)
         {
-            tree.emplace(recorder, std::move(dag), DynamicTreeInfo{.history_steps = 2});
-            tree->addMover(recorder, model, test::movedBy(3, 4, 2));
+            tree.emplace(recorder, std::move(dag), DynamicTreeInfo{.history_entries = 2});
+            tree->addObject(recorder, model, test::movedBy(3, 4, 2));
         });
     const auto update = [&]
     {
@@ -183,14 +183,14 @@ TEST(CApi, FilesAreReadAndBrokenOnesAreInputErrors)
     host.frame([&](ZvoRecorder* recorder)
                { EXPECT_EQ(zvoTreeFromMemory(recorder, bytes.data(), bytes.size(), &tree), ZVO_OK); });
     ASSERT_NE(tree, nullptr);
-    ZvoTreeFacts facts = ZVO_TREE_FACTS_INIT;
-    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_OK);
-    EXPECT_EQ(facts.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVO});
-    EXPECT_EQ(facts.form, std::uint32_t{ZVO_ATTRIBUTE_FORM_BYTES8});
-    EXPECT_EQ(facts.grid.depth, test::apiGrid().depth);
-    EXPECT_EQ(facts.voxel_count, octree.voxel_count);
-    EXPECT_EQ(facts.node_count, octree.node_count);
-    EXPECT_EQ(facts.emission_scale, octree.emission_scale);
+    ZvoTreeInfo description = ZVO_TREE_INFO_INIT;
+    EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK);
+    EXPECT_EQ(description.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVO});
+    EXPECT_EQ(description.format, std::uint32_t{ZVO_ATTRIBUTE_FORMAT_BYTES8});
+    EXPECT_EQ(description.grid.depth, test::apiGrid().depth);
+    EXPECT_EQ(description.voxel_count, octree.voxel_count);
+    EXPECT_EQ(description.node_count, octree.node_count);
+    EXPECT_EQ(description.emission_scale, octree.emission_scale);
     std::uint64_t address = 0;
     EXPECT_EQ(zvoTreeAddress(tree, &address), ZVO_OK);
     EXPECT_NE(address, 0U);
@@ -214,19 +214,19 @@ TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
     ZvoModel* const model = host.uploadBox();
     ZvoTreeBuildInfo info = ZVO_TREE_BUILD_INFO_INIT;
     info.grid = {{-2, -2, -2}, 1, 4};
-    info.form = ZVO_ATTRIBUTE_FORM_BYTES4;
+    info.format = ZVO_ATTRIBUTE_FORMAT_BYTES4;
     ZvoTree* tree = host.build(model, info);
-    ZvoTreeFacts facts = ZVO_TREE_FACTS_INIT;
+    ZvoTreeInfo description = ZVO_TREE_INFO_INIT;
     ZvoTreeCompression* compression = nullptr;
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, nullptr), ZVO_ERROR_USAGE);
-    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_OK); // it is as it was
+    EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK); // it is as it was
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_OK);
     EXPECT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_ERROR_USAGE);
-    VkBool32 goes_on = VK_TRUE;
-    while (goes_on)
+    VkBool32 has_more = VK_TRUE;
+    while (has_more)
     {
         host.frame([&](ZvoRecorder* recorder)
-                   { EXPECT_EQ(zvoTreeCompressionRecord(compression, recorder, &goes_on), ZVO_OK); });
+                   { EXPECT_EQ(zvoTreeCompressionRecord(compression, recorder, &has_more), ZVO_OK); });
     }
     VkBool32 is_broken = VK_TRUE;
     EXPECT_EQ(zvoTreeCompressionIsBroken(compression, &is_broken), ZVO_OK);
@@ -234,8 +234,8 @@ TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
     ASSERT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_OK);
     zvoTreeCompressionDestroy(compression);
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_ERROR_USAGE); // a DAG already
-    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_OK);
-    EXPECT_EQ(facts.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVDAG});
+    EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK);
+    EXPECT_EQ(description.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVDAG});
 
     // Attributes of 4 bytes will not do: it stays.
     ZvoDynamicTree* dynamic = nullptr;
@@ -243,7 +243,7 @@ TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
     host.frame([&](ZvoRecorder* recorder)
                { EXPECT_EQ(zvoDynamicTreeCreate(recorder, tree, &defaults, &dynamic), ZVO_ERROR_USAGE); });
     std::uint64_t address = 0;
-    EXPECT_EQ(zvoTreeFacts(tree, &facts), ZVO_OK);
+    EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK);
     EXPECT_EQ(zvoTreeAddress(tree, &address), ZVO_OK);
     EXPECT_NE(address, 0U);
     zvoTreeDestroy(tree);
@@ -264,21 +264,21 @@ TEST(CApi, ReportsAndPassTimesAreToldLineByLine)
     ASSERT_EQ(zvoContextReport(host.context, &own), ZVO_OK);
     for (const ZvoDeviceReport* const report : {static_cast<const ZvoDeviceReport*>(asked), own})
     {
-        ZvoDeviceFacts facts = ZVO_DEVICE_FACTS_INIT;
-        ASSERT_EQ(zvoDeviceReportFacts(report, &facts), ZVO_OK);
-        EXPECT_EQ(facts.physical_device, expected.physical_device);
-        EXPECT_EQ(facts.name, expected.name);
-        EXPECT_EQ(facts.driver, expected.driver);
-        EXPECT_EQ(facts.type, expected.type);
-        EXPECT_EQ(facts.api_version, expected.api_version);
-        EXPECT_EQ(facts.memory_bytes, expected.memory_bytes);
-        EXPECT_EQ(facts.max_buffer_bytes, expected.max_buffer_bytes);
-        EXPECT_EQ(facts.subgroup_size, expected.subgroup_size);
-        EXPECT_EQ(facts.min_subgroup_size, expected.min_subgroup_size);
-        EXPECT_EQ(facts.max_subgroup_size, expected.max_subgroup_size);
-        EXPECT_EQ(facts.timestamp_period_ns, expected.timestamp_period_ns);
-        EXPECT_EQ(facts.timestamp_valid_bits, expected.timestamp_valid_bits);
-        EXPECT_EQ(facts.usable, VkBool32{VK_TRUE});
+        ZvoDeviceInfo description = ZVO_DEVICE_INFO_INIT;
+        ASSERT_EQ(zvoDeviceReportInfo(report, &description), ZVO_OK);
+        EXPECT_EQ(description.physical_device, expected.physical_device);
+        EXPECT_EQ(description.name, expected.name);
+        EXPECT_EQ(description.driver, expected.driver);
+        EXPECT_EQ(description.type, expected.type);
+        EXPECT_EQ(description.api_version, expected.api_version);
+        EXPECT_EQ(description.memory_bytes, expected.memory_bytes);
+        EXPECT_EQ(description.max_buffer_bytes, expected.max_buffer_bytes);
+        EXPECT_EQ(description.subgroup_size, expected.subgroup_size);
+        EXPECT_EQ(description.min_subgroup_size, expected.min_subgroup_size);
+        EXPECT_EQ(description.max_subgroup_size, expected.max_subgroup_size);
+        EXPECT_EQ(description.timestamp_period_ns, expected.timestamp_period_ns);
+        EXPECT_EQ(description.timestamp_valid_bits, expected.timestamp_valid_bits);
+        EXPECT_EQ(description.usable, VkBool32{VK_TRUE});
         for (const auto& [list, lines] :
              {std::pair(ZVO_REPORT_PRESENT, expected.present), std::pair(ZVO_REPORT_MISSING, expected.missing),
               std::pair(ZVO_REPORT_REASONS, expected.reasons)})

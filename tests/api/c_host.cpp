@@ -106,12 +106,12 @@ ZvoTree* CEmbeddingHost::build(const ZvoModel* model, const ZvoTreeBuildInfo& de
 {
     ZvoTreeBuild* build = nullptr;
     EXPECT_EQ(zvoTreeBuildCreate(context, model, &description, &build), ZVO_OK) << zvoLastError();
-    VkBool32 goes_on = build != nullptr ? VK_TRUE : VK_FALSE;
-    while (goes_on)
+    VkBool32 has_more = build != nullptr ? VK_TRUE : VK_FALSE;
+    while (has_more)
     {
-        goes_on = VK_FALSE;
+        has_more = VK_FALSE;
         frame([&](ZvoRecorder* recorder)
-              { EXPECT_EQ(zvoTreeBuildRecord(build, recorder, &goes_on), ZVO_OK) << zvoLastError(); });
+              { EXPECT_EQ(zvoTreeBuildRecord(build, recorder, &has_more), ZVO_OK) << zvoLastError(); });
     }
     ZvoTree* tree = nullptr;
     EXPECT_EQ(zvoTreeBuildTake(build, &tree), ZVO_OK) << zvoLastError();

@@ -61,9 +61,9 @@ static int upload(Program* program)
     info.mesh_count = 1;
     info.materials = &material;
     info.material_count = 1;
-    ZvoModelFacts facts = ZVO_MODEL_FACTS_INIT;
+    ZvoModelStats stats = ZVO_MODEL_STATS_INIT;
     return beginFrame(program) && isOk(zvoModelCreate(program->recorder, &info, &program->model)) &&
-           endFrame(program) && isOk(zvoModelFacts(program->model, &facts)) && facts.triangle_count == 12;
+           endFrame(program) && isOk(zvoModelStats(program->model, &stats)) && stats.triangle_count == 12;
 }
 
 static int build(Program* program)
@@ -79,8 +79,8 @@ static int build(Program* program)
     }
     while (!is_done)
     {
-        VkBool32 goes_on = VK_FALSE;
-        if (!beginFrame(program) || !isOk(zvoTreeBuildRecord(program->build, program->recorder, &goes_on)) ||
+        VkBool32 has_more = VK_FALSE;
+        if (!beginFrame(program) || !isOk(zvoTreeBuildRecord(program->build, program->recorder, &has_more)) ||
             !endFrame(program) || !isOk(zvoTreeBuildIsDone(program->build, &is_done)))
         {
             return 0;
@@ -102,9 +102,9 @@ static int compress(Program* program)
     program->tree = NULL; // it was taken over
     while (!is_done)
     {
-        VkBool32 goes_on = VK_FALSE;
+        VkBool32 has_more = VK_FALSE;
         if (!beginFrame(program) ||
-            !isOk(zvoTreeCompressionRecord(program->compression, program->recorder, &goes_on)) || !endFrame(program) ||
+            !isOk(zvoTreeCompressionRecord(program->compression, program->recorder, &has_more)) || !endFrame(program) ||
             !isOk(zvoTreeCompressionIsDone(program->compression, &is_done)))
         {
             return 0;
@@ -113,18 +113,18 @@ static int compress(Program* program)
     return isOk(zvoTreeCompressionTake(program->compression, &program->tree));
 }
 
-static int addMover(Program* program)
+static int addObject(Program* program)
 {
     const float place[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 4, 2, 1};
     ZvoDynamicTreeInfo info = ZVO_DYNAMIC_TREE_INFO_INIT;
-    info.history_steps = 2;
-    ZvoMoverId mover = 0;
+    info.history_entries = 2;
+    ZvoDynamicObjectId object = 0;
     if (!beginFrame(program) || !isOk(zvoDynamicTreeCreate(program->recorder, program->tree, &info, &program->dynamic)))
     {
         return 0;
     }
     program->tree = NULL; // likewise
-    return isOk(zvoDynamicTreeAddMover(program->dynamic, program->recorder, program->model, place, &mover)) &&
+    return isOk(zvoDynamicTreeAddObject(program->dynamic, program->recorder, program->model, place, &object)) &&
            endFrame(program);
 }
 
@@ -140,9 +140,9 @@ static int update(Program* program)
             return 0;
         }
     }
-    ZvoUpdateFacts facts = ZVO_UPDATE_FACTS_INIT;
+    ZvoUpdateStats stats = ZVO_UPDATE_STATS_INIT;
     VkBool32 is_taken = VK_FALSE;
-    return isOk(zvoDynamicTreeTakeUpdate(program->dynamic, &facts, &is_taken)) && is_taken;
+    return isOk(zvoDynamicTreeTakeUpdate(program->dynamic, &stats, &is_taken)) && is_taken;
 }
 
 static int edit(Program* program)
@@ -199,7 +199,7 @@ uint32_t runCProgram(const CHost* host)
     program.host = host;
     if (isOk(zvoTracerCreate(host->context, host->width, host->height, VK_FORMAT_R8G8B8A8_UNORM, &program.tracer)) &&
         upload(&program) && build(&program) && show(&program) && compress(&program) && show(&program) &&
-        addMover(&program) && update(&program) && show(&program) && edit(&program) && update(&program))
+        addObject(&program) && update(&program) && show(&program) && edit(&program) && update(&program))
     {
         show(&program);
     }

@@ -29,8 +29,8 @@ extern "C"
     extern const float kCBoxCorners[24];
     extern const uint32_t kCBoxTriangles[36];
 
-    // Shows an octree of a box, the same as a DAG, a dynamic tree with a mover, and that after a dab of a brush.
-    // Returns how many pictures it has kept.
+    // Shows an octree of a box, the same as a DAG, a dynamic tree with a dynamic object, and that after a dab of a
+    // brush. Returns how many pictures it has kept.
     uint32_t runCProgram(const CHost* host);
 
 #ifdef __cplusplus

@@ -56,9 +56,9 @@ protected:
 };
 
 using Structs =
-    testing::Types<ZvoOptionalFeatures, ZvoDeviceFacts, ZvoContextInfo, ZvoMemoryUse, ZvoPassTime, ZvoTextureInfo,
-                   ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelFacts, ZvoTreeFacts,
-                   ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateFacts,
+    testing::Types<ZvoOptionalFeatures, ZvoDeviceInfo, ZvoContextInfo, ZvoMemoryUse, ZvoPassTime, ZvoTextureInfo,
+                   ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelStats, ZvoTreeInfo,
+                   ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats,
                    ZvoCameraInfo, ZvoTraceInfo, ZvoImageTarget, ZvoDepthTarget>;
 TYPED_TEST_SUITE(CStruct, Structs);
 
@@ -242,7 +242,7 @@ void expectSame(const TreeBuildInfo& a, const TreeBuildInfo& b)
 {
     expectSame(a.grid, b.grid);
     EXPECT_EQ(a.coverage, b.coverage);
-    EXPECT_EQ(a.form, b.form);
+    EXPECT_EQ(a.format, b.format);
     EXPECT_EQ(a.keep_sums, b.keep_sums);
 }
 
@@ -251,7 +251,7 @@ void expectSame(const DynamicTreeInfo& a, const DynamicTreeInfo& b)
     EXPECT_EQ(a.coverage, b.coverage);
     EXPECT_EQ(a.merge, b.merge);
     EXPECT_EQ(a.frames_in_flight, b.frames_in_flight);
-    EXPECT_EQ(a.history_steps, b.history_steps);
+    EXPECT_EQ(a.history_entries, b.history_entries);
     EXPECT_EQ(a.history_bytes, b.history_bytes);
     EXPECT_EQ(a.strokes, b.strokes);
     EXPECT_EQ(a.edit_bytes, b.edit_bytes);
@@ -445,8 +445,8 @@ TEST(CStructs, EveryMemberOfTheOthersIsPassedOn)
     expectSame(ofC(grid), {{1, 2, 3}, 4, 5});
     expectSame(ofC(toC(GridInfo{{1, 2, 3}, 4, 5})), {{1, 2, 3}, 4, 5});
     expectSame(ofC(ZvoTreeBuildInfo{sizeof(ZvoTreeBuildInfo), grid, ZVO_COVERAGE_CONSERVATIVE,
-                                    ZVO_ATTRIBUTE_FORM_BLOCKS, VK_TRUE}),
-               {{{1, 2, 3}, 4, 5}, Coverage::Conservative, AttributeForm::Blocks, true});
+                                    ZVO_ATTRIBUTE_FORMAT_BLOCKS, VK_TRUE}),
+               {{{1, 2, 3}, 4, 5}, Coverage::Conservative, AttributeFormat::Blocks, true});
     expectSame(ofC(ZvoDynamicTreeInfo{sizeof(ZvoDynamicTreeInfo), ZVO_COVERAGE_CONSERVATIVE, ZVO_MERGE_RULE_STATIC_WINS,
                                       3, 0.5F, 4, 5, 6, 7}),
                {Coverage::Conservative, MergeRule::StaticWins, 3, 4, 5, 6, 7, 0.5F});
@@ -472,10 +472,10 @@ TEST(CStructs, EveryMemberOfTheOthersIsPassedOn)
     const OptionalFeatures features = ofC(ZvoOptionalFeatures{sizeof(ZvoOptionalFeatures), VK_FALSE, VK_TRUE});
     EXPECT_TRUE(!features.pass_times && features.subgroup_sizes);
 
-    const ZvoUpdateFacts facts = toC(UpdateFacts{true, 1, 2, 3, {{"nonfinite", 4}, {"outside", 5}, {"zero_area", 6}}});
-    EXPECT_EQ(facts.failed, VkBool32{VK_TRUE});
-    EXPECT_EQ((std::array{facts.node_count, facts.voxel_count, facts.moving_count, facts.dropped_nonfinite,
-                          facts.dropped_out_of_range, facts.dropped_outside, facts.dropped_zero_area}),
+    const ZvoUpdateStats stats = toC(UpdateStats{true, 1, 2, 3, {{"nonfinite", 4}, {"outside", 5}, {"zero_area", 6}}});
+    EXPECT_EQ(stats.failed, VkBool32{VK_TRUE});
+    EXPECT_EQ((std::array{stats.node_count, stats.voxel_count, stats.moving_count, stats.dropped_nonfinite,
+                          stats.dropped_out_of_range, stats.dropped_outside, stats.dropped_zero_area}),
               (std::array<std::uint64_t, 7>{1, 2, 3, 4, 0, 5, 6}));
     const ZvoDroppedTriangles dropped = toC(std::map<std::string, std::uint64_t>{{"out_of_range", 8}});
     EXPECT_EQ(dropped.out_of_range, 8U);
@@ -501,7 +501,7 @@ TEST(CStructs, ValuesThatNoEnumerationHasAreRefused)
     refuses(initial<ZvoTextureInfo>(), &ZvoTextureInfo::wrap_v, 3, "ZvoTextureInfo::wrap_v");
     refuses(initial<ZvoMaterialInfo>(), &ZvoMaterialInfo::alpha_mode, 3, "ZvoMaterialInfo::alpha_mode");
     refuses(initial<ZvoTreeBuildInfo>(), &ZvoTreeBuildInfo::coverage, 2, "ZvoTreeBuildInfo::coverage");
-    refuses(initial<ZvoTreeBuildInfo>(), &ZvoTreeBuildInfo::form, 4, "ZvoTreeBuildInfo::form");
+    refuses(initial<ZvoTreeBuildInfo>(), &ZvoTreeBuildInfo::format, 4, "ZvoTreeBuildInfo::format");
     refuses(initial<ZvoDynamicTreeInfo>(), &ZvoDynamicTreeInfo::coverage, 2, "ZvoDynamicTreeInfo::coverage");
     refuses(initial<ZvoDynamicTreeInfo>(), &ZvoDynamicTreeInfo::merge, 3, "ZvoDynamicTreeInfo::merge");
     refuses(initial<ZvoBrushInfo>(), &ZvoBrushInfo::shape, 2, "ZvoBrushInfo::shape");
@@ -591,16 +591,16 @@ TEST(CStructs, PointersThatAreNullAreRefused)
 
     int pointers = 0;
     ZvoDeviceReport* made_report = nullptr;
-    ZvoDeviceFacts device_facts = ZVO_DEVICE_FACTS_INIT;
+    ZvoDeviceInfo device_info = ZVO_DEVICE_INFO_INIT;
     const char* text = nullptr;
     VkDeviceCreateInfo create_info{};
     ZvoContext* made_context = nullptr;
     ZvoMemoryUse use = ZVO_MEMORY_USE_INIT;
     std::uint32_t count = 0;
     ZvoRecorder* made_recorder = nullptr;
-    ZvoModelFacts model_facts = ZVO_MODEL_FACTS_INIT;
-    ZvoTreeFacts tree_facts = ZVO_TREE_FACTS_INIT;
-    ZvoUpdateFacts update_facts = ZVO_UPDATE_FACTS_INIT;
+    ZvoModelStats model_stats = ZVO_MODEL_STATS_INIT;
+    ZvoTreeInfo tree_info = ZVO_TREE_INFO_INIT;
+    ZvoUpdateStats update_stats = ZVO_UPDATE_STATS_INIT;
     ZvoDroppedTriangles dropped = ZVO_DROPPED_TRIANGLES_INIT;
     ZvoGrid grid = ZVO_GRID_INIT;
     std::uint64_t address = 0;
@@ -611,7 +611,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     ZvoDynamicTree* made_dynamic = nullptr;
     ZvoTracer* made_tracer = nullptr;
     ZvoModel* made_model = nullptr;
-    ZvoMoverId mover = 0;
+    ZvoDynamicObjectId object = 0;
     const ZvoInstanceInfo instance = ZVO_INSTANCE_INFO_INIT;
     const float* const place = instance.transform;
     const double eye[3] = {1, 2, 3};
@@ -623,7 +623,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     const ZvoImageTarget color = host.target();
     REFUSES_NULLS(zvoQuery, host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device,
                   &made_report);
-    REFUSES_NULLS(zvoDeviceReportFacts, report, &device_facts);
+    REFUSES_NULLS(zvoDeviceReportInfo, report, &device_info);
     REFUSES_NULLS(zvoDeviceReportText, report, ZVO_REPORT_PRESENT, 0, &text);
     REFUSES_NULLS(zvoFeatureStorageCreate, &storage);
     EXPECT_EQ(zvoPatchFeatures(nullptr, storage, nullptr), ZVO_ERROR_USAGE);
@@ -636,9 +636,9 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     EXPECT_EQ(zvoContextPassTime(nullptr, 0, nullptr), ZVO_ERROR_USAGE);
     REFUSES_NULLS(zvoContextReport, host.context, &report);
     REFUSES_NULLS(zvoRecorderBegin, host.context, host.device.begin(), 1000, 0, &made_recorder);
-    REFUSES_NULLS(zvoModelFacts, model, &model_facts);
+    REFUSES_NULLS(zvoModelStats, model, &model_stats);
     REFUSES_NULLS(zvoModelGridAround, model, 4, &grid);
-    REFUSES_NULLS(zvoTreeFacts, tree, &tree_facts);
+    REFUSES_NULLS(zvoTreeInfo, tree, &tree_info);
     REFUSES_NULLS(zvoTreeAddress, tree, &address);
     REFUSES_NULLS(zvoTreeBuildCreate, host.context, model, &build_info, &made_build);
     REFUSES_NULLS(zvoTreeBuildIsDone, build, &flag);
@@ -649,12 +649,12 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoTreeCompressionIsDone, compression, &flag);
     REFUSES_NULLS(zvoTreeCompressionIsBroken, compression, &flag);
     REFUSES_NULLS(zvoTreeCompressionTake, compression, &made_tree);
-    REFUSES_NULLS(zvoDynamicTreePlaceMover, dynamic, 0, place);
-    REFUSES_NULLS(zvoDynamicTreeRemoveMover, dynamic, 0);
+    REFUSES_NULLS(zvoDynamicTreeSetTransform, dynamic, 0, place);
+    REFUSES_NULLS(zvoDynamicTreeRemoveObject, dynamic, 0);
     REFUSES_NULLS(zvoDynamicTreeNeedsUpdate, dynamic, &flag);
     REFUSES_NULLS(zvoDynamicTreeEndStroke, dynamic);
-    REFUSES_NULLS(zvoDynamicTreeTakeUpdate, dynamic, &update_facts, &flag);
-    REFUSES_NULLS(zvoDynamicTreeFacts, dynamic, &tree_facts);
+    REFUSES_NULLS(zvoDynamicTreeTakeUpdate, dynamic, &update_stats, &flag);
+    REFUSES_NULLS(zvoDynamicTreeInfo, dynamic, &tree_info);
     REFUSES_NULLS(zvoDynamicTreeAddress, dynamic, &address);
     REFUSES_NULLS(zvoTracerCreate, host.context, 8, 8, VK_FORMAT_R8G8B8A8_UNORM, &made_tracer);
     REFUSES_NULLS(zvoCameraLookAt, eye, eye, 0.5, &camera);
@@ -669,7 +669,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoTreeBuildRecord, build, recorder, &flag);
             REFUSES_NULLS(zvoTreeCompressionRecord, compression, recorder, &flag);
             REFUSES_NULLS(zvoDynamicTreeCreate, recorder, tree, &dynamic_info, &made_dynamic);
-            REFUSES_NULLS(zvoDynamicTreeAddMover, dynamic, recorder, model, place, &mover);
+            REFUSES_NULLS(zvoDynamicTreeAddObject, dynamic, recorder, model, place, &object);
             REFUSES_NULLS(zvoDynamicTreeUpdate, dynamic, recorder, 0, &flag);
             REFUSES_NULLS(zvoDynamicTreeUndo, dynamic, recorder, &flag);
             REFUSES_NULLS(zvoDynamicTreeRedo, dynamic, recorder, &flag);

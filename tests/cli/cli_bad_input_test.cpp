@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Cli, CliBadScene, testing::ValuesIn(badScenes()),
 TEST_P(CliBadScene, IsOneLineAndExitCodeThree)
 {
     const TempDir dir;
-    GltfBuilder builder = colouredCube();
+    GltfBuilder builder = coloredCube();
     GetParam().change(builder);
     dir.write("scene.glb", builder.glb());
     const Outcome outcome = runZvo(dir.path(), {"voxelize", "scene.glb", "-o", "a.ply", "--resolution", "8"});
@@ -114,7 +114,7 @@ TEST(CliBadInput, EmptySceneRendersTheBackground)
 {
     const TempDir dir;
     dir.write("empty.glb", GltfBuilder().glb());
-    dir.write("cube.glb", colouredCube().glb());
+    dir.write("cube.glb", coloredCube().glb());
     const auto render = [&](const std::string& name)
     {
         // Away from the cube: both pictures show the background alone.
@@ -137,7 +137,7 @@ TEST(CliBadInput, EmptySceneRendersTheBackground)
 TEST(CliBadInput, TrianglesThatAreNotFiniteAreCountedAndTheRestIsUsed)
 {
     const TempDir dir;
-    GltfBuilder builder = colouredCube();
+    GltfBuilder builder = coloredCube();
     dir.write("cube.glb", builder.glb());
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinite = std::numeric_limits<float>::infinity();

@@ -20,7 +20,7 @@ class CliCameraPath : public testing::Test
 protected:
     void SetUp() override
     {
-        m_dir.write("cube.glb", colouredCube().glb());
+        m_dir.write("cube.glb", coloredCube().glb());
         m_dir.write("path.json", std::string_view(R"({"schema": "zvo.camera_path/1", "keys": [
             {"time": 0.1, "eye": [3, 2, 6], "target": [0.5, 0.5, 0.5], "fov": 50},
             {"time": 0.2, "eye": [0, 3, 7], "target": [0.5, 1, 0.5], "fov": 60}]})"));

@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(Cli, CliError, testing::ValuesIn(errorCases()),
 TEST_P(CliError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
 {
     const TempDir dir;
-    GltfBuilder builder = colouredCube();
+    GltfBuilder builder = coloredCube();
     const std::vector<std::uint8_t> cube = builder.glb();
     dir.write("cube.glb", cube);
     dir.write("broken.glb", std::span(cube).first(cube.size() / 2));
@@ -163,7 +163,7 @@ TEST(Cli, InterruptLeavesNoFile)
 {
     const TempDir dir;
     const TempDir out;
-    const std::string scene = dir.write("cube.glb", colouredCube().glb()).string();
+    const std::string scene = dir.write("cube.glb", coloredCube().glb()).string();
     for (const int signal : {SIGINT, SIGTERM})
     {
         ZvoProcess process(out.path(), {"voxelize", scene, "-o", "a.ply", "--resolution", "2048"});
@@ -181,7 +181,7 @@ TEST(Cli, InterruptLeavesNoFile)
 TEST(Cli, ForceOverwrites)
 {
     const TempDir dir;
-    dir.write("cube.glb", colouredCube().glb());
+    dir.write("cube.glb", coloredCube().glb());
     dir.write("a.morton", std::string_view("old"));
     const Outcome outcome = runZvo(dir.path(), {"voxelize", "cube.glb", "-o", "a.morton", "--resolution", "8", "-f"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -69,14 +69,14 @@ TEST(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
     {
         p = glm::vec3(p.x, -p.z, p.y);
     }
-    FileMesh millimetres = mesh; // larger by a power of two: nothing is rounded
-    for (glm::vec3& p : millimetres.positions)
+    FileMesh millimeters = mesh; // larger by a power of two: nothing is rounded
+    for (glm::vec3& p : millimeters.positions)
     {
         p *= 1024.0F;
     }
     dir.write("mesh.glb", asGlb(mesh));
     dir.write("lying.stl", asBinaryStl(lying));
-    dir.write("millimetres.ply", asPly(millimetres, PlyEncoding::LittleEndian));
+    dir.write("millimetres.ply", asPly(millimeters, PlyEncoding::LittleEndian));
     const std::string bounds = "--bounds=-2,-2,-4,6,6,4";
     const std::string codes = codesOf(dir, {"mesh.glb", bounds});
     EXPECT_EQ(codesOf(dir, {"lying.stl", "--up", "z", bounds}), codes);
@@ -89,7 +89,7 @@ TEST(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
 TEST(CliFormats, RenderTakesSeveralFormatsAndUp)
 {
     const TempDir dir;
-    dir.write("cube.glb", colouredCube().glb());
+    dir.write("cube.glb", coloredCube().glb());
     dir.write("mesh.obj", asObj(bentSheet(3)));
     const Outcome outcome = runZvo(dir.path(), {"render", "cube.glb", "mesh.obj", "-o", "a.png", "--resolution", "32",
                                                 "--size", "32x32", "--up", "-y", "--scale", "2"});
@@ -100,7 +100,7 @@ TEST(CliFormats, RenderTakesSeveralFormatsAndUp)
 TEST(CliFormats, WrongUpAndScaleAreUsageErrors)
 {
     const TempDir dir;
-    dir.write("cube.glb", colouredCube().glb());
+    dir.write("cube.glb", coloredCube().glb());
     const auto expectUsage = [&](const std::string& argument, const std::string& word)
     {
         const Outcome outcome = runZvo(dir.path(), {"voxelize", "cube.glb", "-o", "a.ply", argument});

@@ -9,11 +9,11 @@ namespace zvo::test
 {
 
 /// The cube from (0, 0, 0) to (1, 1, 1), a normal and a colour for each of its faces, and a camera called "front".
-inline GltfBuilder colouredCube()
+inline GltfBuilder coloredCube()
 {
     std::vector<float> positions;
     std::vector<float> normals;
-    std::vector<float> colours;
+    std::vector<float> colors;
     std::vector<std::uint16_t> indices;
     for (int face = 0; face < 6; ++face)
     {
@@ -31,7 +31,7 @@ inline GltfBuilder colouredCube()
             normals.insert(normals.end(), normal.begin(), normal.end());
             for (int channel = 0; channel < 3; ++channel)
             {
-                colours.push_back(channel == axis ? 1.0F : 0.0F);
+                colors.push_back(channel == axis ? 1.0F : 0.0F);
             }
         }
         for (const int corner : {0, 1, 2, 0, 2, 3})
@@ -42,7 +42,7 @@ inline GltfBuilder colouredCube()
     GltfBuilder builder;
     const json attributes = {{"POSITION", builder.addPositions(positions)},
                              {"NORMAL", builder.addAccessor("VEC3", kF32, 24, normals)},
-                             {"COLOR_0", builder.addAccessor("VEC3", kF32, 24, colours)}};
+                             {"COLOR_0", builder.addAccessor("VEC3", kF32, 24, colors)}};
     builder.addMeshNode({{"attributes", attributes}, {"indices", builder.addAccessor("SCALAR", kU16, 36, indices)}});
     builder.add("cameras",
                 {{"type", "perspective"}, {"name", "front"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}});

@@ -32,7 +32,7 @@ protected:
 
     void SetUp() override
     {
-        m_scene = loadGltf(m_dir.write("cube.glb", colouredCube().glb()));
+        m_scene = loadGltf(m_dir.write("cube.glb", coloredCube().glb()));
         m_grid = Grid::around(m_scene.bounds(), kDepth);
     }
 
@@ -173,7 +173,7 @@ TEST_F(CliRun, FlagsComeInAnyOrder)
     EXPECT_NE(file("1.morton"), "");
 }
 
-TEST_F(CliRun, PlyFileHoldsCentresNormalsAndColours)
+TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)
 {
     run({"voxelize", "cube.glb", "-o", "cube.ply", "--resolution", "32"});
     const std::vector<std::uint64_t> codes = voxelCodes(device(), build(m_grid).octree);
@@ -218,7 +218,7 @@ TEST_F(CliRun, GridOfAReportGivesTheSameGridBitForBit)
     // Corners that no short decimal number meets.
     m_scene.instances[0].transform = glm::mat4(0.1F);
     m_scene.instances[0].transform[3] = glm::vec4(1.0F / 3.0F, -7.1F, 1e-4F, 1.0F);
-    GltfBuilder builder = colouredCube();
+    GltfBuilder builder = coloredCube();
     builder.document["nodes"][0]["translation"] = {1.0 / 3.0, -7.1, 1e-4};
     builder.document["nodes"][0]["scale"] = {0.1, 0.1, 0.1};
     m_dir.write("moved.glb", builder.glb());
@@ -268,10 +268,10 @@ TEST_F(CliRun, RenderWritesAPictureAndItsNumbers)
     const Image image = decodeImage({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}, "", "front.png");
     ASSERT_EQ(image.width, 96U);
     ASSERT_EQ(image.height, 64U);
-    const std::uint8_t* const centre = image.rgba.data() + std::size_t{4} * (32 * 96 + 48);
-    EXPECT_EQ(centre[0], 0); // the camera looks at the face of the z axis, which is blue
-    EXPECT_EQ(centre[1], 0);
-    EXPECT_EQ(centre[2], 255);
+    const std::uint8_t* const center = image.rgba.data() + std::size_t{4} * (32 * 96 + 48);
+    EXPECT_EQ(center[0], 0); // the camera looks at the face of the z axis, which is blue
+    EXPECT_EQ(center[1], 0);
+    EXPECT_EQ(center[2], 255);
 
     const std::vector<std::string> same = {"render", "cube.glb", "-o",     "-",      "--resolution", "32",
                                            "--size", "96x64",    "--view", "albedo", "--camera",     "front"};

@@ -27,7 +27,7 @@ std::string succeed(const TempDir& dir, const std::vector<std::string>& argument
 
 void writeCube(const TempDir& dir)
 {
-    dir.write("cube.glb", colouredCube().glb());
+    dir.write("cube.glb", coloredCube().glb());
 }
 
 // The cube at 32^3, in both structures.
@@ -139,34 +139,35 @@ TEST(CliTree, PackedAttributesGoWhereOthersGo)
     const TempDir dir;
     buildBoth(dir);
     const std::uint64_t plain_bytes = json::parse(succeed(dir, {"inspect", "svdag.zvo", "--json"}))["attribute_bytes"];
-    for (const std::string form : {"4", "block"})
+    for (const std::string attributes : {"4", "block"})
     {
         for (const std::string structure : {"svo", "svdag"})
         {
-            const std::string file = structure + form + ".zvo";
+            const std::string file = structure + attributes + ".zvo";
             succeed(dir, {"build", "cube.glb", "-o", file, "--resolution", "32", "--structure", structure,
-                          "--attributes", form, "--json", structure + form + ".json"});
-            const json report = json::parse(contentOf(dir.path() / (structure + form + ".json")));
-            EXPECT_EQ(report["attribute_form"], form);
+                          "--attributes", attributes, "--json", structure + attributes + ".json"});
+            const json report = json::parse(contentOf(dir.path() / (structure + attributes + ".json")));
+            EXPECT_EQ(report["attribute_form"], attributes);
             EXPECT_GT(report["pack_ms"], 0.0);
             EXPECT_NE(succeed(dir, {"validate", file}).find("sound"), std::string::npos);
             const std::string text = succeed(dir, {"inspect", file});
-            EXPECT_NE(text.find("form " + form + ": "), std::string::npos) << text;
+            EXPECT_NE(text.find("form " + attributes + ": "), std::string::npos) << text;
             const json inspected = json::parse(succeed(dir, {"inspect", file, "--json"}));
             EXPECT_LT(inspected["attribute_bytes"], plain_bytes * 6 / 10);
             EXPECT_EQ(inspected["attribute_bytes"], report["bytes"]["attributes"]);
-            succeed(dir, {"render", file, "-o", structure + form + ".png", "--size", "96x64"});
+            succeed(dir, {"render", file, "-o", structure + attributes + ".png", "--size", "96x64"});
             for (const std::string format : {"ply", "vox", "morton", "glb", "nvdb"})
             {
-                succeed(dir, {"convert", file, "-o", structure + form + "." + format});
+                succeed(dir, {"convert", file, "-o", structure + attributes + "." + format});
             }
         }
         for (const std::string extension : {".png", ".ply", ".vox", ".morton", ".glb", ".nvdb"})
         {
-            EXPECT_EQ(shaOf(dir, "svo" + form + extension), shaOf(dir, "svdag" + form + extension)) << extension;
+            EXPECT_EQ(shaOf(dir, "svo" + attributes + extension), shaOf(dir, "svdag" + attributes + extension))
+                << extension;
         }
-        succeed(dir, {"convert", "svo" + form + ".zvo", "-o", "again.zvo", "-f"});
-        EXPECT_EQ(shaOf(dir, "again.zvo"), shaOf(dir, "svdag" + form + ".zvo"));
+        succeed(dir, {"convert", "svo" + attributes + ".zvo", "-o", "again.zvo", "-f"});
+        EXPECT_EQ(shaOf(dir, "again.zvo"), shaOf(dir, "svdag" + attributes + ".zvo"));
     }
 }
 
@@ -188,7 +189,7 @@ TEST(CliTree, ConvertWritesWhatVoxelizeWrites)
     EXPECT_EQ(shaOf(dir, "again.zvo"), shaOf(dir, "svdag.zvo"));
 }
 
-TEST(CliTree, VoxFilesComeBackWithTheirVoxelsAndColours)
+TEST(CliTree, VoxFilesComeBackWithTheirVoxelsAndColors)
 {
     const TempDir dir;
     buildBoth(dir);
@@ -389,19 +390,19 @@ TEST(CliTree, FilesAreTheSameBytesOnEveryRun)
 {
     const TempDir dir;
     writeCube(dir);
-    for (const auto& [structure, form] :
+    for (const auto& [structure, attributes] :
          {std::pair{"svo", "8"}, {"svdag", "none"}, {"svdag", "4"}, {"svdag", "8"}, {"svdag", "block"}})
     {
-        const std::vector<std::string> arguments = {"build",   "cube.glb",     "-o", "again.zvo",
-                                                    "-f",      "--resolution", "32", "--structure",
-                                                    structure, "--attributes", form};
+        const std::vector<std::string> arguments = {"build",   "cube.glb",     "-o",      "again.zvo",
+                                                    "-f",      "--resolution", "32",      "--structure",
+                                                    structure, "--attributes", attributes};
         succeed(dir, arguments);
         const std::string sha = shaOf(dir, "again.zvo");
         for (const char* const setting : {"LP_NUM_THREADS=0", "LP_NUM_THREADS=4", "LP_NATIVE_VECTOR_WIDTH=128"})
         {
             const Outcome outcome = runZvo(dir.path(), arguments, {setting});
             EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-            EXPECT_EQ(shaOf(dir, "again.zvo"), sha) << structure << " " << form << " " << setting;
+            EXPECT_EQ(shaOf(dir, "again.zvo"), sha) << structure << " " << attributes << " " << setting;
         }
     }
 }

@@ -277,27 +277,27 @@ TEST(Elapsed, FixedStepsAreWhatMultiplyingSays)
 
 TEST(Timeline, StopsStepsAndLoops)
 {
-    Stage stage;
-    stage.seconds = 2;
-    stage.frames_per_second = 10;
+    AnimatedScene animated;
+    animated.seconds = 2;
+    animated.frames_per_second = 10;
     Timeline timeline{FixedStep{1, 10}};
     timeline.start(0.5);
     for (int i = 0; i < 4; ++i)
     {
         timeline.advance(99);
     }
-    EXPECT_DOUBLE_EQ(timeline.secondsIn(stage), 0.9);
-    timeline.step(stage);
+    EXPECT_DOUBLE_EQ(timeline.secondsIn(animated), 0.9);
+    timeline.step(animated);
     timeline.advance(99);
-    EXPECT_DOUBLE_EQ(timeline.secondsIn(stage), 1.0) << "it stands still";
+    EXPECT_DOUBLE_EQ(timeline.secondsIn(animated), 1.0) << "it stands still";
     timeline.play(true);
     timeline.setSpeed(3);
     timeline.advance(99);
-    EXPECT_DOUBLE_EQ(timeline.secondsIn(stage), 1.3);
+    EXPECT_DOUBLE_EQ(timeline.secondsIn(animated), 1.3);
     timeline.advance(99);
     timeline.advance(99);
     timeline.advance(99);
-    EXPECT_NEAR(timeline.secondsIn(stage), 0.2, 1e-12);
+    EXPECT_NEAR(timeline.secondsIn(animated), 0.2, 1e-12);
 }
 
 TEST(Notices, GoAfterAWhileAndAreNotManyAtOnce)

@@ -78,11 +78,11 @@ protected:
         {
             GTEST_SKIP() << "no Xvfb: install the package xvfb";
         }
-        m_dir.write("cube.glb", colouredCube().glb());
-        GltfBuilder slab = colouredCube();
+        m_dir.write("cube.glb", coloredCube().glb());
+        GltfBuilder slab = coloredCube();
         slab.document["nodes"][0]["scale"] = {0.25, 0.5, 1.5};
         m_dir.write("slab.glb", slab.glb());
-        const std::vector<std::uint8_t> whole = colouredCube().glb();
+        const std::vector<std::uint8_t> whole = coloredCube().glb();
         m_dir.write("broken.glb", std::span(whole).first(whole.size() / 2));
         m_dir.write("moving.scene.json", std::string_view(R"({"seconds": 2, "frames_per_second": 10,
             "grid": {"depth": 6, "bounds": {"min": [-1.625, -1, -1], "max": [2.375, 3, 3]}},

@@ -90,7 +90,7 @@ TEST_F(DemoEditing, CarvesFillsAndPaintsAndUndoesToTheFirstPicture)
 
 TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
 {
-    const std::vector<std::string> stage = {"moving.scene.json", "--camera", "3,2.5,4,0.5,0.5,0.5,40"};
+    const std::vector<std::string> scene_file = {"moving.scene.json", "--camera", "3,2.5,4,0.5,0.5,0.5,40"};
     // Four pictures: at first, carved, moved on, undone; or the same without the stroke.
     const auto pictures = [&](bool edits)
     {
@@ -103,7 +103,7 @@ TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
         script.add(keyStroke(frame + 1, Key::Space)).add(keyStroke(frame + 6, Key::Space));
         script.add(keyStroke(frame + 8, Key::F12)).add(keyStroke(frame + 10, Key::Z, kControl));
         script.add(keyStroke(frame + 12, Key::F12));
-        play(script, frame + 15, stage);
+        play(script, frame + 15, scene_file);
         std::vector<std::string> shots;
         for (int number = 1; number <= 4; ++number)
         {
@@ -125,14 +125,14 @@ TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
 
 TEST_F(DemoEditing, TheHandDragsWhatMovesAndNothingElse)
 {
-    const std::vector<std::string> stage = {"moving.scene.json", "--camera", "0,1,8,0,1,0,40", "--time", "0.5"};
+    const std::vector<std::string> scene_file = {"moving.scene.json", "--camera", "0,1,8,0,1,0,40", "--time", "0.5"};
     const auto lastAfter = [&](const std::vector<MouseMoveEvent>& points)
     {
         Script script;
         script.add(keyStroke(1, Key::Space)).add(keyStroke(2, Key::M));
         const std::uint64_t frame = drag(script, 4, points);
         script.add(keyStroke(frame, Key::F12));
-        play(script, frame + 3, stage);
+        play(script, frame + 3, scene_file);
         const std::string shot = file("zvo-0001.png");
         fs::remove(m_dir.path() / "zvo-0001.png");
         return shot;

@@ -25,8 +25,8 @@ const std::vector<ScriptedEvent> kEvents = {
     {2, MouseButtonEvent{MouseButton::Middle, true, {false, false, true}}},
     {3, WheelEvent{0, -1.5}},
     {3, ResizeEvent{640, 0}},
-    {7, MinimiseEvent{true}},
-    {8, MinimiseEvent{false}},
+    {7, MinimizeEvent{true}},
+    {8, MinimizeEvent{false}},
     {900'000'000, DropEvent{{"a b.glb", "/c\"d.obj"}}},
     {900'000'000, CloseEvent{}},
 };

@@ -107,7 +107,7 @@ TEST_F(DemoWindow, FliesAlongAPathAndThroughTheTimesOfAMovingSceneAsZvoRenderDoe
     }
 }
 
-TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
+TEST_F(DemoWindow, AUserFliesResizesMinimizesAndComesBackToTheSamePicture)
 {
     Script script;
     const Modifiers control = {false, true, false};
@@ -118,7 +118,7 @@ TEST_F(DemoWindow, AUserFliesResizesMinimisesAndComesBackToTheSamePicture)
     script.add(keyStroke(7, Key::F12)); // zvo-0002.png, elsewhere
     script.add(8, demo::ResizeEvent{333, 201}).add(keyStroke(9, Key::F12));
     script.add(10, demo::ResizeEvent{0, 0}).add(keyStroke(11, Key::V)).add(keyStroke(13, Key::V, {true, false, false}));
-    script.add(16, demo::ResizeEvent{64, 480}).add(18, demo::MinimiseEvent{true}).add(20, demo::MinimiseEvent{false});
+    script.add(16, demo::ResizeEvent{64, 480}).add(18, demo::MinimizeEvent{true}).add(20, demo::MinimizeEvent{false});
     script.add(22, demo::ResizeEvent{240, 150});
     script.add(keyStroke(23, Key::Digit1)).add(keyStroke(25, Key::F12)); // zvo-0004.png
     script.add(keyStroke(27, Key::F)).add(keyStroke(28, Key::C, control)).add(keyStroke(29, Key::V, control));

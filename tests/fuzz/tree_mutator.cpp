@@ -83,7 +83,7 @@ TreeData soundTree(std::mt19937& random)
     {
         return tree;
     }
-    return packedTree(tree, random() % 2 == 0 ? AttributeForm::Bytes4 : AttributeForm::Blocks);
+    return packedTree(tree, random() % 2 == 0 ? AttributeFormat::Bytes4 : AttributeFormat::Blocks);
 }
 
 void changeSections(ZvoParts& parts, std::mt19937& random)

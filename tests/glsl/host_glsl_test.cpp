@@ -310,8 +310,8 @@ private:
         const test::DeviceHit met = *test::unpack(hit);
         ASSERT_EQ(pixel.is_voxel != 0, met.level == m_tree.grid.nodeLevels()) << i;
         ASSERT_EQ(pixel.is_inside != 0, met.face == gpu::kFaceInside) << i;
-        const bool is_grey = (m_origins.image[i] & 255U) == (m_origins.image[i] >> 16 & 255U);
-        ASSERT_EQ(pixel.is_dynamic != 0, !is_grey) << i;
+        const bool is_gray = (m_origins.image[i] & 255U) == (m_origins.image[i] >> 16 & 255U);
+        ASSERT_EQ(pixel.is_dynamic != 0, !is_gray) << i;
         const bool may_emit = m_tree.hasAttributes() && pixel.is_voxel != 0;
         const glm::dvec3 radiance = may_emit ? m_emission.of(hit.index) : glm::dvec3(0.0);
         for (int channel = 0; channel < 3; ++channel)
@@ -368,27 +368,27 @@ std::array<ViewCamera, 3> threeViews(const Grid& grid)
     return {views[0], views[1], views[12]};
 }
 
-constexpr std::array kForms = {AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8,
-                               AttributeForm::Blocks};
+constexpr std::array kFormats = {AttributeFormat::None, AttributeFormat::Bytes4, AttributeFormat::Bytes8,
+                                 AttributeFormat::Blocks};
 
-DeviceTree octreeWith(const CodeSet& set, AttributeForm form)
+DeviceTree octreeWith(const CodeSet& set, AttributeFormat format)
 {
     DeviceTree octree = test::octreeOf(device(), set.codes, set.depth);
-    if (form != AttributeForm::None)
+    if (format != AttributeFormat::None)
     {
         test::addAttributes(device(), octree);
         octree.emission_scale = 3.5F;
-        packTree(device(), form, octree);
+        packTree(device(), format, octree);
     }
     return octree;
 }
 
-DeviceTree dagWith(const CodeSet& set, AttributeForm form, std::uint32_t entries_per_word = 0)
+DeviceTree dagWith(const CodeSet& set, AttributeFormat format, std::uint32_t entries_per_word = 0)
 {
     const DeviceTree octree =
-        octreeWith(set, form == AttributeForm::None ? AttributeForm::None : AttributeForm::Bytes8);
+        octreeWith(set, format == AttributeFormat::None ? AttributeFormat::None : AttributeFormat::Bytes8);
     DeviceTree dag = test::svdagOf(device(), octree, entries_per_word);
-    packTree(device(), form, dag);
+    packTree(device(), format, dag);
     return dag;
 }
 
@@ -397,15 +397,15 @@ TEST(HostGlsl, PicturesOfOctreesAndDagsAreZvos)
     std::size_t number = 0;
     for (const CodeSet& set : codeSets())
     {
-        for (const AttributeForm form : kForms)
+        for (const AttributeFormat format : kFormats)
         {
-            const DeviceTree octree = octreeWith(set, form);
-            const DeviceTree dag = dagWith(set, form);
+            const DeviceTree octree = octreeWith(set, format);
+            const DeviceTree dag = dagWith(set, format);
             const std::array<ViewCamera, 3> views = threeViews(octree.grid);
             for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
             {
                 const DeviceTree& tree = *shown;
-                SCOPED_TRACE("depth " + std::to_string(set.depth) + ", form " + formName(form) + ", lists " +
+                SCOPED_TRACE("depth " + std::to_string(set.depth) + ", format " + formatName(format) + ", lists " +
                              std::to_string(tree.entriesPerWord()));
                 const ZvoPicture outside(tree, views[0]);
                 EXPECT_GT(outside.hitCount(), 0U);
@@ -421,8 +421,8 @@ TEST(HostGlsl, PicturesOfOctreesAndDagsAreZvos)
 TEST(HostGlsl, EveryCameraSeesTheSame)
 {
     const CodeSet set = {6, test::sphereShell(6, 24.0)};
-    const DeviceTree octree = octreeWith(set, AttributeForm::Bytes8);
-    const DeviceTree dag = dagWith(set, AttributeForm::Bytes8);
+    const DeviceTree octree = octreeWith(set, AttributeFormat::Bytes8);
+    const DeviceTree dag = dagWith(set, AttributeFormat::Bytes8);
     std::size_t number = 0;
     for (const ViewCamera& view : test::manyCameras(octree.grid))
     {
@@ -439,7 +439,7 @@ TEST(HostGlsl, AnyEntriesAWordGiveTheSame)
     const CodeSet set = {9, test::randomCodes(9, 3000, random)};
     for (const std::uint32_t entries : {2U, 3U, 4U})
     {
-        const DeviceTree dag = dagWith(set, AttributeForm::Bytes8, entries);
+        const DeviceTree dag = dagWith(set, AttributeFormat::Bytes8, entries);
         const ZvoPicture picture(dag, threeViews(dag.grid)[0]);
         EXPECT_GT(picture.hitCount(), 0U) << entries;
         for (const HostVariant& variant : kVariants)
@@ -456,9 +456,9 @@ TEST(HostGlsl, EveryDepthIsTheSame)
     {
         SCOPED_TRACE("depth " + std::to_string(depth));
         const CodeSet set = {depth, test::randomCodes(depth, 300, random)};
-        const AttributeForm form = kForms.at(1 + depth % 3);
-        const DeviceTree octree = octreeWith(set, form);
-        const DeviceTree dag = dagWith(set, form);
+        const AttributeFormat format = kFormats.at(1 + depth % 3);
+        const DeviceTree octree = octreeWith(set, format);
+        const DeviceTree dag = dagWith(set, format);
         const glm::dvec3 voxel = glm::dvec3(oracle::mortonDecode(set.codes.back())) + 0.5;
         const ViewCamera view = ViewCamera::lookAt(voxel + glm::dvec3(3.0, 4.0, 5.0), voxel, 0.5);
         for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
@@ -475,10 +475,10 @@ TEST(HostGlsl, LevelsOfDetailStopAtTheSameNodes)
 {
     for (const CodeSet& set : codeSets())
     {
-        for (const AttributeForm form : {AttributeForm::Bytes8, AttributeForm::Blocks})
+        for (const AttributeFormat format : {AttributeFormat::Bytes8, AttributeFormat::Blocks})
         {
-            const DeviceTree octree = octreeWith(set, form);
-            const DeviceTree dag = dagWith(set, form);
+            const DeviceTree octree = octreeWith(set, format);
+            const DeviceTree dag = dagWith(set, format);
             for (const std::uint32_t level : {0U, 1U, 2U, UINT32_MAX})
             {
                 TraceOptions options;
@@ -528,15 +528,15 @@ TEST_P(HostGlslOverlays, AreSeen)
     const auto& [depth, compressed, attributes] = GetParam();
     std::mt19937 random(depth);
     const CodeSet set = {depth, test::randomCodes(depth, 9000, random)};
-    const AttributeForm form = attributes ? AttributeForm::Bytes8 : AttributeForm::None;
+    const AttributeFormat format = attributes ? AttributeFormat::Bytes8 : AttributeFormat::None;
     DynamicOptions options;
     options.merge = MergeRule::DynamicWins;
     options.attributes = attributes;
     options.emission_scale = 3.5F;
-    DynamicOctree octree(device(), compressed ? dagWith(set, form) : octreeWith(set, form), options);
+    DynamicOctree octree(device(), compressed ? dagWith(set, format) : octreeWith(set, format), options);
     const float edge = std::ldexp(1.0F, static_cast<int>(depth));
     const Scene box = test::boxScene(glm::vec3(0.0F), glm::vec3(std::min(0.4F * edge, 30.0F)));
-    octree.add(uploadMover(device(), box, attributes, options.emission_scale),
+    octree.add(uploadDynamicMesh(device(), box, attributes, options.emission_scale),
                {{glm::translate(glm::mat4(1.0F), glm::vec3(0.3F * edge))}, {}, {}});
     const glm::ivec3 dab(static_cast<int>(0.7F * edge));
     const Brush brush = {BrushShape::Sphere, BrushAction::Fill, dab, 3, 0x2060C0};
@@ -700,7 +700,7 @@ TEST(HostGlsl, WorldRaysHitWhatEveryVoxelAskedOnItsOwnSays)
 TEST(HostGlsl, RaysThatAreNoneHitNothing)
 {
     const DeviceTree octree =
-        octreeWith({3, test::codesWhere(3, [](const glm::uvec3&) { return true; })}, AttributeForm::Bytes8);
+        octreeWith({3, test::codesWhere(3, [](const glm::uvec3&) { return true; })}, AttributeFormat::Bytes8);
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const WorldRay good = {glm::vec3(-1.0F), 0.0F, glm::vec3(1.0F), kInfinity};
@@ -721,14 +721,14 @@ TEST(HostGlsl, RaysThatAreNoneHitNothing)
     }
 }
 
-TEST(HostGlsl, UnfinishedRaysGoOnInTwoTreesAtOnce)
+TEST(HostGlsl, UnfinishedRaysResumeInTwoTreesAtOnce)
 {
     constexpr std::uint32_t kSteps = 20;
     std::mt19937 random(74);
     const CodeSet deep = {9, test::randomCodes(9, 20000, random)};
     const CodeSet shallow = {6, test::spongeCodes(6)};
-    const DeviceTree octree = octreeWith(shallow, AttributeForm::Bytes8);
-    const DeviceTree dag = dagWith(deep, AttributeForm::Bytes8);
+    const DeviceTree octree = octreeWith(shallow, AttributeFormat::Bytes8);
+    const DeviceTree dag = dagWith(deep, AttributeFormat::Bytes8);
     const std::array<const DeviceTree*, 2> trees = {&dag, &octree};
     std::vector<gpu::Ray> rays;
     for (std::uint32_t i = 0; i < 2049; ++i)

@@ -184,7 +184,7 @@ Names deformVertices()
 }
 
 // The scene, as an octree or a DAG, merged with itself, moved by two voxels; pictures of that; and that undone.
-Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
+Names mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
 {
     Names names;
     const float emission_scale = brightestEmission(scene);
@@ -213,7 +213,7 @@ Names mergeMovers(const Scene& scene, const Grid& grid, Coverage coverage, bool 
         instance.transform[3].x += 2.0F * grid.voxel_size;
         pose.transforms.push_back(instance.transform);
     }
-    octree.add(uploadMover(device(), scene, true, emission_scale), pose);
+    octree.add(uploadDynamicMesh(device(), scene, true, emission_scale), pose);
     do
     {
         const std::uint64_t frame = octree.beginFrame();
@@ -310,12 +310,12 @@ Names compressOctree(DeviceTree octree, const CompressOptions& options)
     return names;
 }
 
-// Pictures of the octree with its attributes in fewer bytes. Pictures are there in all forms.
-Names tracePacked(BuildResult built, AttributeForm form)
+// Pictures of the octree with its attributes in fewer bytes. Pictures are there in all formats.
+Names tracePacked(BuildResult built, AttributeFormat format)
 {
     Names names;
-    addNames(names, packTree(device(), form, built.octree));
-    EXPECT_EQ(built.octree.attributeForm(), form);
+    addNames(names, packTree(device(), format, built.octree));
+    EXPECT_EQ(built.octree.attributeFormat(), format);
     names.merge(tracePictures(built.octree));
     return names;
 }
@@ -362,7 +362,7 @@ Names scalePictures()
     return names;
 }
 
-// Pictures in the texel forms of hosts' images, lit and not, and their depth.
+// Pictures in the texel formats of hosts' images, lit and not, and their depth.
 Names traceForHosts(const DeviceTree& tree)
 {
     Names names;
@@ -373,11 +373,11 @@ Names traceForHosts(const DeviceTree& tree)
     clip.z.w = 1.0;
     clip.w = glm::dvec4(view.forward, 1.0 - glm::dot(view.forward, view.position));
     clip.miss = 0.0F;
-    for (const TexelForm form : {TexelForm::Bgra8, TexelForm::Rgb10, TexelForm::Half})
+    for (const TexelFormat format : {TexelFormat::Bgra8, TexelFormat::Rgb10, TexelFormat::Half})
     {
-        TraceBuffers buffers(device().device(), 17, 9, form);
+        TraceBuffers buffers(device().device(), 17, 9, format);
         vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
-        view.orthographic = form == TexelForm::Half;
+        view.orthographic = format == TexelFormat::Half;
         const TraceCamera camera = traceCamera(view, tree.grid, buffers.height);
         for (const View shown : {View::Color, View::Albedo})
         {
@@ -441,17 +441,17 @@ TEST(EveryKernel, RunsOnASmallScene)
         addNames(names, built.passes);
         if (c.pictures)
         {
-            names.merge(mergeMovers(scene, grid, c.coverage, false));
+            names.merge(mergeObjects(scene, grid, c.coverage, false));
             names.merge(tracePictures(built.octree));
             names.merge(traceForHosts(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
-            names.merge(mergeMovers(scene, deep, c.coverage, true));
+            names.merge(mergeObjects(scene, deep, c.coverage, true));
             names.merge(
                 tracePictures(test::svdagOf(device(), buildOctree(device(), gpu_scene, deep, {c.coverage}).octree)));
-            for (const AttributeForm form : {AttributeForm::Bytes4, AttributeForm::Blocks})
+            for (const AttributeFormat format : {AttributeFormat::Bytes4, AttributeFormat::Blocks})
             {
-                names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), form));
+                names.merge(tracePacked(buildOctree(device(), gpu_scene, grid, {c.coverage}), format));
             }
         }
         if (c.depth == 7)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Blocks of 16 attributes, a voxel at a time and a channel at a time.
-#include "oracle/attribute_forms.h"
+#include "oracle/attribute_formats.h"
 
 #include <algorithm>
 #include <array>

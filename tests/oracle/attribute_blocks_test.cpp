@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Blocks whose words and voxels were worked out by hand from docs/file-format.md, attributes of format 3.
-#include "oracle/attribute_forms.h"
+#include "oracle/attribute_formats.h"
 
 #include <gtest/gtest.h>
 

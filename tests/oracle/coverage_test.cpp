@@ -95,7 +95,7 @@ TEST(OracleConservative, SegmentInsideARowCoversTheRow)
               block({0, 0, 0}, {2, 0, 0}));
 }
 
-TEST(OracleConservative, DiagonalSegmentThroughCornersTouchesTheirNeighbours)
+TEST(OracleConservative, DiagonalSegmentThroughCornersTouchesTheirNeighbors)
 {
     // From the middle of (0,0,0) to the middle of (1,1,0) through the edge that four voxels share.
     EXPECT_EQ(covered({Vec{128, 128, 128}, Vec{384, 384, 128}, Vec{128, 128, 128}}, 4, Coverage::Conservative),
@@ -320,7 +320,7 @@ TEST(OracleThin, IsASubsetOfConservative)
     }
 }
 
-TEST(OracleThin, PlaneSeparatesUncoveredNeighbours)
+TEST(OracleThin, PlaneSeparatesUncoveredNeighbors)
 {
     test::Random random(5);
     for (int i = 0; i < 300; ++i)

@@ -198,7 +198,7 @@ ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const Node
 
     const std::uint32_t per_word = entries_per_word != 0 ? entries_per_word : entriesPerWord(dag.node_count);
     dag.entries_per_word = per_word;
-    const std::uint64_t first_place = std::uint64_t{2} * dag.node_count * per_word;
+    const std::uint64_t first_index = std::uint64_t{2} * dag.node_count * per_word;
     std::vector<std::uint32_t> lists;
     std::vector<std::uint32_t> short_entries;
     for (std::size_t level = 0; level < levels.size(); ++level)
@@ -209,7 +209,7 @@ ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const Node
         {
             gpu::Node node = nodes[index];
             const auto lower_count = static_cast<std::uint32_t>(std::popcount(node.mask_lo));
-            const auto list = static_cast<std::uint32_t>(first_place + lists.size());
+            const auto list = static_cast<std::uint32_t>(first_index + lists.size());
             node.base_lo = leaf ? 0 : gpu::kChildList | list;
             node.base_hi = node.base_lo + lower_count;
             dag.pool.push_back(node);
@@ -253,7 +253,7 @@ public:
         for (const NodeRange& range : levels)
             m_node_count += range.node_count;
         m_per_word = entries_per_word != 0 ? entries_per_word : entriesPerWord(m_node_count);
-        m_first_place = 2 * m_node_count * m_per_word;
+        m_first_index = 2 * m_node_count * m_per_word;
     }
 
     DagContents expand()
@@ -290,7 +290,7 @@ private:
             return false;
         }
         for (std::uint64_t place = m_entry_count; place < 2 * m_per_word * (m_pool.size() - m_node_count); ++place)
-            if (entryAt(m_pool, m_first_place + place, m_per_word) != 0)
+            if (entryAt(m_pool, m_first_index + place, m_per_word) != 0)
                 violate("entry " + std::to_string(place) + " behind the lists is not 0");
         const std::uint64_t short_words = (m_entry_count - m_long_entry_count + 1) / 2;
         m_ranked = m_before.size() == m_long_entry_count && m_voxels_before_leaf.size() == short_words;
@@ -336,8 +336,8 @@ private:
                     std::uint64_t voxels, std::uint64_t nodes, const std::string& parent)
     {
         const bool above_leaves = level + 2 == m_levels.size();
-        const std::uint64_t first = m_first_place + (above_leaves ? m_long_entry_count : 0);
-        const std::uint64_t end = m_first_place + (above_leaves ? m_entry_count : m_long_entry_count);
+        const std::uint64_t first = m_first_index + (above_leaves ? m_long_entry_count : 0);
+        const std::uint64_t end = m_first_index + (above_leaves ? m_entry_count : m_long_entry_count);
         if (place < first || place >= end)
         {
             violate(parent + ": list leads to place " + std::to_string(place));
@@ -350,7 +350,7 @@ private:
             violate(parent + ": child " + std::to_string(child) + " is not of the next level");
             return;
         }
-        const std::uint64_t entry = place - m_first_place;
+        const std::uint64_t entry = place - m_first_index;
         std::uint64_t voxels_before = 0;
         std::uint64_t nodes_before = number;
         if (m_ranked)
@@ -369,7 +369,7 @@ private:
     std::span<const gpu::uint> m_voxels_before_leaf;
     std::uint64_t m_node_count = 0;
     std::uint32_t m_per_word = 0; // entries, of 64 bits
-    std::uint64_t m_first_place = 0;
+    std::uint64_t m_first_index = 0;
     bool m_ranked = false;
     DagContents m_contents;
 };

@@ -38,19 +38,19 @@ ReferenceDag referenceDag(std::span<const gpu::Node> nodes, std::span<const Node
 constexpr std::uint64_t kNoRank = ~std::uint64_t{0};
 
 /// A voxel or a node of the octree that a DAG stands for.
-struct DagPlace
+struct DagNode
 {
     std::uint32_t level = 0; // of nodes; the number of levels for a voxel
     std::uint64_t code = 0;  // Morton code among the cells of its level
     std::uint64_t rank = 0;  // as the sums along its path say: of voxels in Morton order, of nodes depth first
 
-    friend bool operator==(const DagPlace&, const DagPlace&) = default;
+    friend bool operator==(const DagNode&, const DagNode&) = default;
 };
 
 struct DagContents
 {
-    std::vector<DagPlace> voxels;        // in Morton order
-    std::vector<DagPlace> nodes;         // depth first
+    std::vector<DagNode> voxels;         // in Morton order
+    std::vector<DagNode> nodes;          // depth first
     std::vector<std::string> violations; // empty: the DAG is as shaders/shared/svdag.h says. At most kViolationsMax
 };
 

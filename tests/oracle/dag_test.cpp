@@ -25,10 +25,10 @@ std::vector<std::uint32_t> wordsOf(const std::vector<gpu::Node>& nodes)
     return words;
 }
 
-std::vector<std::uint64_t> codesOf(const std::vector<DagPlace>& places)
+std::vector<std::uint64_t> codesOf(const std::vector<DagNode>& places)
 {
     std::vector<std::uint64_t> codes;
-    for (const DagPlace& place : places)
+    for (const DagNode& place : places)
         codes.push_back(place.code);
     return codes;
 }
@@ -130,17 +130,17 @@ TEST(OracleDag, HandMadeDagExpands)
     EXPECT_EQ(contents.violations, std::vector<std::string>{});
     EXPECT_EQ(
         contents.voxels,
-        (std::vector<DagPlace>{
+        (std::vector<DagNode>{
             {3, 64, 0}, {3, 66, 1}, {3, 2592, 2}, {3, p + 64, 3}, {3, p + 66, 4}, {3, p + 2592, 5}, {3, r + 32, 6}}));
-    EXPECT_EQ(contents.nodes, (std::vector<DagPlace>{{0, 0, 0},
-                                                     {1, 0, 1},
-                                                     {2, 1, 2},
-                                                     {2, 40, 3},
-                                                     {1, 5, 4},
-                                                     {2, 5 << 6 | 1, 5},
-                                                     {2, 5 << 6 | 40, 6},
-                                                     {1, 63, 7},
-                                                     {2, 63 << 6, 8}}));
+    EXPECT_EQ(contents.nodes, (std::vector<DagNode>{{0, 0, 0},
+                                                    {1, 0, 1},
+                                                    {2, 1, 2},
+                                                    {2, 40, 3},
+                                                    {1, 5, 4},
+                                                    {2, 5 << 6 | 1, 5},
+                                                    {2, 5 << 6 | 40, 6},
+                                                    {1, 63, 7},
+                                                    {2, 63 << 6, 8}}));
 }
 
 TEST(OracleDag, EmptyOctreeGivesAnEmptyDag)

@@ -21,11 +21,11 @@ Image imageOf(std::uint32_t width, std::uint32_t height, const std::vector<Rgba>
 }
 
 /// A row of greys.
-Image greys(const std::vector<std::uint8_t>& row)
+Image grays(const std::vector<std::uint8_t>& row)
 {
     std::vector<Rgba> texels;
-    for (const std::uint8_t grey : row)
-        texels.push_back({grey, grey, grey, 255});
+    for (const std::uint8_t gray : row)
+        texels.push_back({gray, gray, gray, 255});
     return imageOf(static_cast<std::uint32_t>(row.size()), 1, texels);
 }
 
@@ -94,7 +94,7 @@ TEST(OracleTexture, CoordinatesAreClampedAndRounded)
 
 TEST(OracleTexture, TexelCentersGiveTheTexelAndTheirMiddleTheMean)
 {
-    const MipChain mips(greys({0, 255, 0, 255}));
+    const MipChain mips(grays({0, 255, 0, 255}));
     for (const WrapMode mode : {WrapMode::Repeat, WrapMode::MirroredRepeat, WrapMode::ClampToEdge})
     {
         EXPECT_EQ(redAt(mips, 0.5, mode), 0U);
@@ -112,7 +112,7 @@ TEST(OracleTexture, AlphaIsRoundedHalvesUp)
 
 TEST(OracleTexture, WrapModesDifferOutsideOfTheImage)
 {
-    const MipChain mips(greys({0, 0, 0, 255}));
+    const MipChain mips(grays({0, 0, 0, 255}));
     EXPECT_EQ(redAt(mips, 0.0, WrapMode::Repeat), 32768U); // between the last and the first texel
     EXPECT_EQ(redAt(mips, 0.0, WrapMode::MirroredRepeat), 0U);
     EXPECT_EQ(redAt(mips, 0.0, WrapMode::ClampToEdge), 0U);
@@ -139,9 +139,9 @@ TEST(OracleTexture, RowsRunFromTheTop)
 
 TEST(OracleTexture, MipsAreAlphaWeightedMeansInLinearLight)
 {
-    const MipChain grey(imageOf(2, 2, {{0, 0, 0, 255}, {255, 255, 255, 255}, {255, 255, 255, 255}, {0, 0, 0, 255}}));
-    ASSERT_EQ(grey.levels().size(), 2U);
-    EXPECT_EQ(grey.levels()[1].rgba, (std::vector<std::uint8_t>{188, 188, 188, 255}));
+    const MipChain gray(imageOf(2, 2, {{0, 0, 0, 255}, {255, 255, 255, 255}, {255, 255, 255, 255}, {0, 0, 0, 255}}));
+    ASSERT_EQ(gray.levels().size(), 2U);
+    EXPECT_EQ(gray.levels()[1].rgba, (std::vector<std::uint8_t>{188, 188, 188, 255}));
 
     const MipChain leaf(imageOf(2, 2, {{0, 100, 0, 255}, {255, 255, 255, 0}, {255, 255, 255, 0}, {0, 100, 0, 254}}));
     EXPECT_EQ(leaf.levels()[1].rgba, (std::vector<std::uint8_t>{0, 100, 0, 127})); // (509 + 2) / 4
@@ -152,7 +152,7 @@ TEST(OracleTexture, MipsAreAlphaWeightedMeansInLinearLight)
 
 TEST(OracleTexture, OddSizesRoundDown)
 {
-    const MipChain mips(greys({0, 0, 255, 255, 80}));
+    const MipChain mips(grays({0, 0, 255, 255, 80}));
     ASSERT_EQ(mips.levels().size(), 3U);
     EXPECT_EQ(mips.levels()[1].width, 2U);
     EXPECT_EQ(mips.levels()[1].height, 1U);

@@ -70,14 +70,14 @@ constexpr Grid kGrid64 = {.origin = glm::vec3(0.0F), .voxel_size = 0.25F, .depth
 constexpr Brush kCarve = {BrushShape::Sphere, BrushAction::Carve, gpu::ivec3(20, 20, 20), 9, 0};
 
 // A box that stands still, and one that may move.
-Stage boxes(const glm::dvec3& place)
+AnimatedScene boxes(const glm::dvec3& offset)
 {
-    Stage stage;
-    stage.fixed = test::boxScene(glm::vec3(2.0F), glm::vec3(6.0F));
-    stage.movers.emplace_back();
-    stage.movers.back().scene = test::boxScene(glm::vec3(3.0F), glm::vec3(7.0F));
-    stage.movers.back().place = glm::translate(glm::dmat4(1.0), place);
-    return stage;
+    AnimatedScene animated;
+    animated.fixed = test::boxScene(glm::vec3(2.0F), glm::vec3(6.0F));
+    animated.objects.emplace_back();
+    animated.objects.back().scene = test::boxScene(glm::vec3(3.0F), glm::vec3(7.0F));
+    animated.objects.back().transform = glm::translate(glm::dmat4(1.0), offset);
+    return animated;
 }
 
 std::string difference(const LiveScene& a, const LiveScene& b)
@@ -131,7 +131,7 @@ TEST(LiveScene, MergesNothingWithPackedAttributes)
     {
         SCOPED_TRACE(name);
         LiveScene live(device(), tree, {});
-        EXPECT_EQ(live.canEdit(), !isPacked(tree.attributeForm()));
+        EXPECT_EQ(live.canEdit(), !isPacked(tree.attributeFormat()));
         EXPECT_EQ(live.edits() != nullptr, live.canEdit());
         EXPECT_TRUE(live.settle(0).passes.empty());
         EXPECT_EQ(live.tree().voxel_count, tree.voxel_count);
@@ -141,11 +141,11 @@ TEST(LiveScene, MergesNothingWithPackedAttributes)
 }
 
 // By name, and what is fixed as an octree or a DAG.
-class Stages : public testing::TestWithParam<std::tuple<std::string, TreeStructure>>
+class AnimatedScenes : public testing::TestWithParam<std::tuple<std::string, TreeStructure>>
 {
 };
 
-TEST_P(Stages, UpdatedIsRebuilt)
+TEST_P(AnimatedScenes, UpdatedIsRebuilt)
 {
     const auto& [name, structure] = GetParam();
     const std::filesystem::path path = test::ownScene(name + ".scene.json");
@@ -153,17 +153,17 @@ TEST_P(Stages, UpdatedIsRebuilt)
     {
         GTEST_SKIP() << model << " is not there";
     }
-    StageOptions folder;
+    AnimatedSceneOptions folder;
     if (std::filesystem::is_directory(ZVO_SHARED_SCENES_DIR))
     {
         folder.scenes_folder = ZVO_SHARED_SCENES_DIR;
     }
-    const Stage stage = loadStage(path, folder);
-    const Bounds bounds = stageBounds(stage);
+    const AnimatedScene animated = loadAnimatedScene(path, folder);
+    const Bounds bounds = boundsOverTime(animated);
     const Grid grid = Grid::around(bounds, numberFrom("ZVO_TEST_STAGE_DEPTH", 6));
-    const auto frame_count = static_cast<std::uint32_t>(std::lround(stage.seconds * stage.frames_per_second));
+    const auto frame_count = static_cast<std::uint32_t>(std::lround(animated.seconds * animated.frames_per_second));
     const std::uint32_t shown = std::min(frame_count, numberFrom("ZVO_TEST_STAGE_FRAMES", 4));
-    const float emission_scale = brightestEmission(stage);
+    const float emission_scale = brightestEmission(animated);
     const glm::dvec3 low(bounds.min);
     const glm::dvec3 high(bounds.max);
     const ViewCamera view = ViewCamera::lookAt(high + 0.7 * (high - low), 0.5 * (low + high), 0.8);
@@ -171,17 +171,17 @@ TEST_P(Stages, UpdatedIsRebuilt)
 
     LiveOptions options;
     options.structure = structure;
-    LiveScene live(device(), Stage(stage), grid, options);
+    LiveScene live(device(), AnimatedScene(animated), grid, options);
     EXPECT_EQ(live.tree().isDag(), structure == TreeStructure::Svdag);
     const std::vector<std::byte> static_before = staticBytes(live.tree());
     for (std::uint32_t i = 0; i < shown; ++i)
     {
         const std::uint32_t frame = i * frame_count / shown;
         SCOPED_TRACE(frame);
-        const double seconds = frameTime(stage, frame);
+        const double seconds = frameTime(animated, frame);
         const LiveUpdate update = live.place(seconds);
         EXPECT_GT(update.report.dynamic_count, 0U);
-        const GpuScene scene = uploadScene(device(), stageAt(stage, seconds), true, emission_scale);
+        const GpuScene scene = uploadScene(device(), sceneAt(animated, seconds), true, emission_scale);
         const BuildResult rebuilt = buildOctree(device(), scene, grid, {});
         ASSERT_EQ(test::difference(test::cellsOf(device(), live.tree()), test::cellsOf(device(), rebuilt.octree)), "");
         EXPECT_EQ(pictureOf(live.tree(), view, buffers), pictureOf(rebuilt.octree, view, buffers));
@@ -189,12 +189,12 @@ TEST_P(Stages, UpdatedIsRebuilt)
     EXPECT_TRUE(staticBytes(live.tree()) == static_before);
 }
 
-std::string nameOfCase(const testing::TestParamInfo<Stages::ParamType>& info)
+std::string nameOfCase(const testing::TestParamInfo<AnimatedScenes::ParamType>& info)
 {
     return std::get<0>(info.param) + "_" + structureName(std::get<1>(info.param));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Stages,
+INSTANTIATE_TEST_SUITE_P(Scenes, AnimatedScenes,
                          testing::Combine(testing::Values("atrium_knot", "buddha_dragon", "sponza_bunny"),
                                           testing::Values(TreeStructure::Svo, TreeStructure::Svdag)),
                          nameOfCase);

@@ -126,7 +126,7 @@ std::uint64_t checkPlaced(vk::HeadlessDevice& device, const Options& options)
     std::array<Tally, 2> sums;
     for (std::uint64_t number = 0; sums[0].triangles < options.triangles / 50; ++number)
     {
-        const PlacedScene placed = makePlacedScene(options.seed, number);
+        const PosedGpuScene placed = makePosedScene(options.seed, number);
         for (std::size_t i = 0; i < kCoverages.size(); ++i)
         {
             const Tally tally = compareScene(device, placed.scene, placed.grid, kCoverages[i]);

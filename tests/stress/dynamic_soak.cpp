@@ -54,7 +54,7 @@ std::uint64_t residentBytes()
 }
 
 // Round the middle, up and down, turning; a part of the way is outside.
-glm::dmat4 placeAt(std::uint64_t frame)
+glm::dmat4 transformAt(std::uint64_t frame)
 {
     const double angle = glm::two_pi<double>() * static_cast<double>(frame % kPeriod) / kPeriod;
     const double middle = 0.4 * kExtent;
@@ -77,7 +77,8 @@ public:
         options.history = {3, UINT64_MAX};
         options.emission_scale = m_scale;
         m_octree = std::make_unique<DynamicOctree>(m_device, build(m_fixed, true).octree, options);
-        m_mover = m_octree->add(uploadMover(m_device, m_moving, true, m_scale), poseAt(m_moving, 0, placeAt(0)));
+        m_object =
+            m_octree->add(uploadDynamicMesh(m_device, m_moving, true, m_scale), poseAt(m_moving, 0, transformAt(0)));
     }
 
     void run(std::uint64_t frame_count)
@@ -122,7 +123,7 @@ private:
         {
             waitForOldest();
         }
-        m_octree->place(m_mover, poseAt(m_moving, 0, placeAt(frame)));
+        m_octree->setPose(m_object, poseAt(m_moving, 0, transformAt(frame)));
         const std::uint64_t number = m_octree->beginFrame();
         m_flights.push_back({number, m_device.submit(
                                          [&](vk::FrameGraph& graph)
@@ -142,7 +143,7 @@ private:
         m_flights.pop_front();
     }
 
-    // Waits until the last frame's movers are shown.
+    // Waits until the last frame's dynamic objects are shown.
     void settle()
     {
         for (int attempt = 0; attempt < 64; ++attempt)
@@ -168,7 +169,7 @@ private:
         if (frame < kPeriod)
         {
             Scene all = m_fixed;
-            Scene moved = posedScene(m_moving, poseAt(m_moving, 0, placeAt(frame)));
+            Scene moved = posedScene(m_moving, poseAt(m_moving, 0, transformAt(frame)));
             all.append(std::move(moved));
             expectSame(frame, cells, test::cellsOf(m_device, build(all, false).octree), "a rebuild");
             m_period.push_back(std::move(cells));
@@ -215,7 +216,7 @@ private:
     Scene m_moving;
     float m_scale = 0;
     std::unique_ptr<DynamicOctree> m_octree;
-    MoverId m_mover = 0;
+    DynamicObjectId m_object = 0;
     std::deque<Flight> m_flights;
     std::vector<Cells> m_period; // what frames of the first period show
     std::uint64_t m_compared_count = 0;

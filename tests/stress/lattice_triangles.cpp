@@ -153,7 +153,7 @@ Scene latticeScene(std::span<const LatticeTriangle> triangles, std::span<const s
     return scene;
 }
 
-PlacedScene makePlacedScene(std::uint64_t seed, std::uint64_t number)
+PosedGpuScene makePosedScene(std::uint64_t seed, std::uint64_t number)
 {
     std::mt19937_64 random(seed * 1'000'003 + number);
     const auto uniform = [&](float low, float high)
@@ -161,7 +161,7 @@ PlacedScene makePlacedScene(std::uint64_t seed, std::uint64_t number)
     const auto vector = [&](float reach)
     { return glm::vec3(uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)); };
 
-    PlacedScene placed;
+    PosedGpuScene placed;
     placed.grid.depth = 5 + static_cast<std::uint32_t>(random() % 4);
     placed.grid.voxel_size = std::exp2(uniform(-20.0F, 12.0F));
     const float edge = placed.grid.voxel_size * static_cast<float>(placed.grid.resolution());

@@ -55,12 +55,12 @@ Scene latticeScene(std::span<const LatticeTriangle> triangles, std::span<const s
 
 /// Triangles between the lattice's points: primitives in several places, turned, sheared and mirrored at random, in a
 /// grid of any size anywhere. The same for the same numbers.
-struct PlacedScene
+struct PosedGpuScene
 {
     Scene scene;
     Grid grid;
 };
-PlacedScene makePlacedScene(std::uint64_t seed, std::uint64_t number);
+PosedGpuScene makePosedScene(std::uint64_t seed, std::uint64_t number);
 
 /// "(x y z) (x y z) (x y z)".
 std::string toText(const LatticeTriangle& triangle);

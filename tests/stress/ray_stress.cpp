@@ -168,11 +168,11 @@ std::vector<Shell> makeShells()
             shells.push_back({fmt::format("cube in {}", edge), test::boxScene(low, high), depth, glm::ceil(low) + 1.0F,
                               glm::floor(high) - 1.0F});
         }
-        const glm::vec3 centre(0.5F * edge + 0.13F, 0.5F * edge, 0.5F * edge - 0.31F);
+        const glm::vec3 center(0.5F * edge + 0.13F, 0.5F * edge, 0.5F * edge - 0.31F);
         const float radius = 0.47F * edge - 0.5F;
         const float inner = 0.55F * (radius - 2.0F);
-        shells.push_back({fmt::format("sphere in {}", edge), test::sphereScene(centre, radius, 40), depth,
-                          glm::ceil(centre - inner), glm::floor(centre + inner)});
+        shells.push_back({fmt::format("sphere in {}", edge), test::sphereScene(center, radius, 40), depth,
+                          glm::ceil(center - inner), glm::floor(center + inner)});
     }
     return shells;
 }

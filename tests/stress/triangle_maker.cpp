@@ -152,10 +152,10 @@ LatticeTriangle TriangleMaker::aligned(const TriangleRoom& room)
 {
     const int step = 256 >> pick(0, 3);
     const int reach = std::max(1, pickSize(1, (room.high - room.low) / step + 1));
-    const glm::ivec3 centre = point(room.low / step, room.high / step);
+    const glm::ivec3 center = point(room.low / step, room.high / step);
     LatticeTriangle triangle{};
     for (glm::ivec3& p : triangle)
-        p = (centre + point(-reach, reach)) * step;
+        p = (center + point(-reach, reach)) * step;
     const int axis = pick(0, 2);
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;

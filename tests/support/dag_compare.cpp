@@ -37,7 +37,7 @@ std::string numbersOf(const DeviceTree& dag)
         "{}, attributes {}, levels:",
         tree.grid.depth, tree.grid.origin.x, tree.grid.origin.y, tree.grid.origin.z, tree.grid.voxel_size,
         tree.voxel_count, tree.node_count, dag.octreeNodeCount(), dag.lists.entry_count, dag.lists.long_entry_count,
-        tree.emission_scale, formName(tree.attributeForm()));
+        tree.emission_scale, formatName(tree.attributeFormat()));
     for (const DeviceTree::Level& level : tree.levels)
     {
         text += fmt::format(" {}+{}", level.first_node, level.node_count);

@@ -54,24 +54,24 @@ std::ostream& operator<<(std::ostream& out, const Command& command)
     {
         out << " mesh " << command.item.mesh;
     }
-    if (action == Action::Remove || action == Action::Place || action == Action::Bend)
+    if (action == Action::Remove || action == Action::Move || action == Action::Bend)
     {
-        out << " mover " << command.mover;
+        out << " dynamic object " << command.object;
     }
-    if (action == Action::Add || action == Action::Place)
+    if (action == Action::Add || action == Action::Move)
     {
-        out << " " << command.item.place;
+        out << " " << command.item.placement;
     }
-    if (action == Action::Add || action == Action::Place || action == Action::Bend)
+    if (action == Action::Add || action == Action::Move || action == Action::Bend)
     {
         out << " bend " << command.item.bend;
     }
     return out;
 }
 
-DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, MoverScenery& scenery)
+DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, DynamicScenery& scenery)
     : m_device(device), m_setting(setting), m_scenery(scenery), m_beam(device.device(), setting.compressed),
-      m_camera(setting.camera()), m_line(setting.steps_max)
+      m_camera(setting.camera()), m_line(setting.entries_max)
 {
     m_setting.shot.coarse = setting.shot.coarse && !isRuled(); // averages of such nodes are not known
     for (std::uint32_t i = 0; i < setting.frames_in_flight; ++i)
@@ -131,11 +131,11 @@ void DynamicMachine::finish()
 void DynamicMachine::add(const Item& item)
 {
     submit();
-    if (m_wanted.size() < kMoversMax)
+    if (m_wanted.size() < kObjectsMax)
     {
-        const Item added = {item.mesh, item.place, item.mesh < MoverScenery::kRigidCount ? 0 : item.bend};
-        const std::shared_ptr<const MoverMesh> mesh = m_scenery.mover(added.mesh, m_setting.attributes);
-        MoverId id = 0;
+        const Item added = {item.mesh, item.placement, item.mesh < DynamicScenery::kRigidCount ? 0 : item.bend};
+        const std::shared_ptr<const DynamicMesh> mesh = m_scenery.object(added.mesh, m_setting.attributes);
+        DynamicObjectId id = 0;
         while (!mayFail([&] { id = m_octree->add(mesh, m_scenery.poseOf(added)); }))
         {
         }
@@ -173,7 +173,7 @@ bool DynamicMachine::mayFail(const std::function<void()>& call, bool fails)
 }
 
 // Gives the device a frame of the commands so far; waits where too many are under way.
-// loses: it fails. What the frame did to movers stays done; the line is that from before it.
+// loses: it fails. What the frame did to dynamic objects stays done; the line is that from before it.
 void DynamicMachine::submit(bool loses)
 {
     if (m_commands.empty())
@@ -185,7 +185,7 @@ void DynamicMachine::submit(bool loses)
         waitForOldest();
     }
     const std::uint64_t frame = m_octree->beginFrame();
-    const StepLine<Shown> before = m_line;
+    const HistoryLine<Shown> before = m_line;
     ShotTaker& taker = freeTaker();
     vk::Submission submission;
     m_has_recorded = false;
@@ -232,25 +232,25 @@ vk::Submission DynamicMachine::submitFrame(ShotTaker& taker, bool loses)
 
 void DynamicMachine::record(vk::FrameGraph& graph, const Command& command)
 {
-    const auto mover =
-        m_wanted.empty() ? m_wanted.end() : std::next(m_wanted.begin(), command.mover % std::ssize(m_wanted));
+    const auto object =
+        m_wanted.empty() ? m_wanted.end() : std::next(m_wanted.begin(), command.object % std::ssize(m_wanted));
     switch (command.action)
     {
-    case Command::Action::Place:
+    case Command::Action::Move:
     case Command::Action::Bend:
-        if (mover != m_wanted.end())
+        if (object != m_wanted.end())
         {
-            Item& item = mover->second;
-            item.place = command.action == Command::Action::Bend ? item.place : command.item.place;
-            item.bend = item.mesh < MoverScenery::kRigidCount ? 0 : command.item.bend;
-            m_octree->place(mover->first, m_scenery.poseOf(item));
+            Item& item = object->second;
+            item.placement = command.action == Command::Action::Bend ? item.placement : command.item.placement;
+            item.bend = item.mesh < DynamicScenery::kRigidCount ? 0 : command.item.bend;
+            m_octree->setPose(object->first, m_scenery.poseOf(item));
         }
         break;
     case Command::Action::Remove:
-        if (mover != m_wanted.end())
+        if (object != m_wanted.end())
         {
-            m_octree->remove(mover->first);
-            m_wanted.erase(mover);
+            m_octree->remove(object->first);
+            m_wanted.erase(object);
             m_is_owed = false; // what was under way is given up
         }
         break;
@@ -308,7 +308,7 @@ void DynamicMachine::show(vk::FrameGraph& graph, bool undo)
 void DynamicMachine::waitForOldest()
 {
     const std::uint64_t frame = m_flights.front().frame;
-    const std::uint64_t step = m_flights.front().step;
+    const std::uint64_t entry = m_flights.front().entry;
     const ShotTaker* taker = m_flights.front().taker;
     std::vector<vk::PassTime> passes;
     mayFail([&] { passes = m_flights.front().submission.wait(); }); // then it is done, too
@@ -318,7 +318,7 @@ void DynamicMachine::waitForOldest()
         m_line.end(report.entry, report.failed != 0);
     }
     m_flights.pop_front();
-    see(m_line.endedAs(step), taker->pictures());
+    see(m_line.endedAs(entry), taker->pictures());
     RC_ASSERT(!m_is_owed || m_octree->isUpdating() || m_octree->needsUpdate());
 }
 
@@ -387,13 +387,13 @@ void DynamicMachine::compare()
     }
 }
 
-// The pictures of a frame: the first ones of a step, or the same again.
-void DynamicMachine::see(std::uint64_t step, Pixels pixels)
+// The pictures of a frame: the first ones of an entry, or the same again.
+void DynamicMachine::see(std::uint64_t entry, Pixels pixels)
 {
-    const auto [first, is_new] = m_pictures.try_emplace(step, std::move(pixels));
+    const auto [first, is_new] = m_pictures.try_emplace(entry, std::move(pixels));
     if (!is_new && first->second != pixels)
     {
-        RC_FAIL("step " + std::to_string(step) + " has other pictures than when it was seen first");
+        RC_FAIL("entry " + std::to_string(entry) + " has other pictures than when it was seen first");
     }
 }
 
@@ -411,8 +411,8 @@ DynamicMachine::Pixels DynamicMachine::picturesOf(const DeviceTree& tree)
     return taker.pictures();
 }
 
-// Gives the cells of everything the looks that they have in one of its two parts. Nodes that both have are left out of
-// the comparison: what is below them is in it.
+// Gives the cells of everything the attributes that they have in one of its two parts. Nodes that both have are left
+// out of the comparison: what is below them is in it.
 void DynamicMachine::applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
                                const std::vector<Cell>& moving) const
 {

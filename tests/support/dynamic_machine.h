@@ -2,8 +2,8 @@
 // Commands to a DynamicOctree, and a model of what it has to show.
 #pragma once
 
-#include "support/mover_scenery.h"
-#include "support/step_line.h"
+#include "support/dynamic_scenery.h"
+#include "support/history_line.h"
 
 #include <cstdint>
 #include <deque>
@@ -22,7 +22,7 @@ struct Command
     enum class Action
     {
         Add,
-        Place,
+        Move,
         Bend,
         Remove,
         Update,
@@ -36,42 +36,42 @@ struct Command
     };
 
     Action action = Action::Settle;
-    std::uint32_t mover = 0; // Place, Bend, Remove: which of those that are there
-    Item item;               // Add; Place: only the place and the bend; Bend: only the bend
+    std::uint32_t object = 0; // Place, Bend, Remove: which of those that are there
+    Item item;                // Add; Place: only the place and the bend; Bend: only the bend
 };
 
 std::ostream& operator<<(std::ostream& out, const Command& command);
 
 /// Runs commands, and compares the octree with one that is made anew. Every frame ends with a picture: it has to be the
-/// one that its step was first seen in and, where the octrees are compared, the one of the octree made anew. Properties
-/// fail where anything differs.
+/// one that its entry was first seen in and, where the octrees are compared, the one of the octree made anew.
+/// Properties fail where anything differs.
 class DynamicMachine
 {
 public:
-    static constexpr std::size_t kMoversMax = 4; // more are not added
+    static constexpr std::size_t kObjectsMax = 4; // more are not added
 
     /// scenery: of the setting. Both must outlive the machine.
-    DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, MoverScenery& scenery);
+    DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, DynamicScenery& scenery);
 
     void run(const Command& command);
 
     /// arm makes something fail until disarm is called: around whatever may fail. Frames that fail are lost.
     void setFailures(std::function<void()> arm, std::function<void()> disarm);
 
-    /// Frames that were lost, and movers that were added only when nothing failed.
+    /// Frames that were lost, and dynamic objects that were added only when nothing failed.
     [[nodiscard]] std::uint64_t failureCount() const { return m_failure_count; }
 
-    /// Settles, goes back to the first step, and compares the static tree with what it was.
+    /// Settles, goes back to the first entry, and compares the static tree with what it was.
     void finish();
 
 private:
-    using Shown = std::map<MoverId, Item>;
+    using Shown = std::map<DynamicObjectId, Item>;
     using Pixels = std::vector<gpu::uint>;
 
     struct Flight
     {
         std::uint64_t frame;
-        std::uint64_t step; // that is shown in the end
+        std::uint64_t entry; // that is shown in the end
         ShotTaker* taker;
         vk::Submission submission;
     };
@@ -86,7 +86,7 @@ private:
     void waitForOldest();
     void wait();
     void settle();
-    void see(std::uint64_t step, Pixels pixels);
+    void see(std::uint64_t entry, Pixels pixels);
     void compare();
     [[nodiscard]] ShotTaker& freeTaker();
     [[nodiscard]] Pixels picturesOf(const DeviceTree& tree);
@@ -97,7 +97,7 @@ private:
 
     vk::HeadlessDevice& m_device;
     DynamicSetting m_setting;
-    MoverScenery& m_scenery;
+    DynamicScenery& m_scenery;
     std::uint64_t m_static_emissive = 0;
     std::vector<gpu::uint> m_static;
     std::unique_ptr<DynamicOctree> m_octree;
@@ -107,12 +107,12 @@ private:
     BeamGrid m_beam;
     TraceCamera m_camera;
     std::vector<ShotTaker> m_takers;                  // one for each frame in flight
-    std::map<std::uint64_t, Pixels> m_pictures;       // of steps that were seen
+    std::map<std::uint64_t, Pixels> m_pictures;       // of entries that were seen
     std::map<std::multiset<Item>, Pixels> m_expected; // pictures of what was made anew
-    Shown m_wanted;                                   // where movers were put
+    Shown m_wanted;                                   // where dynamic objects were put
     Shown m_under_way;                                // what the update under way is going to show
     bool m_is_owed = false;                           // an update was asked for, and is not shown
-    StepLine<Shown> m_line;
+    HistoryLine<Shown> m_line;
     bool m_has_recorded = false; // in the last frame
     std::function<void()> m_arm;
     std::function<void()> m_disarm;

@@ -46,20 +46,20 @@ std::ostream& operator<<(std::ostream& out, const EditCommand& command)
     {
         out << " mesh " << command.item.mesh;
     }
-    if (command.action == EditCommand::Action::Place || command.action == EditCommand::Action::Remove)
+    if (command.action == EditCommand::Action::Move || command.action == EditCommand::Action::Remove)
     {
-        out << " mover " << command.mover;
+        out << " dynamic object " << command.object;
     }
-    if (command.action == EditCommand::Action::Add || command.action == EditCommand::Action::Place)
+    if (command.action == EditCommand::Action::Add || command.action == EditCommand::Action::Move)
     {
-        out << ' ' << command.item.place << " bend " << command.item.bend;
+        out << ' ' << command.item.placement << " bend " << command.item.bend;
     }
     return out;
 }
 
 EditMachine::EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
-                         MoverScenery& scenery)
-    : m_device(device), m_setting(setting), m_scenery(scenery), m_steps_max(bounds.entries_max)
+                         DynamicScenery& scenery)
+    : m_device(device), m_setting(setting), m_scenery(scenery), m_entries_max(bounds.entries_max)
 {
     DynamicOptions options = setting.options(scenery.emissionScale());
     options.edits = bounds;
@@ -99,10 +99,10 @@ void EditMachine::run(const EditCommand& command)
 void EditMachine::add(const Item& item)
 {
     submit();
-    if (m_wanted.size() < kMoversMax)
+    if (m_wanted.size() < kObjectsMax)
     {
-        const Item added = {item.mesh, item.place, item.mesh < MoverScenery::kRigidCount ? 0 : item.bend};
-        const std::shared_ptr<const MoverMesh> mesh = m_scenery.mover(added.mesh, m_setting.attributes);
+        const Item added = {item.mesh, item.placement, item.mesh < DynamicScenery::kRigidCount ? 0 : item.bend};
+        const std::shared_ptr<const DynamicMesh> mesh = m_scenery.object(added.mesh, m_setting.attributes);
         m_wanted[m_octree->add(mesh, m_scenery.poseOf(added))] = added;
     }
 }
@@ -115,10 +115,10 @@ bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
     dropForgotten();
     if (!is_done || m_octree->edits().changeCount() == before) // nothing of the grid is under the brush
     {
-        m_shown = m_octree->edits().changeCount() == before ? m_shown : Movers{};
+        m_shown = m_octree->edits().changeCount() == before ? m_shown : Objects{};
         return is_done;
     }
-    m_shown = Movers{};
+    m_shown = Objects{};
     EditModel edited = m_line[m_at];
     edited.apply(brush);
     m_line.resize(m_at + 1, edited);
@@ -130,7 +130,7 @@ bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
     {
         m_line.push_back(std::move(edited));
     }
-    if (m_line.size() - 1 > m_steps_max)
+    if (m_line.size() - 1 > m_entries_max)
     {
         m_line.erase(m_line.begin());
     }
@@ -139,7 +139,7 @@ bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
     return true;
 }
 
-// Steps that were dropped to make room.
+// Entries that were dropped to make room.
 void EditMachine::dropForgotten()
 {
     const Edits& edits = m_octree->edits();
@@ -184,7 +184,7 @@ bool EditMachine::recordOne(vk::FrameGraph& graph, const EditCommand& command)
         const bool moves = undo ? m_at != 0 : m_at + 1 != m_line.size();
         RC_ASSERT((undo ? m_octree->undoEdit(graph) : m_octree->redoEdit(graph)) == moves);
         m_at += moves ? (undo ? -1 : 1) : 0;
-        m_shown = moves ? Movers{} : m_shown;
+        m_shown = moves ? Objects{} : m_shown;
         m_is_stroke = false;
         break;
     }
@@ -206,18 +206,18 @@ void EditMachine::move(const EditCommand& command)
     {
         return;
     }
-    const auto mover = std::next(m_wanted.begin(), command.mover % std::ssize(m_wanted));
-    if (command.action == EditCommand::Action::Place)
+    const auto object = std::next(m_wanted.begin(), command.object % std::ssize(m_wanted));
+    if (command.action == EditCommand::Action::Move)
     {
-        Item& item = mover->second;
-        item.place = command.item.place;
-        item.bend = item.mesh < MoverScenery::kRigidCount ? 0 : command.item.bend;
-        m_octree->place(mover->first, m_scenery.poseOf(item));
+        Item& item = object->second;
+        item.placement = command.item.placement;
+        item.bend = item.mesh < DynamicScenery::kRigidCount ? 0 : command.item.bend;
+        m_octree->setPose(object->first, m_scenery.poseOf(item));
     }
     else
     {
-        m_octree->remove(mover->first);
-        m_wanted.erase(mover);
+        m_octree->remove(object->first);
+        m_wanted.erase(object);
     }
 }
 
@@ -314,7 +314,7 @@ void EditMachine::compare()
     }
 }
 
-// Updates until movers are where they were put.
+// Updates until dynamic objects are where they were put.
 void EditMachine::settle()
 {
     for (int attempt = 0; attempt < kAttemptsMax; ++attempt)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Strokes of a brush on a DynamicOctree, with movers above, and a model of what they have to leave.
+// Strokes of a brush on a DynamicOctree, with dynamic objects above, and a model of what they have to leave.
 #pragma once
 
+#include "support/dynamic_scenery.h"
 #include "support/edit_model.h"
-#include "support/mover_scenery.h"
 
 #include <cstdint>
 #include <deque>
@@ -26,20 +26,20 @@ struct EditCommand
         Undo,
         Redo,
         Add,
-        Place,
+        Move,
         Remove,
         Update,
         Slice,   // an update under a budget that is far too small
         Submit,  // what was recorded so far, without waiting
         Lose,    // the same, but it fails when all is recorded
         LoseRun, // the same, and the device has run it
-        Compare  // waits for all frames, and updates until movers are where they were put
+        Compare  // waits for all frames, and updates until dynamic objects are where they were put
     };
 
     Action action = Action::Compare;
-    Brush brush = {};        // Dab
-    std::uint32_t mover = 0; // Place, Remove: which of those that are there
-    Item item = {};          // Add; Place: only the place and the bend
+    Brush brush = {};         // Dab
+    std::uint32_t object = 0; // Place, Remove: which of those that are there
+    Item item = {};           // Add; Place: only the place and the bend
 };
 
 /// A dab, blue where it fills or paints.
@@ -52,20 +52,21 @@ inline EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32
 
 std::ostream& operator<<(std::ostream& out, const EditCommand& command);
 
-/// Runs commands, and compares what is shown with a model that edits voxel by voxel, in which a voxel that a mover has
-/// looks like the mover, or as rebuilding the unedited scene makes it. Properties fail where they differ.
+/// Runs commands, and compares what is shown with a model that edits voxel by voxel, in which a voxel that a dynamic
+/// object has looks like the dynamic object, or as rebuilding the unedited scene makes it. Properties fail where they
+/// differ.
 class EditMachine
 {
 public:
-    static constexpr std::size_t kMoversMax = 3; // more are not added
+    static constexpr std::size_t kObjectsMax = 3; // more are not added
 
     /// scenery: of the setting. Both must outlive the machine.
     EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
-                MoverScenery& scenery);
+                DynamicScenery& scenery);
 
     void run(const EditCommand& command);
 
-    /// Compares, undoes everything that is kept, comparing each step, and redoes it.
+    /// Compares, undoes everything that is kept, comparing each entry, and redoes it.
     void finish();
 
     [[nodiscard]] DynamicOctree& octree() { return *m_octree; }
@@ -78,7 +79,7 @@ private:
         std::vector<EditModel> line;
         std::size_t at;
     };
-    using Movers = std::map<MoverId, Item>;
+    using Objects = std::map<DynamicObjectId, Item>;
 
     enum class Fate
     {
@@ -102,16 +103,17 @@ private:
 
     vk::HeadlessDevice& m_device;
     DynamicSetting m_setting;
-    MoverScenery& m_scenery;
-    std::size_t m_steps_max;
+    DynamicScenery& m_scenery;
+    std::size_t m_entries_max;
     std::unique_ptr<DynamicOctree> m_octree;
     std::vector<EditModel> m_line;
     std::size_t m_at = 0;
     bool m_is_stroke = false;
-    Movers m_wanted;                          // where movers were put
-    Movers m_under_way;                       // what the update under way is going to show
-    std::optional<Movers> m_shown = Movers(); // by the last frame; nothing where an update failed, or a frame was lost
-    std::deque<EditCommand> m_commands;       // of the frame that is submitted next
+    Objects m_wanted;    // where dynamic objects were put
+    Objects m_under_way; // what the update under way is going to show
+    std::optional<Objects> m_shown =
+        Objects();                      // by the last frame; nothing where an update failed, or a frame was lost
+    std::deque<EditCommand> m_commands; // of the frame that is submitted next
     std::deque<std::pair<std::uint64_t, vk::Submission>> m_flights;
 };
 

@@ -152,10 +152,10 @@ void EditModel::apply(const Brush& brush)
 
 EditModel EditModel::merged(MergeRule rule, const std::vector<Cell>& moving, const std::vector<Cell>& all) const
 {
-    const EditModel movers(m_grid, moving, m_attributes);
+    const EditModel objects(m_grid, moving, m_attributes);
     const EditModel unedited(m_grid, all, m_attributes);
     EditModel merged = *this;
-    for (const auto& [code, voxel] : movers.m_voxels)
+    for (const auto& [code, voxel] : objects.m_voxels)
     {
         const bool is_mean = rule == MergeRule::Average && !m_changed.contains(code >> 6);
         if (rule != MergeRule::StaticWins || !has(code))

@@ -24,8 +24,8 @@ public:
 
     void apply(const Brush& brush);
 
-    /// With movers. moving: the cells of what moves alone; all: of that and the tree from before all brushes. A voxel
-    /// of both is the mean, for MergeRule::Average, only in leaves that no brush has changed.
+    /// With dynamic objects. moving: the cells of what moves alone; all: of that and the tree from before all brushes.
+    /// A voxel of both is the mean, for MergeRule::Average, only in leaves that no brush has changed.
     [[nodiscard]] EditModel merged(MergeRule rule, const std::vector<Cell>& moving, const std::vector<Cell>& all) const;
 
     [[nodiscard]] std::size_t voxelCount() const { return m_voxels.size(); }

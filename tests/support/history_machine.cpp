@@ -43,7 +43,7 @@ void HistoryMachine::update(std::uint32_t nodes, std::uint32_t voxels, std::uint
     m_root_slots[region->first_node] = root;
     m_shown = root;
     const std::uint64_t id = m_history.push(region, layers);
-    m_updates.push_back({id, m_frames.back().number, writer, m_steps[m_current], succeeds, root.region});
+    m_updates.push_back({id, m_frames.back().number, writer, m_entries[m_current], succeeds, root.region});
     m_truth[id] = root;
     m_told[id] = {writer, layers};
     pushed(id);
@@ -60,13 +60,13 @@ void HistoryMachine::showStatic()
 
 void HistoryMachine::move(bool back)
 {
-    const std::optional<RootEntry> step = back ? m_history.undo() : m_history.redo();
-    RC_ASSERT(step.has_value() == (back ? m_current > 0 : m_current + 1 < m_steps.size()));
-    if (step)
+    const std::optional<RootEntry> entry = back ? m_history.undo() : m_history.redo();
+    RC_ASSERT(entry.has_value() == (back ? m_current > 0 : m_current + 1 < m_entries.size()));
+    if (entry)
     {
         m_current += back ? std::size_t(-1) : 1;
-        m_shown = step->region ? m_root_slots[step->region->first_node] : Root{};
-        RC_ASSERT(m_shown == m_truth[m_steps[m_current]]);
+        m_shown = entry->region ? m_root_slots[entry->region->first_node] : Root{};
+        RC_ASSERT(m_shown == m_truth[m_entries[m_current]]);
         checkCurrent();
     }
 }
@@ -95,9 +95,9 @@ void HistoryMachine::loseFrame()
         m_updates.pop_back();
     }
     m_frame_list.lost();
-    m_steps = m_before.steps;
+    m_entries = m_before.entries;
     m_current = m_before.current;
-    m_shown = m_truth[m_steps[m_current]];
+    m_shown = m_truth[m_entries[m_current]];
     nextFrame();
 }
 
@@ -132,10 +132,10 @@ void HistoryMachine::endUpdate()
         {
             later.before = later.before == update.id ? update.before : later.before;
         }
-        removeFailed(m_steps, m_current, update);
-        removeFailed(m_before.steps, m_before.current, update);
+        removeFailed(m_entries, m_current, update);
+        removeFailed(m_before.entries, m_before.current, update);
     }
-    RC_ASSERT(m_history.entryBytes() == bytesOfSteps());
+    RC_ASSERT(m_history.entryBytes() == bytesOfEntries());
 }
 
 void HistoryMachine::checkEnd()
@@ -144,7 +144,7 @@ void HistoryMachine::checkEnd()
     {
         move(true);
     }
-    while (m_current + 1 < m_steps.size())
+    while (m_current + 1 < m_entries.size())
     {
         move(false);
     }
@@ -160,15 +160,15 @@ void HistoryMachine::checkEnd()
         finishFrame();
     }
     m_frame_list.done(m_frames.back().number);
-    RC_ASSERT(m_history.entryBytes() == bytesOfSteps());
+    RC_ASSERT(m_history.entryBytes() == bytesOfEntries());
     RC_ASSERT(m_history.waitingBytes() == 0u);
-    RC_ASSERT(m_arena.heldBytes() == bytesOfSteps());
+    RC_ASSERT(m_arena.heldBytes() == bytesOfEntries());
 }
 
 void HistoryMachine::check()
 {
     RC_ASSERT(m_history.undoCount() == m_current);
-    RC_ASSERT(m_history.redoCount() == m_steps.size() - 1 - m_current);
+    RC_ASSERT(m_history.redoCount() == m_entries.size() - 1 - m_current);
     checkCurrent();
     RC_ASSERT(isIntact(m_shown.writer, m_shown.region));
     for (const Frame& frame : m_frames)
@@ -178,7 +178,7 @@ void HistoryMachine::check()
             RC_ASSERT(isIntact(writer, region));
         }
     }
-    for (const std::uint64_t id : m_steps)
+    for (const std::uint64_t id : m_entries)
     {
         RC_ASSERT(isIntact(m_truth[id].writer, m_truth[id].region));
     }
@@ -189,7 +189,7 @@ void HistoryMachine::check()
 void HistoryMachine::beginFrame()
 {
     m_frames.push_back({m_frame_list.begin(), {}});
-    m_before = {m_steps, m_current};
+    m_before = {m_entries, m_current};
     m_line_changed = false;
 }
 
@@ -210,10 +210,10 @@ bool HistoryMachine::isIntact(int writer, const OverlayRegion& region) const
            std::all_of(block, block + region.voxel_capacity / kVoxelBlock, is_writers);
 }
 
-std::set<int> HistoryMachine::writersOfSteps()
+std::set<int> HistoryMachine::writersOfEntries()
 {
     std::set<int> writers;
-    for (const std::uint64_t id : m_steps)
+    for (const std::uint64_t id : m_entries)
     {
         if (const int writer = m_told[id].writer; writer != 0)
         {
@@ -224,39 +224,39 @@ std::set<int> HistoryMachine::writersOfSteps()
 }
 
 // As if it had never been pushed, but for what fell off when it was.
-void HistoryMachine::removeFailed(std::vector<std::uint64_t>& steps, std::size_t& current, const Update& update)
+void HistoryMachine::removeFailed(std::vector<std::uint64_t>& entries, std::size_t& current, const Update& update)
 {
-    for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t i = 0; i < entries.size(); ++i)
     {
-        if (steps[i] == update.id && steps[i - 1] == update.before)
+        if (entries[i] == update.id && entries[i - 1] == update.before)
         {
-            steps.erase(steps.begin() + static_cast<std::ptrdiff_t>(i));
+            entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(i));
             current -= current >= i ? 1 : 0;
         }
-        else if (steps[i] == update.id)
+        else if (entries[i] == update.id)
         {
-            steps[i] = update.before;
+            entries[i] = update.before;
         }
     }
 }
 
-std::uint64_t HistoryMachine::bytesOfSteps()
+std::uint64_t HistoryMachine::bytesOfEntries()
 {
     std::uint64_t bytes = 0;
-    for (const int writer : writersOfSteps())
+    for (const int writer : writersOfEntries())
     {
         bytes += m_arena.bytes(m_owned[writer]);
     }
     return bytes;
 }
 
-// Whether there would be room beside the regions of the steps alone.
-bool HistoryMachine::fitsBesideSteps(std::uint32_t nodes, std::uint32_t voxels)
+// Whether there would be room beside the regions of the entries alone.
+bool HistoryMachine::fitsBesideEntries(std::uint32_t nodes, std::uint32_t voxels)
 {
     std::vector<bool> free_nodes(m_node_writers.size(), true);
     std::vector<bool> free_blocks(m_block_writers.size(), true);
     std::fill_n(free_nodes.begin(), kStatic, false);
-    for (const int writer : writersOfSteps())
+    for (const int writer : writersOfEntries())
     {
         const OverlayRegion& region = m_owned[writer];
         std::fill_n(free_nodes.begin() + region.first_node, region.node_capacity, false);
@@ -267,16 +267,16 @@ bool HistoryMachine::fitsBesideSteps(std::uint32_t nodes, std::uint32_t voxels)
     return has_run(free_nodes, nodes) && has_run(free_blocks, (voxels + 31) / 32);
 }
 
-bool HistoryMachine::dropStep()
+bool HistoryMachine::dropEntry()
 {
-    if (m_current + 1 < m_steps.size())
+    if (m_current + 1 < m_entries.size())
     {
-        m_steps.pop_back();
+        m_entries.pop_back();
         return true;
     }
     if (m_current > 1)
     {
-        m_steps.erase(m_steps.begin() + 1);
+        m_entries.erase(m_entries.begin() + 1);
         --m_current;
         return true;
     }
@@ -285,34 +285,34 @@ bool HistoryMachine::dropStep()
 
 std::optional<OverlayRegion> HistoryMachine::allocate(std::uint32_t nodes, std::uint32_t voxels)
 {
-    RC_ASSERT(m_history.fitsLater(nodes, voxels) == fitsBesideSteps(nodes, voxels));
+    RC_ASSERT(m_history.fitsLater(nodes, voxels) == fitsBesideEntries(nodes, voxels));
     const bool nothing_waits = m_history.waitingBytes() == 0;
-    const std::size_t count = m_steps.size();
+    const std::size_t count = m_entries.size();
     const std::optional<OverlayRegion> region = m_history.allocate(nodes, voxels);
     const std::size_t dropped = count - (m_history.undoCount() + m_history.redoCount() + 1);
     for (std::size_t i = 0; i < dropped; ++i)
     {
-        RC_ASSERT(!fitsBesideSteps(nodes, voxels)); // this drop was needed
-        RC_ASSERT(dropStep());
+        RC_ASSERT(!fitsBesideEntries(nodes, voxels)); // this drop was needed
+        RC_ASSERT(dropEntry());
         m_line_changed = true;
     }
     if (region)
     {
         return region;
     }
-    if (fitsBesideSteps(nodes, voxels))
+    if (fitsBesideEntries(nodes, voxels))
     {
         RC_ASSERT(dropped != 0u || !nothing_waits);
         return region;
     }
     RC_ASSERT(dropped == 0u); // as dropping all would have been in vain:
-    const std::vector<std::uint64_t> steps = m_steps;
+    const std::vector<std::uint64_t> entries = m_entries;
     const std::size_t current = m_current;
-    while (dropStep())
+    while (dropEntry())
     {
-        RC_ASSERT(!fitsBesideSteps(nodes, voxels));
+        RC_ASSERT(!fitsBesideEntries(nodes, voxels));
     }
-    m_steps = steps;
+    m_entries = entries;
     m_current = current;
     return region;
 }
@@ -320,26 +320,26 @@ std::optional<OverlayRegion> HistoryMachine::allocate(std::uint32_t nodes, std::
 void HistoryMachine::pushed(std::uint64_t id)
 {
     m_line_changed = true;
-    m_steps.resize(m_current + 1);
-    m_steps.push_back(id);
+    m_entries.resize(m_current + 1);
+    m_entries.push_back(id);
     ++m_current;
-    while ((m_steps.size() - 1 > m_bounds.entries_max || bytesOfSteps() > m_bounds.bytes_max) && dropStep())
+    while ((m_entries.size() - 1 > m_bounds.entries_max || bytesOfEntries() > m_bounds.bytes_max) && dropEntry())
     {
     }
-    RC_ASSERT(m_history.entryBytes() == bytesOfSteps());
+    RC_ASSERT(m_history.entryBytes() == bytesOfEntries());
 }
 
 void HistoryMachine::checkCurrent()
 {
-    const RootEntry step = m_history.current();
-    const Told& told = m_told[m_steps[m_current]];
-    RC_ASSERT(step.id == m_steps[m_current]);
-    RC_ASSERT(std::equal(step.layers.begin(), step.layers.end(), told.layers.begin(), told.layers.end()));
-    RC_ASSERT(step.region == (told.writer != 0 ? std::optional(m_owned[told.writer]) : std::nullopt));
-    RC_ASSERT(m_shown == m_truth[step.id]);
-    RC_ASSERT(step.pending == std::any_of(m_updates.begin(), m_updates.end(),
-                                          [&](const Update& update) { return update.id == step.id; }));
-    if (!step.pending)
+    const RootEntry entry = m_history.current();
+    const Told& told = m_told[m_entries[m_current]];
+    RC_ASSERT(entry.id == m_entries[m_current]);
+    RC_ASSERT(std::equal(entry.layers.begin(), entry.layers.end(), told.layers.begin(), told.layers.end()));
+    RC_ASSERT(entry.region == (told.writer != 0 ? std::optional(m_owned[told.writer]) : std::nullopt));
+    RC_ASSERT(m_shown == m_truth[entry.id]);
+    RC_ASSERT(entry.pending == std::any_of(m_updates.begin(), m_updates.end(),
+                                           [&](const Update& update) { return update.id == entry.id; }));
+    if (!entry.pending)
     {
         RC_ASSERT(m_shown.layers == told.layers); // what the device shows is what the host believes
     }
@@ -349,7 +349,7 @@ void HistoryMachine::checkCurrent()
 void HistoryMachine::checkLayers()
 {
     std::set<std::uint32_t> expected; // layers here have the numbers of their writers
-    for (const std::uint64_t id : m_steps)
+    for (const std::uint64_t id : m_entries)
     {
         expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
     }
@@ -357,7 +357,7 @@ void HistoryMachine::checkLayers()
     {
         expected.insert(static_cast<std::uint32_t>(m_told[update.before].writer));
     }
-    for (const std::uint64_t id : m_line_changed ? m_before.steps : std::vector<std::uint64_t>{})
+    for (const std::uint64_t id : m_line_changed ? m_before.entries : std::vector<std::uint64_t>{})
     {
         expected.insert(static_cast<std::uint32_t>(m_told[id].writer));
     }

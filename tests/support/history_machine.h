@@ -32,7 +32,7 @@ public:
     /// An update in the frame that is being recorded. used: of its region, if it succeeds.
     void update(std::uint32_t nodes, std::uint32_t voxels, std::uint32_t used, bool succeeds);
 
-    /// A step that shows the static octree.
+    /// An entry that shows the static octree.
     void showStatic();
 
     /// Undo, or redo.
@@ -70,7 +70,7 @@ private:
 
         bool operator==(const Root&) const = default;
     };
-    struct Told // what the history should say of a step
+    struct Told // what the history should say of an entry
     {
         int writer = 0;
         std::vector<LayerState> layers;
@@ -80,7 +80,7 @@ private:
         std::uint64_t id;
         std::uint64_t frame;
         int writer;
-        std::uint64_t before; // step
+        std::uint64_t before; // entry
         bool succeeds;
         OverlayRegion used;
     };
@@ -94,11 +94,11 @@ private:
     void mark(const OverlayRegion& region, int writer);
     [[nodiscard]] bool isIntact(int writer, const OverlayRegion& region) const;
 
-    [[nodiscard]] std::set<int> writersOfSteps();
-    static void removeFailed(std::vector<std::uint64_t>& steps, std::size_t& current, const Update& update);
-    [[nodiscard]] std::uint64_t bytesOfSteps();
-    bool fitsBesideSteps(std::uint32_t nodes, std::uint32_t voxels);
-    bool dropStep();
+    [[nodiscard]] std::set<int> writersOfEntries();
+    static void removeFailed(std::vector<std::uint64_t>& entries, std::size_t& current, const Update& update);
+    [[nodiscard]] std::uint64_t bytesOfEntries();
+    bool fitsBesideEntries(std::uint32_t nodes, std::uint32_t voxels);
+    bool dropEntry();
     std::optional<OverlayRegion> allocate(std::uint32_t nodes, std::uint32_t voxels);
     void pushed(std::uint64_t id);
     void checkCurrent();
@@ -116,15 +116,15 @@ private:
     std::deque<Frame> m_frames; // the last one is being recorded
     std::uint64_t m_frame_done = 0;
     std::deque<Update> m_updates;
-    std::vector<std::uint64_t> m_steps{0}; // ids
+    std::vector<std::uint64_t> m_entries{0}; // ids
     std::size_t m_current = 0;
     struct
     {
-        std::vector<std::uint64_t> steps;
+        std::vector<std::uint64_t> entries;
         std::size_t current = 0;
     } m_before;                            // the line when the frame began
     bool m_line_changed = false;           // since
-    std::map<std::uint64_t, Root> m_truth; // of each step, on the device
+    std::map<std::uint64_t, Root> m_truth; // of each entry, on the device
     std::map<std::uint64_t, Told> m_told;
     std::map<int, OverlayRegion> m_owned; // by writer
 };

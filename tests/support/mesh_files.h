@@ -52,12 +52,12 @@ inline std::string asPly(const FileMesh& mesh, PlyEncoding encoding)
     constexpr std::array kNames = {"ascii", "binary_little_endian", "binary_big_endian"};
     const bool big = encoding == PlyEncoding::BigEndian;
     const bool text = encoding == PlyEncoding::Text;
-    const bool coloured = !mesh.colors.empty();
+    const bool colored = !mesh.colors.empty();
     std::string file = fmt::format(
         "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}"
         "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
         kNames[static_cast<std::size_t>(encoding)], mesh.positions.size(),
-        coloured ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "", mesh.triangles.size());
+        colored ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "", mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     {
         const glm::vec3& p = mesh.positions[i];
@@ -69,7 +69,7 @@ inline std::string asPly(const FileMesh& mesh, PlyEncoding encoding)
         {
             appendBytes(file, p[c], big);
         }
-        for (std::size_t c = 0; c < 3 && coloured; ++c)
+        for (std::size_t c = 0; c < 3 && colored; ++c)
         {
             file += text ? fmt::format(" {}", mesh.colors[i][c]) : std::string(1, static_cast<char>(mesh.colors[i][c]));
         }

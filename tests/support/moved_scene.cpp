@@ -18,7 +18,7 @@ namespace
 
 } // namespace
 
-Made makeOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, Coverage coverage)
+Made makeOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const Grid& grid, Coverage coverage)
 {
     const BuildResult result = buildOctree(device, scene, grid, {coverage, true, {}});
     return {octreeSha256(device, result.octree), result.dropped, result.octree.voxel_count};
@@ -30,14 +30,14 @@ Made makeAnew(const Scene& scene, const Grid& grid, Coverage coverage)
     return makeOctree(device(), uploaded, grid, coverage);
 }
 
-std::uint32_t expectEqualsPosed(MovedScene& mover, const Scene& scene, const Pose& pose)
+std::uint32_t expectEqualsPosed(MovedScene& object, const Scene& scene, const Pose& pose)
 {
-    mover.place(pose);
+    object.setPose(pose);
     const Scene posed = posedScene(scene, pose);
     std::uint32_t voxel_count = 0;
     for (const Coverage coverage : {Coverage::Thin, Coverage::Conservative})
     {
-        const Made moved = mover.make(kGrid, coverage);
+        const Made moved = object.make(kGrid, coverage);
         const Made expected = makeAnew(posed, kGrid, coverage);
         EXPECT_EQ(moved.sha, expected.sha);
         EXPECT_EQ(moved.dropped, expected.dropped);

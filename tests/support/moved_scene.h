@@ -4,7 +4,7 @@
 
 #include "core/base/grid.h"
 #include "core/deform/deform_mesh.h"
-#include "core/deform/mover.h"
+#include "core/deform/dynamic_object.h"
 #include "core/scene/animation.h"
 #include "core/scene/scene.h"
 #include "core/upload/gpu_scene.h"
@@ -28,7 +28,7 @@ struct Made
     std::uint32_t voxel_count = 0;
 };
 
-Made makeOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, Coverage coverage);
+Made makeOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const Grid& grid, Coverage coverage);
 
 /// A scene on the device with the buffers that move it.
 class MovedScene
@@ -36,13 +36,13 @@ class MovedScene
 public:
     MovedScene(vk::HeadlessDevice& device, const Scene& scene)
         : m_device(device), m_uploaded(uploadScene(device, scene, true)), m_mesh(uploadDeformMesh(device, scene)),
-          m_buffers(makeMover(device, planMover(scene, m_mesh), m_uploaded, m_mesh))
+          m_buffers(makeDynamicObject(device, planDynamicObject(scene, m_mesh), m_uploaded, m_mesh))
     {
     }
 
-    void place(const Pose& pose)
+    void setPose(const Pose& pose)
     {
-        m_device.run([&](vk::FrameGraph& graph) { placeMover(graph, m_mesh, pose, m_buffers); });
+        m_device.run([&](vk::FrameGraph& graph) { zvo::setPose(graph, m_mesh, pose, m_buffers); });
     }
 
     Made make(const Grid& grid, Coverage coverage)
@@ -52,13 +52,13 @@ public:
 
     [[nodiscard]] const GpuScene& uploaded() const { return m_uploaded; }
     [[nodiscard]] const DeformMesh& mesh() const { return m_mesh; }
-    [[nodiscard]] MoverBuffers& buffers() { return m_buffers; }
+    [[nodiscard]] DynamicObjectBuffers& buffers() { return m_buffers; }
 
 private:
     vk::HeadlessDevice& m_device;
     GpuScene m_uploaded;
     DeformMesh m_mesh;
-    MoverBuffers m_buffers;
+    DynamicObjectBuffers m_buffers;
 };
 
 /// What scene gives on the device that tests share, uploaded anew.
@@ -67,9 +67,9 @@ Made makeAnew(const Scene& scene, const Grid& grid, Coverage coverage);
 /// Around mixedScene().
 constexpr Grid kGrid{.origin = glm::vec3(-4.0F), .voxel_size = 0.125F, .depth = 6};
 
-/// Expects that mover in pose has the bytes of the posed scene uploaded anew, with both coverages; returns the number
-/// of voxels.
-std::uint32_t expectEqualsPosed(MovedScene& mover, const Scene& scene, const Pose& pose);
+/// Expects that dynamic object in pose has the bytes of the posed scene uploaded anew, with both coverages; returns the
+/// number of voxels.
+std::uint32_t expectEqualsPosed(MovedScene& object, const Scene& scene, const Pose& pose);
 
 /// A scene of instances of all sorts, rigid ones among them, and its pose.
 std::pair<Scene, Pose> mixedScene(std::mt19937& random);

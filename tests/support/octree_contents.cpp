@@ -40,7 +40,7 @@ void addChild(gpu::Node& node, std::uint32_t c, std::uint32_t number)
 }
 
 // A node on the way down.
-struct NodePlace
+struct NodeOnPath
 {
     std::uint64_t code = 0;
     std::uint32_t node = 0;
@@ -64,7 +64,7 @@ public:
         m_before = device.download(tree.lists.before);
         m_voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
         m_entries_per_word = tree.lists.entries_per_word;
-        m_first_place = std::uint64_t{2} * tree.node_count * m_entries_per_word;
+        m_first_entry = std::uint64_t{2} * tree.node_count * m_entries_per_word;
         m_long_count = tree.lists.long_entry_count;
         m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
         if (tree.hasOverlays())
@@ -75,18 +75,18 @@ public:
         }
     }
 
-    [[nodiscard]] const gpu::Node& node(const NodePlace& place) const { return m_nodes.at(place.node); }
+    [[nodiscard]] const gpu::Node& node(const NodeOnPath& place) const { return m_nodes.at(place.node); }
 
-    [[nodiscard]] gpu::Attribute average(const NodePlace& place) const
+    [[nodiscard]] gpu::Attribute average(const NodeOnPath& place) const
     {
         const std::uint32_t own = place.node == 0 ? 0 : place.node + m_attribute_offset;
         return m_averages.empty() ? gpu::Attribute{} : m_averages.at(place.listed ? place.rank.nodes : own);
     }
 
     // The child, at a level, in a cell that is set.
-    [[nodiscard]] NodePlace child(const NodePlace& parent, std::uint32_t c, std::uint32_t level) const
+    [[nodiscard]] NodeOnPath child(const NodeOnPath& parent, std::uint32_t c, std::uint32_t level) const
     {
-        NodePlace child;
+        NodeOnPath child;
         child.code = parent.code << 6 | c;
         child.node = named(parent, c);
         if ((child.node & gpu::kChildList) != 0)
@@ -100,7 +100,7 @@ public:
     }
 
     // The voxel in a cell that is set, of a leaf.
-    [[nodiscard]] Cell voxel(const NodePlace& leaf, std::uint32_t c) const
+    [[nodiscard]] Cell voxel(const NodeOnPath& leaf, std::uint32_t c) const
     {
         Cell cell = {m_levels, leaf.code << 6 | c, {}, 0};
         const std::uint32_t voxel = named(leaf, c) + (leaf.listed ? leaf.rank.voxels : 0);
@@ -119,14 +119,14 @@ public:
 
 private:
     // What the node says of a cell.
-    [[nodiscard]] std::uint32_t named(const NodePlace& place, std::uint32_t c) const
+    [[nodiscard]] std::uint32_t named(const NodeOnPath& place, std::uint32_t c) const
     {
         const gpu::Node& n = node(place);
         const std::uint32_t below = (c < 32 ? n.mask_lo : n.mask_hi) & ((1U << (c & 31U)) - 1);
         return (c < 32 ? n.base_lo : n.base_hi) + static_cast<std::uint32_t>(std::popcount(below));
     }
 
-    [[nodiscard]] gpu::BeforeChild rankAt(const NodePlace& parent, std::uint64_t place, std::uint32_t level) const
+    [[nodiscard]] gpu::BeforeChild rankAt(const NodeOnPath& parent, std::uint64_t place, std::uint32_t level) const
     {
         if (m_before.empty() && m_voxels_before_leaf.empty())
         {
@@ -137,11 +137,11 @@ private:
         gpu::BeforeChild before{};
         if (level + 1 < m_levels)
         {
-            before = m_before.at(place - m_first_place);
+            before = m_before.at(place - m_first_entry);
         }
         else
         {
-            const std::uint64_t entry = place - m_first_place - m_long_count;
+            const std::uint64_t entry = place - m_first_entry - m_long_count;
             before.voxels = m_voxels_before_leaf.at(entry / 2) >> 16 * (entry % 2) & 65535;
             before.nodes = static_cast<std::uint32_t>(place) - (node(parent).base_lo & ~gpu::kChildList);
         }
@@ -158,7 +158,7 @@ private:
     std::vector<gpu::uint> m_voxels_before_leaf;
     std::vector<gpu::BeforeChild> m_ranks;
     std::uint32_t m_entries_per_word = 0;
-    std::uint64_t m_first_place = 0;
+    std::uint64_t m_first_entry = 0;
     std::uint64_t m_long_count = 0;
     std::uint32_t m_first_overlay_node = 0;
     std::uint32_t m_attribute_offset = 0;
@@ -179,7 +179,7 @@ std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const DeviceTree& tree)
         return cells;
     }
     const TreeReader reader(device, tree);
-    std::vector<NodePlace> level(1);
+    std::vector<NodeOnPath> level(1);
     if ((reader.node(level[0]).mask_lo | reader.node(level[0]).mask_hi) == 0)
     {
         return cells;
@@ -188,8 +188,8 @@ std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const DeviceTree& tree)
     std::vector<Cell> voxels;
     for (std::uint32_t depth = 0; depth < level_count; ++depth)
     {
-        std::vector<NodePlace> children;
-        for (const NodePlace& place : level)
+        std::vector<NodeOnPath> children;
+        for (const NodeOnPath& place : level)
         {
             cells.push_back({depth, place.code, reader.average(place), 0});
             for (std::uint32_t c = 0; c < 64; ++c)

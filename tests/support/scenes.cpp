@@ -33,9 +33,9 @@ Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent)
     std::vector<glm::vec3> corners;
     for (std::size_t i = 0; i < count; ++i)
     {
-        const glm::vec3 centre = point(extent / 2) + glm::vec3(extent / 2);
+        const glm::vec3 center = point(extent / 2) + glm::vec3(extent / 2);
         const float size = extent * std::exp2(uniform(-10.0F, 0.5F));
-        glm::vec3 triangle[3] = {centre + point(size), centre + point(size), centre + point(size)};
+        glm::vec3 triangle[3] = {center + point(size), center + point(size), center + point(size)};
         switch (random() % 6)
         {
         case 0: // a needle
@@ -48,7 +48,7 @@ Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent)
             for (glm::vec3& corner : triangle)
             {
                 corner = glm::round(corner);
-                corner[static_cast<int>(i % 3)] = std::round(centre[static_cast<int>(i % 3)]);
+                corner[static_cast<int>(i % 3)] = std::round(center[static_cast<int>(i % 3)]);
             }
             break;
         default:
@@ -81,13 +81,13 @@ Scene boxScene(const glm::vec3& min, const glm::vec3& max)
     return triangleSoup(corners);
 }
 
-Scene sphereScene(const glm::vec3& centre, float radius, std::uint32_t rings)
+Scene sphereScene(const glm::vec3& center, float radius, std::uint32_t rings)
 {
     const auto point = [&](std::uint32_t ring, std::uint32_t segment)
     {
         const double theta = std::numbers::pi * ring / rings;
         const double phi = std::numbers::pi * segment / rings;
-        return centre +
+        return center +
                radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
     };
     std::vector<glm::vec3> corners;
@@ -111,14 +111,14 @@ std::optional<std::filesystem::path> sharedScene(const std::string& name)
     return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
 }
 
-std::string missingModelOf(const std::string& stage)
+std::string missingModelOf(const std::string& scene_file)
 {
     static const std::map<std::string, std::vector<std::string>> models = {
         {"atrium_knot", {}},
         {"buddha_dragon", {"buddha_113k.glb", "dragon.glb"}},
         {"sponza_bunny", {"sponza.glb", "bunny.glb"}},
     };
-    for (const std::string& model : models.at(stage))
+    for (const std::string& model : models.at(scene_file))
     {
         if (!sharedScene(model))
         {

@@ -21,14 +21,14 @@ Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent);
 Scene boxScene(const glm::vec3& min, const glm::vec3& max);
 
 /// A sphere of rings x 2 rings quads.
-Scene sphereScene(const glm::vec3& centre, float radius, std::uint32_t rings);
+Scene sphereScene(const glm::vec3& center, float radius, std::uint32_t rings);
 
 /// Path of one of the big scenes that do not come with the project (scenes/README.md), if it is there.
 std::optional<std::filesystem::path> sharedScene(const std::string& name);
 
 /// The first model that one of the project's scene files ("atrium_knot" and so on) needs and that is not there; empty
 /// if all are.
-std::string missingModelOf(const std::string& stage);
+std::string missingModelOf(const std::string& scene_file);
 
 /// Path of one of the project's own scenes.
 std::filesystem::path ownScene(const std::string& name);

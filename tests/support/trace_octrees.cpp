@@ -53,11 +53,11 @@ Codes randomCodes(std::uint32_t depth, std::uint32_t count, std::mt19937& random
 
 Codes sphereShell(std::uint32_t depth, double radius)
 {
-    const double centre = 0.5 * std::ldexp(1.0, static_cast<int>(depth));
+    const double center = 0.5 * std::ldexp(1.0, static_cast<int>(depth));
     return codesWhere(depth,
                       [&](const glm::uvec3& voxel)
                       {
-                          const double distance = glm::length(glm::dvec3(voxel) + 0.5 - centre);
+                          const double distance = glm::length(glm::dvec3(voxel) + 0.5 - center);
                           return std::abs(distance - radius) <= 0.5;
                       });
 }

@@ -26,8 +26,8 @@ bool showsAttributes(View view)
            view == View::Origin;
 }
 
-void expectSameHits(const std::vector<gpu::Hit>& expected, const Looks& expected_looks,
-                    const std::vector<gpu::Hit>& hits, const Looks& looks, bool with_looks)
+void expectSameHits(const std::vector<gpu::Hit>& expected, const HitAttributes& expected_attributes,
+                    const std::vector<gpu::Hit>& hits, const HitAttributes& attributes, bool with_attributes)
 {
     ASSERT_EQ(hits.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i)
@@ -39,22 +39,22 @@ void expectSameHits(const std::vector<gpu::Hit>& expected, const Looks& expected
         }
         ASSERT_EQ(std::bit_cast<std::uint32_t>(hits[i].t), std::bit_cast<std::uint32_t>(expected[i].t)) << i;
         ASSERT_EQ(hits[i].where, expected[i].where) << i;
-        if (with_looks)
+        if (with_attributes)
         {
-            ASSERT_EQ(looks.of(hits[i]), expected_looks.of(expected[i])) << i;
+            ASSERT_EQ(attributes.of(hits[i]), expected_attributes.of(expected[i])) << i;
         }
     }
 }
 
 } // namespace
 
-Looks::Looks(vk::HeadlessDevice& device, const DeviceTree& tree)
+HitAttributes::HitAttributes(vk::HeadlessDevice& device, const DeviceTree& tree)
     : voxels(device.download(tree.voxel_attributes)), nodes(device.download(tree.node_attributes)),
       levels(tree.grid.nodeLevels())
 {
 }
 
-std::uint64_t Looks::of(const gpu::Hit& hit) const
+std::uint64_t HitAttributes::of(const gpu::Hit& hit) const
 {
     const bool is_voxel = unpack(hit)->level == levels;
     const gpu::Attribute& look = (is_voxel ? voxels : nodes).at(hit.index);
@@ -62,7 +62,7 @@ std::uint64_t Looks::of(const gpu::Hit& hit) const
 }
 
 TreeComparison::Subject::Subject(vk::HeadlessDevice& device, const DeviceTree& view)
-    : tree(view), looks(device, view), beam(device.device(), view.isDag())
+    : tree(view), attributes(device, view), beam(device.device(), view.isDag())
 {
     device.run([&](vk::FrameGraph& graph) { buildBeam(graph, tree, beam); });
 }
@@ -114,8 +114,8 @@ void TreeComparison::rays(const Codes& codes) const
     {
         TraceOptions options;
         options.detail_level = level;
-        expectSameHits(traceOnDevice(m_device, m_expected.tree, rays, options), m_expected.looks,
-                       traceOnDevice(m_device, m_subject.tree, rays, options), m_subject.looks,
+        expectSameHits(traceOnDevice(m_device, m_expected.tree, rays, options), m_expected.attributes,
+                       traceOnDevice(m_device, m_subject.tree, rays, options), m_subject.attributes,
                        m_subject.tree.hasAttributes());
     }
 }
@@ -144,8 +144,9 @@ void TreeComparison::picture(const ViewCamera& view, const TraceOptions& options
     EXPECT_EQ(picture.light, expected.light);
     EXPECT_EQ(picture.live_tiles, expected.live_tiles);
     EXPECT_EQ(picture.capped_rays, expected.capped_rays);
-    const bool with_looks = m_subject.tree.hasAttributes() && showsAttributes(options.view);
-    ASSERT_NO_FATAL_FAILURE(expectSameHits(expected.hits, m_expected.looks, picture.hits, m_subject.looks, with_looks));
+    const bool with_attributes = m_subject.tree.hasAttributes() && showsAttributes(options.view);
+    ASSERT_NO_FATAL_FAILURE(
+        expectSameHits(expected.hits, m_expected.attributes, picture.hits, m_subject.attributes, with_attributes));
 }
 
 } // namespace zvo::test

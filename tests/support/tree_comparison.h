@@ -14,9 +14,9 @@ namespace zvo::test
 {
 
 /// The attributes of a tree, by which indices in two trees are compared.
-struct Looks
+struct HitAttributes
 {
-    Looks(vk::HeadlessDevice& device, const DeviceTree& tree);
+    HitAttributes(vk::HeadlessDevice& device, const DeviceTree& tree);
 
     [[nodiscard]] std::uint64_t of(const gpu::Hit& hit) const;
 
@@ -45,7 +45,7 @@ private:
         Subject(vk::HeadlessDevice& device, const DeviceTree& view);
 
         const DeviceTree& tree;
-        Looks looks;
+        HitAttributes attributes;
         BeamGrid beam;
     };
 

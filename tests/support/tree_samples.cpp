@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/tree_samples.h"
 
-#include "oracle/attribute_forms.h"
+#include "oracle/attribute_formats.h"
 #include "oracle/octree_check.h"
 
 #include <algorithm>
@@ -130,15 +130,15 @@ void addAttributes(TreeData& octree)
     octree.emission_scale = 2.5F;
 }
 
-TreeData packedTree(const TreeData& tree, AttributeForm form)
+TreeData packedTree(const TreeData& tree, AttributeFormat format)
 {
     TreeData packed = tree;
-    packed.packed.form = form;
+    packed.packed.format = format;
     constexpr std::size_t kBlock = 16;
     for (std::span<const gpu::Attribute> rest = tree.voxel_attributes; !rest.empty();)
     {
-        const std::size_t count = form == AttributeForm::Blocks ? std::min(rest.size(), kBlock) : 1;
-        if (form == AttributeForm::Blocks)
+        const std::size_t count = format == AttributeFormat::Blocks ? std::min(rest.size(), kBlock) : 1;
+        if (format == AttributeFormat::Blocks)
         {
             const oracle::Block block = oracle::packBlock(rest.first(count));
             packed.packed.voxels.insert(packed.packed.voxels.end(), block.begin(), block.end());
@@ -240,11 +240,11 @@ std::vector<TreeSample> treeSamples()
         }
         if (name == "one_voxel" || name == "random_3" || name == "random_5")
         {
-            for (const AttributeForm form : {AttributeForm::Bytes4, AttributeForm::Blocks})
+            for (const AttributeFormat format : {AttributeFormat::Bytes4, AttributeFormat::Blocks})
             {
-                const std::string packed_name = name + "_with_attributes_" + formName(form);
-                samples.push_back({packed_name, packedTree(octree, form)});
-                samples.push_back({packed_name + "_dag", packedTree(dagOf(octree), form)});
+                const std::string packed_name = name + "_with_attributes_" + formatName(format);
+                samples.push_back({packed_name, packedTree(octree, format)});
+                samples.push_back({packed_name + "_dag", packedTree(dagOf(octree), format)});
             }
         }
     };
@@ -297,7 +297,7 @@ std::string treeDifference(const TreeData& actual, const TreeData& expected)
         {"voxels before leaf", actual.voxels_before_leaf == expected.voxels_before_leaf},
         {"voxel attributes", sameBytes(actual.voxel_attributes, expected.voxel_attributes)},
         {"node attributes", sameBytes(actual.node_attributes, expected.node_attributes)},
-        {"form of attributes", actual.attributeForm() == expected.attributeForm()},
+        {"format of attributes", actual.attributeFormat() == expected.attributeFormat()},
         {"packed voxel attributes", actual.packed.voxels == expected.packed.voxels},
         {"packed node attributes", actual.packed.nodes == expected.packed.nodes},
         {"emission words", sameBytes(actual.emission_words, expected.emission_words)},

@@ -19,7 +19,7 @@ TreeData octreeOf(std::span<const std::uint64_t> codes, std::uint32_t depth);
 void addAttributes(TreeData& octree);
 
 /// The same tree with its attributes in a packed form.
-TreeData packedTree(const TreeData& tree, AttributeForm form);
+TreeData packedTree(const TreeData& tree, AttributeFormat format);
 
 /// The same tree with equal subtrees as one.
 TreeData dagOf(const TreeData& octree);

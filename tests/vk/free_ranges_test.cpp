@@ -43,7 +43,7 @@ TEST(FreeRanges, WhatAlignmentSkipsStaysFree)
     EXPECT_EQ(ranges.rangeCount(), 0u);
 }
 
-TEST(FreeRanges, NeighboursBecomeOneRange)
+TEST(FreeRanges, NeighborsBecomeOneRange)
 {
     FreeRanges ranges;
     ranges.give(0, 10);

@@ -55,7 +55,7 @@ TEST(MemoryAllocator, BigRangesHaveMemoryOfTheirOwn)
     memory.release(big);
 }
 
-TEST(MemoryAllocator, ReleasedNeighboursCoalesceInAnyOrder)
+TEST(MemoryAllocator, ReleasedNeighborsCoalesceInAnyOrder)
 {
     const int orders[][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     for (const auto& order : orders)

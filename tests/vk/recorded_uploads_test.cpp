@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What goes to the device, and comes back, with a frame.
 #include "support/device.h"
+#include "vk/deletion_queue.h"
 #include "vk/kernels.h"
 #include "vk/readback.h"
 #include "vk/recorded_uploads.h"
-#include "vk/retired.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
@@ -30,29 +30,29 @@ std::vector<gpu::uint> countedFrom(gpu::uint first, std::size_t count)
 
 TEST(RecordedUploads, ArriveWithTheFrameInTheirOrder)
 {
-    Retired retired;
-    RecordedUploads uploads(device().device(), retired);
+    DeletionQueue deletion_queue;
+    RecordedUploads uploads(device().device(), deletion_queue);
     const std::vector<gpu::uint> values = countedFrom(5, 1000);
     BufferOf<gpu::uint> buffer = uploads.makeBuffer("values", std::span(values));
     const std::vector<gpu::uint> others = countedFrom(7000, 10);
     uploads.upload(buffer, std::span(others), 990);
     BufferOf<gpu::uint> copy(device().device(), "copy", 1000);
     const std::uint64_t used = device().device().memory().usedBytes();
-    retired.beginFrame(1);
+    deletion_queue.beginFrame(1);
     device().run(
         [&](FrameGraph& graph)
         {
             uploads.attach(&graph);
             uploads.perform(
-                [&](FrameGraph& g, Retired& later)
+                [&](FrameGraph& g, DeletionQueue& later)
                 {
-                    EXPECT_EQ(&later, &retired);
+                    EXPECT_EQ(&later, &deletion_queue);
                     g.copy(buffer, 0, copy, 0, copy.bytes());
                 });
             EXPECT_EQ(device().device().memory().usedBytes(), used); // staging stays until the frame is done
             uploads.attach(nullptr);
         });
-    retired.frameDone(1);
+    deletion_queue.frameDone(1);
     EXPECT_LE(device().device().memory().usedBytes(), used - 1010 * sizeof(gpu::uint));
     std::vector<gpu::uint> expected = values;
     std::copy(others.begin(), others.end(), expected.begin() + 990);
@@ -61,8 +61,8 @@ TEST(RecordedUploads, ArriveWithTheFrameInTheirOrder)
 
 TEST(RecordedUploads, WhatIsDiscardedIsNotRecorded)
 {
-    Retired retired;
-    RecordedUploads uploads(device().device(), retired);
+    DeletionQueue deletion_queue;
+    RecordedUploads uploads(device().device(), deletion_queue);
     BufferOf<gpu::uint> kept = device().makeBuffer<gpu::uint>("kept", std::span<const gpu::uint>(countedFrom(1, 4)));
     const std::uint64_t used = device().device().memory().usedBytes();
     uploads.upload(kept, std::span<const gpu::uint>(countedFrom(100, 4)));
@@ -84,8 +84,8 @@ TEST(RecordedUploads, WhatIsDiscardedIsNotRecorded)
 
 TEST(RecordedUploads, RefuseWhatDoesNotFit)
 {
-    Retired retired;
-    RecordedUploads uploads(device().device(), retired);
+    DeletionQueue deletion_queue;
+    RecordedUploads uploads(device().device(), deletion_queue);
     BufferOf<gpu::uint> buffer(device().device(), "small", 4);
     EXPECT_THROW(uploads.upload(buffer, std::span<const gpu::uint>(countedFrom(0, 4)), 1), Error);
     EXPECT_THROW(uploads.upload(buffer, std::span<const gpu::uint>(countedFrom(0, 1)), UINT64_MAX / 8), Error);

@@ -87,7 +87,8 @@ App::App(const DemoOptions& options, Clock::time_point start)
       m_compose_pass(m_device.device()), m_ui(m_device, m_compose_pass, m_window, options.frames_in_flight),
       m_world(World::make(m_device, m_world_options, m_first_input.get())), m_renderer(m_device, m_compose_pass),
       m_view(viewOf(options, m_settings)), m_timeline(options.fixed_step),
-      m_camera(cli::chooseCamera(options.camera, m_world->scene.stage(), m_world->subject, aspect()), m_world->subject),
+      m_camera(cli::chooseCamera(options.camera, m_world->scene.animated(), m_world->subject, aspect()),
+               m_world->subject),
       m_flight(options.fixed_step), m_shaders(options.shaders ? *options.shaders : shadersOf(thisProgram())),
       m_frame_start(Clock::now())
 {
@@ -196,9 +197,9 @@ void App::takeInput()
         {
             m_window.resize({resize->width, resize->height});
         }
-        else if (const auto* const minimise = std::get_if<MinimiseEvent>(&event))
+        else if (const auto* const minimize = std::get_if<MinimizeEvent>(&event))
         {
-            m_window.minimise(minimise->minimised);
+            m_window.minimize(minimize->minimized);
         }
         apply(event);
     }
@@ -338,7 +339,7 @@ double App::internalScale() const
 
 double App::worldSeconds() const
 {
-    return m_timeline.secondsIn(m_world->scene.stage());
+    return m_timeline.secondsIn(m_world->scene.animated());
 }
 
 void App::note(const std::string& text)

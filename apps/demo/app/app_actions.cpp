@@ -79,7 +79,7 @@ void App::perform(const KeyBinding& binding, Key key)
         m_timeline.play(!m_timeline.plays());
         break;
     case Action::StepScene:
-        m_timeline.step(m_world->scene.stage());
+        m_timeline.step(m_world->scene.animated());
         break;
     case Action::ReloadShaders:
         reloadChangedShaders();

@@ -246,7 +246,7 @@ void App::writeStats()
                      {"resolution", tree.grid.resolution()},
                      {"voxels", fixed.voxel_count},
                      {"nodes", fixed.node_count},
-                     {"movers", m_world->scene.stage().movers.size()}};
+                     {"movers", m_world->scene.animated().objects.size()}};
     const MemoryUse memory = memoryUse();
     json["bytes"] = {{"geometry", memory.geometry},
                      {"attributes", memory.attributes},

@@ -56,7 +56,7 @@ void App::loadFiles(const std::vector<std::filesystem::path>& files)
     options.voxels.scenes = files;
     options.voxels.time.reset(); // of what was named on the command line, like the grid's place
     options.voxels.bounds.reset();
-    options.voxels.grid_place.reset();
+    options.voxels.grid_position.reset();
     beginLoading(std::move(options));
 }
 
@@ -155,7 +155,7 @@ void App::show(std::unique_ptr<World> world, const WorldOptions& options)
     m_bookmarks = {};
     m_flight.stop();
     m_timeline.start(0);
-    m_camera.show(cli::chooseCamera("", m_world->scene.stage(), m_world->subject, aspect()));
+    m_camera.show(cli::chooseCamera("", m_world->scene.animated(), m_world->subject, aspect()));
     showTitle();
 }
 

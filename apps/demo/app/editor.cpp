@@ -97,9 +97,9 @@ void Editor::grab(const glm::ivec3& voxel, World& world)
     }
     const Grid& grid = world.scene.tree().grid;
     const glm::dvec3 point = glm::dvec3(grid.origin) + (glm::dvec3(voxel) + 0.5) * static_cast<double>(grid.voxel_size);
-    if (const std::optional<std::size_t> mover = world.moverAt(point))
+    if (const std::optional<std::size_t> object = world.objectAt(point))
     {
-        m_drag = {*mover, point, world.scene.offset(*mover)};
+        m_drag = {*object, point, world.scene.offset(*object)};
     }
 }
 
@@ -134,7 +134,7 @@ void Editor::drag(World& world)
     if (m_drag)
     {
         const glm::dvec3 point = onPlane(pointerRay(m_camera, m_pointer, m_size), m_camera, m_drag->grabbed);
-        world.scene.setOffset(m_drag->mover, m_drag->offset + point - m_drag->grabbed);
+        world.scene.setOffset(m_drag->object, m_drag->offset + point - m_drag->grabbed);
     }
 }
 

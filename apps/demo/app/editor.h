@@ -52,9 +52,9 @@ public:
 private:
     struct Drag
     {
-        std::size_t mover;
+        std::size_t object;
         glm::dvec3 grabbed; // point in the world
-        glm::dvec3 offset;  // of the mover then
+        glm::dvec3 offset;  // of the dynamic object then
     };
 
     void grab(const glm::ivec3& voxel, World& world);

@@ -162,7 +162,7 @@ Error usageError(std::string what)
 
 void check(const DemoOptions& options)
 {
-    if (options.voxels.bounds && options.voxels.grid_place)
+    if (options.voxels.bounds && options.voxels.grid_position)
     {
         throw usageError("--bounds and --grid exclude each other");
     }

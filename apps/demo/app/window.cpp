@@ -113,8 +113,8 @@ void installCallbacks(GLFWwindow* window)
     glfwSetWindowIconifyCallback(window,
                                  [](GLFWwindow* w, int iconified)
                                  {
-                                     windowOf(w).noteMinimised(iconified != 0);
-                                     windowOf(w).note(MinimiseEvent{iconified != 0});
+                                     windowOf(w).noteMinimized(iconified != 0);
+                                     windowOf(w).note(MinimizeEvent{iconified != 0});
                                  });
     glfwSetDropCallback(window,
                         [](GLFWwindow* w, int count, const char** paths) {
@@ -197,7 +197,7 @@ PictureSize Window::size() const
     int width = 0;
     int height = 0;
     glfwGetWindowSize(m_window, &width, &height);
-    return m_is_minimised || m_has_no_extent ? PictureSize{} : sizeOf(width, height);
+    return m_is_minimized || m_has_no_extent ? PictureSize{} : sizeOf(width, height);
 }
 
 PictureSize Window::framebufferSize() const
@@ -205,7 +205,7 @@ PictureSize Window::framebufferSize() const
     int width = 0;
     int height = 0;
     glfwGetFramebufferSize(m_window, &width, &height);
-    return m_is_minimised || m_has_no_extent ? PictureSize{} : sizeOf(width, height);
+    return m_is_minimized || m_has_no_extent ? PictureSize{} : sizeOf(width, height);
 }
 
 float Window::uiScale() const
@@ -238,10 +238,10 @@ void Window::resize(PictureSize size)
     }
 }
 
-void Window::minimise(bool minimised)
+void Window::minimize(bool minimized)
 {
-    (minimised ? glfwIconifyWindow : glfwRestoreWindow)(m_window);
-    m_is_minimised = minimised;
+    (minimized ? glfwIconifyWindow : glfwRestoreWindow)(m_window);
+    m_is_minimized = minimized;
 }
 
 void Window::setTitle(const std::string& title)

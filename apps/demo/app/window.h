@@ -47,7 +47,7 @@ public:
     void resize(PictureSize size);
 
     /// As if the system had minimised or restored it, which it is asked to do.
-    void minimise(bool minimised);
+    void minimize(bool minimized);
 
     void setTitle(const std::string& title);
 
@@ -56,12 +56,12 @@ public:
 
     /// Callbacks of the window system put events here.
     void note(InputEvent event) { m_events.push_back(std::move(event)); }
-    void noteMinimised(bool minimised) { m_is_minimised = minimised; }
+    void noteMinimized(bool minimized) { m_is_minimized = minimized; }
 
 private:
     GLFWwindow* m_window = nullptr;
     std::vector<InputEvent> m_events;
-    bool m_is_minimised = false;
+    bool m_is_minimized = false;
     bool m_has_no_extent = false; // because resize() said so
 };
 

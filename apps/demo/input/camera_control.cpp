@@ -59,8 +59,8 @@ void CameraControl::setSubject(const Bounds& subject)
     m_subject_size = std::isfinite(size) && size > 0 ? size : 1.0;
     m_speed = kUsualSpeed * m_subject_size;
     m_pivot_distance = m_subject_size;
-    const glm::dvec3 centre = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
-    const double ahead = glm::dot(centre - m_camera.position, m_camera.forward);
+    const glm::dvec3 center = 0.5 * (glm::dvec3(subject.min) + glm::dvec3(subject.max));
+    const double ahead = glm::dot(center - m_camera.position, m_camera.forward);
     if (ahead > kPivotMin * m_subject_size)
     {
         m_pivot_distance = ahead;
@@ -144,9 +144,9 @@ void CameraControl::onMove(const MouseMoveEvent& event, double height)
         break;
     case Drag::Orbit:
     {
-        const glm::dvec3 centre = pivot();
+        const glm::dvec3 center = pivot();
         turn(kTurn * right, -kTurn * down);
-        m_camera.position = centre - m_pivot_distance * m_camera.forward;
+        m_camera.position = center - m_pivot_distance * m_camera.forward;
         break;
     }
     case Drag::Pan:
@@ -169,13 +169,13 @@ void CameraControl::onWheel(double notches)
         return;
     }
     const double part = std::pow(kZoom, notches);
-    const glm::dvec3 centre = pivot();
+    const glm::dvec3 center = pivot();
     m_pivot_distance = std::max(m_pivot_distance * part, kPivotMin * m_subject_size);
     if (m_camera.orthographic)
     {
         m_camera.half_height *= part;
     }
-    m_camera.position = centre - m_pivot_distance * m_camera.forward;
+    m_camera.position = center - m_pivot_distance * m_camera.forward;
 }
 
 void CameraControl::turn(double right, double up)

@@ -102,11 +102,11 @@ struct ResizeEvent
     bool operator==(const ResizeEvent&) const = default;
 };
 
-struct MinimiseEvent
+struct MinimizeEvent
 {
-    bool minimised = false;
+    bool minimized = false;
 
-    bool operator==(const MinimiseEvent&) const = default;
+    bool operator==(const MinimizeEvent&) const = default;
 };
 
 struct DropEvent
@@ -123,6 +123,6 @@ struct CloseEvent
 };
 
 using InputEvent = std::variant<KeyEvent, TextEvent, MouseMoveEvent, MouseButtonEvent, WheelEvent, ResizeEvent,
-                                MinimiseEvent, DropEvent, CloseEvent>;
+                                MinimizeEvent, DropEvent, CloseEvent>;
 
 } // namespace zvo::demo

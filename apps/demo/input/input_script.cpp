@@ -154,10 +154,10 @@ InputEvent readResize(const JsonCursor& event, const JsonCursor& size)
     return ResizeEvent{items[0].whole(0, kEdgeMax), items[1].whole(0, kEdgeMax)};
 }
 
-InputEvent readMinimise(const JsonCursor& event, const JsonCursor& minimised)
+InputEvent readMinimize(const JsonCursor& event, const JsonCursor& minimized)
 {
     event.allowKeys({"frame", "minimised"});
-    return MinimiseEvent{minimised.flag()};
+    return MinimizeEvent{minimized.flag()};
 }
 
 InputEvent readDrop(const JsonCursor& event, const JsonCursor& files)
@@ -186,7 +186,7 @@ InputEvent readEvent(const JsonCursor& event)
     using Read = InputEvent (*)(const JsonCursor& event, const JsonCursor& value);
     constexpr std::pair<const char*, Read> kKinds[] = {
         {"key", readKey},     {"button", readButton}, {"text", readText},          {"move", readMove},
-        {"wheel", readWheel}, {"resize", readResize}, {"minimised", readMinimise}, {"drop", readDrop},
+        {"wheel", readWheel}, {"resize", readResize}, {"minimised", readMinimize}, {"drop", readDrop},
         {"close", readClose}};
     for (const auto& [name, read] : kKinds)
     {
@@ -230,7 +230,7 @@ struct Write
     }
     void operator()(const WheelEvent& event) const { json["wheel"] = {event.x, event.y}; }
     void operator()(const ResizeEvent& event) const { json["resize"] = {event.width, event.height}; }
-    void operator()(const MinimiseEvent& event) const { json["minimised"] = event.minimised; }
+    void operator()(const MinimizeEvent& event) const { json["minimised"] = event.minimized; }
     void operator()(const DropEvent& event) const
     {
         json["drop"] = Json::array();

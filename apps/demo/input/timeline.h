@@ -2,7 +2,7 @@
 #pragma once
 
 #include "demo/input/elapsed.h"
-#include "io/scene/stage.h"
+#include "io/scene/animated_scene.h"
 
 #include <optional>
 
@@ -31,11 +31,11 @@ public:
         }
     }
 
-    /// Stops, and goes on by a frame of the stage.
-    void step(const Stage& stage)
+    /// Stops, and goes on by a frame of the animated scene.
+    void step(const AnimatedScene& animated)
     {
         m_plays = false;
-        start(this->seconds() + 1.0 / stage.frames_per_second);
+        start(this->seconds() + 1.0 / animated.frames_per_second);
     }
 
     void play(bool plays) { m_plays = plays; }
@@ -49,8 +49,8 @@ public:
         m_speed = speed;
     }
 
-    /// From 0 to the stage's end, where everything begins anew.
-    [[nodiscard]] double secondsIn(const Stage& stage) const { return loopedTime(stage, seconds()); }
+    /// From 0 to the animated scene's end, where everything begins anew.
+    [[nodiscard]] double secondsIn(const AnimatedScene& animated) const { return loopedTime(animated, seconds()); }
 
 private:
     [[nodiscard]] double seconds() const { return m_start + m_speed * m_run.seconds(); }

@@ -33,7 +33,7 @@ void inspectorPanel(const std::optional<InspectedPixel>& pixel, const Grid& grid
     // As many lines for every pixel: the panel does not jump.
     if (!pixel || pixel->report.hit == 0)
     {
-        tell(pixel ? fmt::format("pixel {}, {}: nothing", pixel->place.x, pixel->place.y) : "no pixel");
+        tell(pixel ? fmt::format("pixel {}, {}: nothing", pixel->position.x, pixel->position.y) : "no pixel");
         tell(pixel ? fmt::format("steps {}", pixel->report.iterations) : "");
         ImGui::NewLine();
         ImGui::NewLine();
@@ -43,7 +43,7 @@ void inspectorPanel(const std::optional<InspectedPixel>& pixel, const Grid& grid
     const gpu::PixelReport& report = pixel->report;
     const std::uint32_t levels = grid.nodeLevels();
     const bool is_voxel = report.level == levels;
-    tell(fmt::format("pixel {}, {}: {} {}, {}, {}", pixel->place.x, pixel->place.y, is_voxel ? "voxel" : "cell",
+    tell(fmt::format("pixel {}, {}: {} {}, {}, {}", pixel->position.x, pixel->position.y, is_voxel ? "voxel" : "cell",
                      report.cell.x, report.cell.y, report.cell.z));
     tell(fmt::format("level {} of {}, steps {}, face {}", report.level, levels, report.iterations,
                      faceName(report.face)));

@@ -15,7 +15,7 @@ namespace
 void motionControls(const LiveScene& scene, Timeline& timeline)
 {
     const UpdateReport& update = scene.info().update;
-    tell(fmt::format("{} moving: {} voxels, overlay of {} nodes", scene.stage().movers.size(), update.dynamic_count,
+    tell(fmt::format("{} moving: {} voxels, overlay of {} nodes", scene.animated().objects.size(), update.dynamic_count,
                      update.node_count));
     if (ImGui::Button(timeline.plays() ? "stop" : "play"))
     {
@@ -24,15 +24,15 @@ void motionControls(const LiveScene& scene, Timeline& timeline)
     ImGui::SameLine();
     if (ImGui::Button("step"))
     {
-        timeline.step(scene.stage());
+        timeline.step(scene.animated());
     }
     auto speed = static_cast<float>(timeline.speed());
     if (ImGui::SliderFloat("speed", &speed, 0.0F, 4.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp))
     {
         timeline.setSpeed(double{speed});
     }
-    auto seconds = static_cast<float>(timeline.secondsIn(scene.stage()));
-    if (ImGui::SliderFloat("time", &seconds, 0.0F, static_cast<float>(scene.stage().seconds), "%.2f s",
+    auto seconds = static_cast<float>(timeline.secondsIn(scene.animated()));
+    if (ImGui::SliderFloat("time", &seconds, 0.0F, static_cast<float>(scene.animated().seconds), "%.2f s",
                            ImGuiSliderFlags_AlwaysClamp))
     {
         timeline.start(double{seconds});

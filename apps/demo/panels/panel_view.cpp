@@ -51,10 +51,10 @@ void integratorChoice(ViewState& view)
     }
 }
 
-void resolutionChoice(ViewState& view, const ViewFacts& facts)
+void resolutionChoice(ViewState& view, const ViewInfo& info)
 {
     const std::string current = view.internal_scale ? fmt::format("{:g}", *view.internal_scale)
-                                                    : fmt::format("automatic ({:g})", facts.internal_scale);
+                                                    : fmt::format("automatic ({:g})", info.internal_scale);
     if (ImGui::BeginCombo("resolution", current.c_str()))
     {
         if (ImGui::Selectable("automatic", !view.internal_scale))
@@ -72,14 +72,14 @@ void resolutionChoice(ViewState& view, const ViewFacts& facts)
     }
 }
 
-void presentChoice(ViewState& view, const ViewFacts& facts)
+void presentChoice(ViewState& view, const ViewInfo& info)
 {
     int chosen = static_cast<int>(view.present_mode);
     if (ImGui::Combo("present", &chosen, kModeNames.data(), static_cast<int>(kModeNames.size())))
     {
         view.present_mode = kModes[static_cast<std::size_t>(chosen)];
     }
-    if (facts.mode != view.present_mode)
+    if (info.mode != view.present_mode)
     {
         ImGui::SameLine();
         tell("(fifo: the window has no other)");
@@ -111,7 +111,7 @@ void iterationsLegend()
 
 } // namespace
 
-void viewPanel(ViewState& view, const ViewFacts& facts)
+void viewPanel(ViewState& view, const ViewInfo& info)
 {
     if (!ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen))
     {
@@ -136,9 +136,9 @@ void viewPanel(ViewState& view, const ViewFacts& facts)
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     }
     ImGui::SliderFloat("detail, pixels", &view.detail_pixels, 0.0F, 16.0F, "%.1f", ImGuiSliderFlags_AlwaysClamp);
-    resolutionChoice(view, facts);
-    presentChoice(view, facts);
-    tell(fmt::format("speed {:.3g} units/s", facts.camera_speed));
+    resolutionChoice(view, info);
+    presentChoice(view, info);
+    tell(fmt::format("speed {:.3g} units/s", info.camera_speed));
 }
 
 } // namespace zvo::demo

@@ -26,7 +26,7 @@ struct PanelState
 };
 
 /// What the view panel also shows.
-struct ViewFacts
+struct ViewInfo
 {
     double internal_scale = 1; // in use
     vk::PresentMode mode = vk::PresentMode::Fifo;
@@ -47,7 +47,7 @@ struct MemoryUse
 void performancePanel(const FrameStats& stats, const MemoryUse& memory);
 
 /// View, light, detail, resolution.
-void viewPanel(ViewState& view, const ViewFacts& facts);
+void viewPanel(ViewState& view, const ViewInfo& info);
 
 /// What is shown, and when.
 void scenePanel(const World& world, Timeline& timeline);
@@ -77,7 +77,7 @@ ToolsAnswer toolsPanel(ToolState& state, const World& world);
 /// A pixel that the pointer was on, and what its ray met.
 struct InspectedPixel
 {
-    glm::uvec2 place{0U}; // in the window
+    glm::uvec2 position{0U}; // in the window
     gpu::PixelReport report{};
 };
 

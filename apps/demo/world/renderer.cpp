@@ -10,12 +10,12 @@ namespace zvo::demo
 
 void Renderer::begin(std::uint64_t frame, const Picture& picture, bool encodes_srgb)
 {
-    m_retired.beginFrame(frame);
+    m_deletion_queue.beginFrame(frame);
     m_tracer.resize(picture.internal.width, picture.internal.height);
     if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
     {
         auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);
-        m_retired.keep(std::exchange(m_compose, std::move(compose)));
+        m_deletion_queue.keep(std::exchange(m_compose, std::move(compose)));
     }
 }
 
@@ -38,10 +38,10 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     if (picture.inspected)
     {
         // The pixel that is shown there (scalePicture()).
-        const auto place = [](std::uint32_t at, std::uint32_t shown, std::uint32_t traced)
+        const auto tracedPixel = [](std::uint32_t at, std::uint32_t shown, std::uint32_t traced)
         { return (2 * at + 1) * traced / (2 * shown); };
-        const glm::uvec2 pixel = {place(picture.inspected->x, picture.window.width, buffers.width),
-                                  place(picture.inspected->y, picture.window.height, buffers.height)};
+        const glm::uvec2 pixel = {tracedPixel(picture.inspected->x, picture.window.width, buffers.width),
+                                  tracedPixel(picture.inspected->y, picture.window.height, buffers.height)};
         inspectPixel(graph, tree, camera, options, buffers, pixel, *picture.report);
     }
     m_compose->fill(graph, buffers);

@@ -5,8 +5,8 @@
 #include "core/trace/tree_tracer.h"
 #include "demo/world/compose.h"
 #include "demo/world/view_state.h"
+#include "vk/deletion_queue.h"
 #include "vk/headless.h"
-#include "vk/retired.h"
 #include "vk/swapchain.h"
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class Renderer
 {
 public:
     Renderer(vk::HeadlessDevice& device, const ComposePass& pass)
-        : m_device(device), m_pass(pass), m_tracer(device.device(), &m_retired)
+        : m_device(device), m_pass(pass), m_tracer(device.device(), &m_deletion_queue)
     {
     }
 
@@ -50,7 +50,7 @@ public:
     void record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture);
 
     /// The device is done with that frame and all before it.
-    void frameDone(std::uint64_t frame) { m_retired.frameDone(frame); }
+    void frameDone(std::uint64_t frame) { m_deletion_queue.frameDone(frame); }
 
     /// The frame that began last does not reach the device, or the kernels may have changed: what they make for tracing
     /// is made again.
@@ -65,7 +65,7 @@ public:
 private:
     vk::HeadlessDevice& m_device;
     const ComposePass& m_pass;
-    vk::Retired m_retired;
+    vk::DeletionQueue m_deletion_queue;
     TreeTracer m_tracer;
     std::unique_ptr<ComposeImage> m_compose;
 };

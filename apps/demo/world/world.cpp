@@ -27,7 +27,7 @@ bool isTreeFile(const std::filesystem::path& file)
     return isZvoFile(file) || cli::isVoxFile(file);
 }
 
-// A box around a mover in a pose: what joints pull is between where each of them alone would put it.
+// A box around a dynamic object in a pose: what joints pull is between where each of them alone would put it.
 Bounds boundsOf(const Scene& scene, const Pose& pose)
 {
     Bounds bounds;
@@ -65,7 +65,7 @@ WorldInput World::read(const WorldOptions& options)
     const auto tree_file = std::ranges::find_if(files, isTreeFile);
     if (tree_file == files.end())
     {
-        return files.empty() ? WorldInput{} : WorldInput{cli::loadStageWithWarnings(options.voxels, true), {}};
+        return files.empty() ? WorldInput{} : WorldInput{cli::loadAnimatedSceneWithWarnings(options.voxels, true), {}};
     }
     if (files.size() > 1)
     {
@@ -81,12 +81,12 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
     const std::vector<std::filesystem::path>& files = options.voxels.scenes;
     const std::string name = files.empty() ? "" : files.front().filename().string();
     std::unique_ptr<World> world;
-    if (input.stage)
+    if (input.animated)
     {
-        const Bounds bounds = stageBounds(*input.stage);
-        const Grid grid = cli::placeGrid(options.voxels, *input.stage, bounds);
+        const Bounds bounds = boundsOverTime(*input.animated);
+        const Grid grid = cli::placeGrid(options.voxels, *input.animated, bounds);
         world.reset(new World{name, cli::subjectOf(bounds, grid),
-                              LiveScene(device, std::move(*input.stage), grid, liveOptions(options), listener)});
+                              LiveScene(device, std::move(*input.animated), grid, liveOptions(options), listener)});
         if (!world->scene.moves())
         {
             cli::warnOfDropped(world->scene.info().fixed.voxel_count, world->scene.info().fixed.dropped);
@@ -111,14 +111,14 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
     return world;
 }
 
-std::optional<std::size_t> World::moverAt(const glm::dvec3& point) const
+std::optional<std::size_t> World::objectAt(const glm::dvec3& point) const
 {
     const double slack = 2.0 * scene.tree().grid.voxel_size;
     std::optional<std::size_t> best;
     double best_size = 0;
-    for (std::size_t i = 0; i < scene.stage().movers.size(); ++i)
+    for (std::size_t i = 0; i < scene.animated().objects.size(); ++i)
     {
-        const Bounds bounds = boundsOf(scene.stage().movers[i].scene, scene.shownPose(i));
+        const Bounds bounds = boundsOf(scene.animated().objects[i].scene, scene.shownPose(i));
         const bool is_inside = glm::all(glm::greaterThanEqual(point, glm::dvec3(bounds.min) - slack)) &&
                                glm::all(glm::lessThanEqual(point, glm::dvec3(bounds.max) + slack));
         const double size = glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min));

@@ -3,7 +3,7 @@
 
 #include "common/scene_options.h"
 #include "core/tree/tree_data.h"
-#include "io/scene/stage.h"
+#include "io/scene/animated_scene.h"
 #include "runtime/live_scene.h"
 #include "vk/headless.h"
 #include "zvo/dynamic_tree.h"
@@ -28,7 +28,7 @@ struct WorldOptions
 /// What files hold, before the device has any of it. A .vox file is read when the world is made.
 struct WorldInput
 {
-    std::optional<Stage> stage;
+    std::optional<AnimatedScene> animated;
     std::optional<TreeData> tree;
 };
 
@@ -53,7 +53,7 @@ struct World
     [[nodiscard]] TreeData copyTree(vk::HeadlessDevice& device) const;
 
     /// Which of what moves is around a point of the world, as it is shown; nothing where there is none.
-    [[nodiscard]] std::optional<std::size_t> moverAt(const glm::dvec3& point) const;
+    [[nodiscard]] std::optional<std::size_t> objectAt(const glm::dvec3& point) const;
 
     /// Whether voxels were made of triangles, which another resolution needs.
     [[nodiscard]] bool isVoxelized() const { return !scene.info().fixed.passes.empty(); }

@@ -22,11 +22,11 @@ void packBlocks(vk::FrameGraph& graph, const Kernel& kernel, const vk::BufferOf<
 
 } // namespace
 
-void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeForm form,
+void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeFormat format,
                     vk::BufferOf<gpu::uint>& words)
 {
     const std::uint64_t count = attributes.count();
-    if (form == AttributeForm::Blocks)
+    if (format == AttributeFormat::Blocks)
     {
         packBlocks(graph, gpu::attributes::BlockColors{}, attributes, words);
         packBlocks(graph, gpu::attributes::BlockNormals{}, attributes, words);
@@ -41,30 +41,30 @@ namespace
 {
 
 // What the attributes of tree are packed into.
-PackedAttributes makePackedAttributes(vk::Device& device, AttributeForm form, const DeviceTree& tree)
+PackedAttributes makePackedAttributes(vk::Device& device, AttributeFormat format, const DeviceTree& tree)
 {
-    const std::uint64_t voxel_words = packedWords(form, tree.voxel_attributes.count());
-    const std::uint64_t node_words = packedWords(nodeForm(form), tree.node_attributes.count());
+    const std::uint64_t voxel_words = packedWords(format, tree.voxel_attributes.count());
+    const std::uint64_t node_words = packedWords(nodeFormat(format), tree.node_attributes.count());
     device.memory().require((voxel_words + node_words) * sizeof(gpu::uint), "packing the attributes");
-    return {form, {device, "packed voxel attributes", voxel_words}, {device, "packed node attributes", node_words}};
+    return {format, {device, "packed voxel attributes", voxel_words}, {device, "packed node attributes", node_words}};
 }
 
 } // namespace
 
-TreePacker::TreePacker(vk::Device& device, AttributeForm form, DeviceTree& tree)
-    : m_device(device), m_form(form), m_tree(tree),
-      m_is_done(!isPacked(form) || tree.attributeForm() != AttributeForm::Bytes8)
+TreePacker::TreePacker(vk::Device& device, AttributeFormat format, DeviceTree& tree)
+    : m_device(device), m_format(format), m_tree(tree),
+      m_is_done(!isPacked(format) || tree.attributeFormat() != AttributeFormat::Bytes8)
 {
 }
 
 void TreePacker::record(vk::FrameGraph& graph)
 {
-    if (m_packed.form == AttributeForm::None)
+    if (m_packed.format == AttributeFormat::None)
     {
-        m_packed = makePackedAttributes(m_device, m_form, m_tree);
+        m_packed = makePackedAttributes(m_device, m_format, m_tree);
     }
-    packAttributes(graph, m_tree.voxel_attributes, m_form, m_packed.voxels);
-    packAttributes(graph, m_tree.node_attributes, nodeForm(m_form), m_packed.nodes);
+    packAttributes(graph, m_tree.voxel_attributes, m_format, m_packed.voxels);
+    packAttributes(graph, m_tree.node_attributes, nodeFormat(m_format), m_packed.nodes);
 }
 
 void TreePacker::resume(std::vector<vk::PassTime> passes)

@@ -13,18 +13,18 @@
 namespace zvo
 {
 
-/// Records the passes that pack attributes into words, [packedWords(form, attributes.count())]. The words follow from
+/// Records the passes that pack attributes into words, [packedWords(format, attributes.count())]. The words follow from
 /// the attributes alone. Cost: attributes.
-void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeForm form,
+void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeFormat format,
                     vk::BufferOf<gpu::uint>& words);
 
-/// Replaces the attributes of a tree, those of voxels and of nodes, by such in a packed form, in one step. Done from
-/// the start for a tree without attributes of 8 bytes, and for another form.
+/// Replaces the attributes of a tree, those of voxels and of nodes, by such in a packed format, in one step. Done from
+/// the start for a tree without attributes of 8 bytes, and for another format.
 class TreePacker final : public StepJob
 {
 public:
     /// tree: an octree, or what a DAG has of one. It must outlive the steps.
-    TreePacker(vk::Device& device, AttributeForm form, DeviceTree& tree);
+    TreePacker(vk::Device& device, AttributeFormat format, DeviceTree& tree);
 
     [[nodiscard]] bool isDone() const override { return m_is_done; }
     void record(vk::FrameGraph& graph) override;
@@ -35,7 +35,7 @@ public:
 
 private:
     vk::Device& m_device;
-    AttributeForm m_form;
+    AttributeFormat m_format;
     DeviceTree& m_tree;
     PackedAttributes m_packed;
     std::vector<vk::PassTime> m_passes;

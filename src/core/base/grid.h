@@ -49,22 +49,22 @@ struct Grid
     static Grid withCorner(const Bounds& bounds, std::uint32_t depth);
 };
 
-/// A cube of a grid, (1 << depth)^3 voxels, or all of the grid. Cubes are numbered by place, along x, y and z.
+/// A cube of a grid, (1 << depth)^3 voxels, or all of the grid. Cubes have indices along x, y and z.
 struct GridTile
 {
     GridTile(const Grid& whole) : grid(whole), depth(whole.depth) {} // implicit: all of it
 
-    /// place: below 1 << (grid.depth - depth), and below kPlacesMax.
-    GridTile(const Grid& whole, std::uint32_t tile_depth, const glm::uvec3& tile_place)
-        : grid(whole), depth(tile_depth), place(tile_place)
+    /// tile_index: below 1 << (grid.depth - depth), and below kTilesMax.
+    GridTile(const Grid& whole, std::uint32_t tile_depth, const glm::uvec3& tile_index)
+        : grid(whole), depth(tile_depth), index(tile_index)
     {
     }
 
-    static constexpr std::uint32_t kPlacesMax = 128;
+    static constexpr std::uint32_t kTilesMax = 128;
 
     Grid grid;
     std::uint32_t depth;
-    glm::uvec3 place{0};
+    glm::uvec3 index{0};
 };
 
 } // namespace zvo

@@ -59,24 +59,24 @@ public:
         {
             return;
         }
-        m_mesh.places.resize(scene.instances.size());
+        m_mesh.offsets.resize(scene.instances.size());
         m_rest.resize(scene.primitives.size());
-        std::vector<DeformMesh::Place> rigid(scene.primitives.size(), {gpu::kAbsent, gpu::kAbsent});
+        std::vector<DeformMesh::Offsets> rigid(scene.primitives.size(), {gpu::kAbsent, gpu::kAbsent});
         for (std::size_t i = 0; i < scene.instances.size(); ++i)
         {
             const std::uint32_t number = scene.instances[i].primitive;
             const Primitive& primitive = scene.primitives[number];
             if (deformed(scene.instances[i]))
             {
-                m_mesh.places[i] = takePlace(primitive, isSkinned(scene.instances[i]));
+                m_mesh.offsets[i] = takeOffsets(primitive, isSkinned(scene.instances[i]));
                 addPart(static_cast<std::uint32_t>(i));
                 continue;
             }
             if (rigid[number].first_position == gpu::kAbsent)
             {
-                rigid[number] = takePlace(primitive, false);
+                rigid[number] = takeOffsets(primitive, false);
             }
-            m_mesh.places[i] = rigid[number];
+            m_mesh.offsets[i] = rigid[number];
         }
         for (std::uint32_t variant = 0; variant < gpu::kDeformVariants; ++variant)
         {
@@ -105,7 +105,7 @@ public:
 
 private:
     // Where a deforming primitive is at rest; kAbsent: it has not been added.
-    struct RestPlace
+    struct RestOffsets
     {
         std::uint32_t first_position = gpu::kAbsent;
         std::uint32_t first_normal = gpu::kAbsent;
@@ -118,15 +118,15 @@ private:
         return instance.skin != kNone && !m_scene.primitives[instance.primitive].joints.empty();
     }
 
-    DeformMesh::Place takePlace(const Primitive& primitive, bool is_skinned)
+    DeformMesh::Offsets takeOffsets(const Primitive& primitive, bool is_skinned)
     {
         const bool has_normals = is_skinned || !primitive.normals.empty();
-        const DeformMesh::Place place = {m_mesh.position_count, has_normals ? m_mesh.normal_count : gpu::kAbsent};
+        const DeformMesh::Offsets offsets = {m_mesh.position_count, has_normals ? m_mesh.normal_count : gpu::kAbsent};
         const auto grow = [](std::uint32_t count, std::size_t more)
         { return checkedIndex(std::uint64_t{count} + more, "vertices"); };
         m_mesh.position_count = grow(m_mesh.position_count, primitive.positions.size());
         m_mesh.normal_count = grow(m_mesh.normal_count, has_normals ? primitive.positions.size() : 0);
-        return place;
+        return offsets;
     }
 
     static std::uint32_t addVectors(std::vector<gpu::vec3>& into, const std::vector<glm::vec3>& values,
@@ -141,20 +141,20 @@ private:
         return values.empty() ? gpu::kAbsent : first;
     }
 
-    RestPlace addRest(std::uint32_t number)
+    RestOffsets addRest(std::uint32_t number)
     {
         const Primitive& primitive = m_scene.primitives[number];
-        RestPlace place;
-        place.first_position = static_cast<std::uint32_t>(m_positions.size());
+        RestOffsets offsets;
+        offsets.first_position = static_cast<std::uint32_t>(m_positions.size());
         addVectors(m_positions, primitive.positions, "vertices");
-        place.first_normal = addVectors(m_normals, primitive.normals, "normals");
-        place.first_binding = static_cast<std::uint32_t>(m_bindings.size());
+        offsets.first_normal = addVectors(m_normals, primitive.normals, "normals");
+        offsets.first_binding = static_cast<std::uint32_t>(m_bindings.size());
         if (m_joint_limits[number] != kNone)
         {
             if (primitive.normals.empty())
             {
                 const std::vector<glm::vec3> none(primitive.positions.size(), glm::vec3(0.0F));
-                place.first_normal = addVectors(m_normals, none, "normals");
+                offsets.first_normal = addVectors(m_normals, none, "normals");
             }
             for (std::size_t vertex = 0; vertex < primitive.joints.size(); ++vertex)
             {
@@ -167,7 +167,7 @@ private:
             throw Error(ErrorCode::Input, fmt::format("a mesh has {} morph targets, more than {}; leave some out",
                                                       primitive.morph_targets.size(), gpu::kMorphTargetsMax));
         }
-        place.first_target = static_cast<std::uint32_t>(m_mesh.targets.size());
+        offsets.first_target = static_cast<std::uint32_t>(m_mesh.targets.size());
         for (const MorphTarget& target : primitive.morph_targets)
         {
             assert(target.positions.empty() || target.positions.size() == primitive.positions.size());
@@ -178,14 +178,14 @@ private:
                                                    : addVectors(m_deltas, target.normals, "normals of morph targets");
             m_mesh.targets.push_back({first_position, first_normal});
         }
-        return place;
+        return offsets;
     }
 
     void addPart(std::uint32_t instance_number)
     {
         const Instance& instance = m_scene.instances[instance_number];
         const Primitive& primitive = m_scene.primitives[instance.primitive];
-        RestPlace& rest = m_rest[instance.primitive];
+        RestOffsets& rest = m_rest[instance.primitive];
         if (rest.first_position == gpu::kAbsent)
         {
             rest = addRest(instance.primitive);
@@ -209,8 +209,8 @@ private:
         item.first_joint = part.first_joint;
         item.first_term = part.first_term;
         item.first_normal_term = part.first_term + part.target_count;
-        item.first_out_position = m_mesh.places[instance_number].first_position;
-        item.first_out_normal = m_mesh.places[instance_number].first_normal;
+        item.first_out_position = m_mesh.offsets[instance_number].first_position;
+        item.first_out_normal = m_mesh.offsets[instance_number].first_normal;
         const std::uint32_t variant = (part.target_count != 0 ? gpu::kDeformMorphed : 0) |
                                       (skinned ? gpu::kDeformSkinned : 0) |
                                       (skinned || !primitive.normals.empty() ? gpu::kDeformNormals : 0);
@@ -225,7 +225,7 @@ private:
     const Scene& m_scene;
     std::vector<std::uint32_t> m_joint_limits; // [primitives]
     DeformMesh m_mesh;
-    std::vector<RestPlace> m_rest; // [primitives]
+    std::vector<RestOffsets> m_rest; // [primitives]
     std::vector<gpu::vec3> m_positions;
     std::vector<gpu::vec3> m_normals;
     std::vector<gpu::JointBinding> m_bindings;

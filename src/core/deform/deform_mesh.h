@@ -23,13 +23,13 @@ struct Pose;
 struct DeformMesh
 {
     /// Where a vertex array starts in the outputs.
-    struct Place
+    struct Offsets
     {
         std::uint32_t first_position;
         std::uint32_t first_normal; // gpu::kAbsent where the primitive has none and no joints move it
     };
 
-    /// An instance that deforms, and its places in the buffers of a pose.
+    /// An instance that deforms, and its offsets in the buffers of a pose.
     struct Part
     {
         std::uint32_t instance;     // in Scene::instances
@@ -62,8 +62,8 @@ struct DeformMesh
     vk::BufferOf<gpu::DeformChunk> chunks;                 // [vertices of each item / kDeformGroup, rounded up]
     std::array<ChunkRange, gpu::kDeformVariants> variants; // of chunks
 
-    std::vector<Place>
-        places; // [instances of the scene] where the outputs have their vertices, those that are rigid too
+    std::vector<Offsets>
+        offsets; // [instances of the scene] where the outputs have their vertices, those that are rigid too
     std::vector<Part> parts;
     std::vector<Target> targets;      // of each deforming primitive
     std::uint32_t position_count = 0; // of the outputs

@@ -43,8 +43,8 @@ UpdateReport DynamicOctree::learnUpdate(const PendingUpdate& pending)
     {
         setShift(status.max_fragments);
     }
-    return {pending.entry,        status.failed,        status.node_count,          status.voxel_count,
-            status.touched_count, status.dynamic_count, m_movers.droppedTriangles()};
+    return {pending.entry,        status.failed,        status.node_count,           status.voxel_count,
+            status.touched_count, status.dynamic_count, m_objects.droppedTriangles()};
 }
 
 // Drops as many value bits of the layers' sums as it takes for so many fragments, and no more: where that changes, all
@@ -60,7 +60,7 @@ void DynamicOctree::setShift(std::uint32_t fragments)
     }
     m_sum_shift = shift;
     giveUpJob();
-    m_movers.forgetLayers();
+    m_objects.forgetLayers();
 }
 
 std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes)
@@ -75,7 +75,7 @@ std::vector<UpdateReport> DynamicOctree::frameDone(std::uint64_t frame, std::spa
     }
     m_frames.done(frame);
     m_has_recorded = m_has_recorded && frame != m_frames.current();
-    if (m_movers.takeFailure())
+    if (m_objects.takeFailure())
     {
         giveUpJob();
     }

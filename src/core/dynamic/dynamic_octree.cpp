@@ -21,21 +21,22 @@ DeviceTree& checked(DeviceTree& fixed, const DynamicOptions& options)
 {
     if (options.frames_in_flight == 0 || options.history.entries_max == 0)
     {
-        throw Error(ErrorCode::Usage, "dynamic updates need a frame in flight and a step of history at least");
+        throw Error(ErrorCode::Usage, "dynamic updates need a frame in flight and an entry of the history at least");
     }
-    if (isPacked(fixed.attributeForm()))
+    if (isPacked(fixed.attributeFormat()))
     {
         throw Error(ErrorCode::Usage,
-                    "movers can be merged only with attributes of 8 bytes: build the octree with them");
+                    "dynamic objects can be merged only with attributes of 8 bytes: build the octree with them");
     }
     const bool averages = fixed.hasAttributes() && options.merge == MergeRule::Average;
     if (averages && fixed.sums.sums.count() != fixed.voxel_count)
     {
-        throw Error(ErrorCode::Usage, "movers can be averaged with a static octree or DAG only if its sums were kept");
+        throw Error(ErrorCode::Usage,
+                    "dynamic objects can be averaged with a static octree or DAG only if its sums were kept");
     }
     if (fixed.emission.count() != 0 && fixed.emission_scale != options.emission_scale)
     {
-        throw Error(ErrorCode::Usage, "movers and the static scene need one emission scale");
+        throw Error(ErrorCode::Usage, "dynamic objects and the static scene need one emission scale");
     }
     return fixed;
 }
@@ -43,18 +44,18 @@ DeviceTree& checked(DeviceTree& fixed, const DynamicOptions& options)
 } // namespace
 
 DynamicOctree::DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const DynamicOptions& options)
-    : m_device(device), m_options(options),
-      m_overlays(device, std::move(checked(fixed, options)), {options.attributes, options.emission_scale}, m_retired),
-      m_movers(device, m_overlays.tree().grid,
-               {options.coverage,
-                {m_overlays.hasAttributes(), m_overlays.emits()},
-                options.emission_scale,
-                options.frames_in_flight * kUpdatesPerFrame,
-                options.minimal_capacities},
-               m_retired),
+    : m_device(device), m_options(options), m_overlays(device, std::move(checked(fixed, options)),
+                                                       {options.attributes, options.emission_scale}, m_deletion_queue),
+      m_objects(device, m_overlays.tree().grid,
+                {options.coverage,
+                 {m_overlays.hasAttributes(), m_overlays.emits()},
+                 options.emission_scale,
+                 options.frames_in_flight * kUpdatesPerFrame,
+                 options.minimal_capacities},
+                m_deletion_queue),
       m_history(m_overlays.arena(), options.history),
-      m_edits(device.device(), m_overlays, m_history, options.edits, options.frames_in_flight, m_retired),
-      m_frames({&m_movers, &m_edits, &m_history, &m_overlays, &m_retired}),
+      m_edits(device.device(), m_overlays, m_history, options.edits, options.frames_in_flight, m_deletion_queue),
+      m_frames({&m_objects, &m_edits, &m_history, &m_overlays, &m_deletion_queue}),
       m_tables(uploadScene(device, Scene{}, true)), m_sum_shift(m_overlays.tree().sums.sum_shift),
       m_sizes(options.minimal_capacities)
 {
@@ -65,24 +66,25 @@ DynamicOctree::DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const Dyn
     m_results = {d, "update/results", pending + 1, vk::MemoryKind::Readback};
     m_overlays.reserve(options.minimal_capacities ? 1 : kRoomMin);
     // Last: what is recorded must not go.
-    device.perform([&](vk::FrameGraph& graph, vk::Retired& retired) { m_overlays.settle(graph, retired); });
+    device.perform([&](vk::FrameGraph& graph, vk::DeletionQueue& deletion_queue)
+                   { m_overlays.settle(graph, deletion_queue); });
 }
 
-MoverId DynamicOctree::add(std::shared_ptr<const MoverMesh> mesh, Pose pose)
+DynamicObjectId DynamicOctree::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose)
 {
     forgetPoses();
-    return m_movers.add(std::move(mesh), std::move(pose));
+    return m_objects.add(std::move(mesh), std::move(pose));
 }
 
-void DynamicOctree::place(MoverId mover, Pose pose)
+void DynamicOctree::setPose(DynamicObjectId object, Pose pose)
 {
     forgetPoses();
-    m_movers.place(mover, std::move(pose));
+    m_objects.setPose(object, std::move(pose));
 }
 
-void DynamicOctree::remove(MoverId mover)
+void DynamicOctree::remove(DynamicObjectId object)
 {
-    m_movers.remove(mover);
+    m_objects.remove(object);
     dropJob();
 }
 
@@ -93,10 +95,10 @@ void DynamicOctree::beginChange()
     m_overlays.renewVersion();
 }
 
-// Drops the poses, and the movers, that nothing shows and no entry brings back, every now and then.
+// Drops the poses, and the dynamic objects, that nothing shows and no entry brings back, every now and then.
 void DynamicOctree::forgetPoses()
 {
-    if (!m_movers.hasManyPoses())
+    if (!m_objects.hasManyPoses())
     {
         return;
     }
@@ -106,10 +108,10 @@ void DynamicOctree::forgetPoses()
     {
         states.insert(states.end(), m_job->states.begin(), m_job->states.end());
     }
-    m_movers.forgetPoses(states);
+    m_objects.forgetPoses(states);
 }
 
-RootPlace DynamicOctree::rootOf(const RootEntry& entry) const
+RootSlot DynamicOctree::rootOf(const RootEntry& entry) const
 {
     if (entry.pending)
     {
@@ -130,12 +132,13 @@ void DynamicOctree::prepareBuffers()
     }
     if (needed.touched > VoxelizeCapacities::kBricksMax || needed.records > kIndicesMax)
     {
-        throw Error(ErrorCode::Memory, "movers touch more nodes than 32-bit numbers count; lower the resolution");
+        throw Error(ErrorCode::Memory,
+                    "dynamic objects touch more nodes than 32-bit numbers count; lower the resolution");
     }
-    m_device.device().memory().require(UpdateBuffers::bytes(needed), "merging movers");
+    m_device.device().memory().require(UpdateBuffers::bytes(needed), "merging dynamic objects");
     if (m_update != nullptr)
     {
-        m_retired.keep(std::move(m_update));
+        m_deletion_queue.keep(std::move(m_update));
     }
     m_update = std::make_unique<UpdateBuffers>(m_device.device(), needed, m_overlays.tree().grid);
     m_capacities = needed;
@@ -195,7 +198,7 @@ bool DynamicOctree::update(vk::FrameGraph& graph, double budget_ms)
 
 bool DynamicOctree::updateOrWait(vk::FrameGraph& graph, double budget_ms)
 {
-    if (m_job == nullptr && m_movers.isEmpty())
+    if (m_job == nullptr && m_objects.isEmpty())
     {
         showRoot(graph, m_overlays.tree(), m_roots, {editedRoot(), 0});
         m_owes_root = false;
@@ -221,11 +224,11 @@ void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
     for (UpdateSlice& slice : slices)
     {
         slice.first_pass = graph.passCount();
-        m_job->steps[slice.step].record(graph, slice.first_unit, slice.unit_count);
+        m_job->stages[slice.stage].record(graph, slice.first_unit, slice.unit_count);
         slice.pass_end = graph.passCount();
     }
     m_pending_slices.push_back({m_frames.current(), std::move(slices)});
-    if (m_job->progress.step == m_job->steps.size())
+    if (m_job->progress.stage == m_job->stages.size())
     {
         finishJob(graph);
     }
@@ -241,8 +244,8 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
         showRoot(graph, m_overlays.tree(), m_roots, rootOf(m_history.current()));
         m_owes_root = false;
     }
-    m_movers.makeLayers();
-    m_sizes.begin(m_movers.leafCapacity());
+    m_objects.makeLayers();
+    m_sizes.begin(m_objects.leafCapacity());
     prepareBuffers();
     const FragmentSums& sums = m_overlays.tree().sums;
     const gpu::MergeView view = {{m_tables.view.address()},
@@ -256,12 +259,12 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
     {
         return false;
     }
-    RecordedSteps steps;
-    std::vector<MoverId> voxelized = m_movers.addSteps(m_sum_shift, steps);
+    RecordedStages stages;
+    std::vector<DynamicObjectId> voxelized = m_objects.addStages(m_sum_shift, stages);
     const auto result = static_cast<std::uint32_t>(m_result_count++ % m_results.count());
     m_job = std::make_unique<Job>(Job{
         .merge = {.tree = m_overlays.tree(),
-                  .layers = m_movers.layers(),
+                  .layers = m_objects.layers(),
                   .region = *region,
                   .base_root = editedRoot(),
                   .merge = m_options.merge,
@@ -269,30 +272,30 @@ bool DynamicOctree::beginJob(vk::FrameGraph& graph)
                   .emission_offset = m_overlays.emissionOffset(),
                   .view = m_merge_view,
                   .tables = m_tables.view,
-                  .place = result,
+                  .slot = result,
                   .roots = m_roots,
                   .results = m_results},
-        .states = m_movers.states(),
+        .states = m_objects.states(),
         .voxelized = std::move(voxelized),
-        .steps = std::move(steps),
+        .stages = std::move(stages),
         .plan = {},
         .progress = {},
     });
-    addMergeSteps(m_job->merge, *m_update, m_job->steps);
-    for (const RecordedStep& step : m_job->steps)
+    addMergeStages(m_job->merge, *m_update, m_job->stages);
+    for (const RecordedStage& stage : m_job->stages)
     {
-        m_job->plan.push_back(step.step);
+        m_job->plan.push_back(stage.stage);
     }
     return true;
 }
 
 void DynamicOctree::finishJob(vk::FrameGraph& graph)
 {
-    const RootPlace last = rootOf(m_history.current());
+    const RootSlot last = rootOf(m_history.current());
     showOverlay(graph, m_job->merge, *m_update, last);
     const std::uint64_t entry = m_history.push(m_job->merge.region, std::move(m_job->states));
     m_pending_updates.push_back(
-        {m_frames.current(), entry, m_job->merge.place, m_job->merge.region, m_capacities.touched});
+        {m_frames.current(), entry, m_job->merge.slot, m_job->merge.region, m_capacities.touched});
     m_job.reset();
 }
 
@@ -304,7 +307,7 @@ void DynamicOctree::dropJob()
         return;
     }
     m_history.giveBack(m_job->merge.region);
-    m_movers.forgetLayers(m_job->voxelized);
+    m_objects.forgetLayers(m_job->voxelized);
     m_job.reset();
     --m_result_count; // its result was not written
 }
@@ -341,7 +344,7 @@ bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove ba
     m_owes_root = false;
     dropJob();
     m_needs_update = false;
-    m_movers.bringBack(entry->layers);
+    m_objects.bringBack(entry->layers);
     return true;
 }
 
@@ -382,17 +385,17 @@ bool DynamicOctree::redoEdit(vk::FrameGraph& graph)
     return true;
 }
 
-// Shows what strokes have left. What movers were merged with is another tree now, or stands elsewhere.
+// Shows what strokes have left. What dynamic objects were merged with is another tree now, or stands elsewhere.
 void DynamicOctree::showEdited(vk::FrameGraph& graph)
 {
     beginChange();
     dropJob();
     m_history.forget();
-    m_needs_update = true; // even without movers, should this fail
+    m_needs_update = true; // even without dynamic objects, should this fail
     m_owes_root = true;
     showRoot(graph, m_overlays.tree(), m_roots, {editedRoot(), 0});
     m_owes_root = false;
-    m_needs_update = !m_movers.isEmpty();
+    m_needs_update = !m_objects.isEmpty();
 }
 
 // Drops the job for reasons of its own: another update has to begin.

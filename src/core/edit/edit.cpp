@@ -38,7 +38,7 @@ template <typename Params> void readRankSource(vk::AnyPass& pass, const DeviceTr
         const gpu::RankSource source = rankSource(pass, tree);
         params.before = source.before;
         params.voxels_before_leaf = source.voxels_before_leaf;
-        params.first_short_place = source.first_short_place;
+        params.first_short_entry = source.first_short_entry;
     }
 }
 
@@ -51,12 +51,12 @@ std::uint32_t levelCells(const gpu::EditBox& box, std::uint32_t level)
 
 // Everything but attributes.
 void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
-                 const DabPlaces& dab, DabBuffers& buffers)
+                 const DabSlots& dab, DabBuffers& buffers)
 {
     DeviceTree& tree = site.tree;
-    const gpu::EditPlaces places = {site.region.first_node, dab.from, dab.to};
+    const gpu::EditSlots slots = {site.region.first_node, dab.from, dab.to};
     const bool attributes = tree.hasNodeAttributes();
-    graph.fill(site.states, 0, std::uint64_t{places.to} * (sizeof(gpu::EditState) / 4), sizeof(gpu::EditState) / 4);
+    graph.fill(site.states, 0, std::uint64_t{slots.to} * (sizeof(gpu::EditState) / 4), sizeof(gpu::EditState) / 4);
     {
         vk::Pass pass =
             graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(), .attributes = attributes});
@@ -66,7 +66,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
         params.cells = pass.write(buffers.cells);
         params.states = pass.readWrite(site.states);
-        params.places = places;
+        params.slots = slots;
         params.brush = brush;
         params.box = extent.box;
         pass.dispatch(extent.cell_count, params);
@@ -87,8 +87,8 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         params.states = pass.readWrite(site.states);
         params.cell_count = extent.cell_count;
         params.inner_count = extent.inner_count;
-        params.from = places.from;
-        params.to = places.to;
+        params.from = slots.from;
+        params.to = slots.to;
         params.kept = dab.kept;
         params.node_end = site.region.first_node + site.region.node_capacity;
         params.voxel_end = site.region.first_voxel + site.region.voxel_capacity;
@@ -103,7 +103,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     params.ranks = ranksOf(pass, tree);
     params.cells = pass.readWrite(buffers.cells);
     params.states = pass.read(site.states);
-    params.places = places;
+    params.slots = slots;
     params.static_root = tree.overlays.static_root;
     params.attribute_offset = tree.attributeOffset();
     params.box = extent.box;
@@ -131,7 +131,7 @@ void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site
 }
 
 void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
-                      const DabPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+                      const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
     const bool emits = site.tree.emission_words.count() != 0;
     if (emits)
@@ -140,16 +140,16 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
         gpu::EditEmissionWordsParams params{};
         params.words = pass.write(site.tree.emission_words);
         params.states = pass.read(site.states);
-        params.from = places.from;
-        params.to = places.to;
-        params.kept = places.kept;
+        params.from = slots.from;
+        params.to = slots.to;
+        params.kept = slots.kept;
         params.emission_offset = site.emission_offset;
         pass.dispatch(divideUp(extent.voxel_bound, kVoxelBlock), params);
     }
-    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits}, site, brush, extent, places.to, buffers);
+    recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits}, site, brush, extent, slots.to, buffers);
     if (emits)
     {
-        recordVoxelPass(graph, gpu::edit::Emission{}, site, brush, extent, places.to, buffers);
+        recordVoxelPass(graph, gpu::edit::Emission{}, site, brush, extent, slots.to, buffers);
     }
     std::uint32_t first_cell = extent.cell_count;
     for (std::uint32_t level = extent.box.level_count; level-- > 0;)
@@ -166,18 +166,18 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
         params.averages = pass.readWrite(site.tree.node_attributes);
         params.first_cell = first_cell;
         params.cell_count = cell_count;
-        params.to = places.to;
+        params.to = slots.to;
         params.children_offset = are_leaves ? 0 : site.tree.attributeOffset();
         params.attribute_offset = site.tree.attributeOffset();
         pass.dispatch(cell_count, params);
     }
 }
 
-// Marks what kept places are made of, level by level from their roots down.
+// Marks what kept slots are made of, level by level from their roots down.
 void recordMarks(vk::FrameGraph& graph, EditSite& site, const std::vector<bool>& kept, CompactBuffers& buffers)
 {
-    std::vector<gpu::uint> roots(site.placeCount());
-    std::ranges::transform(kept, roots.begin(), [](bool is_kept) { return is_kept ? 1U : gpu::kMarkPlace; });
+    std::vector<gpu::uint> roots(site.slotCount());
+    std::ranges::transform(kept, roots.begin(), [](bool is_kept) { return is_kept ? 1U : gpu::kMarkSlot; });
     graph.fill(buffers.marks, 0);
     graph.update(buffers.marks, 0, roots);
     if (site.tree.hasNodeAttributes())
@@ -237,7 +237,7 @@ void clearEmission(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& r
     params.words = pass.write(site.tree.emission_words);
     params.first_word = region.first_voxel / kVoxelBlock;
     params.word_count = region.voxel_capacity / kVoxelBlock;
-    params.first_place = region.first_voxel + site.emission_offset;
+    params.first_index = region.first_voxel + site.emission_offset;
     pass.dispatch(params.word_count, params);
 }
 
@@ -298,20 +298,20 @@ void beginEdits(vk::FrameGraph& graph, EditSite& site)
     params.static_root = tree.overlays.static_root;
     params.region_node = site.region.first_node;
     params.attribute_offset = tree.attributeOffset();
-    params.node_top = site.region.first_node + site.placeCount();
+    params.node_top = site.region.first_node + site.slotCount();
     params.voxel_top = site.region.first_voxel;
     params.voxel_count = tree.voxel_count;
     pass.dispatch(1, params);
 }
 
 void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
-               const DabPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+               const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
     const gpu::Brush dab = gpuBrush(brush);
-    recordNodes(graph, site, dab, extent, places, buffers);
+    recordNodes(graph, site, dab, extent, slots, buffers);
     if (site.tree.hasNodeAttributes())
     {
-        recordAttributes(graph, site, dab, extent, places, tables, buffers);
+        recordAttributes(graph, site, dab, extent, slots, tables, buffers);
     }
 }
 
@@ -380,14 +380,14 @@ void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion
     params.numbers = pass.read(buffers.numbers);
     params.voxel_bits = pass.read(buffers.voxel_bits);
     params.voxel_numbers = pass.read(buffers.voxel_numbers);
-    params.place_count = site.placeCount();
+    params.slot_count = site.slotCount();
     params.first_node = site.region.first_node;
     params.node_count = site.region.node_capacity;
     params.first_voxel = site.region.first_voxel;
     params.voxel_count = attributes ? site.region.voxel_capacity : 0;
     params.new_first_node = to.first_node;
     params.new_first_voxel = to.first_voxel;
-    pass.dispatch(site.placeCount(), params);
+    pass.dispatch(site.slotCount(), params);
 }
 
 } // namespace zvo

@@ -36,33 +36,33 @@ struct DabBuffers
     vk::BufferOf<gpu::EditCell> cells; // [cell_count]
 };
 
-/// Where edits stand: the first place_count nodes of region are the places' roots (edit/edit.h).
+/// Where edits stand: the first slot_count nodes of region are the slots' roots (edit/edit.h).
 struct EditSite
 {
     DeviceTree& tree;
     OverlayRegion region;
-    vk::BufferOf<gpu::EditState>& states; // [place_count]
-    std::uint32_t emission_offset = 0;    // from a voxel of the region to its place among emission values, modulo 2^32
+    vk::BufferOf<gpu::EditState>& states; // [slot_count]
+    std::uint32_t emission_offset = 0;    // from a voxel of the region to its emission's index, modulo 2^32
 
-    [[nodiscard]] std::uint32_t placeCount() const { return static_cast<std::uint32_t>(states.count()); }
+    [[nodiscard]] std::uint32_t slotCount() const { return static_cast<std::uint32_t>(states.count()); }
 };
 
-/// Records the pass that makes place 0 the static tree, of which nothing was edited.
+/// Records the pass that makes slot 0 the static tree, of which nothing was edited.
 void beginEdits(vk::FrameGraph& graph, EditSite& site);
 
-/// The places of a dab.
-struct DabPlaces
+/// The slots of a dab.
+struct DabSlots
 {
     std::uint32_t from = 0;
     std::uint32_t to = 0;
     std::uint32_t kept = 0; // nothing is written over what it is made of; it may be from
 };
 
-/// Records a dab: place `to` becomes place `from` with what brush does to it. tables: [1] of sRGB codes. Cost: cells of
+/// Records a dab: slot `to` becomes slot `from` with what brush does to it. tables: [1] of sRGB codes. Cost: cells of
 /// the brush's box, whatever the size of tree and grid; nothing is read back. Where the region's room does not suffice,
-/// place `to` becomes a copy of `from` and EditState::failed tells.
+/// slot `to` becomes a copy of `from` and EditState::failed tells.
 void recordDab(vk::FrameGraph& graph, EditSite& site, const Brush& brush, const DabExtent& extent,
-               const DabPlaces& places, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers);
+               const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers);
 
 /// What compaction needs while it runs.
 struct CompactBuffers
@@ -80,9 +80,9 @@ struct CompactBuffers
     vk::BufferOf<gpu::uint> total;         // [1]
 };
 
-/// Records the passes that copy what kept places are made of from site's region to another one, in which the other
-/// places are undefined. kept: for each place whether it is. `to` has room for it, and does not overlap site's region.
-/// states: [place_count] of the places there. Nothing of site changes. Cost: site's region.
+/// Records the passes that copy what kept slots are made of from site's region to another one, in which the other
+/// slots are undefined. kept: for each slot whether it is. `to` has room for it, and does not overlap site's region.
+/// states: [slot_count] of the slots there. Nothing of site changes. Cost: site's region.
 void recordCompaction(vk::FrameGraph& graph, EditSite& site, const OverlayRegion& to,
                       vk::BufferOf<gpu::EditState>& states, const std::vector<bool>& kept, CompactBuffers& buffers);
 

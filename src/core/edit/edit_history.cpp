@@ -9,22 +9,22 @@ namespace zvo
 EditHistory::EditHistory(std::size_t entries_max)
     : m_entries_max(std::max<std::size_t>(entries_max, 1)), m_tops(m_entries_max + 2 + kDabsPerFrameMax)
 {
-    for (std::uint32_t place = 1; place < m_tops.size(); ++place)
+    for (std::uint32_t slot = 1; slot < m_tops.size(); ++slot)
     {
-        m_free.push_back(place);
+        m_free.push_back(slot);
     }
-    m_tops[0].nodes = m_tops.size(); // the places' roots
+    m_tops[0].nodes = m_tops.size(); // the slots' roots
 }
 
 EditTop EditHistory::topAbove(std::uint32_t kept) const
 {
-    EditTop top = m_tops[place()];
+    EditTop top = m_tops[slot()];
     top.nodes = std::max(top.nodes, m_tops[kept].nodes);
     top.voxels = std::max(top.voxels, m_tops[kept].voxels);
     return top;
 }
 
-void EditHistory::freePlaces(std::size_t first, std::size_t end)
+void EditHistory::freeSlots(std::size_t first, std::size_t end)
 {
     const auto begin = m_line.begin();
     m_free.insert(m_free.end(), begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end));
@@ -42,11 +42,11 @@ std::uint32_t EditHistory::push(std::uint64_t node_bound, std::uint64_t voxel_bo
     m_line.push_back(to);
     if (m_is_stroke)
     {
-        freePlaces(m_current, m_current + 1);
+        freeSlots(m_current, m_current + 1);
     }
     else if (m_current == m_entries_max)
     {
-        freePlaces(0, 1);
+        freeSlots(0, 1);
     }
     m_current = m_line.size() - 1;
     m_is_stroke = true;
@@ -72,36 +72,36 @@ bool EditHistory::redo()
 bool EditHistory::dropOldest()
 {
     const std::size_t count = (undoCount() + 1) / 2;
-    freePlaces(0, count);
+    freeSlots(0, count);
     m_current -= count;
     return count != 0;
 }
 
 void EditHistory::dropRedo()
 {
-    freePlaces(m_current + 1, m_line.size());
+    freeSlots(m_current + 1, m_line.size());
 }
 
 std::vector<bool> EditHistory::used() const
 {
     std::vector<bool> used(m_tops.size());
-    for (const std::uint32_t place : m_line)
+    for (const std::uint32_t slot : m_line)
     {
-        used[place] = true;
+        used[slot] = true;
     }
     return used;
 }
 
 bool EditHistory::isExact() const
 {
-    return std::ranges::all_of(m_line, [this](std::uint32_t place) { return m_tops[place].is_exact; });
+    return std::ranges::all_of(m_line, [this](std::uint32_t slot) { return m_tops[slot].is_exact; });
 }
 
 void EditHistory::forgetTops()
 {
-    for (const std::uint32_t place : m_line)
+    for (const std::uint32_t slot : m_line)
     {
-        m_tops[place].is_exact = false;
+        m_tops[slot].is_exact = false;
     }
 }
 

@@ -33,12 +33,12 @@ OverlayRegion regionOf(std::uint64_t nodes, std::uint64_t voxels)
 } // namespace
 
 Edits::Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const EditBounds& bounds,
-             std::uint32_t frames_in_flight, vk::Retired& retired)
-    : m_device(device), m_overlays(overlays), m_regions(regions), m_retired(retired),
+             std::uint32_t frames_in_flight, vk::DeletionQueue& deletion_queue)
+    : m_device(device), m_overlays(overlays), m_regions(regions), m_deletion_queue(deletion_queue),
       m_bytes_max(bounds.bytes_max), m_now{.history = EditHistory(bounds.entries_max)},
-      m_slot_count(std::uint64_t{frames_in_flight} + 1)
+      m_ring_slot_count(std::uint64_t{frames_in_flight} + 1)
 {
-    m_now.changes.resize(m_now.history.placeCount());
+    m_now.changes.resize(m_now.history.slotCount());
 }
 
 EditSite Edits::site()
@@ -48,7 +48,7 @@ EditSite Edits::site()
 
 std::uint32_t Edits::root() const
 {
-    return m_now.region ? m_now.region->first_node + m_now.history.place() : m_overlays.tree().overlays.static_root;
+    return m_now.region ? m_now.region->first_node + m_now.history.slot() : m_overlays.tree().overlays.static_root;
 }
 
 std::uint64_t Edits::heldBytes() const
@@ -58,13 +58,13 @@ std::uint64_t Edits::heldBytes() const
 
 std::uint64_t Edits::shownBytes() const
 {
-    const EditTop& top = m_now.history.top(m_now.history.place());
+    const EditTop& top = m_now.history.top(m_now.history.slot());
     return m_now.region ? m_overlays.arena().bytes(regionOf(top.nodes, top.voxels)) : 0;
 }
 
 std::uint32_t Edits::voxelCount() const
 {
-    return m_now.region ? m_now.history.top(m_now.history.place()).voxel_count : m_overlays.tree().voxel_count;
+    return m_now.region ? m_now.history.top(m_now.history.slot()).voxel_count : m_overlays.tree().voxel_count;
 }
 
 bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables)
@@ -101,10 +101,10 @@ bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gp
 }
 
 // What was shown when the frame began: the frame may be lost, whatever of it the device has run.
-std::uint32_t Edits::keptPlace() const
+std::uint32_t Edits::keptSlot() const
 {
     const bool is_kept = m_before && m_before->state.region == m_now.region; // otherwise it stands elsewhere
-    return (is_kept ? m_before->state : m_now).history.place();
+    return (is_kept ? m_before->state : m_now).history.slot();
 }
 
 bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& extent,
@@ -116,7 +116,7 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         begin(graph, extent);
     }
     const bool attributes = m_overlays.hasAttributes();
-    const EditTop top = m_now.history.topAbove(keptPlace());
+    const EditTop top = m_now.history.topAbove(keptSlot());
     const EditTop needed = {top.nodes + extent.node_bound, attributes ? top.voxels + extent.voxel_bound : 0};
     if ((needed.nodes > m_now.region->node_capacity || needed.voxels > m_now.region->voxel_capacity) &&
         !makeRoom(graph, needed))
@@ -128,17 +128,17 @@ bool Edits::tryDab(vk::FrameGraph& graph, const Brush& brush, const DabExtent& e
         DabBuffers larger(m_device, extent.cell_count);
         if (m_buffers)
         {
-            m_retired.keep(std::move(*m_buffers));
+            m_deletion_queue.keep(std::move(*m_buffers));
         }
         m_buffers = std::move(larger);
     }
-    DabPlaces places = {.from = m_now.history.place(), .kept = keptPlace()};
-    places.to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0, places.kept);
+    DabSlots slots = {.from = m_now.history.slot(), .kept = keptSlot()};
+    slots.to = m_now.history.push(extent.node_bound, attributes ? extent.voxel_bound : 0, slots.kept);
     m_now.is_compact = false;
     m_has_written = true;
     EditSite where = site();
-    recordDab(graph, where, brush, extent, places, tables, *m_buffers);
-    report(graph, places.to, 1);
+    recordDab(graph, where, brush, extent, slots, tables, *m_buffers);
+    report(graph, slots.to, 1);
     return true;
 }
 
@@ -156,22 +156,22 @@ OverlayRegion Edits::allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, 
 // For frames in flight, they outlive those who have them.
 std::shared_ptr<vk::BufferOf<gpu::EditState>> Edits::makeStates()
 {
-    return m_retired.keep(
-        std::make_shared<vk::BufferOf<gpu::EditState>>(m_device, "edit/states", m_now.history.placeCount()));
+    return m_deletion_queue.keep(
+        std::make_shared<vk::BufferOf<gpu::EditState>>(m_device, "edit/states", m_now.history.slotCount()));
 }
 
 // Makes the first region, in which nothing is edited.
 void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent)
 {
     vk::Device& d = m_device;
-    const std::uint32_t places = m_now.history.placeCount();
+    const std::uint32_t slots = m_now.history.slotCount();
     m_now.states = makeStates();
     if (m_reports.count() == 0)
     {
-        m_reports = {d, "edit/reports", m_slot_count * places, vk::MemoryKind::Readback};
+        m_reports = {d, "edit/reports", m_ring_slot_count * slots, vk::MemoryKind::Readback};
     }
     const std::uint64_t voxels = m_overlays.hasAttributes() ? kDabsAtFirst * extent.voxel_bound : 0;
-    m_now.region = allocateRegion(graph, places + kDabsAtFirst * extent.node_bound, voxels);
+    m_now.region = allocateRegion(graph, slots + kDabsAtFirst * extent.node_bound, voxels);
     EditTop top = m_now.history.top(0);
     top.voxel_count = m_overlays.tree().voxel_count;
     m_now.history.learn(0, top);
@@ -216,43 +216,43 @@ bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed)
 void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity)
 {
     m_device.memory().require(CompactBuffers::bytes(*m_now.region), "making room for edits");
-    auto& buffers = m_retired.keep(CompactBuffers(m_device, *m_now.region));
+    auto& buffers = m_deletion_queue.keep(CompactBuffers(m_device, *m_now.region));
     const OverlayRegion to = allocateRegion(graph, capacity.nodes, capacity.voxels);
     m_left.push_back(to); // given back should something throw
     EditSite where = site();
     std::shared_ptr<vk::BufferOf<gpu::EditState>> states = makeStates();
     recordCompaction(graph, where, to, *states, m_now.history.used(), buffers);
     m_left.back() = std::exchange(*m_now.region, to);
-    m_retired.keep(std::exchange(m_now.states, std::move(states)));
+    m_deletion_queue.keep(std::exchange(m_now.states, std::move(states)));
     m_now.history.forgetTops();
     m_now.is_compact = true;
-    report(graph, 0, m_now.history.placeCount());
+    report(graph, 0, m_now.history.slotCount());
 }
 
 // Has states copied to where the host can read them when the frame is done.
-void Edits::report(vk::FrameGraph& graph, std::uint32_t first_place, std::uint32_t place_count)
+void Edits::report(vk::FrameGraph& graph, std::uint32_t first_slot, std::uint32_t slot_count)
 {
     constexpr std::uint64_t kBytes = sizeof(gpu::EditState);
-    const bool has_slot = !m_pending.empty() && m_pending.back().frame == m_retired.frame();
-    m_slot = has_slot ? m_slot : (m_slot + 1) % m_slot_count;
-    const std::uint64_t first = m_slot * m_now.history.placeCount() + first_place;
-    graph.copy(*m_now.states, first_place * kBytes, m_reports, first * kBytes, place_count * kBytes);
+    const bool has_ring_slot = !m_pending.empty() && m_pending.back().frame == m_deletion_queue.frame();
+    m_ring_slot = has_ring_slot ? m_ring_slot : (m_ring_slot + 1) % m_ring_slot_count;
+    const std::uint64_t first = m_ring_slot * m_now.history.slotCount() + first_slot;
+    graph.copy(*m_now.states, first_slot * kBytes, m_reports, first * kBytes, slot_count * kBytes);
     graph.releaseToHost();
     ++m_change_count;
-    std::fill_n(m_now.changes.begin() + first_place, place_count, m_change_count);
-    m_pending.push_back({m_retired.frame(), m_slot, first_place, place_count, *m_now.region, m_change_count});
+    std::fill_n(m_now.changes.begin() + first_slot, slot_count, m_change_count);
+    m_pending.push_back({m_deletion_queue.frame(), m_ring_slot, first_slot, slot_count, *m_now.region, m_change_count});
 }
 
 void Edits::learn(const Report& report, State& state) const
 {
-    const std::uint64_t slot = report.slot * m_now.history.placeCount();
-    for (std::uint32_t place = report.first_place; place < report.first_place + report.place_count; ++place)
+    const std::uint64_t first = report.ring_slot * m_now.history.slotCount();
+    for (std::uint32_t slot = report.first_slot; slot < report.first_slot + report.slot_count; ++slot)
     {
-        const gpu::EditState& told = m_reports.mappedData()[slot + place];
-        if (state.changes[place] == report.change)
+        const gpu::EditState& told = m_reports.mappedData()[first + slot];
+        if (state.changes[slot] == report.change)
         {
-            state.history.learn(place, {told.node_top - report.region.first_node,
-                                        told.voxel_top - report.region.first_voxel, told.voxel_count, true});
+            state.history.learn(slot, {told.node_top - report.region.first_node,
+                                       told.voxel_top - report.region.first_voxel, told.voxel_count, true});
         }
     }
 }
@@ -328,10 +328,10 @@ void Edits::frameDone(std::uint64_t frame)
 
 void Edits::frameLost()
 {
-    const auto isLost = [&](const Report& report) { return report.frame == m_retired.frame(); };
+    const auto isLost = [&](const Report& report) { return report.frame == m_deletion_queue.frame(); };
     if (std::erase_if(m_pending, isLost) != 0)
     {
-        m_slot = (m_slot + m_slot_count - 1) % m_slot_count; // frames in flight have the others
+        m_ring_slot = (m_ring_slot + m_ring_slot_count - 1) % m_ring_slot_count; // frames in flight have the others
     }
     if (!m_before)
     {

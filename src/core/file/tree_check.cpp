@@ -2,7 +2,7 @@
 #include "core/file/tree_check.h"
 
 #include "core/base/divide_up.h"
-#include "core/file/looks_check.h"
+#include "core/file/attributes_check.h"
 
 #include <bit>
 #include <cmath>
@@ -119,13 +119,13 @@ Fault checkLists(const TreeData& tree, std::size_t level, std::uint64_t& next_en
     for (std::uint32_t i = first_node; i < first_node + node_count; ++i)
     {
         const gpu::Node& node = tree.nodes[i];
-        const std::uint64_t place = tree.packing().firstPlace() + next_entry;
-        const std::uint64_t second_place = place + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
-        if (node.base_lo != (gpu::kChildList | place) || node.base_hi != (gpu::kChildList | second_place))
+        const std::uint64_t index = tree.packing().firstEntry() + next_entry;
+        const std::uint64_t second_index = index + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
+        if (node.base_lo != (gpu::kChildList | index) || node.base_hi != (gpu::kChildList | second_index))
         {
             return fmt::format("node {} of level {} has its lists at {:#x} and {:#x}, where {:#x} and {:#x} come next",
-                               i, level, node.base_lo, node.base_hi, gpu::kChildList | place,
-                               gpu::kChildList | second_place);
+                               i, level, node.base_lo, node.base_hi, gpu::kChildList | index,
+                               gpu::kChildList | second_index);
         }
         const std::uint64_t end = next_entry + cellCount(node);
         if (end > tree.lists.size())
@@ -249,7 +249,7 @@ Fault checkDagCounts(const TreeData& tree)
             }
             else
             {
-                const std::uint64_t first = (node.base_lo & ~gpu::kChildList) - tree.packing().firstPlace();
+                const std::uint64_t first = (node.base_lo & ~gpu::kChildList) - tree.packing().firstEntry();
                 for (std::uint64_t entry = first; entry < first + cellCount(node); ++entry)
                 {
                     if (Fault fault = checkBefore(tree, entry, sum))
@@ -326,7 +326,7 @@ std::optional<std::string> checkTree(const TreeData& tree)
     {
         return fault;
     }
-    return checkLooks(tree);
+    return checkAttributes(tree);
 }
 
 } // namespace zvo

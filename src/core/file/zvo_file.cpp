@@ -139,9 +139,9 @@ void writeZvo(const TreeData& tree, const std::function<void(std::span<const std
     addContent(contents, ZvoSectionId::Before, tree.before);
     addContent(contents, ZvoSectionId::VoxelsBeforeLeaf, tree.voxels_before_leaf);
     addContent(contents, ZvoSectionId::VoxelAttributes, tree.voxel_attributes);
-    addContent(contents, ZvoSectionId::VoxelAttributes, tree.packed.voxels, zvoFormat(tree.packed.form));
+    addContent(contents, ZvoSectionId::VoxelAttributes, tree.packed.voxels, zvoFormat(tree.packed.format));
     addContent(contents, ZvoSectionId::NodeAttributes, tree.node_attributes);
-    addContent(contents, ZvoSectionId::NodeAttributes, tree.packed.nodes, zvoFormat(nodeForm(tree.packed.form)));
+    addContent(contents, ZvoSectionId::NodeAttributes, tree.packed.nodes, zvoFormat(nodeFormat(tree.packed.format)));
     addContent(contents, ZvoSectionId::EmissionWords, tree.emission_words);
     addContent(contents, ZvoSectionId::Emission, tree.emission);
 

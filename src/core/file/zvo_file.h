@@ -43,19 +43,20 @@ enum class ZvoSectionId : std::uint32_t
     Emission = 9,         ///< RGB9E5
 };
 
-/// The form of a section's elements. Others than Plain are for attributes alone.
+/// How a section's elements are laid out. Others than Plain are for attributes alone.
 enum class ZvoFormat : std::uint32_t
 {
     Plain = 1,       ///< as in device memory; attributes: gpu::Attribute, 8 bytes
-    Attributes4 = 2, ///< a word each (shared/attribute_forms.h)
+    Attributes4 = 2, ///< a word each (shared/attribute_formats.h)
     Blocks = 3,      ///< of voxels: 6 words for 16 of them (likewise)
 };
 
-/// The format of attributes in that form.
-constexpr ZvoFormat zvoFormat(AttributeForm form)
+/// What sections call that format of attributes.
+constexpr ZvoFormat zvoFormat(AttributeFormat format)
 {
-    return form == AttributeForm::Bytes4 ? ZvoFormat::Attributes4
-                                         : (form == AttributeForm::Blocks ? ZvoFormat::Blocks : ZvoFormat::Plain);
+    return format == AttributeFormat::Bytes4
+               ? ZvoFormat::Attributes4
+               : (format == AttributeFormat::Blocks ? ZvoFormat::Blocks : ZvoFormat::Plain);
 }
 
 /// Values of the array in memory that are one element of a section.

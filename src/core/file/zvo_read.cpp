@@ -36,7 +36,7 @@ public:
         setUpTree();
         for (const ZvoSection& section : m_file.sections)
         {
-            checkPlace(section);
+            checkOffset(section);
             readSection(section);
         }
         if (m_end != m_file.header.file_bytes)
@@ -167,7 +167,7 @@ private:
     }
 
     // Sections stand one behind the other, each from the next multiple of kZvoAlignment on; between them are zeros.
-    void checkPlace(const ZvoSection& section)
+    void checkOffset(const ZvoSection& section)
     {
         const std::string name = sectionName(section.id);
         const std::uint64_t offset = zvoAligned(m_end);
@@ -267,21 +267,21 @@ private:
         switch (static_cast<ZvoFormat>(section.format))
         {
         case ZvoFormat::Attributes4:
-            tree.packed.form = AttributeForm::Bytes4;
+            tree.packed.format = AttributeFormat::Bytes4;
             return readArray(section, tree.packed.voxels, count, ZvoFormat::Attributes4);
         case ZvoFormat::Blocks:
-            tree.packed.form = AttributeForm::Blocks;
+            tree.packed.format = AttributeFormat::Blocks;
             return readArray(section, tree.packed.voxels, divideUp(count, gpu::kBlockVoxels), ZvoFormat::Blocks);
         default:
             return readArray(section, tree.voxel_attributes, count);
         }
     }
 
-    // Voxels, whose section comes first, say in which form nodes are.
+    // Voxels, whose section comes first, say which format nodes have.
     void readNodeAttributes(const ZvoSection& section)
     {
         TreeData& tree = m_file.tree;
-        const ZvoFormat format = zvoFormat(nodeForm(tree.packed.form));
+        const ZvoFormat format = zvoFormat(nodeFormat(tree.packed.format));
         const bool is_known = section.format >= static_cast<std::uint32_t>(ZvoFormat::Plain) &&
                               section.format <= static_cast<std::uint32_t>(ZvoFormat::Blocks);
         if (is_known && section.format != static_cast<std::uint32_t>(format))

@@ -22,9 +22,9 @@ constexpr std::uint64_t kRoomPerAttribute = 32; // bytes: itself, its words, and
 
 } // namespace
 
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, DeviceTree& tree)
+std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeFormat format, DeviceTree& tree)
 {
-    return runJob(device, TreePacker(device.device(), form, tree));
+    return runJob(device, TreePacker(device.device(), format, tree));
 }
 
 void AttributePacker::append(std::vector<gpu::Attribute>&& more)
@@ -37,7 +37,7 @@ void AttributePacker::append(std::vector<gpu::Attribute>&& more)
     {
         attributes.insert(attributes.end(), more.begin(), more.end());
     }
-    if (isPacked(m_form) && attributes.size() >= kEnough)
+    if (isPacked(m_format) && attributes.size() >= kEnough)
     {
         pack(attributes.size() / gpu::kBlockVoxels * gpu::kBlockVoxels); // blocks begin where they do in the whole
     }
@@ -45,7 +45,7 @@ void AttributePacker::append(std::vector<gpu::Attribute>&& more)
 
 void AttributePacker::finish()
 {
-    if (isPacked(m_form))
+    if (isPacked(m_format))
     {
         pack(attributes.size());
     }
@@ -60,9 +60,9 @@ void AttributePacker::pack(std::uint64_t count)
     {
         const auto piece = std::span(attributes).subspan(first, std::min(count - first, piece_max));
         const auto from = m_device.makeBuffer<gpu::Attribute>("attributes to pack", piece);
-        vk::BufferOf<gpu::uint> to(m_device.device(), "packed attributes", packedWords(m_form, piece.size()));
+        vk::BufferOf<gpu::uint> to(m_device.device(), "packed attributes", packedWords(m_format, piece.size()));
         const std::vector<vk::PassTime> more =
-            m_device.run([&](vk::FrameGraph& graph) { packAttributes(graph, from, m_form, to); });
+            m_device.run([&](vk::FrameGraph& graph) { packAttributes(graph, from, m_format, to); });
         passes.insert(passes.end(), more.begin(), more.end());
         const std::vector<gpu::uint> packed = m_device.download(to);
         words.insert(words.end(), packed.begin(), packed.end());

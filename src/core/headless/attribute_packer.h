@@ -11,16 +11,16 @@
 namespace zvo
 {
 
-/// Replaces the attributes of tree by such in a packed form (TreePacker), and waits. Returns the passes. Throws
+/// Replaces the attributes of tree by such in a packed format (TreePacker), and waits. Returns the passes. Throws
 /// Error{Memory} when the device's budget does not suffice.
-std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeForm form, DeviceTree& tree);
+std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeFormat format, DeviceTree& tree);
 
 /// Attributes that come to the host piece by piece, packed on the device as if all of them had come at once.
 class AttributePacker
 {
 public:
-    /// form: any; what is not packed is collected as it is.
-    AttributePacker(vk::HeadlessDevice& device, AttributeForm form) : m_device(device), m_form(form) {}
+    /// format: any; what is not packed is collected as it is.
+    AttributePacker(vk::HeadlessDevice& device, AttributeFormat format) : m_device(device), m_format(format) {}
 
     /// Adds attributes behind those that came before, packs what is enough for it, and waits. Throws Error{Memory}.
     void append(std::vector<gpu::Attribute>&& more);
@@ -28,7 +28,7 @@ public:
     /// Packs the rest.
     void finish();
 
-    std::vector<gpu::Attribute> attributes; ///< those that are not packed; in a packed form none, after finish()
+    std::vector<gpu::Attribute> attributes; ///< those that are not packed; in a packed format none, after finish()
     std::vector<gpu::uint> words;           ///< of those that are
     std::vector<vk::PassTime> passes;
 
@@ -36,7 +36,7 @@ private:
     void pack(std::uint64_t count);
 
     vk::HeadlessDevice& m_device;
-    AttributeForm m_form;
+    AttributeFormat m_format;
 };
 
 } // namespace zvo

@@ -17,19 +17,19 @@ CompressResult compress(vk::HeadlessDevice& device, DeviceTree source, const Com
 TreeData compressTree(vk::HeadlessDevice& device, TreeData octree)
 {
     const CompressOptions options = {.ranks = octree.hasAttributes()};
-    TreeData looks;
-    looks.voxel_attributes = std::exchange(octree.voxel_attributes, {});
-    looks.packed.voxels = std::exchange(octree.packed.voxels, {});
-    looks.emission_words = std::exchange(octree.emission_words, {});
-    looks.emission = std::exchange(octree.emission, {});
+    TreeData attributes;
+    attributes.voxel_attributes = std::exchange(octree.voxel_attributes, {});
+    attributes.packed.voxels = std::exchange(octree.packed.voxels, {});
+    attributes.emission_words = std::exchange(octree.emission_words, {});
+    attributes.emission = std::exchange(octree.emission, {});
 
     DeviceTree uploaded = uploadTree(device, octree);
     octree = {};
     TreeData dag = downloadTree(device, compress(device, std::move(uploaded), options).dag);
-    dag.voxel_attributes = std::move(looks.voxel_attributes);
-    dag.packed.voxels = std::move(looks.packed.voxels);
-    dag.emission_words = std::move(looks.emission_words);
-    dag.emission = std::move(looks.emission);
+    dag.voxel_attributes = std::move(attributes.voxel_attributes);
+    dag.packed.voxels = std::move(attributes.packed.voxels);
+    dag.emission_words = std::move(attributes.emission_words);
+    dag.emission = std::move(attributes.emission);
     return dag;
 }
 

@@ -19,7 +19,7 @@ namespace
 constexpr std::uint32_t kCellsOfHalf = 32;
 
 // A node on the way down.
-struct Place
+struct NodeOnPath
 {
     std::uint32_t node = 0;
     gpu::BeforeChild rank{0, 0}; // of the static octree's node, where it stands in a list
@@ -42,8 +42,8 @@ public:
         m_before = device.download(tree.lists.before);
         m_voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
         m_entries = nodesToEntries(device.download(tree.nodes, tree.node_count), tree.packing());
-        m_first_place = tree.packing().firstPlace();
-        m_first_short_place = m_first_place + tree.lists.long_entry_count;
+        m_first_entry = tree.packing().firstEntry();
+        m_first_short_entry = m_first_entry + tree.lists.long_entry_count;
         m_first_overlay_node = static_cast<std::uint32_t>(m_nodes.size());
         if (tree.hasOverlays())
         {
@@ -53,30 +53,33 @@ public:
         }
     }
 
-    [[nodiscard]] const gpu::Node& node(const Place& place) const { return m_nodes[place.node]; }
+    [[nodiscard]] const gpu::Node& node(const NodeOnPath& at) const { return m_nodes[at.node]; }
     [[nodiscard]] bool hasAttributes() const { return !m_voxels.empty(); }
     [[nodiscard]] bool hasAverages() const { return !m_averages.empty(); }
 
-    [[nodiscard]] const gpu::Attribute& average(const Place& place) const
+    [[nodiscard]] const gpu::Attribute& average(const NodeOnPath& at) const
     {
-        const std::uint32_t own = place.node == 0 ? 0 : place.node + m_attribute_offset; // modulo 2^32
-        return m_averages[place.is_listed ? place.rank.nodes : own];
+        const std::uint32_t own = at.node == 0 ? 0 : at.node + m_attribute_offset; // modulo 2^32
+        return m_averages[at.is_listed ? at.rank.nodes : own];
     }
 
     // What a node's base and the rank of a child in its half name.
-    [[nodiscard]] Place child(const Place& parent, std::uint32_t base, std::uint32_t rank, bool is_leaf) const
+    [[nodiscard]] NodeOnPath child(const NodeOnPath& parent, std::uint32_t base, std::uint32_t rank, bool is_leaf) const
     {
         if ((base & gpu::kChildList) == 0 || m_entries.empty())
         {
             return {.node = base + rank};
         }
-        const std::uint32_t place = (base & ~gpu::kChildList) + rank;
-        return {.node = m_entries[place - m_first_place], .rank = rankOf(parent, place, is_leaf), .is_listed = true};
+        const std::uint32_t index = (base & ~gpu::kChildList) + rank;
+        return {.node = m_entries[index - m_first_entry], .rank = rankOf(parent, index, is_leaf), .is_listed = true};
     }
 
     // The attribute, and what is emitted, of a leaf's voxel.
     [[nodiscard]] const gpu::Attribute& voxel(std::uint64_t index) const { return m_voxels[index]; }
-    [[nodiscard]] std::uint32_t firstVoxel(const Place& leaf) const { return leaf.is_listed ? leaf.rank.voxels : 0; }
+    [[nodiscard]] std::uint32_t firstVoxel(const NodeOnPath& leaf) const
+    {
+        return leaf.is_listed ? leaf.rank.voxels : 0;
+    }
     [[nodiscard]] std::uint32_t emission(std::uint64_t index) const
     {
         const gpu::uvec2& word = m_emission_words[index / gpu::kVoxelsPerEmissionWord];
@@ -85,7 +88,7 @@ public:
     }
 
 private:
-    [[nodiscard]] gpu::BeforeChild rankOf(const Place& parent, std::uint32_t place, bool is_leaf) const
+    [[nodiscard]] gpu::BeforeChild rankOf(const NodeOnPath& parent, std::uint32_t index, bool is_leaf) const
     {
         if (m_voxels.empty())
         {
@@ -95,13 +98,13 @@ private:
         const gpu::BeforeChild& rank = in_overlay ? m_ranks[parent.node - m_first_overlay_node] : parent.rank;
         if (!is_leaf)
         {
-            const gpu::BeforeChild& before = m_before[place - m_first_place];
+            const gpu::BeforeChild& before = m_before[index - m_first_entry];
             return {rank.voxels + before.voxels, rank.nodes + 1 + before.nodes};
         }
-        const std::uint64_t entry = place - m_first_short_place;
+        const std::uint64_t entry = index - m_first_short_entry;
         const std::uint32_t before = m_voxels_before_leaf[entry / 2] >> 16 * (entry % 2) & 0xFFFFU;
         const std::uint32_t first = m_nodes[parent.node].base_lo & ~gpu::kChildList;
-        return {rank.voxels + before, rank.nodes + 1 + (place - first)};
+        return {rank.voxels + before, rank.nodes + 1 + (index - first)};
     }
 
     std::vector<gpu::Node> m_nodes;
@@ -113,8 +116,8 @@ private:
     std::vector<gpu::BeforeChild> m_before;
     std::vector<gpu::uint> m_voxels_before_leaf;
     std::vector<gpu::BeforeChild> m_ranks;
-    std::uint64_t m_first_place = 0;
-    std::uint64_t m_first_short_place = 0;
+    std::uint64_t m_first_entry = 0;
+    std::uint64_t m_first_short_entry = 0;
     std::uint32_t m_first_overlay_node = 0;
     std::uint32_t m_attribute_offset = 0;
 };
@@ -132,7 +135,7 @@ public:
 
     TreeData run()
     {
-        std::vector<Place> level(1);
+        std::vector<NodeOnPath> level(1);
         if (cellMask(m_source.node(level.front())) == 0)
         {
             return std::move(m_tree);
@@ -153,25 +156,25 @@ public:
 
 private:
     // Adds a level's nodes, whose children follow them all; returns those.
-    std::vector<Place> addLevel(const std::vector<Place>& level, std::uint32_t depth)
+    std::vector<NodeOnPath> addLevel(const std::vector<NodeOnPath>& level, std::uint32_t depth)
     {
         const bool are_leaves = depth + 1 == m_level_count;
-        std::vector<Place> children;
+        std::vector<NodeOnPath> children;
         m_tree.levels.push_back(
             {static_cast<std::uint32_t>(m_tree.nodes.size()), static_cast<std::uint32_t>(level.size())});
         const std::uint64_t first_child = m_tree.nodes.size() + level.size();
-        for (const Place& place : level)
+        for (const NodeOnPath& at : level)
         {
-            gpu::Node node = m_source.node(place);
+            gpu::Node node = m_source.node(at);
             const std::uint64_t first = are_leaves ? m_voxel_count : first_child + children.size();
-            addHalf(place, node.mask_lo, node.base_lo, depth, children);
-            addHalf(place, node.mask_hi, node.base_hi, depth, children);
+            addHalf(at, node.mask_lo, node.base_lo, depth, children);
+            addHalf(at, node.mask_hi, node.base_hi, depth, children);
             node.base_lo = static_cast<std::uint32_t>(first);
             node.base_hi = node.base_lo + static_cast<std::uint32_t>(std::popcount(node.mask_lo));
             m_tree.nodes.push_back(node);
             if (m_source.hasAverages())
             {
-                m_tree.node_attributes.push_back(m_source.average(place));
+                m_tree.node_attributes.push_back(m_source.average(at));
             }
         }
         if (m_voxel_count > UINT32_MAX || m_tree.nodes.size() + children.size() > UINT32_MAX)
@@ -181,8 +184,8 @@ private:
         return children;
     }
 
-    void addHalf(const Place& place, std::uint32_t mask, std::uint32_t base, std::uint32_t depth,
-                 std::vector<Place>& children)
+    void addHalf(const NodeOnPath& at, std::uint32_t mask, std::uint32_t base, std::uint32_t depth,
+                 std::vector<NodeOnPath>& children)
     {
         const auto count = static_cast<std::uint32_t>(std::popcount(mask));
         static_assert(kCellsOfHalf == 32);
@@ -190,11 +193,11 @@ private:
         {
             if (depth + 1 < m_level_count)
             {
-                children.push_back(m_source.child(place, base, rank, depth + 2 == m_level_count));
+                children.push_back(m_source.child(at, base, rank, depth + 2 == m_level_count));
             }
             else
             {
-                addVoxel(std::uint64_t{m_source.firstVoxel(place)} + base + rank);
+                addVoxel(std::uint64_t{m_source.firstVoxel(at)} + base + rank);
             }
         }
     }
@@ -228,7 +231,7 @@ private:
 
 TreeData flattenTree(vk::HeadlessDevice& device, const DeviceTree& tree)
 {
-    if (isPacked(tree.attributeForm()))
+    if (isPacked(tree.attributeFormat()))
     {
         throw Error(ErrorCode::Usage, "only a tree with attributes of 8 bytes can be made an octree again");
     }

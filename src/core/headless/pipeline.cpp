@@ -9,7 +9,7 @@
 namespace zvo
 {
 
-BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
+BuildResult buildOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const GridTile& tile,
                         const BuildOptions& options)
 {
     return runJob(device, OctreeBuilder(device.device(), scene, tile, options));

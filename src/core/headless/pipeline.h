@@ -13,7 +13,7 @@ namespace zvo
 
 /// Runs all of the static half on device: voxelize, build, attributes (OctreeBuilder). Waits between its steps. Throws
 /// as these.
-BuildResult buildOctree(vk::HeadlessDevice& device, const PlacedScene& scene, const GridTile& tile,
+BuildResult buildOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const GridTile& tile,
                         const BuildOptions& options);
 
 /// The Morton codes of all voxels, ascending: voxel_count of them.

@@ -49,9 +49,9 @@ std::vector<std::uint64_t> parentCodes(std::span<const std::uint64_t> codes)
     return parents;
 }
 
-// roots: numbers of the tiles' roots. first_place: of the lists.
+// roots: numbers of the tiles' roots. first_entry: index of the lists' first one.
 Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> roots, std::size_t level_count,
-          std::uint64_t first_place)
+          std::uint64_t first_entry)
 {
     std::vector<std::vector<std::uint64_t>> codes_of = {{codes.begin(), codes.end()}}; // by level, the tiles first
     for (std::size_t i = 0; i < level_count; ++i)
@@ -71,7 +71,7 @@ Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> r
         for (const std::uint64_t code : codes_of[level])
         {
             std::uint64_t mask = 0;
-            const auto base = static_cast<std::uint32_t>(first_place + top.lists.size());
+            const auto base = static_cast<std::uint32_t>(first_entry + top.lists.size());
             for (; child < children.size() && children[child] >> kCellBits == code; ++child)
             {
                 mask |= std::uint64_t{1} << (children[child] & ((1U << kCellBits) - 1));
@@ -87,20 +87,20 @@ Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> r
     return top;
 }
 
-// A part's place in the pool of all.
-struct PartPlace
+// Where a part stands in the pool of all.
+struct PartOffsets
 {
     std::vector<std::uint64_t> first_nodes; // of each level
-    std::uint64_t first_place = 0;          // of its lists
+    std::uint64_t first_entry = 0;          // of its lists
 };
 
-void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t level, const PartPlace& place,
+void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t level, const PartOffsets& offsets,
                  DeviceTree& to)
 {
     const auto [first_node, node_count] = from.levels[level];
     if (level + 1 == from.levels.size())
     {
-        graph.copy(from.nodes, first_node * sizeof(gpu::Node), to.nodes, place.first_nodes[level] * sizeof(gpu::Node),
+        graph.copy(from.nodes, first_node * sizeof(gpu::Node), to.nodes, offsets.first_nodes[level] * sizeof(gpu::Node),
                    node_count * sizeof(gpu::Node));
         return;
     }
@@ -110,10 +110,10 @@ void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t leve
     params.to = pass.readWrite(to.nodes);
     params.to_entries = {params.to.address};
     params.first_from = first_node;
-    params.first_to = static_cast<std::uint32_t>(place.first_nodes[level]);
+    params.first_to = static_cast<std::uint32_t>(offsets.first_nodes[level]);
     params.node_count = node_count;
-    params.place_shift = static_cast<std::uint32_t>(place.first_place - from.packing().firstPlace());
-    params.child_shift = static_cast<std::uint32_t>(place.first_nodes[level + 1] - from.levels[level + 1].first_node);
+    params.entry_shift = static_cast<std::uint32_t>(offsets.first_entry - from.packing().firstEntry());
+    params.child_shift = static_cast<std::uint32_t>(offsets.first_nodes[level + 1] - from.levels[level + 1].first_node);
     pass.dispatch(node_count, params);
 }
 
@@ -187,7 +187,7 @@ SvdagForest::Part SvdagForest::joined()
     const std::vector<std::uint32_t> no_roots(codes.size());
     Top top = topOf(codes, no_roots, m_top_levels, 0); // for its size
 
-    std::vector<PartPlace> places(m_parts.size());
+    std::vector<PartOffsets> offsets(m_parts.size());
     std::uint64_t node_count = top.nodes.size();
     std::vector<DeviceTree::Level> levels = top.levels;
     for (std::size_t level = m_top_levels; level < level_count; ++level)
@@ -195,8 +195,8 @@ SvdagForest::Part SvdagForest::joined()
         const std::uint64_t first_node = node_count;
         for (std::size_t i = 0; i < m_parts.size(); ++i)
         {
-            places[i].first_nodes.resize(level_count);
-            places[i].first_nodes[level] = node_count;
+            offsets[i].first_nodes.resize(level_count);
+            offsets[i].first_nodes[level] = node_count;
             node_count += m_parts[i].dag.levels[level].node_count;
         }
         levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
@@ -204,7 +204,7 @@ SvdagForest::Part SvdagForest::joined()
     std::uint64_t entry_count = divideUp(top.lists.size(), kNodeEntries) * kNodeEntries;
     for (std::size_t i = 0; i < m_parts.size(); ++i)
     {
-        places[i].first_place = node_count * kNodeEntries + entry_count;
+        offsets[i].first_entry = node_count * kNodeEntries + entry_count;
         entry_count += m_parts[i].dag.lists.entry_count;
     }
     const ListPacking packing = {node_count, entry_count, kJoinedPerWord};
@@ -222,11 +222,11 @@ SvdagForest::Part SvdagForest::joined()
         for (const Tile& of_part : m_parts[i].tiles)
         {
             all.tiles[tile].root =
-                static_cast<std::uint32_t>(places[i].first_nodes[m_top_levels] + (of_part.root - first_root));
+                static_cast<std::uint32_t>(offsets[i].first_nodes[m_top_levels] + (of_part.root - first_root));
             roots.push_back(all.tiles[tile++].root);
         }
     }
-    top = topOf(codes, roots, m_top_levels, packing.firstPlace());
+    top = topOf(codes, roots, m_top_levels, packing.firstEntry());
 
     DeviceTree& tree = all.dag;
     tree.structure = TreeStructure::Svdag;
@@ -246,7 +246,7 @@ SvdagForest::Part SvdagForest::joined()
             {
                 for (std::size_t level = m_top_levels; level < level_count; ++level)
                 {
-                    appendLevel(graph, m_parts[i].dag, level, places[i], tree);
+                    appendLevel(graph, m_parts[i].dag, level, offsets[i], tree);
                 }
             }
         });
@@ -270,7 +270,7 @@ void SvdagForest::learnRoots(Part& part) const
     const auto childOf = [&](const gpu::Node& node, std::uint64_t cell)
     {
         const auto before = static_cast<std::uint64_t>(std::popcount(maskOf(node) & ((std::uint64_t{1} << cell) - 1)));
-        return lists[(node.base_lo & ~gpu::kChildList) - packing.firstPlace() + before];
+        return lists[(node.base_lo & ~gpu::kChildList) - packing.firstEntry() + before];
     };
     for (Tile& tile : part.tiles)
     {

@@ -33,9 +33,9 @@ template <typename T> void append(std::vector<T>& to, const std::vector<T>& from
     to.insert(to.end(), from.begin(), from.end());
 }
 
-// What the voxels of a part of the grid look like, but for their attributes: those go to one place, since parts come in
-// Morton order.
-class Looks
+// Attributes and emission of a part of the grid, but for the voxels' attributes: those of all parts go to one list,
+// since parts come in Morton order.
+class PartAttributes
 {
 public:
     std::uint64_t voxel_count = 0;
@@ -45,7 +45,7 @@ public:
     std::vector<gpu::uint> emission;
 
     // Adds voxels behind those that there are.
-    void appendVoxels(const Looks& more)
+    void appendVoxels(const PartAttributes& more)
     {
         append(emission, more.emission);
         for (std::size_t i = 0; i < more.emissive.size(); ++i)
@@ -70,11 +70,11 @@ private:
     }
 };
 
-// The DAG of the whole grid in which a part of it is occupied, and how that looks.
+// The DAG of the whole grid in which a part of it is occupied, and the part's attributes.
 struct Part
 {
     DeviceTree dag; // without attributes
-    Looks looks;
+    PartAttributes attributes;
 };
 
 // A part that was built whole.
@@ -87,7 +87,7 @@ struct Tile
 class TiledBuilder
 {
 public:
-    TiledBuilder(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid, const TiledOptions& options)
+    TiledBuilder(vk::HeadlessDevice& device, const PosedGpuScene& scene, const Grid& grid, const TiledOptions& options)
         : m_device(device), m_scene(scene), m_grid(grid), m_options(options), m_voxels(device, options.attributes)
     {
     }
@@ -98,12 +98,12 @@ private:
     std::optional<Part> buildPart(std::uint32_t depth, std::uint64_t code);
     std::optional<Tile> buildWhole(std::uint32_t depth, std::uint64_t code);
     std::optional<Part> buildTiles(std::uint32_t depth, std::uint64_t code, std::uint32_t tile_depth);
-    void finishAttributes(Looks& looks, TreeData& tree);
+    void finishAttributes(PartAttributes& attributes, TreeData& tree);
 
-    [[nodiscard]] bool hasAttributes() const { return m_options.attributes != AttributeForm::None; }
+    [[nodiscard]] bool hasAttributes() const { return m_options.attributes != AttributeFormat::None; }
 
     vk::HeadlessDevice& m_device;
-    const PlacedScene& m_scene;
+    const PosedGpuScene& m_scene;
     Grid m_grid;
     const TiledOptions& m_options;
     AttributePacker m_voxels;                                 // attributes of the parts so far
@@ -183,14 +183,14 @@ std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
     Part& part = tile.part;
     DeviceTree& tree = compressed.dag;
     tile.voxel_attributes = m_device.download(tree.voxel_attributes);
-    part.looks.voxel_count = tree.voxel_count;
-    part.looks.octree_node_count = tree.octreeNodeCount();
-    part.looks.node_attributes = m_device.download(tree.node_attributes);
+    part.attributes.voxel_count = tree.voxel_count;
+    part.attributes.octree_node_count = tree.octreeNodeCount();
+    part.attributes.node_attributes = m_device.download(tree.node_attributes);
     for (const gpu::uvec2& word : m_device.download(tree.emission_words))
     {
-        part.looks.emissive.push_back(word.x);
+        part.attributes.emissive.push_back(word.x);
     }
-    part.looks.emission = m_device.download(tree.emission);
+    part.attributes.emission = m_device.download(tree.emission);
     tree.voxel_attributes = {};
     tree.node_attributes = {};
     tree.emission_words = {};
@@ -218,16 +218,17 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
         {
             continue;
         }
-        Looks& looks = built->looks;
+        PartAttributes& attributes = built->attributes;
         tiles.codes.push_back(tile);
-        part.looks.octree_node_count += looks.octree_node_count - top_levels;
-        part.looks.appendVoxels(looks);
+        part.attributes.octree_node_count += attributes.octree_node_count - top_levels;
+        part.attributes.appendVoxels(attributes);
         if (hasAttributes())
         {
-            tiles.roots.push_back(looks.node_attributes[top_levels]);
-            looks.node_attributes.erase(looks.node_attributes.begin(),
-                                        looks.node_attributes.begin() + static_cast<std::ptrdiff_t>(top_levels));
-            tiles.attributes.push_back(std::move(looks.node_attributes));
+            tiles.roots.push_back(attributes.node_attributes[top_levels]);
+            attributes.node_attributes.erase(attributes.node_attributes.begin(),
+                                             attributes.node_attributes.begin() +
+                                                 static_cast<std::ptrdiff_t>(top_levels));
+            tiles.attributes.push_back(std::move(attributes.node_attributes));
         }
         forest.add(tile, std::move(built->dag));
     }
@@ -235,15 +236,15 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
     {
         return std::nullopt;
     }
-    part.looks.octree_node_count += forest.topNodeCount();
-    if (part.looks.voxel_count > UINT32_MAX || part.looks.octree_node_count > UINT32_MAX)
+    part.attributes.octree_node_count += forest.topNodeCount();
+    if (part.attributes.voxel_count > UINT32_MAX || part.attributes.octree_node_count > UINT32_MAX)
     {
         throw Error(ErrorCode::Memory, "the scene makes more voxels than 32-bit numbers count; lower the resolution");
     }
     if (hasAttributes())
     {
-        requireIndexable(0, std::max(part.looks.voxel_count, part.looks.octree_node_count));
-        part.looks.node_attributes = joinNodes(m_device, m_scene.uploaded(), m_grid, top_levels, tiles);
+        requireIndexable(0, std::max(part.attributes.voxel_count, part.attributes.octree_node_count));
+        part.attributes.node_attributes = joinNodes(m_device, m_scene.uploaded(), m_grid, top_levels, tiles);
     }
     part.dag = forest.finish(hasAttributes() && depth == m_grid.depth);
     append(m_result.passes, forest.passes());
@@ -251,10 +252,10 @@ std::optional<Part> TiledBuilder::buildTiles(std::uint32_t depth, std::uint64_t 
 }
 
 // Attributes and emission of the whole. What has room on the device is packed there, whichever parts it came in.
-void TiledBuilder::finishAttributes(Looks& looks, TreeData& tree)
+void TiledBuilder::finishAttributes(PartAttributes& attributes, TreeData& tree)
 {
-    AttributePacker nodes(m_device, nodeForm(m_options.attributes));
-    nodes.append(std::move(looks.node_attributes));
+    AttributePacker nodes(m_device, nodeFormat(m_options.attributes));
+    nodes.append(std::move(attributes.node_attributes));
     for (AttributePacker* const packer : {&m_voxels, &nodes})
     {
         packer->finish();
@@ -262,20 +263,21 @@ void TiledBuilder::finishAttributes(Looks& looks, TreeData& tree)
     }
     tree.voxel_attributes = std::move(m_voxels.attributes);
     tree.node_attributes = std::move(nodes.attributes);
-    if (looks.voxel_count != 0 && isPacked(m_options.attributes))
+    if (attributes.voxel_count != 0 && isPacked(m_options.attributes))
     {
         tree.packed = {m_options.attributes, std::move(m_voxels.words), std::move(nodes.words)};
     }
-    tree.emission = std::move(looks.emission);
-    if (hasAttributes() && looks.voxel_count != 0 && m_scene.uploaded().emission_scale > 0)
+    tree.emission = std::move(attributes.emission);
+    if (hasAttributes() && attributes.voxel_count != 0 && m_scene.uploaded().emission_scale > 0)
     {
         tree.emission_scale = m_scene.uploaded().emission_scale;
     }
     if (!tree.emission.empty())
     {
-        looks.emissive.resize((looks.voxel_count + gpu::kVoxelsPerEmissionWord - 1) / gpu::kVoxelsPerEmissionWord);
+        attributes.emissive.resize((attributes.voxel_count + gpu::kVoxelsPerEmissionWord - 1) /
+                                   gpu::kVoxelsPerEmissionWord);
         std::uint32_t rank = 0;
-        for (const std::uint32_t bits : looks.emissive)
+        for (const std::uint32_t bits : attributes.emissive)
         {
             tree.emission_words.push_back({bits, rank});
             rank += static_cast<std::uint32_t>(std::popcount(bits));
@@ -293,18 +295,18 @@ TiledResult TiledBuilder::build()
         part->dag.structure = TreeStructure::Svdag;
         part->dag.grid = m_grid;
     }
-    Looks& looks = part->looks;
-    part->dag.voxel_count = static_cast<std::uint32_t>(looks.voxel_count);
-    part->dag.lists.octree_node_count = static_cast<std::uint32_t>(looks.octree_node_count);
+    PartAttributes& attributes = part->attributes;
+    part->dag.voxel_count = static_cast<std::uint32_t>(attributes.voxel_count);
+    part->dag.lists.octree_node_count = static_cast<std::uint32_t>(attributes.octree_node_count);
     tree = downloadTree(m_device, part->dag);
     part->dag = {};
-    finishAttributes(looks, tree);
+    finishAttributes(attributes, tree);
     return std::move(m_result);
 }
 
 } // namespace
 
-TiledResult buildByTiles(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
+TiledResult buildByTiles(vk::HeadlessDevice& device, const PosedGpuScene& scene, const Grid& grid,
                          const TiledOptions& options)
 {
     if (options.tile_depth < kTileDepthMin || options.tile_depth % 2 != 0)

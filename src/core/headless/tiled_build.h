@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/deform/mover.h"
+#include "core/deform/dynamic_object.h"
 #include "core/tree/tree_data.h"
 #include "vk/headless.h"
 #include "zvo/types.h"
@@ -20,7 +20,7 @@ namespace zvo
 struct TiledOptions
 {
     Coverage coverage = Coverage::Thin;
-    AttributeForm attributes = AttributeForm::Bytes8;
+    AttributeFormat attributes = AttributeFormat::Bytes8;
 
     /// Of the largest tiles: (1 << tile_depth)^3 voxels, an even number. Depths of the grid that are not above it are
     /// built whole.
@@ -44,7 +44,7 @@ struct TiledResult
 /// device's budget does not suffice for a tile, it is taken in 64 parts, and so on. The result is, byte for byte, what
 /// buildOctree and compress make of the whole grid. Throws Error{Memory} when the budget does not suffice for the
 /// smallest tiles or for the DAG, and as buildOctree.
-TiledResult buildByTiles(vk::HeadlessDevice& device, const PlacedScene& scene, const Grid& grid,
+TiledResult buildByTiles(vk::HeadlessDevice& device, const PosedGpuScene& scene, const Grid& grid,
                          const TiledOptions& options);
 
 } // namespace zvo

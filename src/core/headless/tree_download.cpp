@@ -42,7 +42,7 @@ TreeData downloadTree(vk::HeadlessDevice& device, const DeviceTree& tree)
     data.voxels_before_leaf = device.download(tree.lists.voxels_before_leaf);
     data.voxel_attributes = device.download(tree.voxel_attributes);
     data.node_attributes = device.download(tree.node_attributes);
-    data.packed = {tree.packed.form, device.download(tree.packed.voxels), device.download(tree.packed.nodes)};
+    data.packed = {tree.packed.format, device.download(tree.packed.voxels), device.download(tree.packed.nodes)};
     data.emission_words = device.download(tree.emission_words);
     data.emission = device.download(tree.emission);
     data.emission_scale = tree.emission_scale;

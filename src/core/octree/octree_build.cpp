@@ -63,7 +63,7 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
 void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::BrickEntry>& bricks,
                    vk::BufferOf<gpu::BrickCounters>& counters, OctreeBuildBuffers& work)
 {
-    for (std::uint32_t step = 0; step < grid.nodeLevels(); ++step)
+    for (std::uint32_t height = 0; height < grid.nodeLevels(); ++height)
     {
         {
             vk::Pass pass = graph.addPass(gpu::octree::NextLevel{});
@@ -71,11 +71,11 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
             params.counters = pass.read(counters);
             params.ranges = pass.readWrite(work.ranges);
             params.args = pass.write(work.args);
-            params.step = step;
+            params.height = height;
             params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
             pass.dispatch(1, params);
         }
-        if (step + 1 == grid.nodeLevels()) // the root has no parent
+        if (height + 1 == grid.nodeLevels()) // the root has no parent
         {
             break;
         }
@@ -86,8 +86,8 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
         params.counters = pass.readWrite(counters);
         params.ranges = pass.read(work.ranges);
         params.brick_mask = static_cast<std::uint32_t>(bricks.count() - 1);
-        params.step = step;
-        pass.dispatchIndirect(work.args, step, params, divideUp(work.items.count(), gpu::kNodesGroup));
+        params.height = height;
+        pass.dispatchIndirect(work.args, height, params, divideUp(work.items.count(), gpu::kNodesGroup));
     }
 }
 

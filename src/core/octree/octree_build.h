@@ -19,7 +19,7 @@ struct OctreeBuildBuffers
 
     vk::BufferOf<gpu::WorkItem> items;    // [brick_capacity] leaves first, the root last
     vk::BufferOf<gpu::LevelRange> ranges; // [kNodeLevelsMax] the items of each level, leaves first
-    vk::BufferOf<gpu::DispatchArgs> args; // [kNodeLevelsMax] of each step, leaves first: one thread an item
+    vk::BufferOf<gpu::DispatchArgs> args; // [kNodeLevelsMax] of each level, leaves first: one thread an item
     vk::BufferOf<gpu::uint> partials;     // [ceil(brick_capacity / kScanBlock)]
     vk::BufferOf<gpu::uint> total;        // [1]
 };

@@ -130,7 +130,7 @@ double operationMs(std::span<const vk::PassTime> passes, std::string_view operat
     return ms;
 }
 
-OctreeBuilder::OctreeBuilder(vk::Device& device, const PlacedScene& scene, const GridTile& tile,
+OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, const GridTile& tile,
                              const BuildOptions& options)
     : m_device(device), m_scene(scene), m_tile(tile), m_options(options)
 {
@@ -140,11 +140,11 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PlacedScene& scene, const
         throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} is out of range: 1 to {} (resolution 2 to {})",
                                                   grid.depth, Grid::kDepthMax, 1U << Grid::kDepthMax));
     }
-    const std::uint32_t places = tile.depth <= grid.depth ? 1U << (grid.depth - tile.depth) : 0;
-    if (places > GridTile::kPlacesMax || glm::any(glm::greaterThanEqual(tile.place, glm::uvec3(places))))
+    const std::uint32_t tiles = tile.depth <= grid.depth ? 1U << (grid.depth - tile.depth) : 0;
+    if (tiles > GridTile::kTilesMax || glm::any(glm::greaterThanEqual(tile.index, glm::uvec3(tiles))))
     {
         throw Error(ErrorCode::Usage, fmt::format("a grid of depth {} has no tile ({}, {}, {}) of depth {}", grid.depth,
-                                                  tile.place.x, tile.place.y, tile.place.z, tile.depth));
+                                                  tile.index.x, tile.index.y, tile.index.z, tile.depth));
     }
     if (options.attributes && !scene.uploaded().has_attributes)
     {
@@ -166,14 +166,14 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
     }
     voxelizeCoverage(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize);
     listNodes(graph, m_tile.grid, m_coverings->voxelize, m_coverings->work);
-    m_places.counters = m_readback.copy(graph, m_coverings->voxelize.counters, 0, 1);
-    m_places.ranges = m_readback.copy(graph, m_coverings->work.ranges, 0, m_tile.grid.nodeLevels());
-    m_places.rasters.clear();
+    m_offsets.counters = m_readback.copy(graph, m_coverings->voxelize.counters, 0, 1);
+    m_offsets.ranges = m_readback.copy(graph, m_coverings->work.ranges, 0, m_tile.grid.nodeLevels());
+    m_offsets.rasters.clear();
     for (const VoxelizeBuffers::RowWork& rows : m_coverings->voxelize.rows)
     {
         if (rows.counters.count() != 0)
         {
-            m_places.rasters.push_back(m_readback.copy(graph, rows.counters, 0, 1));
+            m_offsets.rasters.push_back(m_readback.copy(graph, rows.counters, 0, 1));
         }
     }
 }
@@ -181,11 +181,11 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
 // There may have been no room for everything.
 void OctreeBuilder::learnCoverage()
 {
-    const gpu::BrickCounters counters = m_readback.at<gpu::BrickCounters>(m_places.counters, 1).front();
+    const gpu::BrickCounters counters = m_readback.at<gpu::BrickCounters>(m_offsets.counters, 1).front();
     std::vector<gpu::RasterCounters> rasters;
-    for (const std::uint64_t place : m_places.rasters)
+    for (const std::uint64_t offset : m_offsets.rasters)
     {
-        rasters.push_back(m_readback.at<gpu::RasterCounters>(place, 1).front());
+        rasters.push_back(m_readback.at<gpu::RasterCounters>(offset, 1).front());
     }
     if (const std::optional<Growth> growth = growthOf(m_result.capacities, counters, rasters))
     {
@@ -237,7 +237,7 @@ void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
     {
         return;
     }
-    const auto listed = m_readback.at<gpu::LevelRange>(m_places.ranges, octree.grid.nodeLevels());
+    const auto listed = m_readback.at<gpu::LevelRange>(m_offsets.ranges, octree.grid.nodeLevels());
     std::uint32_t first_node = 0; // the list starts with the leaves, the octree with the root
     for (auto range = listed.rbegin(); range != listed.rend(); ++range)
     {
@@ -281,17 +281,17 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
         octree.emission_words = std::move(emission_words);
     }
     voxelizeAttributes(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize, *m_sums, octree);
-    m_places.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
+    m_offsets.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
     if (emits)
     {
-        m_places.emissive_count = m_readback.copy(graph, m_sums->emissive_count, 0, 1);
+        m_offsets.emissive_count = m_readback.copy(graph, m_sums->emissive_count, 0, 1);
     }
 }
 
 // Sums may have had no room for the fragments of a voxel.
 void OctreeBuilder::learnAttributes()
 {
-    const gpu::uint fragments = m_readback.at<gpu::uint>(m_places.max_fragments, 1).front();
+    const gpu::uint fragments = m_readback.at<gpu::uint>(m_offsets.max_fragments, 1).front();
     if (fragments != 0) // drop as many value bits as the largest sum has too many
     {
         m_sums->sum_shift = static_cast<std::uint32_t>(std::bit_width(fragments / (gpu::kFragmentsMax + 1)));
@@ -302,7 +302,7 @@ void OctreeBuilder::learnAttributes()
     if (emission_scale > 0.0F)
     {
         m_result.octree.emission_scale = emission_scale;
-        m_emissive_count = m_readback.at<gpu::uint>(m_places.emissive_count, 1).front();
+        m_emissive_count = m_readback.at<gpu::uint>(m_offsets.emissive_count, 1).front();
         if (m_emissive_count != 0)
         {
             m_step = {&OctreeBuilder::emission, &OctreeBuilder::endVoxelAttributes};

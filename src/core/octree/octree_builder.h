@@ -57,7 +57,7 @@ class OctreeBuilder final : public BuildJob<OctreeBuilder, BuildResult>
 public:
     /// scene outlives it. Throws Error{Usage} for a depth outside 1 to Grid::kDepthMax, a tile that is not there and
     /// attributes that the scene was not uploaded with.
-    OctreeBuilder(vk::Device& device, const PlacedScene& scene, const GridTile& tile, const BuildOptions& options);
+    OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, const GridTile& tile, const BuildOptions& options);
 
     /// What a run showed to be too small.
     struct Growth
@@ -74,7 +74,7 @@ private:
         OctreeBuildBuffers work;
     };
     // In the readback.
-    struct Places
+    struct ReadbackOffsets
     {
         std::uint64_t counters = 0;
         std::uint64_t ranges = 0;
@@ -97,13 +97,13 @@ private:
     void end();
 
     vk::Device& m_device;
-    PlacedScene m_scene;
+    PosedGpuScene m_scene;
     GridTile m_tile;
     BuildOptions m_options;
     std::optional<Coverings> m_coverings;
     std::optional<AttributeBuffers> m_sums;
     std::uint32_t m_emissive_count = 0;
-    Places m_places;
+    ReadbackOffsets m_offsets;
 };
 
 } // namespace zvo

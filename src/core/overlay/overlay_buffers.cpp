@@ -51,9 +51,9 @@ template <typename T> void copyAll(vk::FrameGraph& graph, const vk::BufferOf<T>&
 } // namespace
 
 OverlayBuffers::OverlayBuffers(vk::Uploader& uploads, DeviceTree fixed, const OverlayContents& contents,
-                               vk::Retired& retired)
-    : m_uploads(uploads), m_device(uploads.device()), m_retired(retired), m_is_empty(fixed.node_count == 0),
-      m_has_attributes(m_is_empty ? contents.attributes : fixed.hasAttributes()),
+                               vk::DeletionQueue& deletion_queue)
+    : m_uploads(uploads), m_device(uploads.device()), m_deletion_queue(deletion_queue),
+      m_is_empty(fixed.node_count == 0), m_has_attributes(m_is_empty ? contents.attributes : fixed.hasAttributes()),
       m_emits(m_has_attributes && contents.emission_scale > 0), m_static_emissive(fixed.emission.count()),
       m_tree(adopted(std::move(fixed))), m_arena(staticSpace())
 {
@@ -75,7 +75,7 @@ void OverlayBuffers::reserve(std::uint64_t room)
     m_reserved = makeBuffers(m_room);
 }
 
-void OverlayBuffers::settle(vk::FrameGraph& graph, vk::Retired& retired)
+void OverlayBuffers::settle(vk::FrameGraph& graph, vk::DeletionQueue& deletion_queue)
 {
     lengthen(graph, std::move(m_reserved));
     m_arena.grow(m_room.nodes, m_room.voxels);
@@ -90,7 +90,7 @@ void OverlayBuffers::settle(vk::FrameGraph& graph, vk::Retired& retired)
         graph.copy(m_tree.node_attributes, 0, m_tree.node_attributes, m_tree.octreeNodeCount() * sizeof(gpu::Attribute),
                    sizeof(gpu::Attribute));
     }
-    retireBefore(retired);
+    deleteBefore(deletion_queue);
     m_is_settled = true;
 }
 
@@ -148,7 +148,7 @@ OverlayBuffers::Capacities OverlayBuffers::grownCapacities(std::uint64_t nodes, 
     if (node_capacity > kNodesMax || voxel_capacity > kIndicesMax || attribute_nodes > kIndicesMax)
     {
         throw Error(ErrorCode::Memory, fmt::format("overlays need more than the {} nodes or {} voxels that kernels "
-                                                   "reach: keep fewer steps of history, or lower the resolution",
+                                                   "reach: keep fewer entries of the history, or lower the resolution",
                                                    kNodesMax, kIndicesMax));
     }
     return {static_cast<std::uint32_t>(node_capacity), static_cast<std::uint32_t>(voxel_capacity)};
@@ -190,7 +190,7 @@ void OverlayBuffers::swapBuffers(Buffers& buffers)
 void OverlayBuffers::lengthen(vk::FrameGraph& graph, Buffers&& longer)
 {
     // In safety before anything is recorded: that may fail half way, with the device at work on what went before.
-    Buffers& from = m_before ? m_retired.keep(std::move(longer)) : m_before.emplace(std::move(longer));
+    Buffers& from = m_before ? m_deletion_queue.keep(std::move(longer)) : m_before.emplace(std::move(longer));
     swapBuffers(from);
     copyAll(graph, from.nodes, m_tree.nodes);
     if (m_has_attributes)
@@ -210,11 +210,11 @@ void OverlayBuffers::lengthen(vk::FrameGraph& graph, Buffers&& longer)
     }
 }
 
-void OverlayBuffers::retireBefore(vk::Retired& retired)
+void OverlayBuffers::deleteBefore(vk::DeletionQueue& deletion_queue)
 {
     if (m_before)
     {
-        retired.keep(std::move(*m_before));
+        deletion_queue.keep(std::move(*m_before));
         m_before.reset();
     }
 }

@@ -3,10 +3,10 @@
 
 #include "core/overlay/overlay_arena.h"
 #include "core/tree/device_tree.h"
+#include "vk/deletion_queue.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/frame_list.h"
-#include "vk/retired.h"
 #include "vk/uploader.h"
 
 #include <cstdint>
@@ -33,8 +33,9 @@ class OverlayBuffers final : public vk::FrameParticipant
 {
 public:
     /// Takes over a static tree: traced and overlaid only behind settle(). uploads keeps it, should it not come so far.
-    /// What retires later goes to retired. Both outlive this.
-    OverlayBuffers(vk::Uploader& uploads, DeviceTree fixed, const OverlayContents& contents, vk::Retired& retired);
+    /// What frames in flight may use goes to deletion_queue. Both outlive this.
+    OverlayBuffers(vk::Uploader& uploads, DeviceTree fixed, const OverlayContents& contents,
+                   vk::DeletionQueue& deletion_queue);
     ~OverlayBuffers();
     OverlayBuffers(const OverlayBuffers&) = delete;
     OverlayBuffers& operator=(const OverlayBuffers&) = delete;
@@ -44,14 +45,14 @@ public:
     void reserve(std::uint64_t room);
 
     /// Records what moves the static tree to what was reserved.
-    void settle(vk::FrameGraph& graph, vk::Retired& retired);
+    void settle(vk::FrameGraph& graph, vk::DeletionQueue& deletion_queue);
 
     /// Makes room for one more region of that many nodes and voxels, whatever is held: records the copies to longer
-    /// buffers; the old ones retire when the frame was submitted. Throws Error{Memory} when the device's budget does
-    /// not suffice: then nothing was recorded and nothing has changed.
+    /// buffers; the old ones go to the deletion queue when the frame was submitted. Throws Error{Memory} when the
+    /// device's budget does not suffice: then nothing was recorded and nothing has changed.
     void grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
 
-    void frameSubmitted() override { retireBefore(m_retired); }
+    void frameSubmitted() override { deleteBefore(m_deletion_queue); }
 
     /// The buffers are those from before the frame again, with all their contents. The arena keeps its size; regions
     /// may lie beyond the buffers until catchUp().
@@ -95,7 +96,7 @@ private:
     [[nodiscard]] Buffers makeBuffers(const Capacities& capacities);
     void swapBuffers(Buffers& buffers);
     void lengthen(vk::FrameGraph& graph, Buffers&& longer);
-    void retireBefore(vk::Retired& retired);
+    void deleteBefore(vk::DeletionQueue& deletion_queue);
     [[nodiscard]] bool hasRanks() const { return m_tree.isDag() && m_has_attributes; }
     [[nodiscard]] std::uint32_t nodeBytes() const;
     [[nodiscard]] std::uint32_t voxelBlockBytes() const;
@@ -104,7 +105,7 @@ private:
 
     vk::Uploader& m_uploads;
     vk::Device& m_device;
-    vk::Retired& m_retired;
+    vk::DeletionQueue& m_deletion_queue;
     bool m_is_empty;
     bool m_has_attributes;
     bool m_emits;

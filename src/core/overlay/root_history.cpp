@@ -191,21 +191,21 @@ void RootHistory::fail(std::uint64_t id)
     m_current_before -= gone_before && m_current_before >= *gone_before ? 1 : 0;
 }
 
-// Returns which entry is gone, if none stands in its place.
+// Returns which entry is gone, if none replaces it.
 std::optional<std::size_t> RootHistory::removeFailed(Entries& entries, const Update& update)
 {
-    const auto place = std::find(entries.begin(), entries.end(), update.entry);
-    if (place == entries.end())
+    const auto found = std::find(entries.begin(), entries.end(), update.entry);
+    if (found == entries.end())
     {
         return std::nullopt;
     }
-    if (*std::prev(place) != update.fallback)
+    if (*std::prev(found) != update.fallback)
     {
-        *place = update.fallback;
+        *found = update.fallback;
         return std::nullopt;
     }
-    const std::ptrdiff_t index = place - entries.begin();
-    entries.erase(place);
+    const std::ptrdiff_t index = found - entries.begin();
+    entries.erase(found);
     return index;
 }
 

@@ -29,8 +29,8 @@ struct LayerState
 /// How much a RootHistory keeps.
 struct HistoryBounds
 {
-    std::size_t entries_max = DynamicTreeInfo().history_steps; // beside the first one, at least 1
-    std::uint64_t bytes_max = DynamicTreeInfo().history_bytes; // of the entries' regions
+    std::size_t entries_max = DynamicTreeInfo().history_entries; // beside the first one, at least 1
+    std::uint64_t bytes_max = DynamicTreeInfo().history_bytes;   // of the entries' regions
 };
 
 /// One entry of a RootHistory: an octree or a DAG that can be traced.

@@ -17,17 +17,17 @@ namespace
 struct ColorFormat
 {
     VkFormat format;
-    TexelForm form;
+    TexelFormat texels;
     const char* name;
 };
 
 constexpr ColorFormat kColorFormats[] = {
-    {VK_FORMAT_R8G8B8A8_UNORM, TexelForm::Rgba8, "R8G8B8A8_UNORM"},
-    {VK_FORMAT_R8G8B8A8_SRGB, TexelForm::Rgba8, "R8G8B8A8_SRGB"},
-    {VK_FORMAT_B8G8R8A8_UNORM, TexelForm::Bgra8, "B8G8R8A8_UNORM"},
-    {VK_FORMAT_B8G8R8A8_SRGB, TexelForm::Bgra8, "B8G8R8A8_SRGB"},
-    {VK_FORMAT_A2B10G10R10_UNORM_PACK32, TexelForm::Rgb10, "A2B10G10R10_UNORM_PACK32"},
-    {VK_FORMAT_R16G16B16A16_SFLOAT, TexelForm::Half, "R16G16B16A16_SFLOAT"},
+    {VK_FORMAT_R8G8B8A8_UNORM, TexelFormat::Rgba8, "R8G8B8A8_UNORM"},
+    {VK_FORMAT_R8G8B8A8_SRGB, TexelFormat::Rgba8, "R8G8B8A8_SRGB"},
+    {VK_FORMAT_B8G8R8A8_UNORM, TexelFormat::Bgra8, "B8G8R8A8_UNORM"},
+    {VK_FORMAT_B8G8R8A8_SRGB, TexelFormat::Bgra8, "B8G8R8A8_SRGB"},
+    {VK_FORMAT_A2B10G10R10_UNORM_PACK32, TexelFormat::Rgb10, "A2B10G10R10_UNORM_PACK32"},
+    {VK_FORMAT_R16G16B16A16_SFLOAT, TexelFormat::Half, "R16G16B16A16_SFLOAT"},
 };
 
 struct DepthFormat
@@ -63,17 +63,17 @@ const Format& entryFor(const Format (&formats)[Count], VkFormat format, const ch
                                               static_cast<int>(format), names));
 }
 
-const char* wordsFor(TexelForm form)
+const char* wordsFor(TexelFormat texels)
 {
-    switch (form)
+    switch (texels)
     {
-    case TexelForm::Rgba8:
+    case TexelFormat::Rgba8:
         return "RGBA with 8 bits";
-    case TexelForm::Bgra8:
+    case TexelFormat::Bgra8:
         return "BGRA with 8 bits";
-    case TexelForm::Rgb10:
+    case TexelFormat::Rgb10:
         return "RGBA with 10 bits";
-    case TexelForm::Half:
+    case TexelFormat::Half:
         return "half floats";
     }
     return "";
@@ -110,9 +110,9 @@ vk::ImageRegion regionOf(const ImageTarget& target, VkImageAspectFlags aspect, s
 
 } // namespace
 
-TexelForm texelForm(VkFormat format)
+TexelFormat texelFormat(VkFormat format)
 {
-    return entryFor(kColorFormats, format, "a picture").form;
+    return entryFor(kColorFormats, format, "a picture").texels;
 }
 
 namespace
@@ -121,14 +121,14 @@ namespace
 vk::ImageRegion colorRegion(const TraceBuffers& buffers, const ImageTarget& target)
 {
     const ColorFormat& format = entryFor(kColorFormats, target.format, "a picture");
-    if (format.form != buffers.texels)
+    if (format.texels != buffers.texels)
     {
         throw Error(ErrorCode::Usage,
                     fmt::format("a picture made as {} cannot be copied into an image in {}, which takes {}: make "
-                                "TraceBuffers with the texelForm() of the image's format",
-                                wordsFor(buffers.texels), format.name, wordsFor(format.form)));
+                                "TraceBuffers with the texelFormat() of the image's format",
+                                wordsFor(buffers.texels), format.name, wordsFor(format.texels)));
     }
-    const std::uint32_t texel_bytes = texelWords(format.form) * static_cast<std::uint32_t>(sizeof(gpu::uint));
+    const std::uint32_t texel_bytes = texelWords(format.texels) * static_cast<std::uint32_t>(sizeof(gpu::uint));
     return regionOf(target, VK_IMAGE_ASPECT_COLOR_BIT, texel_bytes, {buffers.width, buffers.height});
 }
 

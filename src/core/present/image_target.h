@@ -24,13 +24,13 @@
 namespace zvo
 {
 
-/// The form that a picture needs to be copied into images of a format: R8G8B8A8 and B8G8R8A8, UNORM and SRGB,
+/// The texel format that a picture needs to be copied into images of a format: R8G8B8A8 and B8G8R8A8, UNORM and SRGB,
 /// A2B10G10R10_UNORM_PACK32, R16G16B16A16_SFLOAT. Those in UNORM and SRGB alike get the bytes of sRGB codes: what
 /// samples an SRGB image gets linear values. Throws Error{Usage} for other formats, listing these.
-TexelForm texelForm(VkFormat format);
+TexelFormat texelFormat(VkFormat format);
 
 /// Records the copy of buffers.image, all of it, to target. Its only access to the image is the one above. Throws
-/// Error{Usage} when target's format does not take the form of buffers' texels, or its layout, offset or extent will
+/// Error{Usage} when target's format does not take the format of buffers' texels, or its layout, offset or extent will
 /// not do; then nothing is recorded. Cost: pixels.
 void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const ImageTarget& target);
 

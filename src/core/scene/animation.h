@@ -37,8 +37,8 @@ bool keepAnimation(Scene& scene, const std::optional<AnimationChoice>& choice = 
 /// its first key a channel holds the first one. Of channels of several animations that move the same property the last
 /// one counts. Instances that nothing moves keep their transform, bit for bit; others follow their node. Nodes are
 /// evaluated in double precision. A time that is not finite counts as 0. A transform that overflows single precision
-/// is not finite; the voxelizer drops such triangles and counts them. to_world: what places the scene, affine; it comes
-/// after everything else.
+/// is not finite; the voxelizer drops such triangles and counts them. to_world: the transform of the scene, affine; it
+/// comes after everything else.
 Pose poseAt(const Scene& scene, double seconds, const glm::dmat4& to_world = glm::dmat4(1.0));
 
 /// Whether the instance may change with time: a channel moves its node, one above it, or a joint of its skin or one

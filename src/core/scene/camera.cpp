@@ -152,13 +152,13 @@ ViewCamera ViewCamera::framing(const Bounds& bounds, double aspect)
     return frame.camera();
 }
 
-ViewCamera ViewCamera::turnedAround(const glm::dvec3& centre, double radians) const
+ViewCamera ViewCamera::turnedAround(const glm::dvec3& center, double radians) const
 {
     const double c = std::cos(radians);
     const double s = std::sin(radians);
     const auto turn = [c, s](const glm::dvec3& v) { return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x); };
     ViewCamera view = *this;
-    view.position = centre + turn(position - centre);
+    view.position = center + turn(position - center);
     view.forward = turn(forward);
     view.right = turn(right);
     view.up = turn(up);

@@ -36,7 +36,7 @@ struct ViewCamera
     static ViewCamera framing(const Bounds& bounds, double aspect);
 
     /// This camera turned about the vertical axis through centre, counterclockwise as seen from above.
-    [[nodiscard]] ViewCamera turnedAround(const glm::dvec3& centre, double radians) const;
+    [[nodiscard]] ViewCamera turnedAround(const glm::dvec3& center, double radians) const;
 };
 
 /// A camera as the kernels take it.

@@ -22,7 +22,7 @@ glm::dmat4 affine(const glm::dmat3& linear, const glm::dvec3& translation)
 glm::dmat4 orbitAt(const OrbitMotion& orbit, double turns)
 {
     const glm::dmat3 rotation = rotationAbout(orbit.axis, turns);
-    const glm::dvec3 home = orbit.circles ? orbit.centre + rotation * (orbit.home - orbit.centre) : orbit.home;
+    const glm::dvec3 home = orbit.circles ? orbit.center + rotation * (orbit.home - orbit.center) : orbit.home;
     return orbit.spins ? affine(rotation, home - rotation * orbit.home) : affine(glm::dmat3(1.0), home - orbit.home);
 }
 
@@ -107,12 +107,12 @@ struct Sweep
         for (std::size_t i = 0; i <= step_count; ++i)
         {
             const double turned = turns * static_cast<double>(i) / static_cast<double>(step_count);
-            sweep.places.push_back(orbitAt(orbit, std::copysign(turned, orbit.turns_per_second)));
+            sweep.transforms.push_back(orbitAt(orbit, std::copysign(turned, orbit.turns_per_second)));
         }
         const double stray = arcStray(kTwoPi * turns / static_cast<double>(step_count));
-        sweep.pivot = orbit.circles ? orbit.centre : orbit.home;
+        sweep.pivot = orbit.circles ? orbit.center : orbit.home;
         sweep.stray_per_distance = orbit.spins ? stray : 0.0;
-        sweep.stray = orbit.spins || !orbit.circles ? 0.0 : stray * glm::length(orbit.home - orbit.centre);
+        sweep.stray = orbit.spins || !orbit.circles ? 0.0 : stray * glm::length(orbit.home - orbit.center);
         return sweep;
     }
 
@@ -129,7 +129,7 @@ struct Sweep
             const std::size_t steps = turns ? step_count : 1;
             for (std::size_t i = 0; i < steps; ++i)
             {
-                sweep.places.push_back(keysAt(keys, key, static_cast<double>(i) / static_cast<double>(steps)));
+                sweep.transforms.push_back(keysAt(keys, key, static_cast<double>(i) / static_cast<double>(steps)));
             }
             if (turns)
             {
@@ -143,7 +143,7 @@ struct Sweep
                 sweep.stray_per_distance = std::max(sweep.stray_per_distance, stray);
             }
         }
-        sweep.places.push_back(keysAt(keys, keys.times.size() - 1, 0.0));
+        sweep.transforms.push_back(keysAt(keys, keys.times.size() - 1, 0.0));
         return sweep;
     }
 

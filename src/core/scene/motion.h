@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How an object moves as a whole: functions of time that take it from its place to where it is, in double precision.
+// How an object moves as a whole: functions of time that come after its own transform, in double precision.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ namespace zvo
 /// that spins but does not circle stays where it is.
 struct OrbitMotion
 {
-    glm::dvec3 centre{0.0};         // world units
+    glm::dvec3 center{0.0};         // world units
     glm::dvec3 axis{0.0, 1.0, 0.0}; // length 1
     double turns_per_second = 0.0;  // counterclockwise as seen from where the axis points
-    glm::dvec3 home{0.0};           // world place of the object's own origin, before it moves
+    glm::dvec3 home{0.0};           // world position of the object's own origin, before it moves
     bool circles = true;            // home goes around the centre
     bool spins = true;              // the object turns about its home
 };
@@ -45,19 +45,19 @@ struct KeyMotion
 /// std::monostate: stands still.
 using Motion = std::variant<std::monostate, OrbitMotion, LineMotion, KeyMotion>;
 
-/// What the motion does at a time (seconds) to an object in its place: world to world, affine, the last row exactly
-/// (0, 0, 0, 1). For keys, translation * rotation * scale.
+/// What the motion does at a time (seconds) to an object that has its own transform: world to world, affine, the last
+/// row exactly (0, 0, 0, 1). For keys, translation * rotation * scale.
 glm::dmat4 motionAt(const Motion& motion, double seconds);
 
 /// The rotation about an axis of length 1 by turns, counterclockwise as seen from where it points. Quarter turns about
 /// x, y or z are exact.
 glm::dmat3 rotationAbout(const glm::dvec3& axis, double turns);
 
-/// Where a motion leads: between neighbours of its places no point strays farther from the straight line than
+/// Where a motion leads: between neighbours of its transforms no point strays farther from the straight line than
 /// stray + stray_per_distance * (the point's distance from pivot before the motion).
 struct MotionSweep
 {
-    std::vector<glm::dmat4> places; // at least one
+    std::vector<glm::dmat4> transforms; // at least one
     glm::dvec3 pivot{0.0};
     double stray_per_distance = 0.0;
     double stray = 0.0; // world units

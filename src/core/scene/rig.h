@@ -22,7 +22,8 @@ struct MorphTarget
     std::vector<glm::vec3> normals;   // [vertices] or empty; empty where the primitive has no normals
 };
 
-/// A place in the hierarchy, relative to its parent: translation * rotation * scale, or a matrix where one is given.
+/// A transform in the hierarchy, relative to its parent: translation * rotation * scale, or a matrix where one is
+/// given.
 struct Node
 {
     std::uint32_t parent = kNone; // index into Scene::nodes, below the node's own: parents stand before their children

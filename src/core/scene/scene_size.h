@@ -7,7 +7,7 @@
 namespace zvo
 {
 
-/// The most instances (a primitive in a place) of a file; each is a draw on the device.
+/// The most instances (a primitive with a transform) of a file; each is a draw on the device.
 inline constexpr std::uint64_t kInstancesMax = std::uint64_t{1} << 24U;
 
 /// Bytes that all the arrays of a scene, and all its pictures, may take: half of this machine's memory, as the other

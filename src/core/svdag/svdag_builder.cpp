@@ -124,7 +124,7 @@ void writeLevel(vk::FrameGraph& graph, const Candidates& candidates, std::size_t
     params.voxels_before_leaf = pass.readWrite(dag.lists.voxels_before_leaf);
     params.first_node = first_node;
     params.node_count = node_count;
-    params.first_place = static_cast<std::uint32_t>(dag.packing().firstPlace());
+    params.first_index = static_cast<std::uint32_t>(dag.packing().firstEntry());
     params.long_entry_count = static_cast<std::uint32_t>(dag.lists.long_entry_count);
     pass.dispatch(node_count, params);
 }
@@ -152,7 +152,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const DeviceTree& octree, ClassBuffe
     {
         const auto [first_node, node_count] = octree.levels[level];
         const bool above_leaves = level + 2 == octree.levels.size();
-        const bool packed = isPacked(octree.attributeForm());
+        const bool packed = isPacked(octree.attributeFormat());
         vk::Pass pass = graph.addPass(gpu::svdag::DepthFirst{.above_leaves = above_leaves, .packed = packed});
         gpu::DepthFirstParams params{};
         params.nodes = pass.read(octree.nodes);
@@ -182,7 +182,7 @@ void moveVoxels(DeviceTree& from, DeviceTree& to)
     to.grid = from.grid;
     to.voxel_count = from.voxel_count;
     to.voxel_attributes = std::move(from.voxel_attributes);
-    to.packed.form = from.packed.form;
+    to.packed.format = from.packed.format;
     to.packed.voxels = std::move(from.packed.voxels);
     to.emission_words = std::move(from.emission_words);
     to.emission = std::move(from.emission);
@@ -243,13 +243,13 @@ void SvdagBuilder::classify(vk::FrameGraph& graph)
         m_classes.emplace(m_device, m_candidates, m_slot_counts);
     }
     findClasses(graph, m_candidates, m_slot_counts, *m_classes);
-    m_sizes_place = m_readback.copy(graph, m_classes->sizes, 0, 1);
+    m_sizes_offset = m_readback.copy(graph, m_classes->sizes, 0, 1);
 }
 
 // The tables may have had too few slots.
 void SvdagBuilder::learnClasses()
 {
-    const gpu::ClassSizes sizes = m_readback.at<gpu::ClassSizes>(m_sizes_place, 1).front();
+    const gpu::ClassSizes sizes = m_readback.at<gpu::ClassSizes>(m_sizes_offset, 1).front();
     if (growSlots(m_candidates, sizes, m_slot_counts))
     {
         m_classes.reset();

@@ -66,7 +66,7 @@ private:
     std::vector<std::uint64_t> m_slot_counts;
     std::optional<ClassBuffers> m_classes;
     vk::BufferOf<gpu::BeforeChild> m_below;
-    std::uint64_t m_sizes_place = 0;
+    std::uint64_t m_sizes_offset = 0;
 };
 
 } // namespace zvo

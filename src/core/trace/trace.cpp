@@ -38,7 +38,7 @@ bool standsByLevels(const DeviceTree& tree)
 } // namespace
 
 TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height,
-                           TexelForm picture_texels)
+                           TexelFormat picture_texels)
     : width(picture_width), height(picture_height), texels(picture_texels), args(device, "trace args", 1),
       rounds(device, "trace rounds", gpu::kTraceRoundsMax), status(device, "trace status", 1)
 {
@@ -111,7 +111,7 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid&
                 pass.read(tree.overlays.ranks); // the table has their address
             }
             params.voxels_before_leaf = source.voxels_before_leaf;
-            params.first_short_place = source.first_short_place;
+            params.first_short_entry = source.first_short_entry;
             return params;
         };
         addRounds(graph, primary(gpu::trace::PrimaryRanks{}), rounds, buffers.rounds, buffers.live.count(), declare,

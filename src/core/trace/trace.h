@@ -23,7 +23,7 @@ enum class TraceStack : std::uint32_t
 };
 
 /// How a picture stores its pixels, alpha 1 always. All but Half hold sRGB codes, tone-mapped where the picture is lit.
-enum class TexelForm : std::uint32_t
+enum class TexelFormat : std::uint32_t
 {
     Rgba8 = gpu::kTexelRgba8, ///< one word: red | green << 8 | blue << 16 | alpha << 24
     Bgra8 = gpu::kTexelBgra8, ///< one word: blue | green << 8 | red << 16 | alpha << 24
@@ -33,9 +33,9 @@ enum class TexelForm : std::uint32_t
     Half = gpu::kTexelHalf,
 };
 
-constexpr std::uint32_t texelWords(TexelForm form)
+constexpr std::uint32_t texelWords(TexelFormat format)
 {
-    return form == TexelForm::Half ? 2 : 1;
+    return format == TexelFormat::Half ? 2 : 1;
 }
 
 /// The most rays that TraceOptions::occlusion_rays asks for.
@@ -54,8 +54,9 @@ struct TraceOptions
     std::uint32_t occlusion_rays = TraceInfo().occlusion_rays;
     float occlusion_reach = TraceInfo().occlusion_reach;
     float detail_pixels = TraceInfo().detail_pixels;
-    std::uint32_t detail_level = UINT32_MAX;       // stop at this level of nodes
-    std::uint32_t steps_max = gpu::kTraceStepsMax; // iterations of an invocation: fewer only to test what comes then
+    std::uint32_t detail_level = UINT32_MAX; // stop at this level of nodes
+    std::uint32_t iterations_max =
+        gpu::kTraceIterationsMax; // iterations of an invocation: fewer only to test what comes then
 
     [[nodiscard]] bool hasDetail() const { return detail_pixels > 0.0F || detail_level != UINT32_MAX; }
 };
@@ -76,14 +77,15 @@ struct BeamGrid
 /// What the passes for a picture of width x height pixels write. Pixels are stored row by row from the top left.
 struct TraceBuffers
 {
-    TraceBuffers(vk::Device& device, std::uint32_t width, std::uint32_t height, TexelForm texels = TexelForm::Rgba8);
+    TraceBuffers(vk::Device& device, std::uint32_t width, std::uint32_t height,
+                 TexelFormat texels = TexelFormat::Rgba8);
 
     /// Of all buffers together.
     [[nodiscard]] std::uint64_t bytes() const;
 
     std::uint32_t width;
     std::uint32_t height;
-    TexelForm texels;
+    TexelFormat texels;
     vk::BufferOf<float> starts;             // [tiles] of kTileEdge^2 pixels, row by row: kTileDead where nothing is hit
     vk::BufferOf<gpu::uvec2> live;          // [tiles] the others, in any order, then kNoTile
     vk::BufferOf<gpu::DispatchArgs> args;   // [1] one workgroup for each of them

@@ -13,8 +13,8 @@ void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCame
         graph.fill(report, 0);
         return;
     }
-    const AttributeForm form = showsAttributes(options) ? formToRead(tree, options) : AttributeForm::None;
-    vk::Pass pass = graph.addPass(traversing(gpu::trace::Inspect{.orthographic = camera.orthographic, .form = form},
+    const AttributeFormat format = showsAttributes(options) ? formatToRead(tree, options) : AttributeFormat::None;
+    vk::Pass pass = graph.addPass(traversing(gpu::trace::Inspect{.orthographic = camera.orthographic, .format = format},
                                              graph.device(), tree, options));
     gpu::InspectParams params{};
     params.nodes = pass.read(tree.nodes);

@@ -22,9 +22,9 @@ void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const Trac
                     TraceBuffers& buffers)
 {
     const bool shows_sky = options.view == View::Color;
-    if (!shows_sky && buffers.texels != TexelForm::Half) // black is one word
+    if (!shows_sky && buffers.texels != TexelFormat::Half) // black is one word
     {
-        graph.fill(buffers.image, buffers.texels == TexelForm::Rgb10 ? 3U << 30 : 255U << 24);
+        graph.fill(buffers.image, buffers.texels == TexelFormat::Rgb10 ? 3U << 30 : 255U << 24);
         return;
     }
     vk::Pass pass = graph.addPass(
@@ -94,7 +94,7 @@ void shadeLit(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& 
     vk::Pass pass =
         graph.addPass(gpu::trace::Shade{.node_levels = tree.grid.nodeLevels(),
                                         .orthographic = camera.orthographic,
-                                        .form = formToRead(tree, options),
+                                        .format = formatToRead(tree, options),
                                         .emission = usesAttributes(tree, options) && tree.emission.count() != 0,
                                         .light = needsLight(options),
                                         .texels = buffers.texels});
@@ -114,7 +114,7 @@ void shadeView(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera&
     vk::Pass pass = graph.addPass(gpu::trace::Views{.view = options.view,
                                                     .node_levels = tree.grid.nodeLevels(),
                                                     .orthographic = camera.orthographic,
-                                                    .form = formToRead(tree, options),
+                                                    .format = formatToRead(tree, options),
                                                     .texels = buffers.texels});
     auto params = shadeParams<gpu::ViewsParams>(pass, tree, camera, buffers);
     params.iterations = pass.read(buffers.light);
@@ -130,10 +130,10 @@ void shadeView(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera&
 void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
                 TraceBuffers& buffers)
 {
-    const AttributeForm form = formToRead(tree, options);
+    const AttributeFormat format = formatToRead(tree, options);
     if (options.shadows)
     {
-        const gpu::trace::Shadow kernel{.orthographic = camera.orthographic, .form = form};
+        const gpu::trace::Shadow kernel{.orthographic = camera.orthographic, .format = format};
         const gpu::vec3 to_sun = sunDirection(options);
         const auto declare = [&](vk::AnyPass& pass)
         {
@@ -149,7 +149,7 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera
     {
         const Grid& grid = tree.grid;
         const gpu::trace::Occlusion kernel{
-            .orthographic = camera.orthographic, .form = form, .shadows = options.shadows};
+            .orthographic = camera.orthographic, .format = format, .shadows = options.shadows};
         vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, options));
         auto params = lightParams<gpu::OcclusionParams>(pass, tree, camera, buffers);
         params.light = pass.readWrite(buffers.light);

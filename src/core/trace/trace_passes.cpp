@@ -40,7 +40,7 @@ bool showsAttributes(const TraceOptions& options)
 
 TraceStack stackOn(std::string_view device_type, TraceStack asked)
 {
-    // A GPU keeps a private array that is indexed in device memory: each step of each ray would go there and back.
+    // A GPU keeps a private array that is indexed in device memory: each iteration of each ray would go there and back.
     return asked == TraceStack::Private && device_type != "cpu" ? TraceStack::Registers : asked;
 }
 
@@ -49,16 +49,16 @@ TraceStack stackConstant(const vk::Device& device, const TraceOptions& options)
     return stackOn(device.report().type, options.stack);
 }
 
-AttributeForm formToRead(const DeviceTree& octree, const TraceOptions& options)
+AttributeFormat formatToRead(const DeviceTree& octree, const TraceOptions& options)
 {
-    return usesAttributes(octree, options) ? octree.attributeForm() : AttributeForm::None;
+    return usesAttributes(octree, options) ? octree.attributeFormat() : AttributeFormat::None;
 }
 
 std::uint32_t roundsFor(const DeviceTree& octree, const TraceOptions& options)
 {
     const std::uint64_t steps = std::uint64_t{4} * octree.grid.resolution() + gpu::kTraceRoundsMax * 16;
     return static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(divideUp(steps, options.steps_max), gpu::kTraceRoundsMax));
+        std::min<std::uint64_t>(divideUp(steps, options.iterations_max), gpu::kTraceRoundsMax));
 }
 
 gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera)

@@ -35,13 +35,13 @@ bool usesAttributes(const DeviceTree& octree, const TraceOptions& options);
 /// Whether a picture shows anything of the attributes of hits.
 bool showsAttributes(const TraceOptions& options);
 
-/// The form in which kernels read attributes; None: they need not.
-AttributeForm formToRead(const DeviceTree& octree, const TraceOptions& options);
+/// The format in which kernels read attributes; None: they need not.
+AttributeFormat formatToRead(const DeviceTree& octree, const TraceOptions& options);
 
-/// Declares that pass reads attributes, whatever their form.
+/// Declares that pass reads attributes, whatever their format.
 template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTree& octree, Params& params)
 {
-    if (isPacked(octree.attributeForm()))
+    if (isPacked(octree.attributeFormat()))
     {
         params.attributes = {pass.read(octree.packed.voxels).address};
         params.node_attributes = {pass.read(octree.packed.nodes).address};
@@ -64,7 +64,7 @@ Kernel traversing(Kernel kernel, const vk::Device& device, const DeviceTree& tre
     kernel.node_levels = tree.grid.nodeLevels();
     kernel.stack = stackConstant(device, options);
     kernel.detail = options.hasDetail();
-    kernel.steps_max = options.steps_max;
+    kernel.iterations_max = options.iterations_max;
     kernel.entries_per_word = tree.entriesPerWord();
     return kernel;
 }

@@ -9,9 +9,9 @@ namespace zvo
 template <typename T> void TreeTracer::replace(std::unique_ptr<T>& old, std::unique_ptr<T> made)
 {
     std::swap(old, made);
-    if (m_retired != nullptr && made != nullptr)
+    if (m_deletion_queue != nullptr && made != nullptr)
     {
-        m_retired->keep(std::move(made));
+        m_deletion_queue->keep(std::move(made));
     }
 }
 

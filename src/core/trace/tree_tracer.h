@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/trace/trace.h"
-#include "vk/retired.h"
+#include "vk/deletion_queue.h"
 
 #include <cstdint>
 #include <memory>
@@ -16,8 +16,9 @@ class TreeTracer
 {
 public:
     /// retired gets what frames in flight may use, and outlives this; null: there are none when something is replaced.
-    explicit TreeTracer(vk::Device& device, vk::Retired* retired = nullptr, TexelForm texels = TexelForm::Rgba8)
-        : m_device(device), m_retired(retired), m_texels(texels)
+    explicit TreeTracer(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr,
+                        TexelFormat texels = TexelFormat::Rgba8)
+        : m_device(device), m_deletion_queue(deletion_queue), m_texels(texels)
     {
     }
 
@@ -44,8 +45,8 @@ private:
     template <typename T> void replace(std::unique_ptr<T>& old, std::unique_ptr<T> made);
 
     vk::Device& m_device;
-    vk::Retired* m_retired;
-    TexelForm m_texels;
+    vk::DeletionQueue* m_deletion_queue;
+    TexelFormat m_texels;
     std::unique_ptr<TraceBuffers> m_buffers;
     std::unique_ptr<BeamGrid> m_beam;
     bool m_beam_is_for_dags = false;

@@ -6,12 +6,12 @@ namespace zvo
 
 gpu::RankSource rankSource(const DeviceTree& dag)
 {
-    const std::uint64_t first_place = dag.packing().firstPlace();
+    const std::uint64_t first_index = dag.packing().firstEntry();
     gpu::RankSource source{};
     source.pool = {dag.nodes.address()};
-    source.before = {dag.lists.before.address() - first_place * sizeof(gpu::BeforeChild)};
+    source.before = {dag.lists.before.address() - first_index * sizeof(gpu::BeforeChild)};
     source.voxels_before_leaf = {dag.lists.voxels_before_leaf.address()};
-    source.first_short_place = static_cast<gpu::uint>(first_place + dag.lists.long_entry_count);
+    source.first_short_entry = static_cast<gpu::uint>(first_index + dag.lists.long_entry_count);
     return source;
 }
 

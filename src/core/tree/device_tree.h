@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/tree/attribute_form.h"
+#include "core/tree/attribute_format.h"
 #include "core/tree/list_packing.h"
 #include "shared/octree.h"
 #include "shared/svdag.h"
@@ -37,7 +37,7 @@ struct OverlayRoom
 {
     std::uint32_t static_root = 0; // number of the node behind the static nodes and lists; 0: there is no room
 
-    /// Of the nodes behind static_root: the rank of the static octree's node in the same place, 0 where it has none.
+    /// Of the nodes behind static_root: the rank of the static octree's node at the same position, 0 where it has none.
     /// Only of a DAG with attributes.
     vk::BufferOf<gpu::BeforeChild> ranks;
 
@@ -93,7 +93,7 @@ struct DeviceTree
     /// those in Morton order. With room for overlays: the slot's, those of the other nodes, the static root's, then
     /// those of overlays.
     vk::BufferOf<gpu::Attribute> node_attributes;
-    PackedAttributes packed;                 // the same in another form, in place of both
+    PackedAttributes packed;                 // the same in another format, in place of both
     vk::BufferOf<gpu::uvec2> emission_words; // [ceil(voxel_count / 32)] bits of emissive voxels, rank of the first one
     vk::BufferOf<gpu::uint> emission;        // [emissive voxels] radiance / emission_scale as RGB9E5
     float emission_scale = 1.0F;
@@ -105,11 +105,11 @@ struct DeviceTree
     [[nodiscard]] bool isDag() const { return structure == TreeStructure::Svdag; }
     [[nodiscard]] bool hasOverlays() const { return overlays.static_root != 0; }
 
-    [[nodiscard]] AttributeForm attributeForm() const
+    [[nodiscard]] AttributeFormat attributeFormat() const
     {
-        return voxel_attributes.count() != 0 ? AttributeForm::Bytes8 : packed.form;
+        return voxel_attributes.count() != 0 ? AttributeFormat::Bytes8 : packed.format;
     }
-    [[nodiscard]] bool hasAttributes() const { return attributeForm() != AttributeForm::None; }
+    [[nodiscard]] bool hasAttributes() const { return attributeFormat() != AttributeFormat::None; }
     [[nodiscard]] bool hasNodeAttributes() const { return node_attributes.count() + packed.nodes.count() != 0; }
 
     /// Of a DAG's lists.

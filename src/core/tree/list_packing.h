@@ -22,8 +22,8 @@ struct ListPacking
     /// As many entries a word as numbers of node_count nodes allow.
     static ListPacking tightest(std::uint64_t node_count, std::uint64_t entry_count);
 
-    /// Place of the first entry.
-    [[nodiscard]] std::uint64_t firstPlace() const { return kWordsOfNode * node_count * per_word; }
+    /// Index of the first entry.
+    [[nodiscard]] std::uint64_t firstEntry() const { return kWordsOfNode * node_count * per_word; }
 
     /// Words of all entries, bytes of them, and how many nodes take as much room as nodes and entries together.
     [[nodiscard]] std::uint64_t wordCount() const { return divideUp(entry_count, per_word); }
@@ -31,7 +31,7 @@ struct ListPacking
     [[nodiscard]] std::uint64_t poolNodes() const { return node_count + divideUp(wordCount(), kWordsOfNode); }
 
     /// Whether the base of a node can name every place.
-    [[nodiscard]] bool fits() const { return firstPlace() + wordCount() * per_word < gpu::kChildList; }
+    [[nodiscard]] bool fits() const { return firstEntry() + wordCount() * per_word < gpu::kChildList; }
 
     static constexpr std::uint64_t kWordsOfNode = sizeof(gpu::Node) / sizeof(std::uint64_t);
 };

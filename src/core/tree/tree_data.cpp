@@ -79,7 +79,7 @@ DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree)
     copy.levels = tree.levels;
     copy.voxel_attributes = uploadVector(device, "octree/voxel_attributes", tree.voxel_attributes);
     copy.node_attributes = uploadVector(device, "octree/node_attributes", tree.node_attributes);
-    copy.packed = {tree.packed.form, uploadVector(device, "packed voxel attributes", tree.packed.voxels),
+    copy.packed = {tree.packed.format, uploadVector(device, "packed voxel attributes", tree.packed.voxels),
                    uploadVector(device, "packed node attributes", tree.packed.nodes)};
     copy.emission_words = uploadVector(device, "octree/emission_words", tree.emission_words);
     copy.emission = uploadVector(device, "octree/emission", tree.emission);

@@ -36,21 +36,22 @@ struct TreeData
     std::vector<gpu::uint> voxels_before_leaf;    // [ceil((entries - long_entry_count) / 2)] likewise
     std::vector<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty
     std::vector<gpu::Attribute> node_attributes;  // [octree_node_count] in the structure's order, or empty
-    PackedWords packed;                           // the same in another form, in place of both
+    PackedWords packed;                           // the same in another format, in place of both
     std::vector<gpu::uvec2> emission_words;       // [ceil(voxel_count / 32)], or empty where nothing emits
     std::vector<gpu::uint> emission;              // [emissive voxels]
     float emission_scale = 1.0F;
 
-    [[nodiscard]] AttributeForm attributeForm() const
+    [[nodiscard]] AttributeFormat attributeFormat() const
     {
-        return voxel_attributes.empty() ? packed.form : AttributeForm::Bytes8;
+        return voxel_attributes.empty() ? packed.format : AttributeFormat::Bytes8;
     }
-    [[nodiscard]] bool hasAttributes() const { return attributeForm() != AttributeForm::None; }
+    [[nodiscard]] bool hasAttributes() const { return attributeFormat() != AttributeFormat::None; }
 
     /// What a voxel looks like, in a tree with attributes that checkTree accepts. Flags are there in Bytes8 alone.
     [[nodiscard]] gpu::Attribute voxelAttribute(std::uint64_t voxel) const
     {
-        return voxel_attributes.empty() ? unpackAttribute(packed.form, packed.voxels, voxel) : voxel_attributes[voxel];
+        return voxel_attributes.empty() ? unpackAttribute(packed.format, packed.voxels, voxel)
+                                        : voxel_attributes[voxel];
     }
 
     /// Bytes, as in device memory and in files: of nodes and lists; of what stands beside the lists, so that voxels
@@ -64,7 +65,7 @@ struct TreeData
     {
         return structure == TreeStructure::Svo
                    ? node.base_lo + rank
-                   : lists[(node.base_lo & ~gpu::kChildList) - packing().firstPlace() + rank];
+                   : lists[(node.base_lo & ~gpu::kChildList) - packing().firstEntry() + rank];
     }
 
     /// Of the lists, in a pool and in files.

@@ -9,8 +9,8 @@ namespace
 
 void setAttributes(const DeviceTree& octree, gpu::TreeTable& table)
 {
-    const bool packed = isPacked(octree.attributeForm());
-    table.attribute_form = static_cast<gpu::uint>(octree.attributeForm());
+    const bool packed = isPacked(octree.attributeFormat());
+    table.attribute_format = static_cast<gpu::uint>(octree.attributeFormat());
     table.attributes = {packed ? octree.packed.voxels.address() : octree.voxel_attributes.address()};
     table.node_attributes = {packed ? octree.packed.nodes.address() : octree.node_attributes.address()};
     if (octree.hasAttributes() && octree.emission.count() != 0)

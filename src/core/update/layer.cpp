@@ -124,7 +124,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
 }
 
 // A walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
-void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, RecordedSteps& steps)
+void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, RecordedStages& stages)
 {
     for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
     {
@@ -140,36 +140,36 @@ void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, Recorded
                                         job.sum_shift};
             record(RasterWalk{job.scene, job.grid, job.coverage, layer.voxelize, mode, &sums});
         };
-        addStep(steps, {name, chunk_count, true},
-                [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count) {
-                    withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); });
-                });
-        addStep(steps, {fmt::format("{}, large triangles", name), chunk_count},
-                [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                { withWalk([&](const RasterWalk& walk) { walkRows(graph, walk, material_class); }); });
+        addStage(
+            stages, {name, chunk_count, true},
+            [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count)
+            { withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); }); });
+        addStage(stages, {fmt::format("{}, large triangles", name), chunk_count},
+                 [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                 { withWalk([&](const RasterWalk& walk) { walkRows(graph, walk, material_class); }); });
     }
 }
 
 } // namespace
 
-void addLayerSteps(const LayerJob& job, RecordedSteps& steps)
+void addLayerStages(const LayerJob& job, RecordedStages& stages)
 {
     const std::uint64_t capacity = job.layer.voxelize.bricks.count();
-    addStep(steps, {"clear a layer", capacity},
-            [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearCoverage(graph, job.layer.voxelize); });
-    addWalk(job, "cover voxels", gpu::kModeCoverage, steps);
-    addStep(steps, {"list leaves", capacity},
-            [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { listLeaves(graph, job); });
+    addStage(stages, {"clear a layer", capacity},
+             [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearCoverage(graph, job.layer.voxelize); });
+    addWalk(job, "cover voxels", gpu::kModeCoverage, stages);
+    addStage(stages, {"list leaves", capacity},
+             [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { listLeaves(graph, job); });
     if (job.layer.sums.count() == 0)
     {
         return;
     }
-    addStep(steps, {"clear sums", job.layer.sums.count()},
-            [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearSums(graph, job.layer); });
-    addWalk(job, "add colours and normals", gpu::kModeAttributes, steps);
+    addStage(stages, {"clear sums", job.layer.sums.count()},
+             [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearSums(graph, job.layer); });
+    addWalk(job, "add colours and normals", gpu::kModeAttributes, stages);
     if (job.layer.emission_words.count() != 0)
     {
-        addWalk(job, "add emission", gpu::kModeEmission, steps);
+        addWalk(job, "add emission", gpu::kModeEmission, stages);
     }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/update/update_step.h"
+#include "core/update/update_stage.h"
 #include "core/upload/gpu_scene.h"
 #include "core/voxelize/voxelize.h"
 #include "update/update.h"
@@ -35,7 +35,7 @@ struct LayerContents
     bool emission = false; // only with attributes
 };
 
-/// The voxels of one mover; shaders/update/update.h has the picture.
+/// The voxels of one dynamic object; shaders/update/update.h has the picture.
 struct LayerBuffers
 {
     LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene, LayerContents contents);
@@ -52,10 +52,10 @@ struct LayerBuffers
     vk::BufferOf<gpu::EmissionSums> emission_sums; // [capacities.voxels], or empty without emission
 };
 
-/// A mover, as it is voxelized into a layer.
+/// A dynamic object, as it is voxelized into a layer.
 struct LayerJob
 {
-    PlacedScene scene;
+    PosedGpuScene scene;
     const Grid& grid;
     Coverage coverage;
     std::uint32_t sum_shift = 0;
@@ -64,9 +64,9 @@ struct LayerJob
     std::uint32_t report = 0;                  // element of reports that becomes a copy of the layer's counters
 };
 
-/// Adds the steps that voxelize a mover into a layer: coverage, then sums of what its fragments look like. Nothing is
-/// read back; what does not fit is counted, and the layer then says that it failed. What job refers to must outlive the
-/// steps. Cost: triangles plus fragments, and the layer's capacities, once, for clearing them.
-void addLayerSteps(const LayerJob& job, RecordedSteps& steps);
+/// Adds the stages that voxelize a dynamic object into a layer: coverage, then sums of what its fragments look like.
+/// Nothing is read back; what does not fit is counted, and the layer then says that it failed. What job refers to must
+/// outlive the stages. Cost: triangles plus fragments, and the layer's capacities, once, for clearing them.
+void addLayerStages(const LayerJob& job, RecordedStages& stages);
 
 } // namespace zvo

@@ -126,7 +126,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
             const gpu::RankSource source = rankSource(pass, tree);
             params.before = source.before;
             params.voxels_before_leaf = source.voxels_before_leaf;
-            params.first_short_place = source.first_short_place;
+            params.first_short_entry = source.first_short_entry;
             params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
         }
         params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
@@ -204,7 +204,7 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
         params.words = pass.readWrite(job.tree.emission_words);
         params.first_word = job.region.first_voxel / kVoxelBlock;
         params.word_count = job.region.voxel_capacity / kVoxelBlock;
-        params.first_place = job.region.first_voxel + job.emission_offset;
+        params.first_index = job.region.first_voxel + job.emission_offset;
         pass.dispatch(params.word_count, params);
     }
     addMergePass<gpu::update::Merge>(graph, job, buffers);
@@ -212,7 +212,8 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
     {
         addMergePass<gpu::update::MergeEmission>(graph, job, buffers);
     }
-    for (std::uint32_t step = 0; step < job.tree.grid.nodeLevels() && job.tree.node_attributes.count() != 0; ++step)
+    for (std::uint32_t height = 0; height < job.tree.grid.nodeLevels() && job.tree.node_attributes.count() != 0;
+         ++height)
     {
         vk::Pass pass = graph.addPass(gpu::update::Average{});
         gpu::OverlayAverageParams params{};
@@ -221,19 +222,20 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
         params.ranges = pass.read(buffers.work.ranges);
         params.touched = pass.read(buffers.touched);
         params.nodes = pass.read(job.tree.nodes);
-        params.children = step == 0 ? pass.read(job.tree.voxel_attributes) : pass.read(job.tree.node_attributes);
+        params.children = height == 0 ? pass.read(job.tree.voxel_attributes) : pass.read(job.tree.node_attributes);
         params.averages = pass.readWrite(job.tree.node_attributes);
         params.status = pass.read(buffers.status);
-        params.item_range = step;
-        params.children_offset = step == 0 ? 0 : job.tree.attributeOffset();
+        params.item_range = height;
+        params.children_offset = height == 0 ? 0 : job.tree.attributeOffset();
         params.attribute_offset = job.tree.attributeOffset();
-        pass.dispatchIndirect(buffers.work.args, step, params, divideUp(buffers.work.items.count(), gpu::kNodesGroup));
+        pass.dispatchIndirect(buffers.work.args, height, params,
+                              divideUp(buffers.work.items.count(), gpu::kNodesGroup));
     }
 }
 
 } // namespace
 
-void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last)
+void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootSlot& last)
 {
     vk::Pass pass = graph.addPass(gpu::update::Finish{.attributes = job.tree.node_attributes.count() != 0});
     gpu::FinishParams params{};
@@ -245,8 +247,8 @@ void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.roots = pass.readWrite(job.roots);
     params.root = job.region.first_node;
     params.last_root = last.root;
-    params.last_place = last.place;
-    params.place = job.place;
+    params.last_slot = last.slot;
+    params.slot = job.slot;
     params.sum_shift = job.sum_shift;
     params.attribute_offset = job.tree.attributeOffset();
     pass.dispatch(1, params);
@@ -270,12 +272,13 @@ std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities)
            capacities.records * sizeof(gpu::LayerLink) + capacities.overlay_nodes * sizeof(gpu::uint);
 }
 
-void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& steps)
+void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, RecordedStages& stages)
 {
     const std::uint64_t records = buffers.links.count();
-    const auto add = [&](const char* name, const std::function<void(vk::FrameGraph&)>& record) {
-        addStep(steps, {name, records},
-                [record](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); });
+    const auto add = [&](const char* name, const std::function<void(vk::FrameGraph&)>& record)
+    {
+        addStage(stages, {name, records},
+                 [record](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { record(graph); });
     };
     add("list touched nodes",
         [&job, &buffers](vk::FrameGraph& graph)
@@ -294,7 +297,7 @@ void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& 
     }
 }
 
-void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root)
+void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootSlot& root)
 {
     vk::Pass pass = graph.addPass(gpu::update::Show{.attributes = tree.node_attributes.count() != 0});
     gpu::ShowParams params{};
@@ -302,7 +305,7 @@ void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::u
     params.node_attributes = pass.readWrite(tree.node_attributes);
     params.roots = pass.read(roots);
     params.root = root.root;
-    params.place = root.place;
+    params.slot = root.slot;
     params.attribute_offset = tree.attributeOffset();
     pass.dispatch(1, params);
 }

@@ -48,10 +48,10 @@ struct UpdateBuffers
 };
 
 /// Where the index of a root's node is known: by the host or, until it knows how an update ended, by the device.
-struct RootPlace
+struct RootSlot
 {
-    std::uint32_t root = gpu::kNoNode; // kNoNode: in roots[place]
-    std::uint32_t place = 0;
+    std::uint32_t root = gpu::kNoNode; // kNoNode: in roots[slot]
+    std::uint32_t slot = 0;
 };
 
 /// One update: which layers are merged with which base tree, and where the result goes.
@@ -63,24 +63,24 @@ struct UpdateJob
     std::uint32_t base_root = 0; // node of what is merged with: the static root, or that of an edited tree
     MergeRule merge = MergeRule::Average;
     std::uint32_t sum_shift = 0;                // of the layers
-    std::uint32_t emission_offset = 0;          // from a voxel of an overlay to its place among emission values
+    std::uint32_t emission_offset = 0;          // from a voxel of an overlay to its emission's index
     const vk::BufferOf<gpu::MergeView>& view;   // [1]
     const vk::BufferOf<gpu::SceneView>& tables; // [1] of sRGB codes
-    std::uint32_t place = 0;                    // element of roots, and of results, for this update
+    std::uint32_t slot = 0;                     // element of roots, and of results, for this update
     vk::BufferOf<gpu::uint>& roots;
     vk::BufferOf<gpu::UpdateStatus>& results; // host-visible
 };
 
-/// Adds the steps that merge layers with the static tree: copies of all paths to leaves that a layer has go to the
+/// Adds the stages that merge layers with the static tree: copies of all paths to leaves that a layer has go to the
 /// region, merged with it. Nothing is shown yet, and nothing is read back. job and what it refers to must outlive the
-/// steps. Cost: touched nodes, and their children.
-void addMergeSteps(const UpdateJob& job, UpdateBuffers& buffers, RecordedSteps& steps);
+/// stages. Cost: touched nodes, and their children.
+void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, RecordedStages& stages);
 
 /// Records the pass that ends a merge: nodes[0] becomes the overlay's root or, if something had no room, last;
-/// roots[place] tells which. results[place] becomes what the update came to.
-void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootPlace& last);
+/// roots[slot] tells which. results[slot] becomes what the update came to.
+void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, const RootSlot& last);
 
 /// Records the pass that shows an earlier root again. Cost: constant.
-void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootPlace& root);
+void showRoot(vk::FrameGraph& graph, DeviceTree& tree, const vk::BufferOf<gpu::uint>& roots, const RootSlot& root);
 
 } // namespace zvo

@@ -48,17 +48,17 @@ std::uint64_t unitsWithin(double ms, double ms_per_unit, std::uint64_t units)
 
 } // namespace
 
-std::vector<UpdateSlice> UpdateBudget::plan(std::span<const UpdateStep> steps, UpdateProgress& progress,
+std::vector<UpdateSlice> UpdateBudget::plan(std::span<const UpdateStage> stages, UpdateProgress& progress,
                                             double budget_ms) const
 {
     const bool bounded = budget_ms > 0;
     double left_ms = budget_ms;
     std::vector<UpdateSlice> slices;
-    for (; progress.step < steps.size(); ++progress.step, progress.unit = 0)
+    for (; progress.stage < stages.size(); ++progress.stage, progress.unit = 0)
     {
-        const UpdateStep& step = steps[progress.step];
-        assert(progress.unit <= step.units);
-        const std::uint64_t units = step.units - progress.unit;
+        const UpdateStage& stage = stages[progress.stage];
+        assert(progress.unit <= stage.units);
+        const std::uint64_t units = stage.units - progress.unit;
         if (units == 0)
         {
             continue;
@@ -66,10 +66,10 @@ std::vector<UpdateSlice> UpdateBudget::plan(std::span<const UpdateStep> steps, U
         std::uint64_t taken = units;
         if (bounded)
         {
-            const std::uint64_t least = step.divisible ? std::min(units, divideUp(step.units, kParts)) : units;
-            const bool cautious = step.divisible && !measured(step.name);
+            const std::uint64_t least = stage.divisible ? std::min(units, divideUp(stage.units, kParts)) : units;
+            const bool cautious = stage.divisible && !measured(stage.name);
             const double allowed_ms = cautious ? std::min(left_ms, budget_ms / kCaution) : left_ms;
-            taken = unitsWithin(allowed_ms, predictMs(step, 1), units);
+            taken = unitsWithin(allowed_ms, predictMs(stage, 1), units);
             if (taken < least)
             {
                 if (!slices.empty())
@@ -79,8 +79,8 @@ std::vector<UpdateSlice> UpdateBudget::plan(std::span<const UpdateStep> steps, U
                 taken = least;
             }
         }
-        left_ms -= predictMs(step, taken);
-        slices.push_back({step.name, progress.step, progress.unit, taken});
+        left_ms -= predictMs(stage, taken);
+        slices.push_back({stage.name, progress.stage, progress.unit, taken});
         if (taken != units)
         {
             progress.unit += taken;
@@ -111,10 +111,10 @@ void UpdateBudget::learn(std::span<const UpdateSlice> slices, std::span<const vk
     }
 }
 
-double UpdateBudget::predictMs(const UpdateStep& step, std::uint64_t units) const
+double UpdateBudget::predictMs(const UpdateStage& stage, std::uint64_t units) const
 {
-    const auto rate = m_ms_per_unit.find(step.name);
-    return static_cast<double>(units) * (rate != m_ms_per_unit.end() ? rate->second : step.guess_ms_per_unit);
+    const auto rate = m_ms_per_unit.find(stage.name);
+    return static_cast<double>(units) * (rate != m_ms_per_unit.end() ? rate->second : stage.guess_ms_per_unit);
 }
 
 } // namespace zvo

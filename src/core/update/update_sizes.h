@@ -9,8 +9,8 @@
 namespace zvo
 {
 
-/// How much room the next update is given: what updates of late have needed, or a guess for movers that none has
-/// measured. Host logic only.
+/// How much room the next update is given: what updates of late have needed, or a guess for dynamic objects that none
+/// has measured. Host logic only.
 class UpdateSizes
 {
 public:

@@ -18,7 +18,7 @@ template <typename T> [[maybe_unused]] bool isWhole(const std::vector<T>& values
     return values.empty() || values.size() == primitive.positions.size();
 }
 
-void placeDraw(gpu::Draw& draw, const glm::mat4& transform)
+void setTransform(gpu::Draw& draw, const glm::mat4& transform)
 {
     const glm::dmat3 linear(transform);
     const double determinant = glm::determinant(linear);
@@ -30,17 +30,17 @@ void placeDraw(gpu::Draw& draw, const glm::mat4& transform)
     draw.mirrored = determinant < 0 ? 1 : 0;
 }
 
-gpu::Draw makeDraw(const Primitive& primitive, const PrimitivePlace& place, const glm::mat4& transform)
+gpu::Draw makeDraw(const Primitive& primitive, const PrimitiveOffsets& primitive_offsets, const glm::mat4& transform)
 {
     gpu::Draw draw{};
-    draw.first_triangle = place.first_triangle;
+    draw.first_triangle = primitive_offsets.first_triangle;
     draw.triangle_count = checkedCount(primitive.triangles.size(), "triangles");
-    draw.first_vertex = place.first_vertex;
-    draw.first_normal = place.first_normal;
-    draw.first_uv = place.first_uv;
-    draw.first_color = place.first_color;
+    draw.first_vertex = primitive_offsets.first_vertex;
+    draw.first_normal = primitive_offsets.first_normal;
+    draw.first_uv = primitive_offsets.first_uv;
+    draw.first_color = primitive_offsets.first_color;
     draw.material = primitive.material;
-    placeDraw(draw, transform);
+    setTransform(draw, transform);
     return draw;
 }
 
@@ -55,10 +55,10 @@ std::uint32_t checkedCount(std::size_t count, const char* what)
     return static_cast<std::uint32_t>(count);
 }
 
-std::vector<PrimitivePlace> primitivePlaces(const Scene& scene)
+std::vector<PrimitiveOffsets> primitiveOffsets(const Scene& scene)
 {
-    std::vector<PrimitivePlace> places;
-    places.reserve(scene.primitives.size());
+    std::vector<PrimitiveOffsets> offsets;
+    offsets.reserve(scene.primitives.size());
     std::uint64_t triangle_count = 0;
     std::uint64_t vertex_count = 0;
     std::uint64_t normal_count = 0;
@@ -68,15 +68,15 @@ std::vector<PrimitivePlace> primitivePlaces(const Scene& scene)
     {
         assert(isWhole(primitive.normals, primitive) && isWhole(primitive.uvs, primitive) &&
                isWhole(primitive.colors, primitive));
-        const auto placeOf = [](std::uint64_t first, std::size_t count, const char* what)
+        const auto offsetOf = [](std::uint64_t first, std::size_t count, const char* what)
         { return count == 0 ? gpu::kAbsent : checkedCount(first, what); };
-        PrimitivePlace place{};
-        place.first_triangle = checkedCount(triangle_count, "triangles");
-        place.first_vertex = checkedCount(vertex_count, "vertices");
-        place.first_normal = placeOf(normal_count, primitive.normals.size(), "normals");
-        place.first_uv = placeOf(uv_count, primitive.uvs.size(), "texture coordinates");
-        place.first_color = placeOf(color_count, primitive.colors.size(), "colours");
-        places.push_back(place);
+        PrimitiveOffsets primitive_offsets{};
+        primitive_offsets.first_triangle = checkedCount(triangle_count, "triangles");
+        primitive_offsets.first_vertex = checkedCount(vertex_count, "vertices");
+        primitive_offsets.first_normal = offsetOf(normal_count, primitive.normals.size(), "normals");
+        primitive_offsets.first_uv = offsetOf(uv_count, primitive.uvs.size(), "texture coordinates");
+        primitive_offsets.first_color = offsetOf(color_count, primitive.colors.size(), "colours");
+        offsets.push_back(primitive_offsets);
         triangle_count += primitive.triangles.size();
         vertex_count += primitive.positions.size();
         normal_count += primitive.normals.size();
@@ -85,17 +85,18 @@ std::vector<PrimitivePlace> primitivePlaces(const Scene& scene)
     }
     checkedCount(triangle_count, "triangles"); // the last ones have numbers, too
     checkedCount(vertex_count, "vertices");
-    return places;
+    return offsets;
 }
 
 std::vector<gpu::Draw> makeDraws(const Scene& scene)
 {
-    const std::vector<PrimitivePlace> places = primitivePlaces(scene);
+    const std::vector<PrimitiveOffsets> offsets = primitiveOffsets(scene);
     std::vector<gpu::Draw> draws;
     draws.reserve(scene.instances.size());
     for (const Instance& instance : scene.instances)
     {
-        draws.push_back(makeDraw(scene.primitives[instance.primitive], places[instance.primitive], instance.transform));
+        draws.push_back(
+            makeDraw(scene.primitives[instance.primitive], offsets[instance.primitive], instance.transform));
     }
     return draws;
 }
@@ -103,16 +104,16 @@ std::vector<gpu::Draw> makeDraws(const Scene& scene)
 std::vector<gpu::Draw> makeDraws(const Scene& scene, std::span<const glm::mat4> transforms)
 {
     std::vector<gpu::Draw> draws = makeDraws(scene);
-    placeDraws(draws, transforms);
+    setTransforms(draws, transforms);
     return draws;
 }
 
-void placeDraws(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms)
+void setTransforms(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms)
 {
     assert(transforms.size() == draws.size());
     for (std::size_t i = 0; i < draws.size(); ++i)
     {
-        placeDraw(draws[i], transforms[i]);
+        setTransform(draws[i], transforms[i]);
     }
 }
 

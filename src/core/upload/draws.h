@@ -16,8 +16,8 @@ namespace zvo
 /// count, if numbers below gpu::kAbsent suffice for so many. Throws Error{Input} that names what there is too much of.
 std::uint32_t checkedCount(std::size_t count, const char* what);
 
-/// Where a primitive's arrays start in the buffers of a GpuScene.
-struct PrimitivePlace
+/// Where a primitive's arrays start in the buffers of a GpuScene, in elements.
+struct PrimitiveOffsets
 {
     std::uint32_t first_triangle;
     std::uint32_t first_vertex;
@@ -26,16 +26,16 @@ struct PrimitivePlace
     std::uint32_t first_color;
 };
 
-/// The places of all primitives of scene. Throws Error{Input} for more than 2^32 - 1 of anything.
-std::vector<PrimitivePlace> primitivePlaces(const Scene& scene);
+/// The offsets of all primitives of scene. Throws Error{Input} for more than 2^32 - 1 of anything.
+std::vector<PrimitiveOffsets> primitiveOffsets(const Scene& scene);
 
 /// The draws of scene's instances ([instances]), at rest, or with these transforms ([instances], object to world) in
-/// place of their own. Throws as primitivePlaces().
+/// place of their own. Throws as primitiveOffsets().
 std::vector<gpu::Draw> makeDraws(const Scene& scene);
 std::vector<gpu::Draw> makeDraws(const Scene& scene, std::span<const glm::mat4> transforms);
 
 /// Gives each draw the transform of the same number. A transform that is not finite is kept: the voxelizer counts the
 /// triangles.
-void placeDraws(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms);
+void setTransforms(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms);
 
 } // namespace zvo

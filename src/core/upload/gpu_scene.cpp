@@ -116,16 +116,16 @@ std::vector<bool> neededTextures(const Scene& scene, bool attributes)
 
 void addTextures(Staging& staging, const Scene& scene, const std::vector<bool>& needed)
 {
-    struct ImagePlace
+    struct ImageOffset
     {
         std::uint32_t first_level = gpu::kAbsent;
         std::uint32_t level_count = 0;
     };
-    std::vector<ImagePlace> images(scene.images.size());
+    std::vector<ImageOffset> images(scene.images.size());
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
     {
         const Texture& texture = scene.textures[i];
-        ImagePlace& image = images[texture.image];
+        ImageOffset& image = images[texture.image];
         if (needed[i] && image.first_level == gpu::kAbsent)
         {
             image.first_level = staging.pool.add(scene.images[texture.image], image.level_count);

@@ -40,11 +40,11 @@ template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buf
 
 std::uint32_t packWindow(const GridTile& tile)
 {
-    static_assert(GridTile::kPlacesMax == 1U << gpu::kWindowPlaceBits);
-    const auto place = [&](std::uint32_t value, std::uint32_t axis)
-    { return value << (2 * gpu::kWindowDepthBits + axis * gpu::kWindowPlaceBits); };
-    return tile.grid.depth | (tile.depth << gpu::kWindowDepthBits) | place(tile.place.x, 0) | place(tile.place.y, 1) |
-           place(tile.place.z, 2);
+    static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
+    const auto indexBits = [&](std::uint32_t value, std::uint32_t axis)
+    { return value << (2 * gpu::kWindowDepthBits + axis * gpu::kWindowIndexBits); };
+    return tile.grid.depth | (tile.depth << gpu::kWindowDepthBits) | indexBits(tile.index.x, 0) |
+           indexBits(tile.index.y, 1) | indexBits(tile.index.z, 2);
 }
 
 gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, std::uint32_t material_class)
@@ -239,14 +239,14 @@ void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t mater
                           divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
 }
 
-void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+void voxelizeCoverage(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
                       VoxelizeBuffers& buffers)
 {
     clearCoverage(graph, buffers);
     walkAll(graph, {scene, tile, coverage, buffers});
 }
 
-void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+void voxelizeAttributes(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
                         VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree)
 {
     const bool emission = octree.emission_words.count() != 0;
@@ -277,7 +277,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const G
     }
 }
 
-void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+void voxelizeEmission(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
                       VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree)
 {
     graph.fill(attributes.emission_sums, 0);

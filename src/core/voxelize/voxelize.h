@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
-#include "core/deform/mover.h"
+#include "core/deform/dynamic_object.h"
 #include "core/tree/device_tree.h"
 #include "core/upload/gpu_scene.h"
 #include "shared/bricks.h"
@@ -93,7 +93,7 @@ struct AttributeSums
 /// A walk over all triangles of a scene: what it does with the voxels that they cover.
 struct RasterWalk
 {
-    PlacedScene scene;
+    PosedGpuScene scene;
     GridTile tile;
     Coverage coverage;
     VoxelizeBuffers& buffers;
@@ -104,7 +104,7 @@ struct RasterWalk
 /// Records the pass over chunk_count chunks of a material class from first_chunk on. In coverage mode, it sets the bits
 /// of the voxels that small triangles cover and lists big ones (buffers cleared before). Then it adds up what fragments
 /// of small triangles look like: colours and normals to sums->sums, with the bits of emissive voxels in
-/// sums->emission_words (kModeAttributes), or emission to sums->emission_sums in the places that emission_words tells
+/// sums->emission_words (kModeAttributes), or emission to sums->emission_sums at the indices that emission_words tells
 /// (kModeEmission); the brick table must hold the first voxel of each leaf, or index it in sums->leaves.
 void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class,
                    std::uint64_t first_chunk, std::uint64_t chunk_count);
@@ -119,18 +119,18 @@ void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
 /// the scene; writes everything in buffers. What did not fit is counted, never written. Of a tile, voxels are those of
 /// the whole grid that lie in it.
 /// Cost: triangles plus covered voxels (and the capacity of the table, once, for clearing it).
-void voxelizeCoverage(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+void voxelizeCoverage(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
                       VoxelizeBuffers& buffers);
 
 /// Records the passes that average colour and normal of each voxel's fragments into octree.voxel_attributes, and
 /// mark emissive voxels in octree.emission_words. The brick table must hold the first voxel of each leaf (numberNodes).
 /// Cost: triangles plus fragments plus voxels.
-void voxelizeAttributes(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+void voxelizeAttributes(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
                         VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree);
 
 /// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
 /// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.
-void voxelizeEmission(vk::FrameGraph& graph, const PlacedScene& scene, const GridTile& tile, Coverage coverage,
+void voxelizeEmission(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
                       VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree);
 
 } // namespace zvo

@@ -50,7 +50,7 @@ public:
     [[nodiscard]] bool isNumber() const;
     [[nodiscard]] bool flag() const;
     [[nodiscard]] std::string text() const;
-    /// The place of a text among names.
+    /// The index of a text among names.
     [[nodiscard]] std::size_t oneOf(std::initializer_list<std::string_view> names) const;
     /// At most kJsonNumberMax in size.
     [[nodiscard]] double number() const;

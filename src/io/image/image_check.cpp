@@ -60,8 +60,8 @@ std::uint64_t pngPixelBits(Bytes png)
         {
             constexpr std::uint64_t kChannels[] = {1, 0, 3, 1, 2, 0, 4}; // grey, -, RGB, palette, grey + alpha, -, RGBA
             const std::uint8_t depth = png[at + 16];
-            const std::uint8_t colour = png[at + 17];
-            return colour < std::size(kChannels) ? kChannels[colour] * depth : 0;
+            const std::uint8_t color = png[at + 17];
+            return color < std::size(kChannels) ? kChannels[color] * depth : 0;
         }
         at += kChunkFrameBytes + readBigEndian(png, at, 4);
     }

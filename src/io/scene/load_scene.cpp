@@ -75,7 +75,7 @@ std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const st
 
 Scene loadFile(const std::filesystem::path& path)
 {
-    if (isStageFile(path))
+    if (isSceneFile(path))
     {
         throw inputError(path, "a scene file, which cannot be part of another scene; name the files in it");
     }
@@ -120,7 +120,7 @@ void placeNodes(Scene& scene, const glm::mat4& to_world)
 
 } // namespace
 
-bool isStageFile(const std::filesystem::path& path)
+bool isSceneFile(const std::filesystem::path& path)
 {
     return lowerExtension(path) == ".json" && lowerExtension(path.stem()) == ".scene";
 }

@@ -32,8 +32,8 @@ struct LoadOptions
 /// it is clear, by their extension otherwise. Throws Error{Input}, one line with the path, and as place() does.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
 
-/// Whether a path names a scene file, NAME.scene.json (core/stage_file.h): loadScene refuses those.
-bool isStageFile(const std::filesystem::path& path);
+/// Whether a path names a scene file, NAME.scene.json (io/scene/scene_file.h): loadScene refuses those.
+bool isSceneFile(const std::filesystem::path& path);
 
 /// The rotation, exact, that takes an axis to y.
 glm::mat3 rotationToY(UpAxis up);

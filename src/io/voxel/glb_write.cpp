@@ -75,9 +75,9 @@ std::vector<Face> facesOf(const TreeData& tree, const Side& side)
                  [&](std::uint64_t code)
                  {
                      const glm::ivec3 cell(cellOfCode(code));
-                     glm::ivec3 neighbour = cell;
-                     neighbour[side.axis] += side.upper ? 1 : -1;
-                     if (!hasVoxel(tree, neighbour))
+                     glm::ivec3 neighbor = cell;
+                     neighbor[side.axis] += side.upper ? 1 : -1;
+                     if (!hasVoxel(tree, neighbor))
                      {
                          const std::uint32_t color =
                              tree.hasAttributes() ? tree.voxelAttribute(voxel).color & kColorMask : kPlainColor;

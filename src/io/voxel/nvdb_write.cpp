@@ -31,10 +31,10 @@ using Builder = nanovdb::GridBuilder<nanovdb::Rgba8>;
 // The finished grid. Throws std::bad_alloc where memory does not suffice.
 nanovdb::GridHandle<> handleOf(Builder& builder, const Grid& grid)
 {
-    const glm::dvec3 centre = glm::dvec3(grid.origin) + 0.5 * double{grid.voxel_size};
+    const glm::dvec3 center = glm::dvec3(grid.origin) + 0.5 * double{grid.voxel_size};
     try
     {
-        return builder.getHandle(double{grid.voxel_size}, {centre.x, centre.y, centre.z}, "zvo");
+        return builder.getHandle(double{grid.voxel_size}, {center.x, center.y, center.z}, "zvo");
     }
     catch (const std::runtime_error&) // of its buffer or its thread: of a grid like ours there is no other reason
     {

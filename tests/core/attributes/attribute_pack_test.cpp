@@ -6,7 +6,7 @@
 #include "core/base/kernels.h"
 #include "core/headless/compress.h"
 #include "core/tree/device_tree.h"
-#include "oracle/attribute_forms.h"
+#include "oracle/attribute_formats.h"
 #include "support/dag_compare.h"
 #include "support/dags.h"
 #include "support/device.h"
@@ -31,7 +31,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::array kForms = {AttributeForm::Bytes4, AttributeForm::Blocks};
+constexpr std::array kFormats = {AttributeFormat::Bytes4, AttributeFormat::Blocks};
 
 using Attributes = std::vector<gpu::Attribute>;
 using Words = std::vector<gpu::uint>;
@@ -73,24 +73,24 @@ Attributes coherentAttributes(std::size_t count, std::uint32_t seed)
     return attributes;
 }
 
-Words packOnDevice(const Attributes& attributes, AttributeForm form)
+Words packOnDevice(const Attributes& attributes, AttributeFormat format)
 {
     const auto from = device().makeBuffer<gpu::Attribute>("attributes", attributes);
-    vk::BufferOf<gpu::uint> words(device().device(), "words", packedWords(form, attributes.size()));
-    device().run([&](vk::FrameGraph& graph) { packAttributes(graph, from, form, words); });
+    vk::BufferOf<gpu::uint> words(device().device(), "words", packedWords(format, attributes.size()));
+    device().run([&](vk::FrameGraph& graph) { packAttributes(graph, from, format, words); });
     return device().download(words);
 }
 
-Words packByOracle(const Attributes& attributes, AttributeForm form)
+Words packByOracle(const Attributes& attributes, AttributeFormat format)
 {
     Words words;
-    for (std::size_t first = 0; first < attributes.size() && form == AttributeForm::Blocks; first += 16)
+    for (std::size_t first = 0; first < attributes.size() && format == AttributeFormat::Blocks; first += 16)
     {
         const std::size_t count = std::min<std::size_t>(attributes.size() - first, 16);
         const oracle::Block block = oracle::packBlock(std::span(attributes).subspan(first, count));
         words.insert(words.end(), block.begin(), block.end());
     }
-    if (form == AttributeForm::Blocks)
+    if (format == AttributeFormat::Blocks)
     {
         return words;
     }
@@ -101,12 +101,12 @@ Words packByOracle(const Attributes& attributes, AttributeForm form)
     return words;
 }
 
-class PackAttributes : public testing::TestWithParam<AttributeForm>
+class PackAttributes : public testing::TestWithParam<AttributeFormat>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Forms, PackAttributes, testing::ValuesIn(kForms),
-                         [](const auto& form) { return std::string("Form") + formName(form.param); });
+INSTANTIATE_TEST_SUITE_P(Formats, PackAttributes, testing::ValuesIn(kFormats),
+                         [](const auto& format) { return std::string("Format") + formatName(format.param); });
 
 TEST_P(PackAttributes, GivesTheOraclesWords)
 {
@@ -150,7 +150,7 @@ TEST_P(PackAttributes, PieceByPieceIsTheSame)
 TEST(AttributePacker, LeavesPlainAttributesAsTheyAre)
 {
     const Attributes attributes = randomAttributes(100000, 5);
-    AttributePacker packer(device(), AttributeForm::Bytes8);
+    AttributePacker packer(device(), AttributeFormat::Bytes8);
     packer.append({attributes.begin(), attributes.begin() + 70000});
     packer.append({attributes.begin() + 70000, attributes.end()});
     packer.finish();
@@ -167,7 +167,7 @@ TEST(UnpackAttribute, OfFourBytesIsTheOracles)
         for (const std::uint32_t word : {half, half << 16})
         {
             const gpu::Attribute expected = oracle::unpackAttribute4(word);
-            const gpu::Attribute actual = unpackAttribute(AttributeForm::Bytes4, std::span(&word, 1), 0);
+            const gpu::Attribute actual = unpackAttribute(AttributeFormat::Bytes4, std::span(&word, 1), 0);
             ASSERT_EQ(actual.color, expected.color) << word;
             ASSERT_EQ(actual.normal, expected.normal) << word;
         }
@@ -191,7 +191,7 @@ TEST(UnpackAttribute, OfABlockIsTheOracles)
         for (std::uint32_t voxel = 0; voxel < 16; ++voxel)
         {
             const gpu::Attribute expected = oracle::unpackBlock(block, voxel);
-            const gpu::Attribute actual = unpackAttribute(AttributeForm::Blocks, words, 16 + voxel);
+            const gpu::Attribute actual = unpackAttribute(AttributeFormat::Blocks, words, 16 + voxel);
             ASSERT_EQ(actual.color, expected.color);
             ASSERT_EQ(actual.normal, expected.normal) << block[2];
         }
@@ -199,12 +199,12 @@ TEST(UnpackAttribute, OfABlockIsTheOracles)
 }
 
 // Each channel of each grey is unpacked to the nearest value that there is, and the errors cancel out.
-TEST(PackAttribute4, ColoursAreTheNearestOnesAndNoBrighter)
+TEST(PackAttribute4, ColorsAreTheNearestOnesAndNoBrighter)
 {
     std::array<int, 3> sums = {0, 0, 0};
-    for (std::uint32_t grey = 0; grey < 256; ++grey)
+    for (std::uint32_t gray = 0; gray < 256; ++gray)
     {
-        const std::uint32_t color = oracle::unpackAttribute4(oracle::packAttribute4({grey * 0x10101U, 0})).color;
+        const std::uint32_t color = oracle::unpackAttribute4(oracle::packAttribute4({gray * 0x10101U, 0})).color;
         for (int channel = 0; channel < 3; ++channel)
         {
             const int bits = channel == 1 ? 6 : 5;
@@ -213,10 +213,10 @@ TEST(PackAttribute4, ColoursAreTheNearestOnesAndNoBrighter)
             {
                 const std::uint32_t word = code << (channel == 0 ? 0 : channel == 1 ? 5 : 11);
                 const auto value = static_cast<int>(oracle::unpackAttribute4(word).color >> (8 * channel) & 255);
-                nearest = std::min(nearest, std::abs(value - static_cast<int>(grey)));
+                nearest = std::min(nearest, std::abs(value - static_cast<int>(gray)));
             }
-            const int error = static_cast<int>(color >> (8 * channel) & 255) - static_cast<int>(grey);
-            EXPECT_EQ(std::abs(error), nearest) << grey << " channel " << channel;
+            const int error = static_cast<int>(color >> (8 * channel) & 255) - static_cast<int>(gray);
+            EXPECT_EQ(std::abs(error), nearest) << gray << " channel " << channel;
             sums[static_cast<std::size_t>(channel)] += error;
         }
     }
@@ -274,25 +274,25 @@ TEST(PackAttribute4, NormalsAreOffByTwoThirdsOfADegreeAtMost)
 TEST_P(PackAttributes, ReplacesThoseOfATree)
 {
     std::mt19937 random(2);
-    const AttributeForm form = GetParam();
+    const AttributeFormat format = GetParam();
     DeviceTree octree = test::octreeOf(device(), test::randomCodes(6, 3000, random), 6);
     test::addAttributes(device(), octree);
     const Attributes voxels = device().download(octree.voxel_attributes);
     const Attributes nodes = device().download(octree.node_attributes);
     const std::uint64_t plain_bytes = octree.attributeBytes();
-    EXPECT_EQ(octree.attributeForm(), AttributeForm::Bytes8);
-    EXPECT_TRUE(packTree(device(), AttributeForm::Bytes8, octree).empty());
-    EXPECT_EQ(octree.attributeForm(), AttributeForm::Bytes8);
-    EXPECT_FALSE(packTree(device(), form, octree).empty());
-    EXPECT_EQ(octree.attributeForm(), form);
+    EXPECT_EQ(octree.attributeFormat(), AttributeFormat::Bytes8);
+    EXPECT_TRUE(packTree(device(), AttributeFormat::Bytes8, octree).empty());
+    EXPECT_EQ(octree.attributeFormat(), AttributeFormat::Bytes8);
+    EXPECT_FALSE(packTree(device(), format, octree).empty());
+    EXPECT_EQ(octree.attributeFormat(), format);
     EXPECT_EQ(octree.voxel_attributes.count() + octree.node_attributes.count(), 0U);
     EXPECT_LT(octree.attributeBytes(), plain_bytes);
-    EXPECT_EQ(device().download(octree.packed.voxels), packByOracle(voxels, form));
-    EXPECT_EQ(device().download(octree.packed.nodes), packByOracle(nodes, nodeForm(form)));
-    EXPECT_TRUE(packTree(device(), form, octree).empty()); // once is enough
+    EXPECT_EQ(device().download(octree.packed.voxels), packByOracle(voxels, format));
+    EXPECT_EQ(device().download(octree.packed.nodes), packByOracle(nodes, nodeFormat(format)));
+    EXPECT_TRUE(packTree(device(), format, octree).empty()); // once is enough
     DeviceTree bare = test::octreeOf(device(), test::randomCodes(6, 30, random), 6);
-    EXPECT_TRUE(packTree(device(), form, bare).empty());
-    EXPECT_EQ(bare.attributeForm(), AttributeForm::None);
+    EXPECT_TRUE(packTree(device(), format, bare).empty());
+    EXPECT_EQ(bare.attributeFormat(), AttributeFormat::None);
 }
 
 // The attributes that a packed tree has, in 8 bytes, with their flags.
@@ -307,12 +307,12 @@ void unpackTree(DeviceTree& octree)
     Attributes of_nodes;
     for (std::uint32_t i = 0; i < octree.voxel_count; ++i)
     {
-        of_voxels.push_back(unpackAttribute(packed.form, voxels, i));
+        of_voxels.push_back(unpackAttribute(packed.format, voxels, i));
         of_voxels.back().color |= (emission[i / 32].x >> (i % 32) & 1) << 24;
     }
     for (std::uint32_t i = 0; i < node_count; ++i)
     {
-        of_nodes.push_back(unpackAttribute(nodeForm(packed.form), nodes, i));
+        of_nodes.push_back(unpackAttribute(nodeFormat(packed.format), nodes, i));
     }
     octree.voxel_attributes = device().makeBuffer<gpu::Attribute>("unpacked", of_voxels);
     octree.node_attributes = device().makeBuffer<gpu::Attribute>("unpacked", of_nodes);
@@ -372,7 +372,7 @@ TEST_P(PackAttributes, AndCompressingGoInAnyOrder)
         packTree(device(), GetParam(), octree);
         const DeviceTree early = compress(device(), std::move(octree)).dag;
         EXPECT_EQ(test::difference(device(), early, late), "") << depth;
-        EXPECT_EQ(early.attributeForm(), GetParam());
+        EXPECT_EQ(early.attributeFormat(), GetParam());
         const DeviceTree again = compress(device(), std::move(late)).dag;
         EXPECT_EQ(test::difference(device(), again, early), "") << depth;
     }

@@ -54,7 +54,7 @@ struct Loss
     double max_degrees = 0;
 };
 
-Loss lossOf(const std::vector<gpu::Attribute>& attributes, AttributeForm form, const std::vector<gpu::uint>& words)
+Loss lossOf(const std::vector<gpu::Attribute>& attributes, AttributeFormat format, const std::vector<gpu::uint>& words)
 {
     Loss loss;
     double squares = 0;
@@ -62,7 +62,7 @@ Loss lossOf(const std::vector<gpu::Attribute>& attributes, AttributeForm form, c
     degrees.reserve(attributes.size());
     for (std::size_t i = 0; i < attributes.size(); ++i)
     {
-        const gpu::Attribute unpacked = unpackAttribute(form, words, i);
+        const gpu::Attribute unpacked = unpackAttribute(format, words, i);
         squares += squaredDifference(unpacked.color, attributes[i].color);
         const glm::dvec3 a = test::normalOf(unpacked);
         const glm::dvec3 b = test::normalOf(attributes[i]);
@@ -99,7 +99,7 @@ double pictureDecibels(const std::vector<gpu::uint>& a, const std::vector<gpu::u
     return decibels(squares, 3.0 * static_cast<double>(a.size()));
 }
 
-/// A scene in one form.
+/// A scene in one format.
 struct Quality
 {
     Loss voxels;
@@ -110,30 +110,30 @@ struct Quality
     double build_ms = 0; // of all before
 };
 
-// Of both packed forms.
+// Of both packed formats.
 std::vector<Quality> measure(const std::filesystem::path& path, std::uint32_t depth)
 {
     const Scene scene = loadGltf(path);
     const GpuScene uploaded = uploadScene(device(), scene, true);
     std::vector<Quality> qualities;
-    for (const AttributeForm form : {AttributeForm::Bytes4, AttributeForm::Blocks})
+    for (const AttributeFormat format : {AttributeFormat::Bytes4, AttributeFormat::Blocks})
     {
         BuildResult built = buildOctree(device(), uploaded, Grid::around(scene.bounds(), depth), {});
         DeviceTree& octree = built.octree;
         const std::vector<gpu::Attribute> voxels = device().download(octree.voxel_attributes);
         const std::vector<gpu::Attribute> nodes = device().download(octree.node_attributes);
         const std::vector<gpu::uint> picture = pictureOf(octree, scene);
-        const std::vector<vk::PassTime> passes = packTree(device(), form, octree);
+        const std::vector<vk::PassTime> passes = packTree(device(), format, octree);
         Quality& quality = qualities.emplace_back();
-        quality.voxels = lossOf(voxels, form, device().download(octree.packed.voxels));
-        quality.nodes = lossOf(nodes, nodeForm(form), device().download(octree.packed.nodes));
+        quality.voxels = lossOf(voxels, format, device().download(octree.packed.voxels));
+        quality.nodes = lossOf(nodes, nodeFormat(format), device().download(octree.packed.nodes));
         quality.picture_db = pictureDecibels(picture, pictureOf(octree, scene));
         quality.bytes_per_voxel = static_cast<double>(octree.attributeBytes()) / octree.voxel_count;
         quality.pack_ms = operationMs(passes, "attributes");
         quality.build_ms = built.stageMs("voxelize") + built.stageMs("octree");
         fmt::print("| {} {} | {} | {} | {} | {:.1f} dB | {:.2f} | {:.0f} of {:.0f} ms |\n", path.stem().string(),
-                   1U << depth, formName(form), lossText(quality.voxels), lossText(quality.nodes), quality.picture_db,
-                   quality.bytes_per_voxel, quality.pack_ms, quality.build_ms);
+                   1U << depth, formatName(format), lossText(quality.voxels), lossText(quality.nodes),
+                   quality.picture_db, quality.bytes_per_voxel, quality.pack_ms, quality.build_ms);
     }
     return qualities;
 }

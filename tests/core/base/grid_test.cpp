@@ -27,7 +27,7 @@ Bounds box(const glm::vec3& min, const glm::vec3& max)
     return {.min = min, .max = max};
 }
 
-TEST(Grid, AroundIsTheSmallestCubeCentredOnTheBox)
+TEST(Grid, AroundIsTheSmallestCubeCenteredOnTheBox)
 {
     const Grid grid = Grid::around(box({1, 2, 3}, {5, 4, 4}), 2);
     EXPECT_EQ(grid.depth, 2U);

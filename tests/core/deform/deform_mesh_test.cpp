@@ -96,7 +96,7 @@ void expectEqualsTheRule(const Scene& scene, const Pose& pose, const DeformMesh&
         const Primitive& primitive = scene.primitives[scene.instances[part.instance].primitive];
         const DeformedVertices expected =
             deformVertices(primitive, pose.morph_weights[part.instance], pose.joint_matrices[part.instance]);
-        const auto [first_position, first_normal] = mesh.places[part.instance];
+        const auto [first_position, first_normal] = mesh.offsets[part.instance];
         ASSERT_LE(first_position + expected.positions.size(), seen.positions.size());
         EXPECT_EQ(firstDifference(std::span(seen.positions).subspan(first_position), expected.positions), std::nullopt)
             << "positions of instance " << part.instance;
@@ -179,7 +179,7 @@ TEST(DeformMesh, InstancesOfOneMeshDeformEachInItsWay)
     EXPECT_EQ(mesh.parts.size(), 7U); // the primitive with joints but without a skin is rigid
     EXPECT_EQ(mesh.positions.count(), 100U + 64U + 130U) << "what is at rest is there once";
     EXPECT_EQ(mesh.position_count, 3U * 100 + 40 + 2 * 64 + 2 * 130 + 130);
-    EXPECT_EQ(mesh.places[1].first_position, mesh.places[8].first_position);
+    EXPECT_EQ(mesh.offsets[1].first_position, mesh.offsets[8].first_position);
     for (int round = 0; round < 4; ++round)
     {
         expectEqualsTheRule(scene, pose, mesh, deformer.run(pose));

@@ -6,9 +6,9 @@
 #include "core/headless/pipeline.h"
 #include "support/ballast.h"
 #include "support/device.h"
+#include "support/dynamic_scenery.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
-#include "support/mover_scenery.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
 
@@ -33,11 +33,11 @@ namespace
 {
 
 using test::Cell;
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::Item;
-using test::MoverScenery;
-using test::Place;
-using Kind = Place::Kind;
+using test::Placement;
+using Kind = Placement::Kind;
 
 constexpr std::uint64_t kLimitBytes = 256 << 20;
 
@@ -64,7 +64,7 @@ void expectError(ErrorCode code, const std::string& message, const std::function
     }
 }
 
-// An octree, and movers by their places.
+// An octree, and dynamic objects by their places.
 class World
 {
 public:
@@ -77,10 +77,13 @@ public:
     }
 
     DynamicOctree& octree() { return *m_octree; }
-    MoverScenery& scenery() { return m_scenery; }
+    DynamicScenery& scenery() { return m_scenery; }
 
-    MoverId add(const Item& item) { return m_octree->add(m_scenery.mover(item.mesh, true), m_scenery.poseOf(item)); }
-    void place(MoverId mover, const Item& item) { m_octree->place(mover, m_scenery.poseOf(item)); }
+    DynamicObjectId add(const Item& item)
+    {
+        return m_octree->add(m_scenery.object(item.mesh, true), m_scenery.poseOf(item));
+    }
+    void setPose(DynamicObjectId object, const Item& item) { m_octree->setPose(object, m_scenery.poseOf(item)); }
 
     UpdateReport update() { return test::updateAll(m_device, *m_octree); }
     bool undo() { return test::undo(m_device, *m_octree); }
@@ -95,7 +98,7 @@ public:
 private:
     vk::HeadlessDevice& m_device;
     DynamicSetting m_setting;
-    MoverScenery m_scenery;
+    DynamicScenery m_scenery;
     std::unique_ptr<DynamicOctree> m_octree;
 };
 
@@ -112,12 +115,12 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
         World world(limited, {.depth = 5, .minimal_capacities = true});
         const bool new_layer = pieces_left % 2 != 0;
         world.add(kMiddle);
-        const MoverId mover = world.add(kMiddle);
-        world.update(); // has one of two overlapping movers' nodes
+        const DynamicObjectId object = world.add(kMiddle);
+        world.update(); // has one of two overlapping dynamic objects' nodes
         const std::vector<Cell> before = world.shown();
         const Item apart = {0, {Kind::Mirrored, {2, 0, 2}}};
         std::multiset<Item> items = {kMiddle, apart};
-        world.place(mover, apart);
+        world.setPose(object, apart);
         if (new_layer)
         {
             items.insert(apart);
@@ -151,7 +154,7 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
         EXPECT_EQ(test::difference(world.shown(), world.rebuilt(items)), "");
     }
     EXPECT_TRUE(needs.contains("room for overlays"));
-    EXPECT_TRUE(needs.contains("the voxels of a mover"));
+    EXPECT_TRUE(needs.contains("the voxels of a dynamic object"));
 }
 
 // Fills the room for overlays with frames in flight: the next update waits, and what is complete is shown.
@@ -160,10 +163,10 @@ TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
     vk::HeadlessDevice limited(limitedOptions(), zvoKernels());
     World world(limited, {.depth = 6, .frames_in_flight = 64}, {1, UINT64_MAX});
     const std::array items = {kMiddle, Item{0, {Kind::Turned, {1, 1, 1}}}};
-    const MoverId mover = world.add(items[0]);
+    const DynamicObjectId object = world.add(items[0]);
     for (std::size_t i = 0; i < 4; ++i)
     {
-        world.place(mover, items[i % 2]);
+        world.setPose(object, items[i % 2]);
         world.update();
     }
     const std::array expected = {world.rebuilt({items[0]}), world.rebuilt({items[1]})};
@@ -178,7 +181,7 @@ TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
     for (bool is_complete = true; is_complete; ++complete_count)
     {
         ASSERT_LT(flights.size(), 60U) << "the room for overlays never ended";
-        world.place(mover, items[complete_count % 2]);
+        world.setPose(object, items[complete_count % 2]);
         const std::uint64_t frame = world.octree().beginFrame();
         flights.push_back({frame, limited.submit(
                                       [&](vk::FrameGraph& graph)
@@ -206,15 +209,15 @@ TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
     EXPECT_EQ(test::difference(world.shown(), expected.at(complete_count % 2)), "");
 }
 
-TEST(DynamicEdges, MoversThatCoverNothingShowTheStaticOctree)
+TEST(DynamicEdges, ObjectsThatCoverNothingShowTheStaticOctree)
 {
     World world(device(), {.depth = 5});
     const std::vector<Cell> expected = world.rebuilt({});
-    const MoverId mover = world.add(kMiddle);
+    const DynamicObjectId object = world.add(kMiddle);
     for (const Kind kind : {Kind::Outside, Kind::Point, Kind::Nan, Kind::Huge})
     {
         SCOPED_TRACE(static_cast<int>(kind));
-        world.place(mover, {0, {kind, {1, 2, 1}}});
+        world.setPose(object, {0, {kind, {1, 2, 1}}});
         const UpdateReport report = world.update();
         EXPECT_EQ(report.failed, 0U);
         EXPECT_EQ(report.dynamic_count, 0U);
@@ -223,7 +226,8 @@ TEST(DynamicEdges, MoversThatCoverNothingShowTheStaticOctree)
     }
 }
 
-// A mover of 70,000 triangles in a point covers voxels only in conservative coverage, with that many fragments each.
+// A dynamic object of 70,000 triangles in a point covers voxels only in conservative coverage, with that many fragments
+// each.
 TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
 {
     constexpr std::uint32_t kCount = 70'000;
@@ -243,7 +247,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         DynamicOctree octree(device(), buildOctree(device(), uploadScene(device(), fixed, true), grid, build).octree,
                              {.coverage = Coverage::Conservative, .merge = MergeRule::Average});
         const std::vector<Cell> before = test::cellsOf(device(), octree.tree());
-        const MoverId mover = octree.add(uploadMover(device(), dot, true, 0), {{place}, {}, {}});
+        const DynamicObjectId object = octree.add(uploadDynamicMesh(device(), dot, true, 0), {{place}, {}, {}});
         std::uint32_t failed = 0;
         const auto update = [&]
         {
@@ -277,13 +281,13 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
                             1);
             }
         }
-        octree.remove(mover);
+        octree.remove(object);
         update();
         EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), before), "");
 
         // Fewer fragments: from the second update on, bit for bit again.
         const Scene box = test::boxScene(glm::vec3(2.2F), glm::vec3(4.4F));
-        octree.add(uploadMover(device(), box, true, 0), {{glm::mat4(1.0F)}, {}, {}});
+        octree.add(uploadDynamicMesh(device(), box, true, 0), {{glm::mat4(1.0F)}, {}, {}});
         update();
         update();
         fixed.append(Scene(box));
@@ -313,17 +317,17 @@ TEST(DynamicEdges, ManyLayersAtOnceAreWhatARebuildIs)
         items.insert(kMiddle);
         world.add(kMiddle);
     }
-    expectError(ErrorCode::Usage, "takes 1024 movers at most", [&] { world.add(kMiddle); });
+    expectError(ErrorCode::Usage, "takes 1024 dynamic objects at most", [&] { world.add(kMiddle); });
 }
 
-TEST(DynamicEdges, TheHistoryKeepsAsManyStepsAsItMay)
+TEST(DynamicEdges, TheHistoryKeepsAsManyEntriesAsItMay)
 {
     World world(device(), {.depth = 4}, {3, UINT64_MAX});
-    const MoverId mover = world.add(kMiddle);
+    const DynamicObjectId object = world.add(kMiddle);
     std::vector<std::vector<Cell>> shown;
     for (int i = 0; i < 8; ++i)
     {
-        world.place(mover, {0, {Kind::Inside, {i % 4, 1, i / 4}}});
+        world.setPose(object, {0, {Kind::Inside, {i % 4, 1, i / 4}}});
         world.update();
         shown.push_back(world.shown());
     }
@@ -350,11 +354,11 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)
     {
         SCOPED_TRACE(bytes_max);
         World world(device(), {.depth = 5}, {1000, bytes_max});
-        const MoverId mover = world.add(kMiddle);
+        const DynamicObjectId object = world.add(kMiddle);
         std::size_t steps = 0;
         for (int i = 0; i < 24; ++i)
         {
-            world.place(mover, {0, {Kind::Inside, {i % 4, 1, i / 4 % 4}}});
+            world.setPose(object, {0, {Kind::Inside, {i % 4, 1, i / 4 % 4}}});
             world.update();
             const RootHistory& history = world.octree().history();
             EXPECT_TRUE(history.entryBytes() <= bytes_max || history.undoCount() == 1) << history.entryBytes();
@@ -369,27 +373,28 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyBytesAsItMay)
 TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
 {
     World world(device(), {.depth = 3});
-    const MoverId mover = world.add(kMiddle);
+    const DynamicObjectId object = world.add(kMiddle);
     world.update();
     const Pose pose = world.scenery().poseOf(kMiddle);
     Pose shorter = pose;
     shorter.transforms.pop_back();
-    const std::shared_ptr<const MoverMesh> mesh = world.scenery().mover(0, true);
-    expectError(ErrorCode::Usage, "5 instances was given 4 transforms", [&] { world.octree().place(mover, shorter); });
+    const std::shared_ptr<const DynamicMesh> mesh = world.scenery().object(0, true);
+    expectError(ErrorCode::Usage, "5 instances was given 4 transforms",
+                [&] { world.octree().setPose(object, shorter); });
     expectError(ErrorCode::Usage, "5 instances was given 0 transforms", [&] { world.octree().add(mesh, {}); });
-    expectError(ErrorCode::Usage, "no mover 7", [&] { world.octree().place(7, pose); });
-    expectError(ErrorCode::Usage, "no mover 0", [&] { world.octree().remove(0); });
+    expectError(ErrorCode::Usage, "no dynamic object 7", [&] { world.octree().setPose(7, pose); });
+    expectError(ErrorCode::Usage, "no dynamic object 0", [&] { world.octree().remove(0); });
     expectError(ErrorCode::Usage, "without attributes",
-                [&] { world.octree().add(world.scenery().mover(0, false), pose); });
+                [&] { world.octree().add(world.scenery().object(0, false), pose); });
     Scene morphed = test::boxScene(glm::vec3(1.0F), glm::vec3(2.0F));
     morphed.primitives[0].morph_targets = {{std::vector<glm::vec3>(morphed.primitives[0].positions.size()), {}}};
-    const auto morphed_mesh = uploadMover(device(), morphed, true, world.scenery().emissionScale());
+    const auto morphed_mesh = uploadDynamicMesh(device(), morphed, true, world.scenery().emissionScale());
     expectError(ErrorCode::Usage, "0 morph weights for instance 0",
                 [&] {
                     world.octree().add(morphed_mesh, {{glm::mat4(1.0F)}, {}, {}});
                 });
-    world.octree().remove(mover);
-    expectError(ErrorCode::Usage, "no mover 1", [&] { world.octree().remove(mover); });
+    world.octree().remove(object);
+    expectError(ErrorCode::Usage, "no dynamic object 1", [&] { world.octree().remove(object); });
     EXPECT_EQ(world.update().entry, 0U); // nothing but the static octree
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
 
@@ -402,7 +407,7 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
     expectError(ErrorCode::Usage, "a frame in flight", [&] { make(options); });
     options = setting.options(scale);
     options.history.entries_max = 0;
-    expectError(ErrorCode::Usage, "a step of history", [&] { make(options); });
+    expectError(ErrorCode::Usage, "an entry of the history", [&] { make(options); });
     expectError(ErrorCode::Usage, "one emission scale", [&] { make(setting.options(2 * scale)); });
     DynamicSetting other = setting;
     other.merge = MergeRule::DynamicWins; // keeps no sums
@@ -412,7 +417,7 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
                 [&]
                 {
                     DeviceTree built = world.scenery().buildStatic(setting);
-                    packTree(device(), AttributeForm::Bytes4, built);
+                    packTree(device(), AttributeFormat::Bytes4, built);
                     DynamicOctree(device(), std::move(built), setting.options(scale));
                 });
 }

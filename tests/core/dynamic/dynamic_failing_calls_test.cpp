@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Vulkan calls that fail while movers are added, moved and shown: an error comes out, what was shown still is, and the
-// octree goes on.
+// Vulkan calls that fail while dynamic objects are added, moved and shown: an error comes out, what was shown still is,
+// and the octree goes on.
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "support/ballast.h"
 #include "support/device.h"
+#include "support/dynamic_scenery.h"
 #include "support/failing_vulkan.h"
-#include "support/mover_scenery.h"
 #include "support/sweep.h"
 #include "zvo/error.h"
 
@@ -27,10 +27,10 @@ namespace
 {
 
 using test::Cell;
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::Item;
-using test::MoverScenery;
-using Kind = test::Place::Kind;
+using Kind = test::Placement::Kind;
 
 constexpr Item kRigid = {0, {Kind::Inside, {1, 1, 1}}};
 constexpr Item kApart = {0, {Kind::Mirrored, {2, 0, 2}}};
@@ -51,20 +51,20 @@ class Session
 {
 public:
     // fail: test::failCall or failAllFrom.
-    Session(vk::HeadlessDevice& device, MoverScenery& scenery, const DynamicSetting& setting,
+    Session(vk::HeadlessDevice& device, DynamicScenery& scenery, const DynamicSetting& setting,
             const std::function<void(std::uint64_t)>& fail)
         : m_device(device), m_scenery(scenery), m_setting(setting), m_fail(fail)
     {
         const DynamicOptions options = setting.options(scenery.emissionScale());
         m_octree = std::make_unique<DynamicOctree>(device, scenery.buildStatic(setting), options);
         m_cells = cells();
-        m_steps = {{{}, m_cells}};
+        m_entries = {{{}, m_cells}};
     }
 
-    MoverId add(const Item& item)
+    DynamicObjectId add(const Item& item)
     {
-        const std::shared_ptr<const MoverMesh> mesh = m_scenery.mover(item.mesh, true);
-        MoverId id = 0;
+        const std::shared_ptr<const DynamicMesh> mesh = m_scenery.object(item.mesh, true);
+        DynamicObjectId id = 0;
         for (std::uint64_t number = m_sweep.first();
              !succeeds(number, [&] { id = m_octree->add(mesh, m_scenery.poseOf(item)); }); number += m_sweep.step())
         {
@@ -74,16 +74,16 @@ public:
         return id;
     }
 
-    void place(MoverId mover, const Item& item)
+    void setPose(DynamicObjectId object, const Item& item)
     {
-        m_octree->place(mover, m_scenery.poseOf(item));
-        m_items[mover] = item;
+        m_octree->setPose(object, m_scenery.poseOf(item));
+        m_items[object] = item;
     }
 
-    void remove(MoverId mover)
+    void remove(DynamicObjectId object)
     {
-        m_octree->remove(mover);
-        m_items.erase(mover);
+        m_octree->remove(object);
+        m_items.erase(object);
     }
 
     // Updates until everything is shown.
@@ -100,12 +100,12 @@ public:
             items.insert(item);
         }
         expectCells(m_scenery.rebuilt(m_setting, true, items)->cells);
-        m_steps.resize(m_current + 1);
-        m_steps.push_back({m_items, m_cells});
+        m_entries.resize(m_current + 1);
+        m_entries.push_back({m_items, m_cells});
         ++m_current;
         while (m_octree->history().undoCount() < m_current && m_current > 1) // for want of memory
         {
-            m_steps.erase(m_steps.begin() + 1);
+            m_entries.erase(m_entries.begin() + 1);
             --m_current;
         }
         EXPECT_EQ(m_octree->history().undoCount(), m_current);
@@ -128,9 +128,9 @@ public:
     [[nodiscard]] const std::set<std::string>& failedFunctions() const { return m_failed_functions; }
 
 private:
-    struct Step
+    struct Entry
     {
-        std::map<MoverId, Item> items;
+        std::map<DynamicObjectId, Item> items;
         std::vector<Cell> cells;
     };
 
@@ -144,8 +144,8 @@ private:
     void show(std::size_t step)
     {
         m_current = step;
-        m_items = m_steps.at(step).items;
-        expectCells(m_steps.at(step).cells);
+        m_items = m_entries.at(step).items;
+        expectCells(m_entries.at(step).cells);
     }
 
     // Whether call succeeds, of which one Vulkan call fails.
@@ -214,14 +214,14 @@ private:
     }
 
     vk::HeadlessDevice& m_device;
-    MoverScenery& m_scenery;
+    DynamicScenery& m_scenery;
     DynamicSetting m_setting;
     std::function<void(std::uint64_t)> m_fail;
     test::Sweep m_sweep;
     std::unique_ptr<DynamicOctree> m_octree;
-    std::map<MoverId, Item> m_items;
+    std::map<DynamicObjectId, Item> m_items;
     std::vector<Cell> m_cells; // that are shown
-    std::vector<Step> m_steps;
+    std::vector<Entry> m_entries;
     std::size_t m_current = 0; // of m_steps
     std::string m_failed;
     std::set<std::string> m_failed_functions;
@@ -231,10 +231,10 @@ private:
 
 void play(Session& session)
 {
-    const MoverId rigid = session.add(kRigid);
+    const DynamicObjectId rigid = session.add(kRigid);
     session.update();
-    const MoverId bent = session.add(kBent);
-    session.place(rigid, kApart);
+    const DynamicObjectId bent = session.add(kBent);
+    session.setPose(rigid, kApart);
     session.update();
     session.undo();
     session.undo();
@@ -242,7 +242,7 @@ void play(Session& session)
     session.redo();
     session.remove(bent);
     session.update();
-    session.place(rigid, kRigid);
+    session.setPose(rigid, kRigid);
     session.update();
     session.remove(rigid);
     session.update(); // shows the static octree
@@ -268,7 +268,7 @@ TEST(DynamicFailingCalls, AnyOneOfAFrameIsAnErrorAndTheOctreeGoesOn)
                 fails_on ? test::failAllFrom(number, VK_ERROR_DEVICE_LOST)
                          : test::failCall(number, VK_ERROR_OUT_OF_DEVICE_MEMORY);
             };
-            MoverScenery scenery(device, true);
+            DynamicScenery scenery(device, true);
             Session session(device, scenery, {.depth = 4, .minimal_capacities = true}, fail);
             play(session);
             failed.insert(session.failedFunctions().begin(), session.failedFunctions().end());

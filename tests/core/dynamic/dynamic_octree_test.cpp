@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Merging movers gives what voxelizing everything anew gives.
+// Merging dynamic objects gives what voxelizing everything anew gives.
 #include "core/dynamic/dynamic_octree.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
@@ -26,7 +26,7 @@ using test::device;
 
 constexpr float kExtent = 16.0F;
 
-// A static scene, movers, and an octree that follows them.
+// A static scene, dynamic objects, and an octree that follows them.
 class MovingWorld
 {
 public:
@@ -34,9 +34,9 @@ public:
         : m_grid{.origin = glm::vec3(0.0F),
                  .voxel_size = kExtent / static_cast<float>(1U << std::min(depth, 6U)),
                  .depth = depth},
-          m_static(test::materialsScene(kExtent)), m_mover(test::materialsScene(kExtent / 3)), m_options(options)
+          m_static(test::materialsScene(kExtent)), m_object(test::materialsScene(kExtent / 3)), m_options(options)
     {
-        m_scale = std::max(brightestEmission(m_static), brightestEmission(m_mover));
+        m_scale = std::max(brightestEmission(m_static), brightestEmission(m_object));
         m_options.merge = MergeRule::Average;
         m_options.emission_scale = m_scale;
         const GpuScene scene = uploadScene(device(), m_static, true, m_scale);
@@ -44,17 +44,17 @@ public:
         build.keep_sums = true;
         m_octree =
             std::make_unique<DynamicOctree>(device(), buildOctree(device(), scene, m_grid, build).octree, m_options);
-        m_mesh = uploadMover(device(), m_mover, true, m_scale);
+        m_mesh = uploadDynamicMesh(device(), m_object, true, m_scale);
     }
 
     DynamicOctree& octree() { return *m_octree; }
     const Grid& grid() const { return m_grid; }
-    const std::shared_ptr<const MoverMesh>& mesh() const { return m_mesh; }
+    const std::shared_ptr<const DynamicMesh>& mesh() const { return m_mesh; }
 
     Pose poseAt(const glm::mat4& place) const
     {
         Pose pose;
-        for (const Instance& instance : m_mover.instances)
+        for (const Instance& instance : m_object.instances)
         {
             pose.transforms.push_back(place * instance.transform);
         }
@@ -73,13 +73,13 @@ public:
         Scene scene = m_static;
         for (const glm::mat4& place : places)
         {
-            Scene mover = m_mover;
+            Scene object = m_object;
             const std::vector<glm::mat4> transforms = poseAt(place).transforms;
             for (std::size_t i = 0; i < transforms.size(); ++i)
             {
-                mover.instances[i].transform = transforms[i];
+                object.instances[i].transform = transforms[i];
             }
-            scene.append(std::move(mover));
+            scene.append(std::move(object));
         }
         const GpuScene uploaded = uploadScene(device(), scene, true, m_scale);
         return test::cellsOf(device(),
@@ -89,10 +89,10 @@ public:
 private:
     Grid m_grid;
     Scene m_static;
-    Scene m_mover;
+    Scene m_object;
     DynamicOptions m_options;
     float m_scale = 0;
-    std::shared_ptr<const MoverMesh> m_mesh;
+    std::shared_ptr<const DynamicMesh> m_mesh;
     std::unique_ptr<DynamicOctree> m_octree;
 };
 
@@ -112,7 +112,7 @@ TEST(DynamicOctree, IsMadeOfTheCellsThatItHas)
     EXPECT_GT(octree.emission.count(), 0U);
 }
 
-TEST(DynamicOctree, ShowsTheStaticOctreeWithoutMovers)
+TEST(DynamicOctree, ShowsTheStaticOctreeWithoutObjects)
 {
     MovingWorld world(6);
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
@@ -120,38 +120,38 @@ TEST(DynamicOctree, ShowsTheStaticOctreeWithoutMovers)
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
 }
 
-TEST(DynamicOctree, FollowsMoversThatComeMoveAndGo)
+TEST(DynamicOctree, FollowsObjectsThatComeMoveAndGo)
 {
     MovingWorld world(6);
-    const MoverId first = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    const DynamicObjectId first = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(0, 0, 0)})), "");
-    const MoverId second = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
-    world.octree().place(second, world.poseAt(moved(2, 1, 1))); // overlaps the first
+    const DynamicObjectId second = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    world.octree().setPose(second, world.poseAt(moved(2, 1, 1))); // overlaps the first
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(0, 0, 0), moved(2, 1, 1)})), "");
-    world.octree().place(first, world.poseAt(moved(9, 9, 9)));
+    world.octree().setPose(first, world.poseAt(moved(9, 9, 9)));
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(9, 9, 9), moved(2, 1, 1)})), "");
     world.octree().remove(second);
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(9, 9, 9)})), "");
-    world.octree().place(first, world.poseAt(moved(14, 9, 9))); // half outside
+    world.octree().setPose(first, world.poseAt(moved(14, 9, 9))); // half outside
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(14, 9, 9)})), "");
-    world.octree().place(first, world.poseAt(moved(100, 9, 9)));
+    world.octree().setPose(first, world.poseAt(moved(100, 9, 9)));
     EXPECT_EQ(world.update().dynamic_count, 0U);
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
 }
 
-TEST(DynamicOctree, UndoAndRedoShowEarlierSteps)
+TEST(DynamicOctree, UndoAndRedoShowEarlierEntries)
 {
     MovingWorld world(6, {.history = {16, UINT64_MAX}});
-    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    const DynamicObjectId object = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
     std::vector<std::vector<Cell>> shown = {world.shown()};
     for (int i = 0; i < 4; ++i)
     {
-        world.octree().place(mover, world.poseAt(moved(2.5F * static_cast<float>(i), 3, 1)));
+        world.octree().setPose(object, world.poseAt(moved(2.5F * static_cast<float>(i), 3, 1)));
         world.update();
         shown.push_back(world.shown());
         EXPECT_EQ(test::difference(shown.back(), world.rebuilt({moved(2.5F * static_cast<float>(i), 3, 1)})), "");
@@ -165,8 +165,8 @@ TEST(DynamicOctree, UndoAndRedoShowEarlierSteps)
     EXPECT_TRUE(world.redo());
     EXPECT_TRUE(world.redo());
     EXPECT_EQ(test::difference(world.shown(), shown[2]), "");
-    const MoverId second = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
-    EXPECT_NE(second, mover);
+    const DynamicObjectId second = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    EXPECT_NE(second, object);
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(2.5F, 3, 1), moved(0, 0, 0)})), "");
     EXPECT_FALSE(world.redo());
@@ -175,10 +175,10 @@ TEST(DynamicOctree, UndoAndRedoShowEarlierSteps)
 TEST(DynamicOctree, SpreadsAnUpdateOverFramesAndShowsTheLastRootMeanwhile)
 {
     MovingWorld world(6);
-    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
+    const DynamicObjectId object = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
     world.update();
     const std::vector<Cell> before = world.rebuilt({moved(3, 4, 5)});
-    world.octree().place(mover, world.poseAt(moved(6, 2, 5)));
+    world.octree().setPose(object, world.poseAt(moved(6, 2, 5)));
     std::uint32_t frame_count = 0;
     for (bool complete = false; !complete; ++frame_count)
     {
@@ -186,7 +186,7 @@ TEST(DynamicOctree, SpreadsAnUpdateOverFramesAndShowsTheLastRootMeanwhile)
         EXPECT_EQ(test::difference(world.shown(), before), "");
         if (frame_count == 2)
         {
-            world.octree().place(mover, world.poseAt(moved(1, 1, 1))); // counts for the update after this one
+            world.octree().setPose(object, world.poseAt(moved(1, 1, 1))); // counts for the update after this one
         }
         const std::uint64_t frame = world.octree().beginFrame();
         const std::vector<vk::PassTime> passes =
@@ -203,7 +203,7 @@ TEST(DynamicOctree, SpreadsAnUpdateOverFramesAndShowsTheLastRootMeanwhile)
 TEST(DynamicOctree, KeepsSeveralFramesInFlight)
 {
     MovingWorld world(6, {.frames_in_flight = 3});
-    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
+    const DynamicObjectId object = world.octree().add(world.mesh(), world.poseAt(moved(3, 4, 5)));
     world.update();
     struct Flight
     {
@@ -213,7 +213,7 @@ TEST(DynamicOctree, KeepsSeveralFramesInFlight)
     std::deque<Flight> flights;
     for (int i = 0; i < 12; ++i)
     {
-        world.octree().place(mover, world.poseAt(moved(static_cast<float>(i), 2, 5)));
+        world.octree().setPose(object, world.poseAt(moved(static_cast<float>(i), 2, 5)));
         const std::uint64_t frame = world.octree().beginFrame();
         flights.push_back({frame, device().submit(
                                       [&](vk::FrameGraph& graph)
@@ -246,20 +246,20 @@ TEST(DynamicOctree, KeepsSeveralFramesInFlight)
 TEST(DynamicOctree, StartsWithRoomForOne)
 {
     MovingWorld world(6, {.minimal_capacities = true});
-    const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
-    world.octree().place(mover, world.poseAt(moved(3, 4, 5)));
+    const DynamicObjectId object = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+    world.octree().setPose(object, world.poseAt(moved(3, 4, 5)));
     world.update();
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({moved(3, 4, 5)})), "");
 }
 
-TEST(DynamicOctree, OneMoverGivesWhatARebuildGives)
+TEST(DynamicOctree, OneObjectGivesWhatARebuildGives)
 {
     for (const std::uint32_t depth : {5U, 1U, 2U, 6U, 13U})
     {
         SCOPED_TRACE(depth);
         MovingWorld world(depth);
-        const MoverId mover = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
-        world.octree().place(mover, world.poseAt(moved(3, 4, 5)));
+        const DynamicObjectId object = world.octree().add(world.mesh(), world.poseAt(glm::mat4(1.0F)));
+        world.octree().setPose(object, world.poseAt(moved(3, 4, 5)));
         const UpdateReport report = world.update();
         EXPECT_EQ(report.failed, 0U);
         EXPECT_GT(report.dynamic_count, 0U);

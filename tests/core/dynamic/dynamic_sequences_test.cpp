@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whatever is done to movers, in whatever order: what is shown is what voxelizing everything anew gives, undo and redo
-// show what was shown, and the static octree stays what it was. scripts/check-dynamic runs thousands of sequences.
+// Whatever is done to dynamic objects, in whatever order: what is shown is what voxelizing everything anew gives, undo
+// and redo show what was shown, and the static octree stays what it was. scripts/check-dynamic runs thousands of
+// sequences.
 #include "core/base/kernels.h"
 #include "core/scene/deform.h"
 #include "oracle/deform.h"
@@ -24,15 +25,15 @@ namespace
 {
 
 using test::Command;
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::Item;
-using test::MoverScenery;
-using test::Place;
+using test::Placement;
 using test::Shot;
 
 constexpr std::uint32_t kBendCount = 5;
 
-using Kind = Place::Kind;
+using Kind = Placement::Kind;
 using test::device;
 
 // From low to high - 1, each as often, also in small cases, to which rc::gen::inRange gives only the lowest.
@@ -41,17 +42,18 @@ template <typename T> rc::Gen<T> anyBetween(T low, T high)
     return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
 }
 
-rc::Gen<Place> anyPlace()
+rc::Gen<Placement> anyPlacement()
 {
-    return rc::gen::build<Place>(rc::gen::set(&Place::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
-                                                                                            {2, Kind::Outside},
-                                                                                            {1, Kind::Point},
-                                                                                            {1, Kind::Flat},
-                                                                                            {3, Kind::Mirrored},
-                                                                                            {3, Kind::Turned},
-                                                                                            {1, Kind::Nan},
-                                                                                            {1, Kind::Huge}})),
-                                 rc::gen::set(&Place::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
+    return rc::gen::build<Placement>(
+        rc::gen::set(&Placement::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
+                                                                       {2, Kind::Outside},
+                                                                       {1, Kind::Point},
+                                                                       {1, Kind::Flat},
+                                                                       {3, Kind::Mirrored},
+                                                                       {3, Kind::Turned},
+                                                                       {1, Kind::Nan},
+                                                                       {1, Kind::Huge}})),
+        rc::gen::set(&Placement::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
 }
 
 rc::Gen<Command> anyCommand()
@@ -60,7 +62,7 @@ rc::Gen<Command> anyCommand()
     return rc::gen::build<Command>(
         rc::gen::set(&Command::action, rc::gen::weightedElement<Action>({{4, Action::Settle},
                                                                          {4, Action::Add},
-                                                                         {5, Action::Place},
+                                                                         {5, Action::Move},
                                                                          {2, Action::Bend},
                                                                          {1, Action::Remove},
                                                                          {4, Action::Update},
@@ -70,11 +72,11 @@ rc::Gen<Command> anyCommand()
                                                                          {4, Action::Submit},
                                                                          {2, Action::Lose},
                                                                          {2, Action::Wait}})),
-        rc::gen::set(&Command::mover, anyBetween<std::uint32_t>(0, test::DynamicMachine::kMoversMax)),
+        rc::gen::set(&Command::object, anyBetween<std::uint32_t>(0, test::DynamicMachine::kObjectsMax)),
         rc::gen::set(
             &Command::item,
-            rc::gen::build<Item>(rc::gen::set(&Item::mesh, anyBetween<std::uint32_t>(0, MoverScenery::kMeshCount)),
-                                 rc::gen::set(&Item::place, anyPlace()),
+            rc::gen::build<Item>(rc::gen::set(&Item::mesh, anyBetween<std::uint32_t>(0, DynamicScenery::kMeshCount)),
+                                 rc::gen::set(&Item::placement, anyPlacement()),
                                  rc::gen::set(&Item::bend, anyBetween<std::uint32_t>(0, kBendCount)))));
 }
 
@@ -105,22 +107,22 @@ rc::Gen<DynamicSetting> anySetting()
         set(&DynamicSetting::has_static, mostly(true)), set(&DynamicSetting::compressed, rc::gen::arbitrary<bool>()),
         set(&DynamicSetting::minimal_capacities, rc::gen::arbitrary<bool>()),
         set(&DynamicSetting::frames_in_flight, anyBetween<std::uint32_t>(1, 4)),
-        set(&DynamicSetting::steps_max, rc::gen::element<std::uint32_t>(1, 2, 16)),
+        set(&DynamicSetting::entries_max, rc::gen::element<std::uint32_t>(1, 2, 16)),
         set(&DynamicSetting::shot, anyShot()));
 }
 
 // What rebuilds take for granted: the CPU bends meshes as double precision does, but for roundings.
 TEST(DynamicSequences, BendMeshesWithinRoundingsOfDoublePrecision)
 {
-    const MoverScenery scenery(device(), true);
+    const DynamicScenery scenery(device(), true);
     std::size_t vertex_count = 0;
     std::size_t normal_count = 0;
-    for (std::uint32_t mesh = MoverScenery::kRigidCount; mesh < MoverScenery::kMeshCount; ++mesh)
+    for (std::uint32_t mesh = DynamicScenery::kRigidCount; mesh < DynamicScenery::kMeshCount; ++mesh)
     {
         const Scene& scene = scenery.mesh(mesh);
         for (std::uint32_t bend = 0; bend < kBendCount; ++bend)
         {
-            for (const Place::Kind kind : {Place::Kind::Inside, Place::Kind::Flat, Place::Kind::Turned})
+            for (const Placement::Kind kind : {Placement::Kind::Inside, Placement::Kind::Flat, Placement::Kind::Turned})
             {
                 const Pose pose = scenery.poseOf({mesh, {kind, {1, 2, 3}}, bend});
                 const Scene posed = posedScene(scene, pose);
@@ -153,7 +155,7 @@ TEST(DynamicSequences, BendMeshesWithinRoundingsOfDoublePrecision)
 
 TEST(DynamicSequences, ShowWhatARebuildShows)
 {
-    std::array sceneries = {MoverScenery(device(), false), MoverScenery(device(), true)};
+    std::array sceneries = {DynamicScenery(device(), false), DynamicScenery(device(), true)};
     const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
     test::checkProperty(150,
                         [&]
@@ -169,14 +171,14 @@ TEST(DynamicSequences, ShowWhatARebuildShows)
 }
 
 // With Vulkan calls that fail wherever it is, with three frames in flight as well: those frames are lost.
-TEST(DynamicSequences, GoOnWhateverFails)
+TEST(DynamicSequences, ResumeWhateverFails)
 {
     constexpr std::uint32_t kCallsMax = 50; // of most frames
     vk::HeadlessOptions options = test::deviceOptions();
     options.get_instance_proc_addr = test::failingVulkan();
     test::failCall(UINT64_MAX);
     vk::HeadlessDevice failing(options, zvoKernels());
-    std::array sceneries = {MoverScenery(failing, false), MoverScenery(failing, true)};
+    std::array sceneries = {DynamicScenery(failing, false), DynamicScenery(failing, true)};
     const auto any_commands = rc::gen::scale(0.4, rc::gen::container<std::vector<Command>>(anyCommand()));
     std::uint64_t failure_count = 0;
     test::checkProperty(8,

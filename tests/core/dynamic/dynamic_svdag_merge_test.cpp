@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Movers merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it was.
+// Dynamic objects merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it
+// was.
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
+#include "support/dynamic_scenery.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
-#include "support/mover_scenery.h"
 #include "support/octree_contents.h"
 #include "support/trace_octrees.h"
 #include "support/tree_comparison.h"
@@ -26,10 +27,10 @@ namespace zvo
 namespace
 {
 
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::Item;
-using test::MoverScenery;
-using Kind = test::Place::Kind;
+using Kind = test::Placement::Kind;
 
 using test::device;
 
@@ -46,8 +47,11 @@ public:
 
     DynamicOctree& octree() { return *m_octree; }
 
-    MoverId add(const Item& item) { return m_octree->add(m_scenery.mover(item.mesh, true), m_scenery.poseOf(item)); }
-    void place(MoverId mover, const Item& item) { m_octree->place(mover, m_scenery.poseOf(item)); }
+    DynamicObjectId add(const Item& item)
+    {
+        return m_octree->add(m_scenery.object(item.mesh, true), m_scenery.poseOf(item));
+    }
+    void setPose(DynamicObjectId object, const Item& item) { m_octree->setPose(object, m_scenery.poseOf(item)); }
 
     void expectRebuilt(const std::multiset<Item>& items, bool with_pictures)
     {
@@ -64,7 +68,7 @@ public:
 
 private:
     DynamicSetting m_setting;
-    MoverScenery m_scenery;
+    DynamicScenery m_scenery;
     std::unique_ptr<DynamicOctree> m_octree;
 };
 
@@ -72,7 +76,7 @@ constexpr Item kMergedMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 constexpr Item kTurned = {0, {Kind::Turned, {2, 1, 2}}};
 constexpr Item kMergedBent = {2, {Kind::Inside, {1, 2, 1}}, 3};
 
-TEST(DynamicSvdagMerge, AveragedMoversGiveWhatARebuildGives)
+TEST(DynamicSvdagMerge, AveragedObjectsGiveWhatARebuildGives)
 {
     for (const std::uint32_t depth : {6U, 1U, 2U, 5U, 7U, 13U})
     {
@@ -80,14 +84,14 @@ TEST(DynamicSvdagMerge, AveragedMoversGiveWhatARebuildGives)
         const bool with_pictures = depth > 4 && depth < 13;
         MergedWorld world({.depth = depth, .minimal_capacities = depth % 2 != 0});
         world.expectRebuilt({}, with_pictures);
-        const MoverId first = world.add(kMergedMiddle);
+        const DynamicObjectId first = world.add(kMergedMiddle);
         test::updateAll(device(), world.octree());
         world.expectRebuilt({kMergedMiddle}, false);
-        const MoverId second = world.add(kTurned);
+        const DynamicObjectId second = world.add(kTurned);
         world.add(kMergedBent);
         test::updateAll(device(), world.octree());
         world.expectRebuilt({kMergedMiddle, kTurned, kMergedBent}, with_pictures);
-        world.place(first, {0, {Kind::Mirrored, {0, 2, 1}}});
+        world.setPose(first, {0, {Kind::Mirrored, {0, 2, 1}}});
         world.octree().remove(second);
         test::updateAll(device(), world.octree());
         world.expectRebuilt({{0, {Kind::Mirrored, {0, 2, 1}}}, kMergedBent}, false);
@@ -111,7 +115,7 @@ void addWords(std::vector<gpu::uint>& words, const vk::BufferOf<T>& buffer, std:
 TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
 {
     const DynamicSetting setting = {.depth = 6, .compressed = true, .minimal_capacities = true};
-    MoverScenery scenery(device(), true);
+    DynamicScenery scenery(device(), true);
     DeviceTree fixed = scenery.buildStatic(setting);
     const std::uint64_t node_end = fixed.nodes.count();
     ASSERT_GT(fixed.lists.entry_count, 100U);
@@ -141,7 +145,7 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
     expectUnchanged();
     for (const Item& item : {kMergedMiddle, kTurned, kMergedBent})
     {
-        octree.add(scenery.mover(item.mesh, true), scenery.poseOf(item));
+        octree.add(scenery.object(item.mesh, true), scenery.poseOf(item));
         test::updateAll(device(), octree);
         expectUnchanged();
     }
@@ -152,7 +156,7 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
 TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
 {
     MergedWorld world({.depth = 6});
-    const MoverId mover = world.add(kMergedMiddle);
+    const DynamicObjectId object = world.add(kMergedMiddle);
     test::updateAll(device(), world.octree());
     const auto bytes = [&]
     {
@@ -164,7 +168,7 @@ TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
         return words;
     };
     const std::vector<gpu::uint> before = bytes();
-    world.place(mover, kTurned);
+    world.setPose(object, kTurned);
     test::updateAll(device(), world.octree());
     EXPECT_FALSE(bytes() == before);
     EXPECT_TRUE(test::undo(device(), world.octree()));
@@ -187,9 +191,9 @@ TEST(DynamicSvdagMerge, OverlaysTakeEightBytesANodeMoreThanOnAnOctree)
     {
         DynamicSetting with = setting;
         with.compressed = compressed;
-        MoverScenery scenery(device(), true);
+        DynamicScenery scenery(device(), true);
         DynamicOctree octree(device(), scenery.buildStatic(with), with.options(scenery.emissionScale()));
-        octree.add(scenery.mover(0, true), scenery.poseOf(kMergedMiddle));
+        octree.add(scenery.object(0, true), scenery.poseOf(kMergedMiddle));
         reports.at(compressed ? 1 : 0) = test::updateAll(device(), octree);
         bytes.at(compressed ? 1 : 0) = octree.history().entryBytes();
     }
@@ -200,13 +204,14 @@ TEST(DynamicSvdagMerge, OverlaysTakeEightBytesANodeMoreThanOnAnOctree)
 TEST(DynamicSvdagMerge, MoreNodesThanKernelsReachAreRefused)
 {
     const test::Codes codes = {0, 5, 70};
-    vk::Retired retired;
+    vk::DeletionQueue deletion_queue;
     const auto make = [&](std::uint64_t room)
     {
         DeviceTree dag = compress(device(), test::octreeOf(device(), codes, 3)).dag;
-        auto octree = std::make_unique<OverlayBuffers>(device(), std::move(dag), OverlayContents{false, 0.0F}, retired);
+        auto octree =
+            std::make_unique<OverlayBuffers>(device(), std::move(dag), OverlayContents{false, 0.0F}, deletion_queue);
         octree->reserve(room);
-        device().perform([&](vk::FrameGraph& graph, vk::Retired& later) { octree->settle(graph, later); });
+        device().perform([&](vk::FrameGraph& graph, vk::DeletionQueue& later) { octree->settle(graph, later); });
         return octree;
     };
     EXPECT_GE(make(1)->arena().largestFreeNodes(), 1U);

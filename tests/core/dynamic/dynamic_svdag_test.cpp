@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Movers above a DAG: everything looks as if the DAG were the octree that it was made of.
+// Dynamic objects above a DAG: everything looks as if the DAG were the octree that it was made of.
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "oracle/dag.h"
@@ -62,21 +62,21 @@ public:
     {
         Scene box = test::boxScene(glm::vec3(0.0F), glm::vec3(std::min(part * m_edge, kBoxMax)));
         box.materials[0].base_color = {color, 1.0F};
-        const std::shared_ptr<const MoverMesh> mesh = uploadMover(device(), box, m_attributes, 1.0F);
-        m_movers.emplace_back(m_octree->add(mesh, poseAt({})), m_dag->add(mesh, poseAt({})));
+        const std::shared_ptr<const DynamicMesh> mesh = uploadDynamicMesh(device(), box, m_attributes, 1.0F);
+        m_objects.emplace_back(m_octree->add(mesh, poseAt({})), m_dag->add(mesh, poseAt({})));
     }
 
     // Puts the corner of a box at these parts of the grid.
-    void place(std::size_t mover, const glm::vec3& corner)
+    void setPose(std::size_t object, const glm::vec3& corner)
     {
-        m_octree->place(m_movers.at(mover).first, poseAt(corner));
-        m_dag->place(m_movers.at(mover).second, poseAt(corner));
+        m_octree->setPose(m_objects.at(object).first, poseAt(corner));
+        m_dag->setPose(m_objects.at(object).second, poseAt(corner));
     }
 
-    void remove(std::size_t mover)
+    void remove(std::size_t object)
     {
-        m_octree->remove(m_movers.at(mover).first);
-        m_dag->remove(m_movers.at(mover).second);
+        m_octree->remove(m_objects.at(object).first);
+        m_dag->remove(m_objects.at(object).second);
     }
 
     void update()
@@ -131,7 +131,7 @@ private:
     float m_edge;
     std::unique_ptr<DynamicOctree> m_octree;
     std::unique_ptr<DynamicOctree> m_dag;
-    std::vector<std::pair<MoverId, MoverId>> m_movers; // in octree and DAG
+    std::vector<std::pair<DynamicObjectId, DynamicObjectId>> m_objects; // in octree and DAG
 };
 
 // Waves through the first box and around it.
@@ -171,25 +171,25 @@ std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
     };
 }
 
-// Through all that movers may do. see: what is shown.
+// Through all that dynamic objects may do. see: what is shown.
 template <typename See> void moveBoxes(Pair& pair, const See& see)
 {
     see(); // as it was made
     pair.update();
-    see(); // without movers
+    see(); // without dynamic objects
     pair.add(kBoxPart, {0.9F, 0.2F, 0.1F});
-    pair.place(0, kBoxCorner); // over subtrees that stand at many places
+    pair.setPose(0, kBoxCorner); // over subtrees that stand at many places
     pair.update();
     see();
     pair.add(0.3F, {0.1F, 0.8F, 0.3F});
-    pair.place(1, {0.33F, 0.41F, 0.29F}); // across the first
+    pair.setPose(1, {0.33F, 0.41F, 0.29F}); // across the first
     pair.update();
     see();
-    pair.place(0, {3.0F, 3.0F, 3.0F});
-    pair.place(1, {3.0F, 3.0F, 3.0F}); // nothing is touched
+    pair.setPose(0, {3.0F, 3.0F, 3.0F});
+    pair.setPose(1, {3.0F, 3.0F, 3.0F}); // nothing is touched
     pair.update();
     see();
-    pair.place(0, {0.71F, 0.01F, 0.66F}); // across the grid's border
+    pair.setPose(0, {0.71F, 0.01F, 0.66F}); // across the grid's border
     pair.remove(1);
     pair.update();
     see();
@@ -198,7 +198,7 @@ template <typename See> void moveBoxes(Pair& pair, const See& see)
     see();
     pair.remove(0);
     pair.update();
-    see(); // without movers again
+    see(); // without dynamic objects again
 }
 
 TEST(DynamicSvdag, HoldsWhatTheOctreeHolds)
@@ -222,7 +222,7 @@ TEST(DynamicSvdag, LooksLikeTheOctreeInEveryViewAndLevelOfDetail)
                   [&]
                   {
                       SCOPED_TRACE("step " + std::to_string(step));
-                      if (step == 3 || step == 4) // two movers, and none that covers anything
+                      if (step == 3 || step == 4) // two dynamic objects, and none that covers anything
                       {
                           pair.comparison().pictures(pair.closeView());
                       }

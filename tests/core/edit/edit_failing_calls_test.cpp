@@ -4,9 +4,9 @@
 #include "core/base/kernels.h"
 #include "support/ballast.h"
 #include "support/device.h"
+#include "support/dynamic_scenery.h"
 #include "support/edit_model.h"
 #include "support/failing_vulkan.h"
-#include "support/mover_scenery.h"
 #include "support/sweep.h"
 #include "zvo/error.h"
 
@@ -29,15 +29,15 @@ namespace
 {
 
 using test::Cell;
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::EditModel;
 using test::Item;
-using test::MoverScenery;
-using Kind = test::Place::Kind;
+using Kind = test::Placement::Kind;
 
 constexpr std::uint64_t kLimitBytes = 512U << 20;
 constexpr std::uint64_t kCallsPerKernel = 3; // of module, layout and pipeline
-constexpr Item kMover = {0, {Kind::Inside, {1, 1, 1}}};
+constexpr Item kObject = {0, {Kind::Inside, {1, 1, 1}}};
 
 vk::HeadlessOptions limitedOptions()
 {
@@ -67,8 +67,8 @@ using Fail = std::function<void(std::uint64_t)>;
 class Session
 {
 public:
-    Session(vk::HeadlessDevice& device, MoverScenery& scenery, const DynamicSetting& setting, const EditBounds& bounds,
-            AfterError after_error, Fail fail)
+    Session(vk::HeadlessDevice& device, DynamicScenery& scenery, const DynamicSetting& setting,
+            const EditBounds& bounds, AfterError after_error, Fail fail)
         : m_device(device), m_scenery(scenery), m_setting(setting), m_after_error(after_error), m_fail(std::move(fail))
     {
         DynamicOptions options = setting.options(scenery.emissionScale());
@@ -84,7 +84,7 @@ public:
 
     void add(const Item& item)
     {
-        m_octree->add(m_scenery.mover(item.mesh, true), m_scenery.poseOf(item));
+        m_octree->add(m_scenery.object(item.mesh, true), m_scenery.poseOf(item));
         m_items.insert(item);
     }
 
@@ -123,7 +123,7 @@ public:
         expectCells(m_line.at(m_at).cells());
     }
 
-    // Until movers are shown.
+    // Until dynamic objects are shown.
     void update()
     {
         do
@@ -242,7 +242,7 @@ private:
     }
 
     vk::HeadlessDevice& m_device;
-    MoverScenery& m_scenery;
+    DynamicScenery& m_scenery;
     DynamicSetting m_setting;
     AfterError m_after_error;
     Fail m_fail;
@@ -268,7 +268,7 @@ void play(Session& session, bool loses)
     {
         session.stroke(sphere(BrushAction::Fill, {8, 3, 6}, 3), 2);
     }
-    session.add(kMover);
+    session.add(kObject);
     session.update();
     session.stroke(sphere(BrushAction::Carve, {8, 8, 8}, 6));
     session.update();
@@ -299,7 +299,7 @@ TEST(EditFailingCalls, AnyOneOfAFrameIsAnErrorAndTheOctreeGoesOn)
             {
                 SCOPED_TRACE(bytes_max);
                 const bool fails_on = bytes_max == 0 && after_error == AfterError::Lose;
-                MoverScenery scenery(device, true);
+                DynamicScenery scenery(device, true);
                 Session session(device, scenery, {.depth = 4, .compressed = bytes_max == 0},
                                 {.entries_max = 8, .bytes_max = bytes_max}, after_error,
                                 [&](std::uint64_t number)
@@ -323,7 +323,7 @@ TEST(EditFailingCalls, AnyOneOfAFrameIsAnErrorAndTheOctreeGoesOn)
 TEST(EditFailingCalls, WithoutMemoryWhatWasShownStaysShown)
 {
     vk::HeadlessDevice limited(limitedOptions(), zvoKernels());
-    MoverScenery scenery(limited, true);
+    DynamicScenery scenery(limited, true);
     const DynamicSetting setting = {.depth = 6};
     std::set<std::string> needs;
     std::size_t success_count = 0;

@@ -13,32 +13,32 @@ namespace zvo
 namespace
 {
 
-TEST(EditHistory, BeginsAtAPlaceThatNothingWasDoneTo)
+TEST(EditHistory, BeginsAtASlotThatNothingWasDoneTo)
 {
     EditHistory history(3);
-    EXPECT_EQ(history.place(), 0U);
+    EXPECT_EQ(history.slot(), 0U);
     EXPECT_EQ(history.undoCount() + history.redoCount(), 0U);
     EXPECT_FALSE(history.undo());
     EXPECT_FALSE(history.redo());
     EXPECT_TRUE(history.isExact());
-    EXPECT_EQ(history.top(0).nodes, history.placeCount()) << "the places' roots come first";
+    EXPECT_EQ(history.top(0).nodes, history.slotCount()) << "the slots' roots come first";
 }
 
-TEST(EditHistory, AStrokeIsOneStepHoweverManyDabsItHas)
+TEST(EditHistory, AStrokeIsOneEntryHoweverManyDabsItHas)
 {
     EditHistory history(3);
     const std::uint32_t first = history.push(10, 20);
     const std::uint32_t second = history.push(1, 2);
     EXPECT_NE(first, second);
     EXPECT_EQ(history.undoCount(), 1U);
-    EXPECT_EQ(history.place(), second);
+    EXPECT_EQ(history.slot(), second);
     EXPECT_EQ(history.top(second).nodes, history.top(0).nodes + 11);
     EXPECT_EQ(history.top(second).voxels, 22U);
     history.endStroke();
     history.push(0, 0);
     EXPECT_EQ(history.undoCount(), 2U);
     EXPECT_TRUE(history.undo());
-    EXPECT_EQ(history.place(), second);
+    EXPECT_EQ(history.slot(), second);
 }
 
 TEST(EditHistory, ADabAfterUndoDropsWhatCouldBeRedone)
@@ -52,11 +52,11 @@ TEST(EditHistory, ADabAfterUndoDropsWhatCouldBeRedone)
     history.undo();
     history.undo();
     EXPECT_EQ(history.redoCount(), 2U);
-    const std::uint64_t nodes = history.top(history.place()).nodes;
+    const std::uint64_t nodes = history.top(history.slot()).nodes;
     history.push(5, 5);
     EXPECT_EQ(history.redoCount(), 0U);
     EXPECT_EQ(history.undoCount(), 3U);
-    EXPECT_EQ(history.top(history.place()).nodes, nodes + 5) << "takes the room of what was undone";
+    EXPECT_EQ(history.top(history.slot()).nodes, nodes + 5) << "takes the room of what was undone";
 }
 
 // As long as the frame in which it was undone may be lost.
@@ -69,14 +69,14 @@ TEST(EditHistory, ADabAfterUndoLeavesRoomToWhatIsKept)
     const EditTop top = history.top(shown);
     history.undo();
     EXPECT_EQ(history.topAbove(shown).nodes, top.nodes);
-    const std::uint32_t place = history.push(5, 6, shown);
-    EXPECT_EQ(history.top(place).nodes, top.nodes + 5);
-    EXPECT_EQ(history.top(place).voxels, top.voxels + 6);
+    const std::uint32_t slot = history.push(5, 6, shown);
+    EXPECT_EQ(history.top(slot).nodes, top.nodes + 5);
+    EXPECT_EQ(history.top(slot).voxels, top.voxels + 6);
     history.undo();
-    EXPECT_EQ(history.topAbove(history.place()).nodes, history.top(history.place()).nodes);
+    EXPECT_EQ(history.topAbove(history.slot()).nodes, history.top(history.slot()).nodes);
 }
 
-TEST(EditHistory, TheOldestStepFallsOff)
+TEST(EditHistory, TheOldestEntryFallsOff)
 {
     EditHistory history(2);
     for (int i = 0; i < 100; ++i)
@@ -88,8 +88,8 @@ TEST(EditHistory, TheOldestStepFallsOff)
     EXPECT_EQ(std::ranges::count(history.used(), true), 3);
 }
 
-// A frame that is lost may have written the places that it took, and gives back those that it has freed.
-TEST(EditHistory, PlacesThatAFrameFreesAreNotUsedAgainInIt)
+// A frame that is lost may have written the slots that it took, and gives back those that it has freed.
+TEST(EditHistory, SlotsThatAFrameFreesAreNotUsedAgainInIt)
 {
     EditHistory history(2);
     for (int frame = 0; frame < 50; ++frame)
@@ -101,8 +101,8 @@ TEST(EditHistory, PlacesThatAFrameFreesAreNotUsedAgainInIt)
         }
         for (std::uint32_t i = 0; i < kDabsPerFrameMax; ++i)
         {
-            const std::uint32_t place = history.push(1, 1);
-            EXPECT_FALSE(used[place]) << frame << ' ' << i;
+            const std::uint32_t slot = history.push(1, 1);
+            EXPECT_FALSE(used[slot]) << frame << ' ' << i;
             if (i % 3 == 0)
             {
                 history.endStroke();
@@ -119,12 +119,12 @@ TEST(EditHistory, DropsTheOlderHalf)
         history.push(1, 1);
         history.endStroke();
     }
-    const std::uint32_t shown = history.place();
+    const std::uint32_t shown = history.slot();
     for (const std::size_t left : {3U, 1U, 0U})
     {
         EXPECT_TRUE(history.dropOldest());
         EXPECT_EQ(history.undoCount(), left);
-        EXPECT_EQ(history.place(), shown);
+        EXPECT_EQ(history.slot(), shown);
     }
     EXPECT_FALSE(history.dropOldest());
 }
@@ -132,11 +132,11 @@ TEST(EditHistory, DropsTheOlderHalf)
 TEST(EditHistory, KnowsWhetherTheDeviceHasToldAllTops)
 {
     EditHistory history(8);
-    const std::uint32_t place = history.push(100, 100);
+    const std::uint32_t slot = history.push(100, 100);
     EXPECT_FALSE(history.isExact());
-    history.learn(place, {history.placeCount() + 3ULL, 4, 5, true});
+    history.learn(slot, {history.slotCount() + 3ULL, 4, 5, true});
     EXPECT_TRUE(history.isExact());
-    EXPECT_EQ(history.top(place).voxels, 4U);
+    EXPECT_EQ(history.top(slot).voxels, 4U);
     history.forgetTops();
     EXPECT_FALSE(history.isExact());
 }

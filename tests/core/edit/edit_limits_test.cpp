@@ -188,7 +188,7 @@ TEST_P(EditLimits, AThousandStrokesAreUndoneAndRedone)
 }
 
 // What is shown stays, however little of its history does.
-TEST_P(EditLimits, WithLittleRoomStepsAreDroppedAndMemoryStaysBounded)
+TEST_P(EditLimits, WithLittleRoomEntriesAreDroppedAndMemoryStaysBounded)
 {
     constexpr std::uint64_t kBytesMax = 2 * kMiB;
     vk::MemoryAllocator& memory = device().device().memory();

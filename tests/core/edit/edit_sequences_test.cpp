@@ -16,13 +16,13 @@ namespace zvo
 namespace
 {
 
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::EditCommand;
-using test::MoverScenery;
-using test::Place;
+using test::Placement;
 
 using Action = EditCommand::Action;
-using Kind = Place::Kind;
+using Kind = Placement::Kind;
 using test::device;
 
 template <typename T> rc::Gen<T> anyBetween(T low, T high)
@@ -60,30 +60,30 @@ rc::Gen<EditCommand> anyStroke(const Grid& grid)
 
 rc::Gen<EditCommand> anyMove()
 {
-    const rc::Gen<Place> place =
-        rc::gen::build<Place>(rc::gen::set(&Place::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
-                                                                                         {1, Kind::Outside},
-                                                                                         {1, Kind::Flat},
-                                                                                         {3, Kind::Mirrored},
-                                                                                         {3, Kind::Turned},
-                                                                                         {1, Kind::Nan}})),
-                              rc::gen::set(&Place::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
+    const rc::Gen<Placement> place = rc::gen::build<Placement>(
+        rc::gen::set(&Placement::kind, rc::gen::weightedElement<Kind>({{12, Kind::Inside},
+                                                                       {1, Kind::Outside},
+                                                                       {1, Kind::Flat},
+                                                                       {3, Kind::Mirrored},
+                                                                       {3, Kind::Turned},
+                                                                       {1, Kind::Nan}})),
+        rc::gen::set(&Placement::at, rc::gen::container<std::array<int, 3>>(anyBetween(-1, 4))));
     return rc::gen::build<EditCommand>(
         rc::gen::set(
             &EditCommand::action,
             rc::gen::weightedElement<Action>(
-                {{3, Action::Add}, {3, Action::Place}, {1, Action::Remove}, {4, Action::Update}, {6, Action::Slice}})),
-        rc::gen::set(&EditCommand::mover, anyBetween<std::uint32_t>(0, test::EditMachine::kMoversMax)),
+                {{3, Action::Add}, {3, Action::Move}, {1, Action::Remove}, {4, Action::Update}, {6, Action::Slice}})),
+        rc::gen::set(&EditCommand::object, anyBetween<std::uint32_t>(0, test::EditMachine::kObjectsMax)),
         rc::gen::set(&EditCommand::item,
                      rc::gen::build<test::Item>(
-                         rc::gen::set(&test::Item::mesh, anyBetween<std::uint32_t>(0, MoverScenery::kMeshCount)),
-                         rc::gen::set(&test::Item::place, place),
+                         rc::gen::set(&test::Item::mesh, anyBetween<std::uint32_t>(0, DynamicScenery::kMeshCount)),
+                         rc::gen::set(&test::Item::placement, place),
                          rc::gen::set(&test::Item::bend, anyBetween<std::uint32_t>(0, 4)))));
 }
 
-rc::Gen<EditCommand> anyCommand(const Grid& grid, bool movers)
+rc::Gen<EditCommand> anyCommand(const Grid& grid, bool objects)
 {
-    return movers ? rc::gen::weightedOneOf<EditCommand>({{2, anyStroke(grid)}, {1, anyMove()}}) : anyStroke(grid);
+    return objects ? rc::gen::weightedOneOf<EditCommand>({{2, anyStroke(grid)}, {1, anyMove()}}) : anyStroke(grid);
 }
 
 DynamicSetting anySetting()
@@ -103,10 +103,10 @@ DynamicSetting anySetting()
 }
 
 // With little room everything moves again and again, and steps are dropped.
-void play(bool movers, int cases)
+void play(bool objects, int cases)
 {
-    MoverScenery dark(device(), false);
-    MoverScenery bright(device(), true);
+    DynamicScenery dark(device(), false);
+    DynamicScenery bright(device(), true);
     int compared = 0;
     test::checkProperty(
         cases,
@@ -115,7 +115,7 @@ void play(bool movers, int cases)
             const DynamicSetting setting = anySetting();
             const EditBounds bounds = {*anyBetween<std::size_t>(1, 6),
                                        *rc::gen::element<std::uint64_t>(0, 100'000, 400'000, 2'000'000, UINT64_MAX)};
-            const auto commands = *rc::gen::container<std::vector<EditCommand>>(anyCommand(setting.grid(), movers));
+            const auto commands = *rc::gen::container<std::vector<EditCommand>>(anyCommand(setting.grid(), objects));
             test::EditMachine machine(device(), setting, bounds, setting.emits ? bright : dark);
             for (const EditCommand& command : commands)
             {
@@ -132,8 +132,8 @@ TEST(EditSequences, ShowWhatAModelHas)
     play(false, 200);
 }
 
-// Wherever movers are, and however much of an update is recorded when a brush comes.
-TEST(EditSequences, WithMoversShowWhatAModelHas)
+// Wherever dynamic objects are, and however much of an update is recorded when a brush comes.
+TEST(EditSequences, WithDynamicObjectsShowWhatAModelHas)
 {
     play(true, 150);
 }

@@ -11,17 +11,17 @@ namespace zvo
 namespace
 {
 
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::EditCommand;
 using test::EditMachine;
-using test::MoverScenery;
 
 using test::dab;
 using test::device;
 
-MoverScenery& scenery()
+DynamicScenery& scenery()
 {
-    static MoverScenery scenery(device(), true);
+    static DynamicScenery scenery(device(), true);
     return scenery;
 }
 

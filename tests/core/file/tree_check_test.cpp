@@ -116,69 +116,71 @@ const std::vector<TreeFault>& treeFaults()
         {"NodeAttributesAlone", kOctree, [](auto& t) { t.voxel_attributes.clear(); }, "there are attributes of 0"},
         {"VoxelFlags", kOctree, [](auto& t) { t.voxel_attributes[3].color |= 2U << 24; }, "attribute 3 of the voxels"},
         {"NodeFlags", kDag, [](auto& t) { t.node_attributes[2].color |= 0x80U << 24; }, "attribute 2 of the nodes"},
-        {"FormsTwo", kOctree, [](auto& t) { t.packed = packedTree(t, AttributeForm::Bytes4).packed; }, "in two forms"},
-        {"FormUnknown", kOctree, [](auto& t) { t.packed.form = static_cast<AttributeForm>(9); }, "unknown form"},
-        {"WordsWithoutForm", kOctree, [](auto& t) { t.packed.nodes.push_back(0); }, "0 and 1 words"},
+        {"FormatsTwo", kOctree, [](auto& t) { t.packed = packedTree(t, AttributeFormat::Bytes4).packed; },
+         "in two formats"},
+        {"FormatUnknown", kOctree, [](auto& t) { t.packed.format = static_cast<AttributeFormat>(9); },
+         "unknown format"},
+        {"WordsWithoutFormat", kOctree, [](auto& t) { t.packed.nodes.push_back(0); }, "0 and 1 words"},
         {"PackedVoxelMissing", kDag,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Bytes4);
+             t = packedTree(t, AttributeFormat::Bytes4);
              t.packed.voxels.pop_back();
          },
          "packed attributes of voxels and nodes take"},
         {"PackedNodeTooMany", kOctree,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Bytes4);
+             t = packedTree(t, AttributeFormat::Bytes4);
              t.packed.nodes.push_back(0);
          },
          "packed attributes of voxels and nodes take"},
         {"PackedNormalX", kOctree,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Bytes4);
+             t = packedTree(t, AttributeFormat::Bytes4);
              t.packed.voxels[7] = 0x00800000U;
          },
          "attribute 7 of the voxels has a normal outside"},
         {"PackedNormalY", kDag,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Bytes4);
+             t = packedTree(t, AttributeFormat::Bytes4);
              t.packed.nodes[2] = 0x80000000U;
          },
          "attribute 2 of the nodes has a normal outside"},
         {"BlockMissing", kDag,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Blocks);
+             t = packedTree(t, AttributeFormat::Blocks);
              t.packed.voxels.resize(t.packed.voxels.size() - 6);
          },
          "packed attributes of voxels and nodes take"},
         {"BlockCut", kOctree,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Blocks);
+             t = packedTree(t, AttributeFormat::Blocks);
              t.packed.voxels.pop_back();
          },
          "packed attributes of voxels and nodes take"},
         {"BlockScale", kDag,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Blocks);
+             t = packedTree(t, AttributeFormat::Blocks);
              t.packed.voxels[6 * 3 + 2] |= 127U << 21;
          },
          "block 3 of the voxels has a scale outside"},
         {"BlockAxis", kOctree,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Blocks);
+             t = packedTree(t, AttributeFormat::Blocks);
              t.packed.voxels[6 * 2 + 2] |= 3U << 28;
          },
          "block 2 of the voxels has an axis"},
         {"BlockNodes", kOctree,
          [](auto& t)
          {
-             t = packedTree(t, AttributeForm::Blocks);
+             t = packedTree(t, AttributeFormat::Blocks);
              t.packed.nodes[4] = 0x80000000U;
          },
          "attribute 4 of the nodes has a normal outside"},

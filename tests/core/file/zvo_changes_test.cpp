@@ -39,7 +39,7 @@ const TreeData& atrium()
         const GpuScene gpu_scene = uploadScene(device(), scene, true);
         DeviceTree octree = buildOctree(device(), gpu_scene, Grid::around(scene.bounds(), 7), {}).octree;
         DeviceTree dag = compress(device(), std::move(octree)).dag;
-        packTree(device(), AttributeForm::Blocks, dag);
+        packTree(device(), AttributeFormat::Blocks, dag);
         return downloadTree(device(), dag);
     }();
     return tree;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One file, byte for byte, for a scene whose triangles and instances come in any order, in each form of attributes.
+// One file, byte for byte, for a scene whose triangles and instances come in any order, in each format of attributes.
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
@@ -53,28 +53,28 @@ struct Sums
     std::string svdag_of_tiles;
 };
 
-Sums sumsOf(const Scene& scene, const Grid& grid, AttributeForm form)
+Sums sumsOf(const Scene& scene, const Grid& grid, AttributeFormat format)
 {
-    const bool attributes = form != AttributeForm::None;
+    const bool attributes = format != AttributeFormat::None;
     const GpuScene gpu_scene = uploadScene(device(), scene, attributes);
     DeviceTree octree = buildOctree(device(), gpu_scene, grid, {Coverage::Thin, attributes, {}}).octree;
-    packTree(device(), form, octree);
+    packTree(device(), format, octree);
     Sums sums;
     sums.svo = sha256Of(downloadTree(device(), octree));
     sums.svdag = sha256Of(downloadTree(device(), compress(device(), std::move(octree)).dag));
-    const TiledOptions tiled{.attributes = form, .tile_depth = 4};
+    const TiledOptions tiled{.attributes = format, .tile_depth = 4};
     sums.svdag_of_tiles = sha256Of(buildByTiles(device(), gpu_scene, grid, tiled).tree);
     return sums;
 }
 
-class ZvoBytes : public testing::TestWithParam<AttributeForm>
+class ZvoBytes : public testing::TestWithParam<AttributeFormat>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(Forms, ZvoBytes,
-                         testing::Values(AttributeForm::None, AttributeForm::Bytes4, AttributeForm::Bytes8,
-                                         AttributeForm::Blocks),
-                         [](const auto& form) { return std::string("Form_") + formName(form.param); });
+INSTANTIATE_TEST_SUITE_P(Formats, ZvoBytes,
+                         testing::Values(AttributeFormat::None, AttributeFormat::Bytes4, AttributeFormat::Bytes8,
+                                         AttributeFormat::Blocks),
+                         [](const auto& format) { return std::string("Format_") + formatName(format.param); });
 
 TEST_P(ZvoBytes, DoNotDependOnTheOrderOfTrianglesAndInstances)
 {

@@ -2,7 +2,7 @@
 // Vulkan calls of a small run are made to fail: an error that says so, and nothing left behind. On a new device every
 // seventh one, all of them in scripts/check-sanitizers; on a device that goes on, every one.
 #include "core/base/kernels.h"
-#include "core/deform/mover.h"
+#include "core/deform/dynamic_object.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
@@ -61,19 +61,21 @@ Job wholeJob()
 }
 
 /// The sum of the octree of gpu_scene, made of scene, when it has moved and, where it has morph targets, deformed.
-std::string workOnAMover(vk::HeadlessDevice& device, const Scene& scene, const GpuScene& gpu_scene, const Grid& grid)
+std::string workOnADynamicObject(vk::HeadlessDevice& device, const Scene& scene, const GpuScene& gpu_scene,
+                                 const Grid& grid)
 {
     Pose pose = poseAt(scene, 0.0);
     pose.transforms[1][3].x += 1.0F;
     pose.morph_weights[0][0] = 0.25F;
     const DeformMesh mesh = uploadDeformMesh(device, scene);
-    MoverBuffers mover = makeMover(device, planMover(scene, mesh), gpu_scene, mesh);
-    device.run([&](vk::FrameGraph& graph) { placeMover(graph, mesh, pose, mover); });
-    const BuildResult built = buildOctree(device, {gpu_scene, mover}, grid, {Coverage::Thin, false, {}});
+    DynamicObjectBuffers object = makeDynamicObject(device, planDynamicObject(scene, mesh), gpu_scene, mesh);
+    device.run([&](vk::FrameGraph& graph) { setPose(graph, mesh, pose, object); });
+    const BuildResult built = buildOctree(device, {gpu_scene, object}, grid, {Coverage::Thin, false, {}});
     return octreeSha256(device, built.octree);
 }
 
-/// Uploads, builds, traces and downloads; returns the octree's sum and the picture, of a whole job a mover's sum, too.
+/// Uploads, builds, traces and downloads; returns the octree's sum and the picture, of a whole job a dynamic object's
+/// sum, too.
 std::string work(vk::HeadlessDevice& device, const Job& job)
 {
     constexpr std::uint32_t kEdge = 24;
@@ -103,7 +105,7 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
         }
         if (job.attributes)
         {
-            result += workOnAMover(device, job.scene, gpu_scene, grid);
+            result += workOnADynamicObject(device, job.scene, gpu_scene, grid);
         }
     }
     catch (...)
@@ -120,7 +122,7 @@ TreeData makeDag(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& 
 {
     BuildResult built = buildOctree(device, scene, grid, {});
     DeviceTree dag = compress(device, std::move(built.octree), {.table_slots = 64}).dag;
-    packTree(device, AttributeForm::Blocks, dag);
+    packTree(device, AttributeFormat::Blocks, dag);
     return downloadTree(device, dag);
 }
 
@@ -189,7 +191,7 @@ protected:
     }
 
     // Runs with each call failing once; every so often, and in the end, without. No run leaves an object.
-    static void expectToGoOn(const std::function<std::string()>& run, std::uint64_t call_count_min)
+    static void expectToResume(const std::function<std::string()>& run, std::uint64_t call_count_min)
     {
         constexpr std::uint64_t kWholeRunEach = 16;
         test::failCall(UINT64_MAX);
@@ -267,7 +269,7 @@ TEST_F(FailingCalls, ADeviceGoesOnAfterEveryOneOfThem)
     test::failCall(UINT64_MAX);
     vk::HeadlessDevice device(options(), zvoKernels());
     const Job job = wholeJob();
-    expectToGoOn([&] { return work(device, job); }, 200);
+    expectToResume([&] { return work(device, job); }, 200);
 }
 
 TEST_F(FailingCalls, SoItDoesWhenItMakesDags)
@@ -277,7 +279,7 @@ TEST_F(FailingCalls, SoItDoesWhenItMakesDags)
     const Scene scene = test::materialsScene(10.0F);
     const GpuScene gpu_scene = uploadScene(device, scene, true);
     const Grid grid = Grid::around(scene.bounds(), 5);
-    expectToGoOn([&] { return test::zvoSha256(makeDag(device, gpu_scene, grid)); }, 100);
+    expectToResume([&] { return test::zvoSha256(makeDag(device, gpu_scene, grid)); }, 100);
 }
 
 // Tiles as small as these are not taken in parts when memory is short: that is an error.
@@ -288,8 +290,8 @@ TEST_F(FailingCalls, SoItDoesWhenItBuildsInTiles)
     const Scene scene = test::boxScene(glm::vec3(0.1F), glm::vec3(0.3F, 0.3F, 0.7F)); // in two tiles of eight
     const GpuScene gpu_scene = uploadScene(device, scene, true);
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F / 32, .depth = 5};
-    const TiledOptions tiled{.attributes = AttributeForm::Blocks, .tile_depth = 4};
-    expectToGoOn([&] { return test::zvoSha256(buildByTiles(device, gpu_scene, grid, tiled).tree); }, 200);
+    const TiledOptions tiled{.attributes = AttributeFormat::Blocks, .tile_depth = 4};
+    expectToResume([&] { return test::zvoSha256(buildByTiles(device, gpu_scene, grid, tiled).tree); }, 200);
 }
 
 } // namespace

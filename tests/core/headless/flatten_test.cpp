@@ -4,9 +4,9 @@
 
 #include "core/file/tree_check.h"
 #include "core/headless/tree_download.h"
+#include "support/dynamic_scenery.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
-#include "support/mover_scenery.h"
 #include "support/tree_samples.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ namespace zvo
 namespace
 {
 
+using test::DynamicScenery;
 using test::DynamicSetting;
-using test::MoverScenery;
 
 using test::device;
 
@@ -43,7 +43,7 @@ TEST(FlattenTree, OfWhatWasJustBuiltIsWhatIsDownloaded)
 {
     for (const test::TreeSample& sample : test::treeSamples())
     {
-        if (isPacked(sample.tree.attributeForm()))
+        if (isPacked(sample.tree.attributeFormat()))
         {
             EXPECT_ANY_THROW((void)flattenTree(device(), uploadTree(device(), sample.tree)));
             continue;
@@ -63,15 +63,15 @@ TEST(FlattenTree, OfWhatWasJustBuiltIsWhatIsDownloaded)
     }
 }
 
-TEST(FlattenTree, OfMergedMoversIsWhatVoxelizingEverythingGives)
+TEST(FlattenTree, OfMergedObjectsIsWhatVoxelizingEverythingGives)
 {
-    MoverScenery scenery(device(), true);
+    DynamicScenery scenery(device(), true);
     for (const DynamicSetting& setting : settings())
     {
         SCOPED_TRACE(::testing::PrintToString(setting));
         DynamicOctree octree(device(), scenery.buildStatic(setting), setting.options(scenery.emissionScale()));
-        const test::Item item = {1, {test::Place::Kind::Turned, {1, 2, 1}}};
-        octree.add(scenery.mover(item.mesh, setting.attributes), scenery.poseOf(item));
+        const test::Item item = {1, {test::Placement::Kind::Turned, {1, 2, 1}}};
+        octree.add(scenery.object(item.mesh, setting.attributes), scenery.poseOf(item));
         for (bool first = true; first || octree.needsUpdate(); first = false)
         {
             const std::uint64_t frame = octree.beginFrame();
@@ -85,7 +85,7 @@ TEST(FlattenTree, OfMergedMoversIsWhatVoxelizingEverythingGives)
 
 TEST(FlattenTree, OfAnEditedTreeHasWhatTheModelHas)
 {
-    MoverScenery scenery(device(), true);
+    DynamicScenery scenery(device(), true);
     for (const DynamicSetting& setting : settings())
     {
         SCOPED_TRACE(::testing::PrintToString(setting));
@@ -108,7 +108,7 @@ TEST(FlattenTree, OfAnEditedTreeHasWhatTheModelHas)
 
 TEST(FlattenTree, OfNothingIsNothing)
 {
-    MoverScenery scenery(device(), false);
+    DynamicScenery scenery(device(), false);
     const DynamicSetting setting = {.emits = false, .has_static = false};
     DynamicOctree octree(device(), scenery.buildStatic(setting), setting.options(scenery.emissionScale()));
     const TreeData flat = flattenTree(device(), octree.tree());

@@ -5,7 +5,7 @@
 #include "core/headless/svdag_forest.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
-#include "support/morton_place.h"
+#include "support/morton_index.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ void expectTilesMakeTheWhole(const Scene& scene, std::uint32_t depth, std::uint3
     std::uint32_t tile_count = 0;
     for (std::uint32_t code = 0; code >> (3 * (depth - tile_depth)) == 0; ++code)
     {
-        BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, test::mortonPlace(code)}, options);
+        BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, test::mortonIndex(code)}, options);
         if (built.octree.node_count != 0)
         {
             forest.add(code, std::move(compress(device(), std::move(built.octree)).dag));

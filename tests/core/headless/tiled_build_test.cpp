@@ -47,16 +47,16 @@ void expectSame(const TreeData& a, const TreeData& b)
     expectSame(a.voxels_before_leaf, b.voxels_before_leaf, "voxels before leaves");
     expectSame(a.voxel_attributes, b.voxel_attributes, "attributes of voxels");
     expectSame(a.node_attributes, b.node_attributes, "attributes of nodes");
-    EXPECT_EQ(a.attributeForm(), b.attributeForm());
+    EXPECT_EQ(a.attributeFormat(), b.attributeFormat());
     expectSame(a.packed.voxels, b.packed.voxels, "packed attributes of voxels");
     expectSame(a.packed.nodes, b.packed.nodes, "packed attributes of nodes");
     expectSame(a.emission_words, b.emission_words, "emission words");
     expectSame(a.emission, b.emission, "emission");
 }
 
-TreeData wholeDag(vk::HeadlessDevice& on, const GpuScene& scene, const Grid& grid, AttributeForm attributes)
+TreeData wholeDag(vk::HeadlessDevice& on, const GpuScene& scene, const Grid& grid, AttributeFormat attributes)
 {
-    BuildResult built = buildOctree(on, scene, grid, {Coverage::Thin, attributes != AttributeForm::None, {}});
+    BuildResult built = buildOctree(on, scene, grid, {Coverage::Thin, attributes != AttributeFormat::None, {}});
     DeviceTree dag = compress(on, std::move(built.octree)).dag;
     packTree(on, attributes, dag);
     return downloadTree(on, dag);
@@ -69,14 +69,15 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
     for (const std::uint32_t depth : {6U, 7U})
     {
         const Grid grid = Grid::around(scene.bounds(), depth);
-        for (const AttributeForm attributes : {AttributeForm::Bytes8, AttributeForm::Blocks, AttributeForm::None})
+        for (const AttributeFormat attributes :
+             {AttributeFormat::Bytes8, AttributeFormat::Blocks, AttributeFormat::None})
         {
             const TreeData expected = wholeDag(device(), uploaded, grid, attributes);
             ASSERT_GT(expected.voxel_count, 1000U);
-            EXPECT_EQ(expected.emission.empty(), attributes == AttributeForm::None);
+            EXPECT_EQ(expected.emission.empty(), attributes == AttributeFormat::None);
             for (const std::uint32_t tile_depth : {4U, 6U, 12U})
             {
-                if (attributes == AttributeForm::None && tile_depth == 4)
+                if (attributes == AttributeFormat::None && tile_depth == 4)
                 {
                     continue; // many tiles: once is enough
                 }
@@ -102,7 +103,7 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
 {
     const Scene scene = test::sphereScene({0, 0, 0}, 1.0F, 48);
     const Grid grid = Grid::around(scene.bounds(), 9);
-    const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, AttributeForm::Blocks);
+    const TreeData expected = wholeDag(device(), uploadScene(device(), scene, true), grid, AttributeFormat::Blocks);
     std::uint32_t tile_count = 1;
     for (const std::uint64_t budget : {18ULL << 20, 8ULL << 20})
     {
@@ -110,8 +111,8 @@ TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
         options.memory_budget_bytes = budget;
         vk::HeadlessDevice small(options, zvoKernels());
         const GpuScene uploaded = uploadScene(small, scene, true);
-        EXPECT_THROW(wholeDag(small, uploaded, grid, AttributeForm::Blocks), Error);
-        const TiledResult tiled = buildByTiles(small, uploaded, grid, {.attributes = AttributeForm::Blocks});
+        EXPECT_THROW(wholeDag(small, uploaded, grid, AttributeFormat::Blocks), Error);
+        const TiledResult tiled = buildByTiles(small, uploaded, grid, {.attributes = AttributeFormat::Blocks});
         expectSame(tiled.tree, expected);
         EXPECT_GT(tiled.tile_count, tile_count);
         EXPECT_LE(small.device().memory().peakBytes(), budget);
@@ -123,7 +124,7 @@ TEST(TiledBuild, OfNothingIsEmpty)
 {
     const GpuScene uploaded = uploadScene(device(), Scene{}, true);
     const TiledResult tiled =
-        buildByTiles(device(), uploaded, {glm::vec3(0.0F), 1.0F, 8}, {Coverage::Thin, AttributeForm::Bytes8, 6});
+        buildByTiles(device(), uploaded, {glm::vec3(0.0F), 1.0F, 8}, {Coverage::Thin, AttributeFormat::Bytes8, 6});
     EXPECT_EQ(tiled.tile_count, 0U);
     EXPECT_EQ(tiled.tree.voxel_count, 0U);
     EXPECT_TRUE(tiled.tree.nodes.empty());
@@ -132,8 +133,8 @@ TEST(TiledBuild, OfNothingIsEmpty)
 TEST(TiledBuild, NeedsTilesThatAreNodes)
 {
     const GpuScene uploaded = uploadScene(device(), Scene{}, false);
-    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, AttributeForm::None, 5}), Error);
-    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, AttributeForm::None, 2}), Error);
+    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, AttributeFormat::None, 5}), Error);
+    EXPECT_THROW(buildByTiles(device(), uploaded, Grid{}, {Coverage::Thin, AttributeFormat::None, 2}), Error);
 }
 
 } // namespace

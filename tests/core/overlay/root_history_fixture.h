@@ -24,16 +24,16 @@ inline std::vector<LayerState> version(std::uint64_t number)
     return {{7, number}};
 }
 
-inline bool shows(const RootEntry& step, std::uint64_t number)
+inline bool shows(const RootEntry& entry, std::uint64_t number)
 {
     const std::vector<LayerState> expected = version(number);
-    return std::equal(step.layers.begin(), step.layers.end(), expected.begin(), expected.end());
+    return std::equal(entry.layers.begin(), entry.layers.end(), expected.begin(), expected.end());
 }
 
 class RootHistoryTest : public testing::Test
 {
 protected:
-    // A step of 10 nodes, complete unless told otherwise, whose layers are version(id).
+    // An entry of 10 nodes, complete unless told otherwise, whose layers are version(id).
     static std::uint64_t pushPending(RootHistory& history, std::uint32_t nodes = 10)
     {
         const std::optional<OverlayRegion> region = history.allocate(nodes, 0);

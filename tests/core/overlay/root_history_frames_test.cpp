@@ -69,7 +69,7 @@ TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
     EXPECT_EQ(history.current().id, pending);
     EXPECT_EQ(history.redoCount(), 0u);
     EXPECT_EQ(history.entryBytes(), 30u);
-    EXPECT_EQ(history.waitingBytes(), 30u) << "of step 3, and of those that were lost";
+    EXPECT_EQ(history.waitingBytes(), 30u) << "of entry 3, and of those that were lost";
     frames.done(before);
     history.complete(pending, 10, 0);
     EXPECT_EQ(history.waitingBytes(), 20u) << "the device may have begun with the lost frame";
@@ -102,18 +102,18 @@ TEST_F(RootHistoryTest, UpdatesOfEarlierFramesMayFailBeforeAFrameIsLost)
 
 TEST_F(RootHistoryTest, AHundredThousandFramesDoNotTakeMoreMemoryThanTheFirstOnes)
 {
-    // Three frames in flight; a mover whose overlay changes its size; the guess of a size is that of the frame before
-    // and half as much again.
+    // Three frames in flight; a dynamic object whose overlay changes its size; the guess of a size is that of the frame
+    // before and half as much again.
     constexpr std::uint32_t kMost = 1000;
-    constexpr std::uint32_t kSteps = 16;
+    constexpr std::uint32_t kEntries = 16;
     OverlayArena arena({.static_nodes = 1,
                         .node_capacity = 1 + 40 * kMost,
                         .voxel_capacity = 40 * 32 * kMost,
                         .node_bytes = 24,
                         .voxel_block_bytes = 264});
-    RootHistory history(arena, {.entries_max = kSteps});
+    RootHistory history(arena, {.entries_max = kEntries});
     vk::FrameList frames({&history});
-    std::deque<std::pair<std::uint64_t, std::uint64_t>> in_flight; // frame, step
+    std::deque<std::pair<std::uint64_t, std::uint64_t>> in_flight; // frame, entry
     const auto need = [](std::uint64_t frame)
     { return static_cast<std::uint32_t>(kMost / 2 + frame * 7919 % 97 * (kMost / 2) / 96); };
     std::uint32_t end_of_memory = 0;
@@ -140,7 +140,7 @@ TEST_F(RootHistoryTest, AHundredThousandFramesDoNotTakeMoreMemoryThanTheFirstOne
         ASSERT_LE(region->first_node + region->node_capacity, end_of_memory) << "frame " << frame;
         ASSERT_LE(arena.heldBytes(), most_held) << "frame " << frame;
     }
-    EXPECT_EQ(history.undoCount(), kSteps);
+    EXPECT_EQ(history.undoCount(), kEntries);
 }
 
 } // namespace

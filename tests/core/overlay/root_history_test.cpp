@@ -25,7 +25,7 @@ TEST_F(RootHistoryTest, BeginsWithTheStaticOctreeAndNothingElse)
     EXPECT_EQ(history.entryBytes(), 0u);
 }
 
-TEST_F(RootHistoryTest, UndoAndRedoWalkTheStepsAndTheirLayers)
+TEST_F(RootHistoryTest, UndoAndRedoWalkTheEntriesAndTheirLayers)
 {
     RootHistory history(m_arena, kUnbounded);
     push(history);
@@ -59,7 +59,7 @@ TEST_F(RootHistoryTest, PushDropsWhatWasUndone)
     EXPECT_EQ(m_arena.heldBytes(), 20u);
 }
 
-TEST_F(RootHistoryTest, StepsMayShowTheStaticOctree)
+TEST_F(RootHistoryTest, EntriesMayShowTheStaticOctree)
 {
     RootHistory history(m_arena, kUnbounded);
     push(history);
@@ -85,7 +85,7 @@ TEST_F(RootHistoryTest, CompleteUpdatesGiveTheirTailsBackAtOnce)
     EXPECT_EQ(history.entryBytes(), 3u);
 }
 
-TEST_F(RootHistoryTest, AFailedUpdateLeavesTheStepBeforeIt)
+TEST_F(RootHistoryTest, AFailedUpdateLeavesTheEntryBeforeIt)
 {
     RootHistory history(m_arena, kUnbounded);
     push(history);
@@ -101,7 +101,7 @@ TEST_F(RootHistoryTest, AFailedUpdateLeavesTheStepBeforeIt)
     EXPECT_EQ(history.undo()->id, 1u);
 }
 
-TEST_F(RootHistoryTest, StepsAreNotMovedByFailuresElsewhereInTheLine)
+TEST_F(RootHistoryTest, EntriesAreNotMovedByFailuresElsewhereInTheLine)
 {
     RootHistory history(m_arena, kUnbounded);
     push(history);
@@ -143,14 +143,14 @@ TEST_F(RootHistoryTest, AFirstUpdateThatFailsShowsTheStaticOctree)
     EXPECT_EQ(m_arena.heldBytes(), 0u);
 }
 
-TEST_F(RootHistoryTest, TheLastCompleteStepComesBackThoughItFellOff)
+TEST_F(RootHistoryTest, TheLastCompleteEntryComesBackThoughItFellOff)
 {
     RootHistory history(m_arena, {.entries_max = 1});
     push(history);
     const std::uint64_t b = pushPending(history);
     const std::uint64_t c = pushPending(history);
     EXPECT_EQ(history.undoCount(), 1u);
-    EXPECT_EQ(history.waitingBytes(), 20u) << "of the first step, and of the second, which may be needed as well";
+    EXPECT_EQ(history.waitingBytes(), 20u) << "of the first entry, and of the second, which may be needed as well";
     history.fail(b);
     EXPECT_EQ(history.waitingBytes(), 10u);
     history.fail(c);
@@ -161,7 +161,7 @@ TEST_F(RootHistoryTest, TheLastCompleteStepComesBackThoughItFellOff)
     EXPECT_EQ(history.waitingBytes(), 0u);
 }
 
-TEST_F(RootHistoryTest, UpdatesOfDroppedStepsEndLikeOthers)
+TEST_F(RootHistoryTest, UpdatesOfDroppedEntriesEndLikeOthers)
 {
     RootHistory history(m_arena, kUnbounded);
     push(history);
@@ -175,7 +175,7 @@ TEST_F(RootHistoryTest, UpdatesOfDroppedStepsEndLikeOthers)
     EXPECT_TRUE(shows(history.current(), 1));
 }
 
-TEST_F(RootHistoryTest, OldestStepsFallOffBeyondTheNumberOfSteps)
+TEST_F(RootHistoryTest, OldestEntriesFallOffBeyondTheNumberOfEntries)
 {
     RootHistory history(m_arena, {.entries_max = 3});
     for (int i = 0; i < 5; ++i)
@@ -189,7 +189,7 @@ TEST_F(RootHistoryTest, OldestStepsFallOffBeyondTheNumberOfSteps)
     EXPECT_EQ(history.undo()->id, 0u) << "the static octree never falls off";
 }
 
-TEST_F(RootHistoryTest, OldestStepsFallOffBeyondTheBytesButNeverTheCurrentOne)
+TEST_F(RootHistoryTest, OldestEntriesFallOffBeyondTheBytesButNeverTheCurrentOne)
 {
     RootHistory history(m_arena, {.entries_max = 100, .bytes_max = 35});
     push(history, 10);
@@ -206,7 +206,7 @@ TEST_F(RootHistoryTest, OldestStepsFallOffBeyondTheBytesButNeverTheCurrentOne)
     EXPECT_EQ(history.redoCount(), 1u) << "what is undone is kept until something is pushed";
 }
 
-TEST_F(RootHistoryTest, WhereMemoryIsShortNoMoreStepsAreDroppedThanItTakes)
+TEST_F(RootHistoryTest, WhereMemoryIsShortNoMoreEntriesAreDroppedThanItTakes)
 {
     RootHistory history(m_arena, kUnbounded);
     for (int i = 0; i < 10; ++i)
@@ -221,7 +221,7 @@ TEST_F(RootHistoryTest, WhereMemoryIsShortNoMoreStepsAreDroppedThanItTakes)
     EXPECT_EQ(history.undoCount(), 6u);
 }
 
-TEST_F(RootHistoryTest, NoStepIsDroppedInVain)
+TEST_F(RootHistoryTest, NoEntryIsDroppedInVain)
 {
     RootHistory history(m_arena, kUnbounded);
     vk::FrameList frames({&history});
@@ -229,7 +229,7 @@ TEST_F(RootHistoryTest, NoStepIsDroppedInVain)
     {
         push(history);
     }
-    EXPECT_EQ(history.allocate(95, 0), std::nullopt) << "the current step keeps ten of a hundred";
+    EXPECT_EQ(history.allocate(95, 0), std::nullopt) << "the current entry keeps ten of a hundred";
     EXPECT_FALSE(history.fitsLater(95, 0));
     EXPECT_EQ(history.undoCount(), 10u);
     const std::uint64_t frame = frames.begin();

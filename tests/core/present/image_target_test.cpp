@@ -157,7 +157,7 @@ TEST_F(ImageTargets, PicturesArriveInEveryFormatAtAnyPlace)
             {
                 SCOPED_TRACE(testing::Message() << "format " << format << ", layout " << layout << ", mip level "
                                                 << place.mip_level << ", " << place.size.width << " pixels wide");
-                TraceBuffers buffers(device().device(), place.size.width, place.size.height, texelForm(format));
+                TraceBuffers buffers(device().device(), place.size.width, place.size.height, texelFormat(format));
                 vk::BufferOf<float> depth(device().device(), "depth", buffers.hits.count());
                 trace(buffers, depth,
                       [&](vk::FrameGraph& graph)
@@ -266,7 +266,7 @@ std::string refusal(const std::function<void(vk::FrameGraph&)>& record, ErrorCod
 
 TEST_F(ImageTargets, OtherFormatsAreRefusedWithAListOfThoseThatAreSupported)
 {
-    expectParts(refusal([](vk::FrameGraph&) { texelForm(VK_FORMAT_R8_UNORM); }),
+    expectParts(refusal([](vk::FrameGraph&) { texelFormat(VK_FORMAT_R8_UNORM); }),
                 {"VkFormat 9", "R8G8B8A8_UNORM", "R8G8B8A8_SRGB", "B8G8R8A8_UNORM", "B8G8R8A8_SRGB",
                  "A2B10G10R10_UNORM_PACK32", "R16G16B16A16_SFLOAT"});
     const TraceBuffers buffers(device().device(), 9, 7);
@@ -282,17 +282,17 @@ TEST_F(ImageTargets, OtherFormatsAreRefusedWithAListOfThoseThatAreSupported)
                 {"VkFormat 124", "D32_SFLOAT, D32_SFLOAT_S8_UINT, R32_SFLOAT"});
 }
 
-TEST_F(ImageTargets, APictureOfAnotherFormIsRefused)
+TEST_F(ImageTargets, APictureOfAnotherFormatIsRefused)
 {
-    const TraceBuffers buffers(device().device(), 9, 7, TexelForm::Bgra8);
+    const TraceBuffers buffers(device().device(), 9, 7, TexelFormat::Bgra8);
     ImageTarget target;
     for (const VkFormat format : kColorFormats)
     {
         target.format = format;
-        if (texelForm(format) != TexelForm::Bgra8)
+        if (texelFormat(format) != TexelFormat::Bgra8)
         {
             expectParts(refusal([&](vk::FrameGraph& graph) { copyToImage(graph, buffers, target); }),
-                        {"BGRA with 8 bits", "texelForm()"});
+                        {"BGRA with 8 bits", "texelFormat()"});
         }
     }
 }

@@ -15,7 +15,7 @@ namespace
 
 using test::device;
 
-TEST(ScalePicture, EveryPixelIsTheOneInWhichItsCentreLies)
+TEST(ScalePicture, EveryPixelIsTheOneInWhichItsCenterLies)
 {
     const std::vector<PictureSize> sizes = {{1, 1}, {3, 2}, {16, 9}, {67, 41}, {130, 1}, {1, 130}, {160, 90}};
     for (const PictureSize& from : sizes)

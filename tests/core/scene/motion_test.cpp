@@ -17,9 +17,9 @@ namespace
 constexpr double kPi = std::numbers::pi;
 constexpr double kClose = 1e-12;
 
-glm::dvec3 moved(const glm::dmat4& place, const glm::dvec3& point)
+glm::dvec3 moved(const glm::dmat4& transform, const glm::dvec3& point)
 {
-    return glm::dvec3(place * glm::dvec4(point, 1.0));
+    return glm::dvec3(transform * glm::dvec4(point, 1.0));
 }
 
 glm::dvec3 movedAt(const Motion& motion, double seconds, const glm::dvec3& point)
@@ -34,11 +34,11 @@ void expectNear(const glm::dvec3& point, const glm::dvec3& expected, double tole
     EXPECT_NEAR(point.z, expected.z, tolerance);
 }
 
-void expectAffine(const glm::dmat4& place)
+void expectAffine(const glm::dmat4& transform)
 {
     for (int column = 0; column < 4; ++column)
     {
-        EXPECT_EQ(place[column].w, column == 3 ? 1.0 : 0.0);
+        EXPECT_EQ(transform[column].w, column == 3 ? 1.0 : 0.0);
     }
 }
 
@@ -89,10 +89,10 @@ TEST(Motion, RotationsAreThoseOfGlm)
     }
 }
 
-TEST(Motion, OrbitTurnsThePlacedObjectAboutItsCentre)
+TEST(Motion, OrbitTurnsThePlacedObjectAboutItsCenter)
 {
     OrbitMotion orbit;
-    orbit.centre = {1.0, 5.0, -2.0};
+    orbit.center = {1.0, 5.0, -2.0};
     orbit.turns_per_second = 0.3;
     orbit.home = {4.0, 0.5, 2.0};
     for (const double seconds : {0.0, 0.1, 0.77, 1.0, 3.9})
@@ -110,7 +110,7 @@ TEST(Motion, OrbitTurnsThePlacedObjectAboutItsCentre)
 TEST(Motion, OrbitMayOnlyCircleOrOnlySpin)
 {
     OrbitMotion orbit;
-    orbit.centre = {1.0, 0.0, 0.0};
+    orbit.center = {1.0, 0.0, 0.0};
     orbit.axis = {0.0, 0.0, 1.0};
     orbit.turns_per_second = 0.25;
     orbit.home = {3.0, 0.0, 0.0};
@@ -200,10 +200,10 @@ void expectSweepHolds(const Motion& motion, double seconds, double slack)
         const glm::dvec3 point = randomVector(random, 3.0);
         glm::dvec3 low(INFINITY);
         glm::dvec3 high(-INFINITY);
-        for (const glm::dmat4& place : sweep.places)
+        for (const glm::dmat4& transform : sweep.transforms)
         {
-            low = glm::min(low, moved(place, point));
-            high = glm::max(high, moved(place, point));
+            low = glm::min(low, moved(transform, point));
+            high = glm::max(high, moved(transform, point));
         }
         const double stray = sweep.stray + sweep.stray_per_distance * glm::length(point - sweep.pivot) + kClose;
         glm::dvec3 reached_low(INFINITY);
@@ -224,7 +224,7 @@ void expectSweepHolds(const Motion& motion, double seconds, double slack)
 TEST(Motion, SweepHoldsEveryPlaceBetween)
 {
     OrbitMotion orbit;
-    orbit.centre = {2.0, 0.0, 1.0};
+    orbit.center = {2.0, 0.0, 1.0};
     orbit.axis = glm::normalize(glm::dvec3(0.3, 1.0, -0.2));
     orbit.home = {3.0, 1.0, 0.0};
     for (const double rate : {0.11, -0.2, 0.25, 3.0, 0.0})

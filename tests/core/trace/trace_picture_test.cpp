@@ -336,7 +336,7 @@ TEST(TracePicture, OcclusionDarkensCorners)
 
 TEST(TracePicture, RoundsDoNotChangeThePicture)
 {
-    constexpr std::uint32_t kStepsMax = 9;
+    constexpr std::uint32_t kIterationsMax = 9;
     constexpr std::uint32_t kDepth = 6;
     DeviceTree octree = test::octreeOf(device(), test::spongeCodes(kDepth), kDepth);
     test::addAttributes(device(), octree);
@@ -348,7 +348,7 @@ TEST(TracePicture, RoundsDoNotChangeThePicture)
         const TraceCamera rays = traceCamera(camera, octree.grid, 47);
         TraceOptions options;
         const Picture at_once = take(octree, rays, 61, 47, options);
-        options.steps_max = kStepsMax;
+        options.iterations_max = kIterationsMax;
         const Picture in_rounds = take(octree, rays, 61, 47, options);
         expectSameHits(at_once, in_rounds);
         EXPECT_EQ(at_once.light, in_rounds.light);
@@ -356,7 +356,7 @@ TEST(TracePicture, RoundsDoNotChangeThePicture)
         const Picture counted = take(octree, rays, 61, 47, options);
         iterations_max = std::max(iterations_max, *std::max_element(counted.light.begin(), counted.light.end()));
     }
-    EXPECT_GT(iterations_max, 2 * kStepsMax);
+    EXPECT_GT(iterations_max, 2 * kIterationsMax);
 }
 
 TEST(TracePicture, OcclusionRaysOfAPixelShareItsIterations)
@@ -369,11 +369,11 @@ TEST(TracePicture, OcclusionRaysOfAPixelShareItsIterations)
     options.shadows = false;
     options.occlusion_reach = 1.0F;
     options.occlusion_rays = 1;
-    options.steps_max = 100; // enough for any ray, not for all of a pixel
+    options.iterations_max = 100; // enough for any ray, not for all of a pixel
     const Picture one = take(octree, camera, 64, 64, options);
     options.occlusion_rays = 64;
     const Picture capped = takeAny(octree, camera, 64, 64, options);
-    options.steps_max = gpu::kTraceStepsMax;
+    options.iterations_max = gpu::kTraceIterationsMax;
     const Picture whole = take(octree, camera, 64, 64, options);
     EXPECT_GT(capped.capped_rays, hitCount(one));
     EXPECT_LT(capped.capped_rays, 64 * hitCount(one));

@@ -296,7 +296,7 @@ TEST(TraceSvdag, EveryDepthIsTheSame)
     }
 }
 
-TEST(TraceSvdag, RaysGoOnInFurtherRounds)
+TEST(TraceSvdag, RaysResumeInFurtherRounds)
 {
     std::mt19937 random(33);
     const Pair pair(test::randomCodes(9, 20000, random), 9);
@@ -304,7 +304,7 @@ TEST(TraceSvdag, RaysGoOnInFurtherRounds)
     for (const std::uint32_t steps : {200U, 1000U})
     {
         TraceOptions options;
-        options.steps_max = steps;
+        options.iterations_max = steps;
         expectSameRays(pair.octree, pair.dag, pair.reference, rays, options);
         for (const ViewCamera& view : test::manyCameras(pair.octree.grid))
         {

@@ -100,14 +100,14 @@ TEST(Trace, EveryStackGivesTheSameHits)
     }
 }
 
-TEST(Trace, RaysThatUseUpTheirIterationsGoOnToTheSameHits)
+TEST(Trace, RaysThatUseUpTheirIterationsResumeToTheSameHits)
 {
     std::mt19937 random(6);
     for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
     {
         TraceOptions options;
         options.stack = stack;
-        options.steps_max = 14;
+        options.iterations_max = 14;
         expectEqualsReference(test::spongeCodes(6), 6, 2049, options);
         expectEqualsReference(test::sphereShell(6, 29.0), 6, 2049, options);
         expectEqualsReference(test::randomCodes(7, 4000, random), 7, 2049, options);
@@ -131,9 +131,9 @@ TEST(Trace, RaysWithoutAnAnswerAreCounted)
     }
     TraceOptions options;
     const std::vector<gpu::Hit> expected = traceOnDevice(octree, rays, options);
-    options.steps_max = 16; // more than a sixteenth of what they need
+    options.iterations_max = 16; // more than a sixteenth of what they need
     const std::vector<gpu::Hit> in_rounds = traceOnDevice(octree, rays, options);
-    options.steps_max = 10; // less
+    options.iterations_max = 10; // less
     const std::vector<gpu::Hit> hits = test::traceOnDevice(device(), octree, rays, options, 90);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {

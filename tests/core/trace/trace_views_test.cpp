@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Views that show how voxels are stored, and what is told of one pixel.
+#include "core/dynamic/dynamic_objects.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/dynamic/mover_set.h"
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
@@ -66,11 +66,11 @@ DeviceTree sponge()
     return octree;
 }
 
-TEST(TraceViews, EveryVoxelHasAColourOfItsOwn)
+TEST(TraceViews, EveryVoxelHasAColorOfItsOwn)
 {
     const DeviceTree octree = sponge();
     using Face = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-    std::map<Face, gpu::uint> colours;
+    std::map<Face, gpu::uint> colors;
     for (const ViewCamera& camera : test::manyCameras(octree.grid))
     {
         const Picture picture = take(octree, camera, View::Voxel);
@@ -83,19 +83,19 @@ TEST(TraceViews, EveryVoxelHasAColourOfItsOwn)
                 continue;
             }
             const glm::uvec3& c = hit->cell;
-            const auto [known, is_new] = colours.try_emplace({c.x, c.y, c.z, hit->level, hit->face}, picture.image[i]);
+            const auto [known, is_new] = colors.try_emplace({c.x, c.y, c.z, hit->level, hit->face}, picture.image[i]);
             ASSERT_EQ(known->second, picture.image[i]) << "the same from everywhere";
-            const std::array<int, 3> colour = rgb(picture.image[i]);
-            ASSERT_GE(*std::ranges::max_element(colour), 48) << "never as dark as the background";
+            const std::array<int, 3> color = rgb(picture.image[i]);
+            ASSERT_GE(*std::ranges::max_element(color), 48) << "never as dark as the background";
         }
     }
     std::set<gpu::uint> different;
-    for (const auto& [face, colour] : colours)
+    for (const auto& [face, color] : colors)
     {
-        different.insert(colour);
+        different.insert(color);
     }
-    ASSERT_GT(colours.size(), 1000U);
-    EXPECT_GT(different.size(), colours.size() * 98 / 100); // of 2^24, with some faces that are darker
+    ASSERT_GT(colors.size(), 1000U);
+    EXPECT_GT(different.size(), colors.size() * 98 / 100); // of 2^24, with some faces that are darker
 }
 
 // What View::Bricks draws a hit's pixel with: 0 nothing, 1 to 3 the borders of leaves and larger nodes.
@@ -166,10 +166,10 @@ public:
         step([&](vk::FrameGraph& graph) { m_octree->update(graph); });
     }
 
-    void addMover()
+    void addObject()
     {
-        const Scene mover = test::boxScene({37, 21, 21}, {58, 43, 43});
-        m_octree->add(uploadMover(device(), mover, true, 0.0F), poseAt(mover, 0.0));
+        const Scene object = test::boxScene({37, 21, 21}, {58, 43, 43});
+        m_octree->add(uploadDynamicMesh(device(), object, true, 0.0F), poseAt(object, 0.0));
         do
         {
             step([&](vk::FrameGraph& graph) { m_octree->update(graph); });
@@ -195,7 +195,7 @@ private:
 };
 
 // Pixels that are grey, and those that are orange.
-std::array<int, 2> originCounts(const Picture& picture, bool mover_is_right)
+std::array<int, 2> originCounts(const Picture& picture, bool object_is_right)
 {
     std::array<int, 2> counts{};
     for (std::size_t i = 0; i < picture.image.size(); ++i)
@@ -205,11 +205,11 @@ std::array<int, 2> originCounts(const Picture& picture, bool mover_is_right)
         {
             continue;
         }
-        const std::array<int, 3> colour = rgb(picture.image[i]);
-        const bool is_orange = colour[0] > colour[1] + 20 && colour[1] > colour[2] + 20;
-        EXPECT_TRUE(is_orange || (colour[0] == colour[1] && colour[1] == colour[2]));
+        const std::array<int, 3> color = rgb(picture.image[i]);
+        const bool is_orange = color[0] > color[1] + 20 && color[1] > color[2] + 20;
+        EXPECT_TRUE(is_orange || (color[0] == color[1] && color[1] == color[2]));
         const std::uint32_t middle = 1U << (2 * hit->level - 1); // of the grid's cells at that level
-        EXPECT_EQ(is_orange, mover_is_right && hit->cell.x >= middle) << "pixel " << i;
+        EXPECT_EQ(is_orange, object_is_right && hit->cell.x >= middle) << "pixel " << i;
         ++counts[is_orange ? 1 : 0];
     }
     return counts;
@@ -224,7 +224,7 @@ TEST(TraceViews, WhatAnUpdateMadeIsOrange)
         TwoBoxes boxes(structure);
         const std::array<int, 2> before = originCounts(take(boxes.tree(), camera, View::Origin), false);
         EXPECT_GT(before[0], 100);
-        boxes.addMover();
+        boxes.addObject();
         const std::array<int, 2> counts = originCounts(take(boxes.tree(), camera, View::Origin), true);
         EXPECT_GT(counts[0], 100);
         EXPECT_GT(counts[1], 100);

@@ -49,8 +49,8 @@ public:
         return std::ranges::any_of(passes, [](const vk::PassTime& pass) { return pass.name == "trace/beam_mark"; });
     }
 
-    vk::Retired retired;
-    TreeTracer tracer{device().device(), &retired};
+    vk::DeletionQueue deletion_queue;
+    TreeTracer tracer{device().device(), &deletion_queue};
 };
 
 TEST(TreeTracer, MakesTheBeamGridOncePerTree)
@@ -83,7 +83,7 @@ TEST(TreeTracer, KeepsOldBuffersUntilTheFrameIsDone)
 {
     TracedPictures pictures;
     const DeviceTree octree = tracedShell(14.0);
-    pictures.retired.beginFrame(1);
+    pictures.deletion_queue.beginFrame(1);
     pictures.makesBeam(octree);
     const vk::MemoryAllocator& memory = device().device().memory();
     const std::uint64_t old_bytes = pictures.tracer.buffers().bytes();
@@ -92,7 +92,7 @@ TEST(TreeTracer, KeepsOldBuffersUntilTheFrameIsDone)
     EXPECT_GE(memory.usedBytes(), used_bytes + pictures.tracer.buffers().bytes());
     EXPECT_FALSE(pictures.makesBeam(octree));
     const std::uint64_t both_bytes = memory.usedBytes();
-    pictures.retired.frameDone(1);
+    pictures.deletion_queue.frameDone(1);
     EXPECT_LE(memory.usedBytes() + old_bytes, both_bytes);
     EXPECT_FALSE(pictures.makesBeam(octree));
 }

@@ -52,7 +52,7 @@ TEST(SvdagLists, UnpackedAreWhatWasPacked)
     }
 }
 
-TEST(SvdagLists, PlacesFitIntoTheBaseOfANode)
+TEST(SvdagLists, EntriesFitIntoTheBaseOfANode)
 {
     const std::uint64_t most = (std::uint64_t{1} << 31) - 8; // places, of nodes and entries
     EXPECT_TRUE((ListPacking{1000, most - 4000, 2}.fits()));

@@ -20,15 +20,15 @@ namespace
 using zvo::UpdateBudget;
 using zvo::UpdateProgress;
 using zvo::UpdateSlice;
-using zvo::UpdateStep;
+using zvo::UpdateStage;
 using zvo::vk::PassTime;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-UpdateSlice slice(const std::string& name, std::size_t step, std::uint64_t first, std::uint64_t count)
+UpdateSlice slice(const std::string& name, std::size_t stage, std::uint64_t first, std::uint64_t count)
 {
-    return {name, step, first, count};
+    return {name, stage, first, count};
 }
 
 // Tells budget that units of name took ms.
@@ -42,15 +42,15 @@ void teach(UpdateBudget& budget, const std::string& name, std::uint64_t units, d
 
 TEST(UpdateBudget, WithoutABudgetEverythingIsOneFrames)
 {
-    const std::vector<UpdateStep> steps{{"a", 1'000'000'000, true}, {"b", 5}, {"none", 0}, {"a", 7, true}};
+    const std::vector<UpdateStage> stages{{"a", 1'000'000'000, true}, {"b", 5}, {"none", 0}, {"a", 7, true}};
     const std::vector<UpdateSlice> all{slice("a", 0, 0, 1'000'000'000), slice("b", 1, 0, 5), slice("a", 3, 0, 7)};
     UpdateBudget budget;
     for (const double bound : {0.0, -1.0, kNan, kInfinity})
     {
         UpdateProgress progress;
-        EXPECT_EQ(budget.plan(steps, progress, bound == kInfinity ? 0 : bound), all);
+        EXPECT_EQ(budget.plan(stages, progress, bound == kInfinity ? 0 : bound), all);
         EXPECT_EQ(progress, (UpdateProgress{4, 0}));
-        EXPECT_TRUE(budget.plan(steps, progress, bound).empty());
+        EXPECT_TRUE(budget.plan(stages, progress, bound).empty());
         teach(budget, "a", 1, 1e9);
     }
 }
@@ -58,11 +58,11 @@ TEST(UpdateBudget, WithoutABudgetEverythingIsOneFrames)
 TEST(UpdateBudget, ANewUpdateGoesByItsGuesses)
 {
     // A millisecond a unit; divisible steps take what they guess to fit an eighth of the budget.
-    const std::vector<UpdateStep> steps{
+    const std::vector<UpdateStage> stages{
         {"a", 3, false, 1.0}, {"b", 100, true, 1.0}, {"c", 6, false, 1.0}, {"d", 1, false, 1.0}};
     const UpdateBudget budget;
     UpdateProgress progress;
-    const auto next = [&] { return budget.plan(steps, progress, 16); };
+    const auto next = [&] { return budget.plan(stages, progress, 16); };
     EXPECT_EQ(next(), (std::vector{slice("a", 0, 0, 3), slice("b", 1, 0, 2)}));
     for (std::uint64_t unit = 2; unit < 98; unit += 2)
     {
@@ -74,14 +74,14 @@ TEST(UpdateBudget, ANewUpdateGoesByItsGuesses)
 
 TEST(UpdateBudget, MeasuredStepsFillTheBudget)
 {
-    const std::vector<UpdateStep> steps{{"a", 3}, {"b", 100, true}, {"c", 6}, {"d", 1}};
+    const std::vector<UpdateStage> stages{{"a", 3}, {"b", 100, true}, {"c", 6}, {"d", 1}};
     UpdateBudget budget;
     teach(budget, "a", 1, 1.0);
     teach(budget, "b", 4, 2.0);
     teach(budget, "c", 2, 2.0);
     teach(budget, "d", 1, 9.0);
     UpdateProgress progress;
-    const auto next = [&] { return budget.plan(steps, progress, 16.25); };
+    const auto next = [&] { return budget.plan(stages, progress, 16.25); };
     EXPECT_EQ(next(), (std::vector{slice("a", 0, 0, 3), slice("b", 1, 0, 26)}));
     EXPECT_EQ(next(), (std::vector{slice("b", 1, 26, 32)}));
     EXPECT_EQ(next(), (std::vector{slice("b", 1, 58, 32)}));
@@ -91,16 +91,16 @@ TEST(UpdateBudget, MeasuredStepsFillTheBudget)
 
 TEST(UpdateBudget, ADeviceThatIsTooSlowStillGetsThere)
 {
-    const std::vector<UpdateStep> steps{{"a", 10}, {"b", 1000, true}, {"a", 10}, {"c", 3, true}};
+    const std::vector<UpdateStage> stages{{"a", 10}, {"b", 1000, true}, {"a", 10}, {"c", 3, true}};
     UpdateBudget budget;
     teach(budget, "a", 1, 1e6);
     teach(budget, "b", 1, 1e6);
     teach(budget, "c", 1, 1e6);
     UpdateProgress progress;
     std::vector<UpdateSlice> slices;
-    while (progress.step < steps.size())
+    while (progress.stage < stages.size())
     {
-        const std::vector<UpdateSlice> frame = budget.plan(steps, progress, 1e-3);
+        const std::vector<UpdateSlice> frame = budget.plan(stages, progress, 1e-3);
         ASSERT_EQ(frame.size(), 1u);
         slices.push_back(frame[0]);
     }
@@ -110,36 +110,36 @@ TEST(UpdateBudget, ADeviceThatIsTooSlowStillGetsThere)
 
 TEST(UpdateBudget, StepsWithNothingToDoTakeNoFrameAndTeachNothing)
 {
-    std::vector<UpdateStep> steps(5, {"none", 0, true});
-    steps.push_back({"a", 1, false, 100});
-    steps.push_back({"none", 0, false});
+    std::vector<UpdateStage> stages(5, {"none", 0, true});
+    stages.push_back({"a", 1, false, 100});
+    stages.push_back({"none", 0, false});
     UpdateBudget budget;
     UpdateProgress progress;
     const std::vector<UpdateSlice> only{slice("a", 5, 0, 1)};
-    EXPECT_EQ(budget.plan(steps, progress, 1), only);
+    EXPECT_EQ(budget.plan(stages, progress, 1), only);
     EXPECT_EQ(progress, (UpdateProgress{7, 0})) << "what follows and costs nothing is done, too";
     teach(budget, "none", 0, 5.0);
     EXPECT_FALSE(budget.measured("none"));
-    EXPECT_EQ(budget.predictMs(steps[0], 0), 0.0);
+    EXPECT_EQ(budget.predictMs(stages[0], 0), 0.0);
     UpdateProgress nothing;
     EXPECT_TRUE(budget.plan({}, nothing, 1).empty());
-    EXPECT_TRUE(budget.plan(std::vector<UpdateStep>(3, {"none", 0}), nothing, 1).empty());
-    EXPECT_EQ(nothing.step, 3u);
+    EXPECT_TRUE(budget.plan(std::vector<UpdateStage>(3, {"none", 0}), nothing, 1).empty());
+    EXPECT_EQ(nothing.stage, 3u);
 }
 
 TEST(UpdateBudget, PredictionsRiseAtOnceAndFallSlowly)
 {
     UpdateBudget budget;
-    const UpdateStep step{"a", 10, false, 7.0};
-    EXPECT_EQ(budget.predictMs(step, 10), 70.0);
+    const UpdateStage stage{"a", 10, false, 7.0};
+    EXPECT_EQ(budget.predictMs(stage, 10), 70.0);
     teach(budget, "a", 10, 1.0);
-    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 1.0);
+    EXPECT_DOUBLE_EQ(budget.predictMs(stage, 10), 1.0);
     teach(budget, "a", 100, 80.0);
-    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 8.0);
+    EXPECT_DOUBLE_EQ(budget.predictMs(stage, 10), 8.0);
     teach(budget, "a", 10, 4.0);
-    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 7.0);
+    EXPECT_DOUBLE_EQ(budget.predictMs(stage, 10), 7.0);
     teach(budget, "a", 10, 0.0);
-    EXPECT_DOUBLE_EQ(budget.predictMs(step, 10), 5.25);
+    EXPECT_DOUBLE_EQ(budget.predictMs(stage, 10), 5.25);
 }
 
 TEST(UpdateBudget, SlicesOfOneKindInAFrameAreMeasuredTogether)
@@ -183,9 +183,9 @@ TEST(UpdateBudget, WorkTooCheapToMeasureIsTakenWhole)
 {
     UpdateBudget budget;
     teach(budget, "a", 1000, 0.0);
-    const std::vector<UpdateStep> steps{{"a", UINT64_MAX, true}, {"a", 5, false}};
+    const std::vector<UpdateStage> stages{{"a", UINT64_MAX, true}, {"a", 5, false}};
     UpdateProgress progress;
-    EXPECT_EQ(budget.plan(steps, progress, 1).size(), 2u);
+    EXPECT_EQ(budget.plan(stages, progress, 1).size(), 2u);
 }
 
 // A device that takes this long for a slice of some work.
@@ -202,13 +202,13 @@ public:
     explicit Simulation(std::size_t latency) : m_latency(latency) {}
 
     /// One update; what each of its frames took.
-    std::vector<double> update(const std::vector<UpdateStep>& steps, const std::map<std::string, Cost>& costs,
+    std::vector<double> update(const std::vector<UpdateStage>& stages, const std::map<std::string, Cost>& costs,
                                double budget_ms)
     {
         std::vector<double> frames;
-        for (UpdateProgress progress; progress.step < steps.size();)
+        for (UpdateProgress progress; progress.stage < stages.size();)
         {
-            Frame frame{m_budget.plan(steps, progress, budget_ms), {{"trace/primary", 3.0}}};
+            Frame frame{m_budget.plan(stages, progress, budget_ms), {{"trace/primary", 3.0}}};
             double frame_ms = 0;
             for (UpdateSlice& slice : frame.slices)
             {
@@ -245,7 +245,7 @@ private:
 };
 
 // Two layers voxelized, their union, then the tree from the root down: 9.3 ms in all.
-const std::vector<UpdateStep> kUpdate{
+const std::vector<UpdateStage> kUpdate{
     {"voxelize", 40'000, true}, {"voxelize", 20'000, true}, {"union", 3'000, true},       {"expand", 64},
     {"expand", 2'000},          {"expand", 3'000},          {"attributes", 50'000, true}, {"finish", 1}};
 const std::map<std::string, Cost> kCosts{{"voxelize", {0.01, 1e-4}},
@@ -311,24 +311,24 @@ TEST(UpdateBudget, AWrongGuessCostsEachKindOfWorkTheFramesUntilItIsMeasured)
 
 TEST(UpdateBudget, ASuddenlySlowDeviceGetsShorterFramesAsSoonAsItIsKnown)
 {
-    const std::vector<UpdateStep> steps{{"a", 100'000, true}};
+    const std::vector<UpdateStage> stages{{"a", 100'000, true}};
     for (const std::size_t latency : {0u, 1u, 3u})
     {
         Simulation simulation(latency);
         const std::map<std::string, Cost> fast{{"a", {0, 1e-4}}};
         for (int i = 0; i < 5; ++i)
         {
-            simulation.update(steps, fast, 2);
+            simulation.update(stages, fast, 2);
         }
-        const std::vector<double> frames = simulation.update(steps, times(fast, 8), 2);
+        const std::vector<double> frames = simulation.update(stages, times(fast, 8), 2);
         EXPECT_EQ(countOver(frames, 2 * (1 + 1e-9)), latency + 1);
         EXPECT_LE(*std::max_element(frames.begin(), frames.end()), 16.0 * (1 + 1e-9));
-        EXPECT_EQ(countOver(simulation.update(steps, times(fast, 8), 2), 2 * (1 + 1e-9)), 0u);
+        EXPECT_EQ(countOver(simulation.update(stages, times(fast, 8), 2), 2 * (1 + 1e-9)), 0u);
         // And fast again: back to the five frames that it takes, in some updates' time.
         std::vector<double> again;
         for (int i = 0; i < 3; ++i)
         {
-            again = simulation.update(steps, fast, 2);
+            again = simulation.update(stages, fast, 2);
         }
         EXPECT_LE(again.size(), 6u);
         EXPECT_EQ(countOver(again, 2 * (1 + 1e-9)), 0u);
@@ -337,25 +337,25 @@ TEST(UpdateBudget, ASuddenlySlowDeviceGetsShorterFramesAsSoonAsItIsKnown)
 
 TEST(UpdateBudget, OneLongFrameIsForgottenInTime)
 {
-    const std::vector<UpdateStep> steps{{"a", 100'000, true}};
+    const std::vector<UpdateStage> stages{{"a", 100'000, true}};
     const std::map<std::string, Cost> usual{{"a", {0, 1e-4}}};
     Simulation simulation(0);
-    simulation.update(steps, usual, 2);
-    const std::size_t before = simulation.update(steps, usual, 2).size();
+    simulation.update(stages, usual, 2);
+    const std::size_t before = simulation.update(stages, usual, 2).size();
     simulation.update({{"a", 100, true}}, times(usual, 50), 2); // somebody else used the device
-    EXPECT_GT(simulation.update(steps, usual, 2).size(), before);
-    simulation.update(steps, usual, 2);
-    EXPECT_LE(simulation.update(steps, usual, 2).size(), before + 1);
+    EXPECT_GT(simulation.update(stages, usual, 2).size(), before);
+    simulation.update(stages, usual, 2);
+    EXPECT_LE(simulation.update(stages, usual, 2).size(), before + 1);
 }
 
 TEST(UpdateBudget, CostsThatSlicingCannotShortenDoNotMakeSlicesShrinkToNothing)
 {
     // Every slice costs 3 ms, the budget is 2.
-    const std::vector<UpdateStep> steps{{"a", 1'000'000, true}};
+    const std::vector<UpdateStage> stages{{"a", 1'000'000, true}};
     Simulation simulation(0);
     for (int i = 0; i < 10; ++i)
     {
-        EXPECT_LE(simulation.update(steps, {{"a", {3, 1e-6}}}, 2).size(), UpdateBudget::kParts);
+        EXPECT_LE(simulation.update(stages, {{"a", {3, 1e-6}}}, 2).size(), UpdateBudget::kParts);
     }
 }
 
@@ -379,10 +379,10 @@ TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
                 *rc::gen::container<std::vector<std::tuple<std::string, std::uint64_t, double>>>(rc::gen::tuple(
                     names, rc::gen::inRange<std::uint64_t>(1, 1000), rc::gen::element(0.0, 1e-3, 0.125, 4.0, 300.0)));
             const auto budget_ms = *rc::gen::element(1e-4, 0.5, 2.0, 100.0);
-            std::vector<UpdateStep> steps;
+            std::vector<UpdateStage> stages;
             for (const auto& [name, units, divisible, guess] : drawn)
             {
-                steps.push_back({name, units, divisible, guess});
+                stages.push_back({name, units, divisible, guess});
             }
             UpdateBudget budget;
             for (const auto& [name, units, ms] : measured)
@@ -394,46 +394,46 @@ TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
             UpdateProgress expected; // where the next slice begins
             const auto skipEmpty = [&]
             {
-                while (expected.step < steps.size() && expected.unit == steps[expected.step].units)
+                while (expected.stage < stages.size() && expected.unit == stages[expected.stage].units)
                 {
-                    expected = {expected.step + 1, 0};
+                    expected = {expected.stage + 1, 0};
                 }
             };
             std::size_t frames_max = 0;
-            for (const UpdateStep& step : steps)
+            for (const UpdateStage& stage : stages)
             {
-                frames_max += step.divisible ? UpdateBudget::kParts : 1;
+                frames_max += stage.divisible ? UpdateBudget::kParts : 1;
             }
             std::size_t frame_count = 0;
-            for (skipEmpty(); expected.step < steps.size(); skipEmpty())
+            for (skipEmpty(); expected.stage < stages.size(); skipEmpty())
             {
                 RC_ASSERT(++frame_count <= frames_max);
                 UpdateProgress same = progress;
-                const std::vector<UpdateSlice> slices = budget.plan(steps, progress, budget_ms);
-                RC_ASSERT(budget.plan(steps, same, budget_ms) == slices);
+                const std::vector<UpdateSlice> slices = budget.plan(stages, progress, budget_ms);
+                RC_ASSERT(budget.plan(stages, same, budget_ms) == slices);
                 RC_ASSERT(same == progress);
                 RC_ASSERT(!slices.empty());
                 double ms = 0;
                 for (const UpdateSlice& slice : slices)
                 {
                     skipEmpty();
-                    const UpdateStep& step = steps[slice.step];
-                    RC_ASSERT((UpdateProgress{slice.step, slice.first_unit}) == expected);
-                    RC_ASSERT(slice.name == step.name);
+                    const UpdateStage& stage = stages[slice.stage];
+                    RC_ASSERT((UpdateProgress{slice.stage, slice.first_unit}) == expected);
+                    RC_ASSERT(slice.name == stage.name);
                     RC_ASSERT(slice.unit_count > 0u);
-                    RC_ASSERT(slice.unit_count <= step.units - slice.first_unit);
-                    RC_ASSERT(step.divisible || slice.unit_count == step.units);
+                    RC_ASSERT(slice.unit_count <= stage.units - slice.first_unit);
+                    RC_ASSERT(stage.divisible || slice.unit_count == stage.units);
                     expected.unit += slice.unit_count;
-                    ms += budget.predictMs(step, slice.unit_count);
+                    ms += budget.predictMs(stage, slice.unit_count);
                 }
                 const double within = budget_ms * (1 + 1e-9);
                 RC_ASSERT(ms <= within || slices.size() == 1);
                 skipEmpty();
                 RC_ASSERT(progress == expected);
-                if (expected.step < steps.size())
+                if (expected.stage < stages.size())
                 {
                     // No more would have fitted, but for the caution that new work asks for.
-                    const UpdateStep& next = steps[expected.step];
+                    const UpdateStage& next = stages[expected.stage];
                     const std::uint64_t parts = (next.units + UpdateBudget::kParts - 1) / UpdateBudget::kParts;
                     const std::uint64_t least = !next.divisible || expected.unit != 0 ? 1 : std::min(parts, next.units);
                     const double more =
@@ -442,8 +442,8 @@ TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
                     RC_ASSERT(cautious || ms + more > budget_ms * (1 - 1e-9));
                 }
             }
-            RC_ASSERT(budget.plan(steps, progress, budget_ms).empty());
-            RC_ASSERT(progress == (UpdateProgress{steps.size(), 0}));
+            RC_ASSERT(budget.plan(stages, progress, budget_ms).empty());
+            RC_ASSERT(progress == (UpdateProgress{stages.size(), 0}));
         });
 }
 

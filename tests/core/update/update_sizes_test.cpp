@@ -41,7 +41,7 @@ TEST(UpdateSizes, RoomIsAsMuchAsWasNeededAndALittleMore)
     EXPECT_LT(sizes.likelyVoxels(), 12000U);
 }
 
-TEST(UpdateSizes, MoversThatComeLaterAreGuessedToo)
+TEST(UpdateSizes, ObjectsThatComeLaterAreGuessedToo)
 {
     UpdateSizes sizes(false);
     sizes.begin(10);
@@ -70,7 +70,7 @@ TEST(UpdateSizes, CapacitiesStayWhileTheySuffice)
     EXPECT_GT(sizes.fitting(first).records, first.records);
 }
 
-// What is far too large goes, but not for a mover that comes and goes.
+// What is far too large goes, but not for a dynamic object that comes and goes.
 TEST(UpdateSizes, CapacitiesShrinkWhenLittleMovesForLong)
 {
     UpdateSizes sizes(false);

@@ -140,7 +140,7 @@ TEST(VoxelNormals, OfABoxPointOutwardsAlongTheAxes)
     }
 }
 
-TEST(VoxelNormals, OfASpherePointAwayFromItsCentre)
+TEST(VoxelNormals, OfASpherePointAwayFromItsCenter)
 {
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
     Scene sphere = test::sphereScene(glm::vec3(32.0F), 30.0F, 64);
@@ -159,15 +159,15 @@ TEST(VoxelNormals, OfASpherePointAwayFromItsCentre)
         double inward = 0;
         for (std::size_t i = 0; i < codes.size(); ++i)
         {
-            glm::dvec3 centre(0.5 - 32.0);
+            glm::dvec3 center(0.5 - 32.0);
             for (int bit = 0; bit < 6; ++bit)
             {
                 for (int axis = 0; axis < 3; ++axis)
                 {
-                    centre[axis] += static_cast<double>((codes[i] >> (3 * bit + axis) & 1) << bit);
+                    center[axis] += static_cast<double>((codes[i] >> (3 * bit + axis) & 1) << bit);
                 }
             }
-            const double angle = degreesBetween(test::normalOf(built.voxels[i]), centre);
+            const double angle = degreesBetween(test::normalOf(built.voxels[i]), center);
             outward = std::max(outward, angle);
             inward = std::max(inward, 180 - angle);
         }

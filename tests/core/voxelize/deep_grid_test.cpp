@@ -42,17 +42,17 @@ Scene scatteredTriangles(std::uint32_t depth, std::size_t count)
     std::vector<glm::vec3> corners;
     for (std::size_t i = 0; i < count; ++i)
     {
-        glm::vec3 centre = point(end / 2) + glm::vec3(end / 2);
+        glm::vec3 center = point(end / 2) + glm::vec3(end / 2);
         if (i % 4 == 1)
         {
-            centre[static_cast<int>(random() % 3)] = i % 8 == 1 ? 0.0F : end;
+            center[static_cast<int>(random() % 3)] = i % 8 == 1 ? 0.0F : end;
         }
         if (i % 4 == 2)
         {
-            centre = glm::vec3(i % 8 == 2 ? 0.0F : end) + point(20.0F);
+            center = glm::vec3(i % 8 == 2 ? 0.0F : end) + point(20.0F);
         }
         const float size = std::exp2(uniform(-6.0F, 5.0F));
-        glm::vec3 triangle[3] = {centre + point(size), centre + point(size), centre + point(size)};
+        glm::vec3 triangle[3] = {center + point(size), center + point(size), center + point(size)};
         if (i % 5 == 3) // a sliver
         {
             triangle[2] = (triangle[0] + triangle[1]) * 0.5F + point(0.02F);
@@ -62,7 +62,7 @@ Scene scatteredTriangles(std::uint32_t depth, std::size_t count)
             for (glm::vec3& corner : triangle)
             {
                 corner = glm::round(corner);
-                corner[static_cast<int>(i % 3)] = std::round(centre[static_cast<int>(i % 3)]);
+                corner[static_cast<int>(i % 3)] = std::round(center[static_cast<int>(i % 3)]);
             }
         }
         corners.insert(corners.end(), std::begin(triangle), std::end(triangle));

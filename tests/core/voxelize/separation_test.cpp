@@ -141,11 +141,11 @@ Solid model(const std::filesystem::path& path)
         }
     }
     const Bounds bounds = scene.bounds();
-    const glm::dvec3 centre = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
+    const glm::dvec3 center = 0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max));
     const double radius = 0.5 * glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min));
     for (glm::dvec3& point : solid.points)
     {
-        point = (point - centre) / radius;
+        point = (point - center) / radius;
     }
     return solid;
 }
@@ -162,7 +162,7 @@ glm::dmat3 randomRotation(std::mt19937& random)
 struct Placement
 {
     glm::dmat3 rotation{1.0};
-    glm::dvec3 centre{0.0};
+    glm::dvec3 center{0.0};
     double size = 1;
 };
 
@@ -171,7 +171,7 @@ LatticeTriangles placed(const Solid& solid, const Placement& placement)
     std::vector<glm::ivec3> points;
     for (const glm::dvec3& point : solid.points)
     {
-        points.emplace_back(glm::round(placement.centre + placement.size * (placement.rotation * point)));
+        points.emplace_back(glm::round(placement.center + placement.size * (placement.rotation * point)));
     }
     LatticeTriangles triangles;
     for (const glm::uvec3& t : solid.triangles)
@@ -272,8 +272,8 @@ void expectSeparates(const Solid& solid, const Placement& placement, std::uint32
             for (v.x = 0; v.x < end; ++v.x)
             {
                 const std::size_t i = field.index(v);
-                const glm::dvec3 centre = glm::dvec3(v) * 256.0 + 128.0;
-                const int sure = solid.inside(back * (centre - placement.centre) / placement.size);
+                const glm::dvec3 center = glm::dvec3(v) * 256.0 + 128.0;
+                const int sure = solid.inside(back * (center - placement.center) / placement.size);
                 misjudged += sure >= 0 && sure != winding[i] ? 1 : 0;
                 leaks += sure == 1 && field.values[i] == kReached ? 1 : 0;
                 if (field.values[i] == kCovered)
@@ -309,7 +309,7 @@ void expectSeparatesInManyPlaces(const Solid& solid, std::uint32_t depth, int co
         placement.size = edge * std::uniform_real_distribution<double>(0.3, 0.45)(random);
         for (int axis = 0; axis < 3; ++axis)
         {
-            placement.centre[axis] = edge / 2 + std::uniform_real_distribution<double>(-200, 200)(random);
+            placement.center[axis] = edge / 2 + std::uniform_real_distribution<double>(-200, 200)(random);
         }
         if (i % 4 != 0)
         {
@@ -317,7 +317,7 @@ void expectSeparatesInManyPlaces(const Solid& solid, std::uint32_t depth, int co
         }
         else // faces on borders and centres of voxels, corners on both
         {
-            placement.centre = glm::dvec3(edge / 2 + 128.0 * (i / 4 % 2));
+            placement.center = glm::dvec3(edge / 2 + 128.0 * (i / 4 % 2));
             placement.size = 256.0 * std::floor(placement.size / 256);
         }
         expectSeparates(solid, placement, depth, Coverage::Thin);

@@ -3,7 +3,7 @@
 #include "core/headless/pipeline.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
-#include "support/morton_place.h"
+#include "support/morton_index.h"
 #include "support/scenes.h"
 #include "zvo/error.h"
 
@@ -60,7 +60,7 @@ void expectTilesMakeTheWhole(const Scene& scene, const Grid& grid, std::uint32_t
     std::size_t occupied = 0;
     for (std::uint32_t code = 0; code >> (3 * (grid.depth - tile_depth)) == 0; ++code)
     {
-        const BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, test::mortonPlace(code)}, options);
+        const BuildResult built = buildOctree(device(), uploaded, {grid, tile_depth, test::mortonIndex(code)}, options);
         EXPECT_EQ(built.dropped, whole.dropped);
         const Contents contents = contentsOf(built.octree);
         for (const std::uint64_t voxel : contents.codes)

@@ -3,7 +3,7 @@
 // A host's kernel: rays in unit space that go on and on with a few iterations each, through two trees at once.
 #extension GL_GOOGLE_include_directive : require
 layout(constant_id = 0) const uint kSteps = 40000u;
-#define ZVO_STEPS_MAX kSteps
+#define ZVO_ITERATIONS_MAX kSteps
 #include "zvo/trace.glsl"
 
 layout(local_size_x = 32) in;
@@ -45,7 +45,7 @@ void main()
     {
         uint calls = 1u;
         for (; calls < kCallsMax && zvo_isUnfinished(result.hit[k]); ++calls)
-            result.hit[k] = zvo_goOn(trees[k], ray, result.hit[k]);
+            result.hit[k] = zvo_resume(trees[k], ray, result.hit[k]);
         result.call_count[k] = calls;
     }
     results.both[i] = result;

@@ -300,8 +300,8 @@ TEST(GltfDraco, AttributesMayStayOutside)
     GltfBuilder builder = packedDocument(packed, soup.size());
     json& primitive = builder.document["meshes"][0]["primitives"][0];
     primitive["extensions"][kExtension]["attributes"].erase("COLOR_0");
-    const std::vector<std::uint8_t> grey(4 * packed.point_count, 51);
-    primitive["attributes"]["COLOR_0"] = builder.addAccessor("VEC4", kU8, packed.point_count, grey, true);
+    const std::vector<std::uint8_t> gray(4 * packed.point_count, 51);
+    primitive["attributes"]["COLOR_0"] = builder.addAccessor("VEC4", kU8, packed.point_count, gray, true);
     const Scene scene = builder.load();
     EXPECT_EQ(scene.triangleCount(), soup.size());
     for (const glm::vec4& color : scene.primitives.at(0).colors)

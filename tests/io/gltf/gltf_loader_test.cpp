@@ -149,7 +149,7 @@ TEST(GltfLoader, TextureCoordinatesMayBeNormalizedIntegers)
               wanted);
 }
 
-TEST(GltfLoader, VertexColoursMayHaveThreeOrFourComponentsOfThreeTypes)
+TEST(GltfLoader, VertexColorsMayHaveThreeOrFourComponentsOfThreeTypes)
 {
     const std::vector<glm::vec4> opaque = {{0, 0.2F, 1, 1}, {1, 1, 1, 1}, {0.4F, 0, 0, 1}};
     EXPECT_EQ(withAttribute<float>("COLOR_0", "VEC3", kF32, {0, 0.2F, 1, 1, 1, 1, 0.4F, 0, 0}, false).colors, opaque);

@@ -78,7 +78,7 @@ TEST(GltfMaterials, EmissiveStrengthMultipliesTheFactor)
     EXPECT_EQ(without.emission, glm::vec3(1.0F, 0.5F, 0.0F));
 }
 
-TEST(GltfMaterials, TexturesOfColourAndEmissionShareOneImage)
+TEST(GltfMaterials, TexturesOfColorAndEmissionShareOneImage)
 {
     json material = baseColorTexture({{"index", 0}});
     material["emissiveTexture"] = {{"index", 0}};
@@ -164,7 +164,7 @@ TEST(GltfMaterials, TextureTransformMovesTheCoordinates)
     EXPECT_EQ(texturedTriangle(baseColorTexture(other_set)).load().primitives[0].uvs[0], glm::vec2(5, 5));
 }
 
-TEST(GltfMaterials, DiffuseOfSpecularGlossinessIsTheBaseColour)
+TEST(GltfMaterials, DiffuseOfSpecularGlossinessIsTheBaseColor)
 {
     const json transform = {{"offset", {0.5, 0.25}}};
     const json texture = {{"index", 0}, {"texCoord", 1}, {"extensions", {{"KHR_texture_transform", transform}}}};
@@ -191,7 +191,7 @@ TEST(GltfMaterials, DiffuseOfSpecularGlossinessIsTheBaseColour)
     expectInputError([&] { materialOf(material); }, {"materials[0].diffuseFactor is -1"});
 }
 
-TEST(GltfMaterials, UnlitIsTheBaseColour)
+TEST(GltfMaterials, UnlitIsTheBaseColor)
 {
     GltfBuilder builder = texturedTriangle({{"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 1}}}},
                                             {"extensions", {{"KHR_materials_unlit", json::object()}}}});

@@ -316,7 +316,7 @@ TEST(GltfRigErrors, WeightsAtRestMustFitTheTargets)
     expectWeights({1e300, 2}, {0, 2});
 }
 
-TEST(GltfRigErrors, TexturesAndColoursDoNotMorph)
+TEST(GltfRigErrors, TexturesAndColorsDoNotMorph)
 {
     expectWarnings([](GltfBuilder& b) { target(b, 0)["COLOR_0"] = target(b, 0)["POSITION"]; },
                    {"morph targets do not move texture coordinates and colours (meshes[1].primitives[0].targets[0])"});

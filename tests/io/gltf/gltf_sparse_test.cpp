@@ -71,8 +71,8 @@ TEST(GltfSparse, EveryAttributeMayBe)
 {
     GltfBuilder builder;
     json primitive = trianglePrimitive(builder);
-    const std::size_t colours = builder.addAccessor<std::uint8_t>("VEC4", kU8, 3, std::vector<std::uint8_t>(12), true);
-    addSparse(builder, colours, kU8, std::vector<std::uint8_t>{2}, std::vector<std::uint8_t>{255, 51, 0, 102});
+    const std::size_t colors = builder.addAccessor<std::uint8_t>("VEC4", kU8, 3, std::vector<std::uint8_t>(12), true);
+    addSparse(builder, colors, kU8, std::vector<std::uint8_t>{2}, std::vector<std::uint8_t>{255, 51, 0, 102});
     const std::size_t uvs = addZeros(builder, "VEC2", kU16, 3);
     builder.document["accessors"][uvs]["normalized"] = true;
     addSparse(builder, uvs, kU32, std::vector<std::uint32_t>{1}, std::vector<std::uint16_t>{65535, 13107});
@@ -80,7 +80,7 @@ TEST(GltfSparse, EveryAttributeMayBe)
     addSparse(builder, normals, kU8, std::vector<std::uint8_t>{0, 2}, std::vector<float>{0, 0, 2, 0, 3, 4});
     const std::size_t indices = builder.addAccessor<std::uint16_t>("SCALAR", kU16, 6, {0, 1, 2, 0, 0, 0});
     addSparse(builder, indices, kU8, std::vector<std::uint8_t>{3, 5}, std::vector<std::uint16_t>{2, 1});
-    primitive["attributes"]["COLOR_0"] = colours;
+    primitive["attributes"]["COLOR_0"] = colors;
     primitive["attributes"]["TEXCOORD_0"] = uvs;
     primitive["attributes"]["NORMAL"] = normals;
     primitive["indices"] = indices;

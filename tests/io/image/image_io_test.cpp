@@ -55,7 +55,7 @@ constexpr const char* kSixteenBitPng =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABEAYAAACksqPJAAAAGklEQVR42mMQ+t/A8P8/w39GhvqGf4z//wMAQ3wIjOdM/JYAAAAA"
     "SUVORK5CYII=";
 // Two pixels of grey, 7 and 200.
-constexpr const char* kGreyPng =
+constexpr const char* kGrayPng =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR42mNgPwEAANkA0EQCVdsAAAAASUVORK5CYII=";
 // Two pixels with a palette: (40, 50, 60) at alpha 128, (10, 20, 30) opaque.
 constexpr const char* kPalettePng =
@@ -63,12 +63,12 @@ constexpr const char* kPalettePng =
     "Y2BkAAAABQACQsJEnwAAAABJRU5ErkJggg==";
 
 // Grey 7 opaque, 200 at alpha 64; then the same with 16 bits.
-constexpr const char* kGreyAlphaPng =
+constexpr const char* kGrayAlphaPng =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAQAAABeK7cBAAAADUlEQVR4nGNg/3/CAQAE7gIP8XIdWQAAAABJRU5ErkJggg==";
-constexpr const char* kGreyAlpha16Png =
+constexpr const char* kGrayAlpha16Png =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABEAQAAAAOu2tCAAAAEUlEQVR4nGNgT/7PeILJgRkADJ4CeCe57G8AAAAASUVORK5CYII=";
 // Grey 0x0763 and 0xC802.
-constexpr const char* kGrey16Png =
+constexpr const char* kGray16Png =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABEAAAAACB2fwVAAAADUlEQVR4nGNgTz7BBAAC3AE10qFwygAAAABJRU5ErkJggg==";
 // Eight pixels of one bit: 10110001.
 constexpr const char* kOneBitPng =
@@ -87,21 +87,21 @@ TEST(ImageIo, SixteenBitChannelsKeepTheirUpperByte)
     EXPECT_EQ(image.rgba, (std::vector<std::uint8_t>{18, 128, 255, 0, 1, 127, 254, 255}));
 }
 
-TEST(ImageIo, GreyAndPalettesBecomeColours)
+TEST(ImageIo, GrayAndPalettesBecomeColors)
 {
-    const Image grey = decodeImage(base64(kGreyPng), "", "here");
-    EXPECT_EQ(grey.rgba, (std::vector<std::uint8_t>{7, 7, 7, 255, 200, 200, 200, 255}));
+    const Image gray = decodeImage(base64(kGrayPng), "", "here");
+    EXPECT_EQ(gray.rgba, (std::vector<std::uint8_t>{7, 7, 7, 255, 200, 200, 200, 255}));
     const Image palette = decodeImage(base64(kPalettePng), "", "here");
     EXPECT_EQ(palette.rgba, (std::vector<std::uint8_t>{40, 50, 60, 128, 10, 20, 30, 255}));
 }
 
-TEST(ImageIo, GreyMayHaveAnyDepthAndAlpha)
+TEST(ImageIo, GrayMayHaveAnyDepthAndAlpha)
 {
     const auto pixels = [](const char* png) { return decodeImage(base64(png), "", "here").rgba; };
     using Pixels = std::vector<std::uint8_t>;
-    EXPECT_EQ(pixels(kGreyAlphaPng), (Pixels{7, 7, 7, 255, 200, 200, 200, 64}));
-    EXPECT_EQ(pixels(kGreyAlpha16Png), (Pixels{7, 7, 7, 255, 200, 200, 200, 64}));
-    EXPECT_EQ(pixels(kGrey16Png), (Pixels{7, 7, 7, 255, 200, 200, 200, 255}));
+    EXPECT_EQ(pixels(kGrayAlphaPng), (Pixels{7, 7, 7, 255, 200, 200, 200, 64}));
+    EXPECT_EQ(pixels(kGrayAlpha16Png), (Pixels{7, 7, 7, 255, 200, 200, 200, 64}));
+    EXPECT_EQ(pixels(kGray16Png), (Pixels{7, 7, 7, 255, 200, 200, 200, 255}));
     EXPECT_EQ(pixels(kFourBitPng), (Pixels{51, 51, 51, 255, 255, 255, 255, 255}));
     Pixels bits;
     for (const std::uint8_t value : Pixels{255, 0, 255, 255, 0, 0, 0, 255})

@@ -77,7 +77,7 @@ TEST(MeshImport, EveryFormatGivesTheSameTriangles)
     EXPECT_EQ(cornersOf(loadText("mesh.stl", asBinaryStl(mesh))), wanted);
 }
 
-TEST(MeshImport, WithoutColoursAMeshIsWhite)
+TEST(MeshImport, WithoutColorsAMeshIsWhite)
 {
     const FileMesh mesh = bentSheet(1);
     for (const auto& [name, content] :
@@ -93,7 +93,7 @@ TEST(MeshImport, WithoutColoursAMeshIsWhite)
     }
 }
 
-TEST(MeshImport, PlyColoursAreSrgb)
+TEST(MeshImport, PlyColorsAreSrgb)
 {
     FileMesh mesh = bentSheet(1);
     mesh.colors = {{0, 255, 128}, {10, 20, 30}, {255, 255, 255}, {64, 0, 200}};

@@ -60,9 +60,9 @@ std::map<Face, std::uint32_t> expectedFaces(const TreeData& tree)
         {
             for (const int direction : {-1, 1})
             {
-                std::array<int, 3> neighbour = cell;
-                neighbour[static_cast<std::size_t>(axis)] += direction;
-                if (!voxels.contains(neighbour))
+                std::array<int, 3> neighbor = cell;
+                neighbor[static_cast<std::size_t>(axis)] += direction;
+                if (!voxels.contains(neighbor))
                 {
                     faces[{axis, direction, cell[0], cell[1], cell[2]}] = color;
                 }
@@ -132,7 +132,7 @@ void expectFaces(const TreeData& tree, const std::string& name)
     EXPECT_TRUE(left.empty()) << name << ": " << left.size() << " faces are missing";
 }
 
-TEST(GlbWrite, HasEachFaceOnceInItsColour)
+TEST(GlbWrite, HasEachFaceOnceInItsColor)
 {
     for (const TreeSample& sample : treeSamples())
     {

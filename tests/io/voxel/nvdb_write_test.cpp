@@ -52,7 +52,7 @@ std::uint64_t activeCount(const nanovdb::NanoGrid<nanovdb::Rgba8>& grid)
     return count;
 }
 
-TEST(NvdbWrite, ActiveValuesAreTheVoxelsInTheirColours)
+TEST(NvdbWrite, ActiveValuesAreTheVoxelsInTheirColors)
 {
     const TempDir dir;
     for (const TreeSample& sample : treeSamples())
@@ -84,7 +84,7 @@ TEST(NvdbWrite, ActiveValuesAreTheVoxelsInTheirColours)
     }
 }
 
-TEST(NvdbWrite, PlacesAreThoseOfTheCentresOfVoxels)
+TEST(NvdbWrite, PlacesAreThoseOfTheCentersOfVoxels)
 {
     TreeData tree = treeSamples().back().tree;
     tree.grid.origin = {-3.5F, 2.0F, 0.125F};

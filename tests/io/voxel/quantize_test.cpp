@@ -24,7 +24,7 @@ std::vector<std::uint32_t> countsOf(const std::map<std::uint32_t, std::uint32_t>
     return counts;
 }
 
-TEST(Quantize, FewColoursStayAsTheyAre)
+TEST(Quantize, FewColorsStayAsTheyAre)
 {
     std::map<std::uint32_t, std::uint32_t> colors;
     std::mt19937 random(1);
@@ -41,7 +41,7 @@ TEST(Quantize, FewColoursStayAsTheyAre)
     }
 }
 
-TEST(Quantize, NoColoursGiveBlack)
+TEST(Quantize, NoColorsGiveBlack)
 {
     EXPECT_EQ(quantize(std::vector<std::uint32_t>(kColorCount), 255).colors, std::vector<std::uint32_t>{0});
 }
@@ -58,7 +58,7 @@ TEST(Quantize, OneMoreThanThereIsRoomForMergesTheTwoThatAreNearest)
     EXPECT_EQ(palette.colors, (std::vector<std::uint32_t>{0, 0x40, 0x80, 0xc3})); // (192 + 3 * 196) / 4
 }
 
-TEST(Quantize, ManyColoursBecomeNearOnes)
+TEST(Quantize, ManyColorsBecomeNearOnes)
 {
     std::map<std::uint32_t, std::uint32_t> colors;
     std::mt19937 random(2);

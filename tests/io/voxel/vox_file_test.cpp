@@ -243,7 +243,7 @@ TEST(VoxFile, ChangedFilesAreReadOrRefused)
     }
 }
 
-TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColours)
+TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColors)
 {
     for (const TreeSample& sample : treeSamples())
     {

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "core/deform/deform_mesh.h"
-#include "core/deform/mover.h"
+#include "core/deform/dynamic_object.h"
 #include "core/overlay/root_history.h"
 #include "core/scene/animation.h"
 #include "core/update/layer.h"
-#include "core/update/update_step.h"
+#include "core/update/update_stage.h"
+#include "vk/deletion_queue.h"
 #include "vk/device.h"
 #include "vk/frame_list.h"
-#include "vk/retired.h"
 #include "vk/uploader.h"
 #include "zvo/types.h"
 
@@ -26,67 +26,70 @@
 namespace zvo
 {
 
-/// A mesh that can move, in device memory. Several movers may share it.
-struct MoverMesh
+/// A mesh that can move, in device memory. Several dynamic objects may share it.
+struct DynamicMesh
 {
     Scene scene; // what poses it: without images, and without what primitives consist of
-    MoverPlan plan;
+    DynamicObjectPlan plan;
     GpuScene uploaded;
     DeformMesh deform;
     bool emits = false; // any of its materials
 };
 
-/// Uploads scene as a mover by way of device: done when that says (vk/uploader.h). emission_scale: the common one.
-/// Throws as uploadScene and uploadDeformMesh.
-std::shared_ptr<const MoverMesh> uploadMover(vk::Uploader& device, Scene scene, bool attributes, float emission_scale);
+/// Uploads scene as a dynamic object by way of device: done when that says (vk/uploader.h). emission_scale: the common
+/// one. Throws as uploadScene and uploadDeformMesh.
+std::shared_ptr<const DynamicMesh> uploadDynamicMesh(vk::Uploader& device, Scene scene, bool attributes,
+                                                     float emission_scale);
 
-/// Number of a mover, for as long as its octree lives.
-using MoverId = std::uint32_t;
+/// Number of a dynamic object, for as long as its octree lives.
+using DynamicObjectId = std::uint32_t;
 
-/// How movers are voxelized.
-struct MoverOptions
+/// How dynamic objects are voxelized.
+struct DynamicObjectOptions
 {
     Coverage coverage = Coverage::Thin;
     LayerContents contents;          // of the octree that they are merged with
-    float emission_scale = 0;        // common to the static scene and all movers
+    float emission_scale = 0;        // common to the static scene and all dynamic objects
     std::uint32_t updates_max = 1;   // that may be under way on the device
     bool minimal_capacities = false; // everything starts with room for one
 };
 
-/// The movers of an octree: where each is to be, and its layer, the voxels of where it was last. Poses have versions,
-/// so that an entry of the history names its movers' states by numbers. Knows nothing of merging and of what is shown.
-class MoverSet final : public vk::FrameParticipant
+/// The dynamic objects of an octree: where each is to be, and its layer, the voxels of where it was last. Poses have
+/// versions, so that an entry of the history names its dynamic objects' states by numbers. Knows nothing of merging and
+/// of what is shown.
+class DynamicObjects final : public vk::FrameParticipant
 {
 public:
-    /// What retires goes to retired, which outlives this.
-    MoverSet(vk::Uploader& device, const Grid& grid, const MoverOptions& options, vk::Retired& retired);
+    /// What frames in flight may use goes to deletion_queue, which outlives this.
+    DynamicObjects(vk::Uploader& device, const Grid& grid, const DynamicObjectOptions& options,
+                   vk::DeletionQueue& deletion_queue);
 
     /// See DynamicOctree.
-    MoverId add(std::shared_ptr<const MoverMesh> mesh, Pose pose);
-    void place(MoverId mover, Pose pose);
-    void remove(MoverId mover);
+    DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose);
+    void setPose(DynamicObjectId object, Pose pose);
+    void remove(DynamicObjectId object);
 
-    /// Throws Error{Usage} for a mover that is not there.
-    [[nodiscard]] const MoverMesh& mesh(MoverId mover) { return *presentMover(mover).mesh; }
+    /// Throws Error{Usage} for a dynamic object that is not there.
+    [[nodiscard]] const DynamicMesh& mesh(DynamicObjectId object) { return *presentObject(object).mesh; }
 
-    /// Movers, present ones only, and their poses become those of an earlier time.
+    /// Dynamic objects, present ones only, and their poses become those of an earlier time.
     void bringBack(std::span<const LayerState> states);
 
-    [[nodiscard]] bool isEmpty() const; // no mover is present
+    [[nodiscard]] bool isEmpty() const; // no dynamic object is present
     [[nodiscard]] std::vector<LayerState> states() const;
     [[nodiscard]] std::vector<const LayerBuffers*> layers();
     [[nodiscard]] std::uint64_t leafCapacity(); // of all layers
 
-    /// Gives movers that changed and have no layer one. Throws Error{Memory} when the device's budget does not suffice
-    /// or a layer can never be large enough, Error{Usage} where more updates are under way than were announced.
+    /// Gives dynamic objects that changed and have no layer one. Throws Error{Memory} when the device's budget does not
+    /// suffice or a layer can never be large enough, Error{Usage} where more updates are under way than were announced.
     void makeLayers();
 
-    /// Adds everything that voxelizes the movers which changed; they count as voxelized from now on. Returns them. What
-    /// is recorded must be recorded before a mover of them is removed.
-    std::vector<MoverId> addSteps(std::uint32_t sum_shift, RecordedSteps& steps);
+    /// Adds everything that voxelizes the dynamic objects which changed; they count as voxelized from now on. Returns
+    /// them. What is recorded must be recorded before a dynamic object of them is removed.
+    std::vector<DynamicObjectId> addStages(std::uint32_t sum_shift, RecordedStages& stages);
 
     /// What was voxelized into their layers does not count: they are voxelized again.
-    void forgetLayers(std::span<const MoverId> movers);
+    void forgetLayers(std::span<const DynamicObjectId> objects);
     void forgetLayers();
 
     /// Layers that turned out too small get more room and are to be made again.
@@ -98,20 +101,20 @@ public:
     /// Everything is voxelized again.
     void frameLost() override;
 
-    /// Triangles left out, by reason, of all movers as they were voxelized last.
+    /// Triangles left out, by reason, of all dynamic objects as they were voxelized last.
     [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
 
     /// Whether so many poses are kept that forgetPoses() is worth its time.
     [[nodiscard]] bool hasManyPoses() const { return m_poses.size() >= m_poses_max; }
 
-    /// Drops the poses, and the movers, that are not present and not in states.
+    /// Drops the poses, and the dynamic objects, that are not present and not in states.
     void forgetPoses(std::span<const LayerState> states);
 
 private:
-    struct Mover
+    struct Object
     {
-        std::shared_ptr<const MoverMesh> mesh;
-        MoverBuffers buffers;
+        std::shared_ptr<const DynamicMesh> mesh;
+        DynamicObjectBuffers buffers;
         LayerCapacities capacities;
         std::unique_ptr<LayerBuffers> layer;
         bool present = true;          // or taken away, for as long as an entry shows it
@@ -123,23 +126,23 @@ private:
     struct PendingLayer
     {
         std::uint64_t frame;
-        MoverId mover;
+        DynamicObjectId object;
         std::uint64_t report; // counted: element of m_reports, a ring
         LayerCapacities capacities;
     };
 
     std::uint64_t addPose(Pose pose);
-    [[nodiscard]] Mover& presentMover(MoverId id);
-    [[nodiscard]] std::vector<Mover*> presentMovers();
-    void dropLayer(Mover& mover);
+    [[nodiscard]] Object& presentObject(DynamicObjectId id);
+    [[nodiscard]] std::vector<Object*> presentObjects();
+    void dropLayer(Object& object);
     bool learn(const PendingLayer& pending);
 
     vk::Uploader& m_device;
     const Grid& m_grid;
-    MoverOptions m_options;
-    vk::Retired& m_retired;
-    std::map<MoverId, Mover> m_movers;
-    MoverId m_next_mover = 1;
+    DynamicObjectOptions m_options;
+    vk::DeletionQueue& m_deletion_queue;
+    std::map<DynamicObjectId, Object> m_objects;
+    DynamicObjectId m_next_object = 1;
     std::uint64_t m_next_version = 1;
     std::map<std::uint64_t, std::shared_ptr<const Pose>> m_poses; // by version
     std::size_t m_poses_max = 1024;                               // until those that are not used are dropped

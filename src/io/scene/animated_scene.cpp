@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/scene/stage.h"
+#include "io/scene/animated_scene.h"
 
 #include "core/base/finite.h"
 
@@ -43,11 +43,11 @@ public:
         }
     }
 
-    template <typename See> void forEach(const glm::dmat4& place, const See& see) const
+    template <typename See> void forEach(const glm::dmat4& to_world, const See& see) const
     {
         for (const Instance& instance : m_scene.instances)
         {
-            const glm::mat4 transform(place * glm::dmat4(instance.transform));
+            const glm::mat4 transform(to_world * glm::dmat4(instance.transform));
             for (const glm::vec3& position : m_used[instance.primitive])
             {
                 const glm::vec3 point = transformPoint(transform, position);
@@ -71,17 +71,17 @@ void extend(Bounds& bounds, const Bounds& other)
 }
 
 /// Of a scene that only is moved as a whole.
-Bounds sweptBounds(const Scene& scene, const glm::dmat4& place, const Motion& motion, double seconds)
+Bounds sweptBounds(const Scene& scene, const glm::dmat4& to_world, const Motion& motion, double seconds)
 {
     const Points points(scene);
     const MotionSweep sweep = sweepOf(motion, seconds, kSweepSteps);
     double distance = 0.0;
-    points.forEach(place, [&](const glm::vec3& point)
+    points.forEach(to_world, [&](const glm::vec3& point)
                    { distance = std::max(distance, glm::length(glm::dvec3(point) - sweep.pivot)); });
     Bounds bounds;
-    for (const glm::dmat4& step : sweep.places)
+    for (const glm::dmat4& moved : sweep.transforms)
     {
-        points.forEach(step * place, [&](const glm::vec3& point) { bounds.extend(point); });
+        points.forEach(moved * to_world, [&](const glm::vec3& point) { bounds.extend(point); });
     }
     if (bounds.empty())
     {
@@ -94,80 +94,82 @@ Bounds sweptBounds(const Scene& scene, const glm::dmat4& place, const Motion& mo
     return {bounds.min - margin, bounds.max + margin};
 }
 
-Bounds moverBounds(const Mover& mover, const Stage& stage)
+Bounds boundsOfObject(const DynamicObject& object, const AnimatedScene& animated)
 {
-    if (!mover.deforms && std::holds_alternative<std::monostate>(mover.motion))
+    if (!object.deforms && std::holds_alternative<std::monostate>(object.motion))
     {
-        return posedScene(mover.scene, moverPose(mover, 0.0)).bounds();
+        return posedScene(object.scene, poseAt(object, 0.0)).bounds();
     }
-    if (!mover.deforms)
+    if (!object.deforms)
     {
-        return sweptBounds(posedScene(mover.scene, poseAt(mover.scene, 0.0)), mover.place, mover.motion, stage.seconds);
+        return sweptBounds(posedScene(object.scene, poseAt(object.scene, 0.0)), object.transform, object.motion,
+                           animated.seconds);
     }
     Bounds bounds;
     // Every frame, unless there are very many.
-    const double count = std::clamp(std::round(stage.seconds * stage.frames_per_second), kSamplesMin, kSamplesMax);
+    const double count =
+        std::clamp(std::round(animated.seconds * animated.frames_per_second), kSamplesMin, kSamplesMax);
     for (double sample = 0.0; sample < count; ++sample)
     {
-        const double seconds = stage.seconds * sample / count;
-        extend(bounds, posedScene(mover.scene, moverPose(mover, seconds)).bounds());
+        const double seconds = animated.seconds * sample / count;
+        extend(bounds, posedScene(object.scene, poseAt(object, seconds)).bounds());
     }
     return bounds;
 }
 
-Scene withMovers(Scene scene, const std::vector<Mover>& movers, double seconds)
+Scene withObjects(Scene scene, const std::vector<DynamicObject>& objects, double seconds)
 {
-    for (const Mover& mover : movers)
+    for (const DynamicObject& object : objects)
     {
-        scene.append(posedScene(mover.scene, moverPose(mover, seconds)));
+        scene.append(posedScene(object.scene, poseAt(object, seconds)));
     }
     return scene;
 }
 
 } // namespace
 
-double frameTime(const Stage& stage, std::uint64_t frame)
+double frameTime(const AnimatedScene& animated, std::uint64_t frame)
 {
-    const double frame_count = stage.seconds * stage.frames_per_second;
+    const double frame_count = animated.seconds * animated.frames_per_second;
     const double whole = std::round(frame_count);
     if (whole >= 1.0 && std::abs(frame_count - whole) <= kFrameCountTolerance * whole)
     {
-        return static_cast<double>(frame % static_cast<std::uint64_t>(whole)) / stage.frames_per_second;
+        return static_cast<double>(frame % static_cast<std::uint64_t>(whole)) / animated.frames_per_second;
     }
-    return loopedTime(stage, static_cast<double>(frame) / stage.frames_per_second);
+    return loopedTime(animated, static_cast<double>(frame) / animated.frames_per_second);
 }
 
-double loopedTime(const Stage& stage, double seconds)
+double loopedTime(const AnimatedScene& animated, double seconds)
 {
-    return std::fmod(seconds, stage.seconds);
+    return std::fmod(seconds, animated.seconds);
 }
 
-glm::dmat4 placeAt(const Mover& mover, double seconds)
+glm::dmat4 transformAt(const DynamicObject& object, double seconds)
 {
-    return motionAt(mover.motion, seconds) * mover.place;
+    return motionAt(object.motion, seconds) * object.transform;
 }
 
-Pose moverPose(const Mover& mover, double seconds)
+Pose poseAt(const DynamicObject& object, double seconds)
 {
-    return poseAt(mover.scene, seconds, placeAt(mover, seconds));
+    return poseAt(object.scene, seconds, transformAt(object, seconds));
 }
 
-Scene stageAt(const Stage& stage, double seconds)
+Scene sceneAt(const AnimatedScene& animated, double seconds)
 {
-    return withMovers(Scene(stage.fixed), stage.movers, seconds);
+    return withObjects(Scene(animated.fixed), animated.objects, seconds);
 }
 
-Scene stageAt(Stage&& stage, double seconds)
+Scene sceneAt(AnimatedScene&& animated, double seconds)
 {
-    return withMovers(std::move(stage.fixed), stage.movers, seconds);
+    return withObjects(std::move(animated.fixed), animated.objects, seconds);
 }
 
-Bounds stageBounds(const Stage& stage)
+Bounds boundsOverTime(const AnimatedScene& animated)
 {
-    Bounds bounds = stage.fixed.bounds();
-    for (const Mover& mover : stage.movers)
+    Bounds bounds = animated.fixed.bounds();
+    for (const DynamicObject& object : animated.objects)
     {
-        extend(bounds, moverBounds(mover, stage));
+        extend(bounds, boundsOfObject(object, animated));
     }
     return bounds;
 }

@@ -14,7 +14,7 @@ namespace zvo::vk
 
 /// Things that frames in flight may still use: kept until the device is done with the frame in which they were put
 /// away. Frames are numbered by the caller, upwards.
-class Retired final : public FrameParticipant
+class DeletionQueue final : public FrameParticipant
 {
 public:
     /// What is kept from now on may be used by that frame and those before it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support/mover_scenery.h"
+#include "support/dynamic_scenery.h"
 
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
@@ -48,7 +48,7 @@ Scene rigged(Scene scene, std::uint32_t seed, const std::vector<DeformingParts>&
 
 } // namespace
 
-glm::mat4 Place::transform() const
+glm::mat4 Placement::transform() const
 {
     const glm::mat4 one(1.0F);
     const glm::vec3 shift = glm::vec3(at[0], at[1], at[2]) * 3.7F;
@@ -75,7 +75,7 @@ glm::mat4 Place::transform() const
     return moved;
 }
 
-std::ostream& operator<<(std::ostream& out, const Place& place)
+std::ostream& operator<<(std::ostream& out, const Placement& place)
 {
     return out << kKindNames.at(static_cast<std::size_t>(place.kind)) << " at " << place.at[0] << " " << place.at[1]
                << " " << place.at[2];
@@ -101,7 +101,7 @@ DynamicOptions DynamicSetting::options(float emission_scale) const
     options.coverage = coverage;
     options.merge = merge;
     options.frames_in_flight = frames_in_flight;
-    options.history = {steps_max, UINT64_MAX};
+    options.history = {entries_max, UINT64_MAX};
     options.emission_scale = emission_scale;
     options.attributes = attributes;
     options.minimal_capacities = minimal_capacities;
@@ -113,10 +113,10 @@ std::ostream& operator<<(std::ostream& out, const DynamicSetting& s)
     return out << "depth " << s.depth << ", coverage " << static_cast<int>(s.coverage) << ", merge "
                << static_cast<int>(s.merge) << ", attributes " << s.attributes << ", emits " << s.emits << ", static "
                << s.has_static << ", compressed " << s.compressed << ", minimal " << s.minimal_capacities << ", frames "
-               << s.frames_in_flight << ", steps " << s.steps_max << ", " << s.shot;
+               << s.frames_in_flight << ", entries " << s.entries_max << ", " << s.shot;
 }
 
-MoverScenery::MoverScenery(vk::HeadlessDevice& device, bool emits)
+DynamicScenery::DynamicScenery(vk::HeadlessDevice& device, bool emits)
     : m_device(device), m_static(materialsScene(kExtent, 8, 17)),
       m_meshes({materialsScene(kExtent / 2.6F, 5, 31), materialsScene(kExtent / 6, 4, 47),
                 rigged(materialsScene(kExtent / 4, 4, 53), 1, {{true, 5, 0}, {true, 3, 0}, {false, 9, 0}}),
@@ -135,12 +135,12 @@ MoverScenery::MoverScenery(vk::HeadlessDevice& device, bool emits)
     std::ranges::for_each(m_meshes, prepare);
 }
 
-GpuScene MoverScenery::upload(const Scene& scene, bool attributes) const
+GpuScene DynamicScenery::upload(const Scene& scene, bool attributes) const
 {
     return uploadScene(m_device, scene, attributes, m_scale);
 }
 
-DeviceTree MoverScenery::buildStatic(const DynamicSetting& setting) const
+DeviceTree DynamicScenery::buildStatic(const DynamicSetting& setting) const
 {
     BuildOptions build;
     build.coverage = setting.coverage;
@@ -151,20 +151,20 @@ DeviceTree MoverScenery::buildStatic(const DynamicSetting& setting) const
     return setting.compressed ? compress(m_device, std::move(built.octree)).dag : std::move(built.octree);
 }
 
-std::shared_ptr<const MoverMesh> MoverScenery::mover(std::uint32_t mesh, bool attributes)
+std::shared_ptr<const DynamicMesh> DynamicScenery::object(std::uint32_t mesh, bool attributes)
 {
-    std::shared_ptr<const MoverMesh>& mover = m_uploaded[{mesh, attributes}];
-    if (mover == nullptr)
+    std::shared_ptr<const DynamicMesh>& object = m_uploaded[{mesh, attributes}];
+    if (object == nullptr)
     {
-        mover = uploadMover(m_device, m_meshes.at(mesh), attributes, m_scale);
+        object = uploadDynamicMesh(m_device, m_meshes.at(mesh), attributes, m_scale);
     }
-    return mover;
+    return object;
 }
 
-Pose MoverScenery::poseOf(const Item& item) const
+Pose DynamicScenery::poseOf(const Item& item) const
 {
     const Scene& scene = m_meshes.at(item.mesh);
-    const glm::mat4 place = item.place.transform();
+    const glm::mat4 place = item.placement.transform();
     Pose pose;
     for (const Instance& instance : scene.instances)
     {
@@ -187,8 +187,8 @@ Pose MoverScenery::poseOf(const Item& item) const
     return pose;
 }
 
-std::shared_ptr<const Rebuilt> MoverScenery::rebuilt(const DynamicSetting& setting, bool with_static,
-                                                     const std::multiset<Item>& items)
+std::shared_ptr<const Rebuilt> DynamicScenery::rebuilt(const DynamicSetting& setting, bool with_static,
+                                                       const std::multiset<Item>& items)
 {
     const bool has_static = with_static && setting.has_static;
     const Key key(setting.depth, setting.coverage, setting.attributes, has_static, items);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/scene/stage_file.h"
+#include "io/scene/scene_file.h"
 
 #include "io/gltf/gltf_builder.h"
 
@@ -17,9 +17,9 @@ namespace
 
 constexpr double kClose = 1e-12;
 
-StageFile parse(const std::string& content)
+SceneFile parse(const std::string& content)
 {
-    return parseStageFile(content, "folder/test.scene.json");
+    return parseSceneFile(content, "folder/test.scene.json");
 }
 
 /// A file of one object with these members.
@@ -33,79 +33,79 @@ std::string motionText(const std::string& motion)
     return objectText(R"("motion": {)" + motion + "}");
 }
 
-StageObject parseObject(const std::string& members)
+SceneFileObject parseObject(const std::string& members)
 {
     return parse(objectText(members)).objects.at(0);
 }
 
-TEST(StageFile, DefaultsAreThoseOfTheDocumentation)
+TEST(SceneFile, DefaultsAreThoseOfTheDocumentation)
 {
-    const StageFile stage = parse(R"({"objects": [{"file": "models/Bunny.low.glb"}]})");
-    ASSERT_EQ(stage.objects.size(), 1U);
-    const StageObject& object = stage.objects[0];
+    const SceneFile file = parse(R"({"objects": [{"file": "models/Bunny.low.glb"}]})");
+    ASSERT_EQ(file.objects.size(), 1U);
+    const SceneFileObject& object = file.objects[0];
     EXPECT_EQ(object.name, "Bunny.low");
     EXPECT_EQ(object.file, "models/Bunny.low.glb");
     EXPECT_EQ(object.where, "objects[0]");
     EXPECT_EQ(object.up, UpAxis::Y);
-    EXPECT_EQ(object.place, glm::dmat4(1.0));
+    EXPECT_EQ(object.transform, glm::dmat4(1.0));
     EXPECT_TRUE(std::holds_alternative<std::monostate>(object.motion));
     EXPECT_EQ(object.is_dynamic, std::nullopt);
-    EXPECT_EQ(stage.seconds, 4.0);
-    EXPECT_EQ(stage.frames_per_second, 30.0);
-    EXPECT_EQ(stage.grid_depth, std::nullopt);
-    EXPECT_FALSE(stage.grid_bounds);
-    EXPECT_FALSE(stage.camera);
-    EXPECT_EQ(stage.merge, MergeRule::Average);
+    EXPECT_EQ(file.seconds, 4.0);
+    EXPECT_EQ(file.frames_per_second, 30.0);
+    EXPECT_EQ(file.grid_depth, std::nullopt);
+    EXPECT_FALSE(file.grid_bounds);
+    EXPECT_FALSE(file.camera);
+    EXPECT_EQ(file.merge, MergeRule::Average);
 }
 
-TEST(StageFile, EveryMemberOfTheDocumentIsRead)
+TEST(SceneFile, EveryMemberOfTheDocumentIsRead)
 {
-    const StageFile stage = parse(R"({
+    const SceneFile file = parse(R"({
         "about": "a test", "seconds": 2.5, "frames_per_second": 24, "merge": "static",
         "grid": {"depth": 7, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3.5]}},
         "camera": {"eye": [0, 1, 5], "target": [0, 1, 0], "fov": 90},
         "objects": [{"file": "a.glb", "static": true}, {"file": "b.glb", "dynamic": true, "name": "B"},
                     {"file": "c.glb", "static": false}]})");
-    EXPECT_EQ(stage.seconds, 2.5);
-    EXPECT_EQ(stage.frames_per_second, 24.0);
-    EXPECT_EQ(stage.merge, MergeRule::StaticWins);
-    EXPECT_EQ(stage.grid_depth, 7U);
-    ASSERT_TRUE(stage.grid_bounds);
-    EXPECT_EQ(stage.grid_bounds->min, glm::vec3(-1, -2, -3));
-    EXPECT_EQ(stage.grid_bounds->max, glm::vec3(1, 2, 3.5));
-    const auto& camera = std::get<ViewCamera>(stage.camera.value());
+    EXPECT_EQ(file.seconds, 2.5);
+    EXPECT_EQ(file.frames_per_second, 24.0);
+    EXPECT_EQ(file.merge, MergeRule::StaticWins);
+    EXPECT_EQ(file.grid_depth, 7U);
+    ASSERT_TRUE(file.grid_bounds);
+    EXPECT_EQ(file.grid_bounds->min, glm::vec3(-1, -2, -3));
+    EXPECT_EQ(file.grid_bounds->max, glm::vec3(1, 2, 3.5));
+    const auto& camera = std::get<ViewCamera>(file.camera.value());
     EXPECT_EQ(camera.position, glm::dvec3(0, 1, 5));
     EXPECT_EQ(camera.forward, glm::dvec3(0, 0, -1));
     EXPECT_NEAR(camera.vertical_fov, 0.5 * std::numbers::pi, kClose);
-    EXPECT_EQ(stage.objects.at(0).is_dynamic, false);
-    EXPECT_EQ(stage.objects.at(1).is_dynamic, true);
-    EXPECT_EQ(stage.objects.at(1).name, "B");
-    EXPECT_EQ(stage.objects.at(2).is_dynamic, true);
+    EXPECT_EQ(file.objects.at(0).is_dynamic, false);
+    EXPECT_EQ(file.objects.at(1).is_dynamic, true);
+    EXPECT_EQ(file.objects.at(1).name, "B");
+    EXPECT_EQ(file.objects.at(2).is_dynamic, true);
     EXPECT_EQ(parse(R"({"objects": [{"file": "a"}], "merge": "dynamic"})").merge, MergeRule::DynamicWins);
     EXPECT_EQ(std::get<std::string>(parse(R"({"objects": [{"file": "a"}], "camera": "roof"})").camera.value()), "roof");
 }
 
-TEST(StageFile, PlaceScalesThenTurnsThenMoves)
+TEST(SceneFile, PlaceScalesThenTurnsThenMoves)
 {
-    const StageObject object = parseObject(R"("up": "z", "place": {"translation": [10, 20, 30],
+    const SceneFileObject object = parseObject(R"("up": "z", "place": {"translation": [10, 20, 30],
         "rotation": {"axis": [0, 2, 0], "degrees": 90}, "scale": [2, 3, 4]})");
     // z up becomes y up: (1, 2, 3) is (1, 3, -2); scaled (2, 9, -8); a quarter about y takes x to -z, z to x.
-    EXPECT_EQ(object.place * glm::dvec4(1, 2, 3, 1), glm::dvec4(10 - 8, 20 + 9, 30 - 2, 1));
-    const StageObject uniform = parseObject(R"("place": {"scale": 0.5})");
-    EXPECT_EQ(uniform.place, glm::dmat4(glm::dmat3(0.5)));
-    const StageObject turned = parseObject(R"("place": {"rotation": {"axis": [1, 1, 1], "degrees": 120}})");
-    const glm::dvec4 point = turned.place * glm::dvec4(1, 2, 3, 1);
+    EXPECT_EQ(object.transform * glm::dvec4(1, 2, 3, 1), glm::dvec4(10 - 8, 20 + 9, 30 - 2, 1));
+    const SceneFileObject uniform = parseObject(R"("place": {"scale": 0.5})");
+    EXPECT_EQ(uniform.transform, glm::dmat4(glm::dmat3(0.5)));
+    const SceneFileObject turned = parseObject(R"("place": {"rotation": {"axis": [1, 1, 1], "degrees": 120}})");
+    const glm::dvec4 point = turned.transform * glm::dvec4(1, 2, 3, 1);
     EXPECT_NEAR(point.x, 3.0, kClose);
     EXPECT_NEAR(point.y, 1.0, kClose);
     EXPECT_NEAR(point.z, 2.0, kClose);
 }
 
-TEST(StageFile, OrbitIsReadInTurnsOrDegrees)
+TEST(SceneFile, OrbitIsReadInTurnsOrDegrees)
 {
     const auto orbit = std::get<OrbitMotion>(parseObject(R"("place": {"translation": [1, 2, 3]},
         "motion": {"orbit": {"turns": 2}})")
                                                  .motion);
-    EXPECT_EQ(orbit.centre, glm::dvec3(1, 2, 3)) << "where the object is";
+    EXPECT_EQ(orbit.center, glm::dvec3(1, 2, 3)) << "where the object is";
     EXPECT_EQ(orbit.home, glm::dvec3(1, 2, 3));
     EXPECT_EQ(orbit.axis, glm::dvec3(0, 1, 0));
     EXPECT_EQ(orbit.turns_per_second, 0.5) << "twice in 4 seconds";
@@ -113,7 +113,7 @@ TEST(StageFile, OrbitIsReadInTurnsOrDegrees)
     const auto full = std::get<OrbitMotion>(parseObject(R"("place": {"translation": [1, 2, 3]}, "motion": {"orbit":
         {"centre": [4, 5, 6], "axis": [3, 0, 4], "degrees_per_second": -90, "circles": true, "spins": false}})")
                                                 .motion);
-    EXPECT_EQ(full.centre, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(full.center, glm::dvec3(4, 5, 6));
     EXPECT_EQ(full.home, glm::dvec3(1, 2, 3));
     EXPECT_NEAR(full.axis.x, 0.6, kClose);
     EXPECT_NEAR(full.axis.z, 0.8, kClose);
@@ -122,16 +122,16 @@ TEST(StageFile, OrbitIsReadInTurnsOrDegrees)
     EXPECT_EQ(parseObject(R"("motion": {"orbit": {"turns": 2}})").is_dynamic, true);
 }
 
-TEST(StageFile, AnimationsAreNamedOrNumbered)
+TEST(SceneFile, AnimationsAreNamedOrNumbered)
 {
     EXPECT_EQ(parseObject(R"("animation": "walk")").animation, AnimationChoice("walk"));
     EXPECT_EQ(parseObject(R"("animation": 2)").animation, AnimationChoice(2U));
-    const StageObject object = parseObject(R"("up": "y")");
+    const SceneFileObject object = parseObject(R"("up": "y")");
     EXPECT_FALSE(object.animation.has_value() || object.is_dynamic.has_value());
     EXPECT_FALSE(parseObject(R"("animation": 2)").is_dynamic.has_value()) << "what it moves is dynamic";
 }
 
-TEST(StageFile, LineIsReadWithItsRepeat)
+TEST(SceneFile, LineIsReadWithItsRepeat)
 {
     const auto line =
         std::get<LineMotion>(parseObject(R"("motion": {"line": {"from": [1, 2, 3], "to": [4, 5, 6]}})").motion);
@@ -147,7 +147,7 @@ TEST(StageFile, LineIsReadWithItsRepeat)
     EXPECT_TRUE(back.returns);
 }
 
-TEST(StageFile, KeysAreReadAndTurnTheShorterWay)
+TEST(SceneFile, KeysAreReadAndTurnTheShorterWay)
 {
     const auto keys = std::get<KeyMotion>(parseObject(R"("motion": {"keys": {"times": [0, 1, 4],
         "translations": [[0, 0, 0], [1, 0, 0], [1, 1, 0]], "scales": [1, [1, 2, 3], 2],
@@ -307,14 +307,14 @@ const std::vector<WrongFile>& wrongFiles()
     return files;
 }
 
-class WrongStageFile : public testing::TestWithParam<WrongFile>
+class WrongSceneFile : public testing::TestWithParam<WrongFile>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(StageFile, WrongStageFile, testing::ValuesIn(wrongFiles()),
+INSTANTIATE_TEST_SUITE_P(SceneFile, WrongSceneFile, testing::ValuesIn(wrongFiles()),
                          [](const auto& file) { return std::string(file.param.name); });
 
-TEST_P(WrongStageFile, IsOneLineThatNamesFilePlaceAndWhatIsExpected)
+TEST_P(WrongSceneFile, IsOneLineThatNamesFilePlaceAndWhatIsExpected)
 {
     expectInputError([] { parse(GetParam().content); }, {"folder/test.scene.json: "});
     for (const std::string& part : GetParam().parts)
@@ -323,7 +323,7 @@ TEST_P(WrongStageFile, IsOneLineThatNamesFilePlaceAndWhatIsExpected)
     }
 }
 
-TEST(StageFile, DamagedTextIsReadOrIsAnInputError)
+TEST(SceneFile, DamagedTextIsReadOrIsAnInputError)
 {
     const std::string whole = R"({"about": "x", "seconds": 2, "frames_per_second": 24, "merge": "static",
         "grid": {"depth": 7, "bounds": {"min": [-1, -2, -3], "max": [1, 2, 3]}},
@@ -360,14 +360,14 @@ TEST(StageFile, DamagedTextIsReadOrIsAnInputError)
         }
         try
         {
-            const StageFile stage = parse(damaged);
+            const SceneFile file = parse(damaged);
             ++read_count;
-            EXPECT_GT(stage.seconds, 0.0);
-            EXPECT_GT(stage.frames_per_second, 0.0);
-            EXPECT_FALSE(stage.objects.empty());
-            for (const StageObject& object : stage.objects)
+            EXPECT_GT(file.seconds, 0.0);
+            EXPECT_GT(file.frames_per_second, 0.0);
+            EXPECT_FALSE(file.objects.empty());
+            for (const SceneFileObject& object : file.objects)
             {
-                const glm::dmat4 place = motionAt(object.motion, 0.7 * stage.seconds) * object.place;
+                const glm::dmat4 place = motionAt(object.motion, 0.7 * file.seconds) * object.transform;
                 EXPECT_TRUE(std::isfinite(glm::dot(place[0] + place[1] + place[2] + place[3], glm::dvec4(1.0))));
             }
         }

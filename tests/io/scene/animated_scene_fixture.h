@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What tests of stages share.
+// What tests of animated scenes share.
 #pragma once
 
 #include "io/gltf/gltf_builder.h"
-#include "io/scene/stage.h"
+#include "io/scene/animated_scene.h"
 #include "support/scenes.h"
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace zvo::test
 {
 
 /// A folder with scene files in scenes/ and models in models/.
-class StageTest : public testing::Test
+class AnimatedSceneTest : public testing::Test
 {
 protected:
     void SetUp() override
@@ -41,18 +41,18 @@ protected:
         return builder;
     }
 
-    Stage load(const std::string& content, bool with_models = true) const
+    AnimatedScene load(const std::string& content, bool with_models = true) const
     {
         const std::filesystem::path path = m_dir.write("scenes/test.scene.json", content);
-        StageOptions options;
+        AnimatedSceneOptions options;
         if (with_models)
         {
             options.scenes_folder = m_dir.path() / "models";
         }
-        return loadStage(path, options);
+        return loadAnimatedScene(path, options);
     }
 
-    Stage loadFileOf(const std::string& file, bool with_models = true) const
+    AnimatedScene loadFileOf(const std::string& file, bool with_models = true) const
     {
         return load(R"({"objects": [{"file": ")" + file + "\"}]}", with_models);
     }

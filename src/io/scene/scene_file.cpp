@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/scene/stage_file.h"
+#include "io/scene/scene_file.h"
 
 #include "io/file/json_cursor.h"
 
@@ -58,16 +58,16 @@ glm::dvec3 readScale(const JsonCursor& scale)
     }
 }
 
-struct Place
+struct ObjectTransform
 {
     glm::dvec3 translation{0.0};
     glm::dmat3 linear{1.0}; // rotation * scale
 };
 
-Place readPlace(const JsonCursor& place)
+ObjectTransform readTransform(const JsonCursor& place)
 {
     place.allowKeys({"translation", "rotation", "scale"});
-    Place result;
+    ObjectTransform result;
     result.translation = findVector(place, "translation").value_or(glm::dvec3(0.0));
     if (const auto rotation = place.find("rotation"))
     {
@@ -83,7 +83,7 @@ Place readPlace(const JsonCursor& place)
     return result;
 }
 
-double readTurnsPerSecond(const JsonCursor& orbit, double stage_seconds)
+double readTurnsPerSecond(const JsonCursor& orbit, double scene_seconds)
 {
     const auto turns = orbit.find("turns");
     const auto degrees = orbit.find("degrees_per_second");
@@ -92,19 +92,19 @@ double readTurnsPerSecond(const JsonCursor& orbit, double stage_seconds)
         throw orbit.error(turns ? "has both turns and degrees_per_second; expected one of them"
                                 : "has neither turns nor degrees_per_second; expected one of them");
     }
-    return turns ? turns->number() / stage_seconds : degrees->number() / kDegreesOfTurn;
+    return turns ? turns->number() / scene_seconds : degrees->number() / kDegreesOfTurn;
 }
 
-OrbitMotion readOrbit(const JsonCursor& orbit, const glm::dvec3& home, double stage_seconds)
+OrbitMotion readOrbit(const JsonCursor& orbit, const glm::dvec3& home, double scene_seconds)
 {
     orbit.allowKeys({"centre", "axis", "turns", "degrees_per_second", "circles", "spins"});
     const auto axis = orbit.find("axis");
     const auto circles = orbit.find("circles");
     const auto spins = orbit.find("spins");
     OrbitMotion motion;
-    motion.centre = findVector(orbit, "centre").value_or(home);
+    motion.center = findVector(orbit, "centre").value_or(home);
     motion.axis = axis ? axis->direction() : motion.axis;
-    motion.turns_per_second = readTurnsPerSecond(orbit, stage_seconds);
+    motion.turns_per_second = readTurnsPerSecond(orbit, scene_seconds);
     motion.home = home;
     motion.circles = !circles || circles->flag();
     motion.spins = !spins || spins->flag();
@@ -115,7 +115,7 @@ OrbitMotion readOrbit(const JsonCursor& orbit, const glm::dvec3& home, double st
     return motion;
 }
 
-LineMotion readLine(const JsonCursor& line, double stage_seconds)
+LineMotion readLine(const JsonCursor& line, double scene_seconds)
 {
     line.allowKeys({"from", "to", "seconds", "repeat"});
     const auto seconds = line.find("seconds");
@@ -123,7 +123,7 @@ LineMotion readLine(const JsonCursor& line, double stage_seconds)
     LineMotion motion;
     motion.from = line.at("from").vector();
     motion.to = line.at("to").vector();
-    motion.seconds = seconds ? seconds->positive(kSecondsMax) : stage_seconds;
+    motion.seconds = seconds ? seconds->positive(kSecondsMax) : scene_seconds;
     motion.returns = repeat && repeat->oneOf({"loop", "ping-pong"}) == 1;
     return motion;
 }
@@ -150,7 +150,7 @@ glm::dquat quaternionOf(const Rotation& rotation)
     return {std::cos(half), std::sin(half) * rotation.axis};
 }
 
-KeyMotion readKeys(const JsonCursor& keys, double stage_seconds)
+KeyMotion readKeys(const JsonCursor& keys, double scene_seconds)
 {
     keys.allowKeys({"times", "translations", "rotations", "scales"});
     KeyMotion motion;
@@ -158,9 +158,9 @@ KeyMotion readKeys(const JsonCursor& keys, double stage_seconds)
     {
         const double seconds = time.number();
         const bool ascends = motion.times.empty() || seconds > motion.times.back();
-        if (seconds < 0.0 || seconds > stage_seconds || !ascends)
+        if (seconds < 0.0 || seconds > scene_seconds || !ascends)
         {
-            throw time.mismatch(fmt::format("ascending times from 0 to the scene's length, {} seconds", stage_seconds));
+            throw time.mismatch(fmt::format("ascending times from 0 to the scene's length, {} seconds", scene_seconds));
         }
         motion.times.push_back(seconds);
     }
@@ -192,7 +192,7 @@ KeyMotion readKeys(const JsonCursor& keys, double stage_seconds)
     return motion;
 }
 
-Motion readMotion(const JsonCursor& motion, const glm::dvec3& home, double stage_seconds)
+Motion readMotion(const JsonCursor& motion, const glm::dvec3& home, double scene_seconds)
 {
     motion.allowKeys({"orbit", "line", "keys"});
     const auto orbit = motion.find("orbit");
@@ -204,9 +204,9 @@ Motion readMotion(const JsonCursor& motion, const glm::dvec3& home, double stage
     }
     if (orbit)
     {
-        return readOrbit(*orbit, home, stage_seconds);
+        return readOrbit(*orbit, home, scene_seconds);
     }
-    return line ? Motion(readLine(*line, stage_seconds)) : Motion(readKeys(*keys, stage_seconds));
+    return line ? Motion(readLine(*line, scene_seconds)) : Motion(readKeys(*keys, scene_seconds));
 }
 
 UpAxis readUp(const JsonCursor& up)
@@ -243,10 +243,10 @@ AnimationChoice readAnimation(const JsonCursor& animation)
     return animation.whole(0, UINT32_MAX);
 }
 
-StageObject readObject(const JsonCursor& json, double stage_seconds)
+SceneFileObject readObject(const JsonCursor& json, double scene_seconds)
 {
     json.allowKeys({"name", "file", "static", "dynamic", "up", "place", "motion", "animation"});
-    StageObject object;
+    SceneFileObject object;
     object.where = json.where();
     object.file = json.at("file").text();
     const auto name = json.find("name");
@@ -254,9 +254,9 @@ StageObject readObject(const JsonCursor& json, double stage_seconds)
     const auto up = json.find("up");
     object.up = up ? readUp(*up) : UpAxis::Y;
     const auto place = json.find("place");
-    const Place placed = place ? readPlace(*place) : Place();
-    object.place = glm::dmat4(placed.linear * glm::dmat3(rotationToY(object.up)));
-    object.place[3] = glm::dvec4(placed.translation, 1.0);
+    const ObjectTransform placed = place ? readTransform(*place) : ObjectTransform();
+    object.transform = glm::dmat4(placed.linear * glm::dmat3(rotationToY(object.up)));
+    object.transform[3] = glm::dvec4(placed.translation, 1.0);
     object.is_dynamic = readIsDynamic(json);
     if (const auto motion = json.find("motion"))
     {
@@ -264,7 +264,7 @@ StageObject readObject(const JsonCursor& json, double stage_seconds)
         {
             throw motion->error("moves an object that is static; expected dynamic");
         }
-        object.motion = readMotion(*motion, placed.translation, stage_seconds);
+        object.motion = readMotion(*motion, placed.translation, scene_seconds);
         object.is_dynamic = true;
     }
     if (const auto animation = json.find("animation"))
@@ -283,12 +283,12 @@ glm::vec3 readCorner(const JsonCursor& corner)
     return glm::vec3(corner.vector());
 }
 
-void readGrid(const JsonCursor& grid, StageFile& stage)
+void readGrid(const JsonCursor& grid, SceneFile& file)
 {
     grid.allowKeys({"depth", "bounds"});
     if (const auto depth = grid.find("depth"))
     {
-        stage.grid_depth = depth->whole(1, Grid::kDepthMax);
+        file.grid_depth = depth->whole(1, Grid::kDepthMax);
     }
     if (const auto bounds = grid.find("bounds"))
     {
@@ -298,11 +298,11 @@ void readGrid(const JsonCursor& grid, StageFile& stage)
         {
             throw bounds->error("has no extent; expected a max that is nowhere below min, and not min itself");
         }
-        stage.grid_bounds = box;
+        file.grid_bounds = box;
     }
 }
 
-StageCamera readCamera(const JsonCursor& camera)
+SceneFileCamera readCamera(const JsonCursor& camera)
 {
     if (camera.isText())
     {
@@ -324,47 +324,47 @@ StageCamera readCamera(const JsonCursor& camera)
 
 } // namespace
 
-StageFile parseStageFile(std::string_view content, const std::filesystem::path& path)
+SceneFile parseSceneFile(std::string_view content, const std::filesystem::path& path)
 {
     const nlohmann::json document = parseJsonStrictly(content, path);
     const JsonCursor root(document, path);
     root.allowKeys({"about", "objects", "seconds", "frames_per_second", "grid", "camera", "merge"});
-    StageFile stage;
+    SceneFile file;
     if (const auto about = root.find("about"))
     {
         static_cast<void>(about->text());
     }
     if (const auto seconds = root.find("seconds"))
     {
-        stage.seconds = seconds->positive(kSecondsMax);
+        file.seconds = seconds->positive(kSecondsMax);
     }
     if (const auto rate = root.find("frames_per_second"))
     {
-        stage.frames_per_second = rate->positive(kFramesPerSecondMax);
+        file.frames_per_second = rate->positive(kFramesPerSecondMax);
     }
     const JsonCursor objects = root.at("objects");
     for (const JsonCursor& object : objects.items())
     {
-        stage.objects.push_back(readObject(object, stage.seconds));
+        file.objects.push_back(readObject(object, file.seconds));
     }
-    if (stage.objects.empty() || stage.objects.size() > kObjectsMax)
+    if (file.objects.empty() || file.objects.size() > kObjectsMax)
     {
-        throw objects.error(fmt::format("has {} objects; expected 1 to {}", stage.objects.size(), kObjectsMax));
+        throw objects.error(fmt::format("has {} objects; expected 1 to {}", file.objects.size(), kObjectsMax));
     }
     if (const auto grid = root.find("grid"))
     {
-        readGrid(*grid, stage);
+        readGrid(*grid, file);
     }
     if (const auto camera = root.find("camera"))
     {
-        stage.camera = readCamera(*camera);
+        file.camera = readCamera(*camera);
     }
     if (const auto merge = root.find("merge"))
     {
         constexpr std::array kRules = {MergeRule::Average, MergeRule::DynamicWins, MergeRule::StaticWins};
-        stage.merge = kRules.at(merge->oneOf({"average", "dynamic", "static"}));
+        file.merge = kRules.at(merge->oneOf({"average", "dynamic", "static"}));
     }
-    return stage;
+    return file;
 }
 
 } // namespace zvo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/tree/attribute_form.h"
+#include "core/tree/attribute_format.h"
 
 #include "core/base/divide_up.h"
 
@@ -125,31 +125,31 @@ gpu::Attribute unpackBlock(std::span<const gpu::uint> block, std::uint32_t voxel
 
 } // namespace
 
-const char* formName(AttributeForm form)
+const char* formatName(AttributeFormat format)
 {
-    switch (form)
+    switch (format)
     {
-    case AttributeForm::Bytes4:
+    case AttributeFormat::Bytes4:
         return "4";
-    case AttributeForm::Bytes8:
+    case AttributeFormat::Bytes8:
         return "8";
-    case AttributeForm::Blocks:
+    case AttributeFormat::Blocks:
         return "block";
     default:
         return "none";
     }
 }
 
-std::uint64_t packedWords(AttributeForm form, std::uint64_t count)
+std::uint64_t packedWords(AttributeFormat format, std::uint64_t count)
 {
-    assert(isPacked(form));
-    return form == AttributeForm::Blocks ? gpu::kBlockWords * divideUp(count, gpu::kBlockVoxels) : count;
+    assert(isPacked(format));
+    return format == AttributeFormat::Blocks ? gpu::kBlockWords * divideUp(count, gpu::kBlockVoxels) : count;
 }
 
-gpu::Attribute unpackAttribute(AttributeForm form, std::span<const gpu::uint> words, std::uint64_t index)
+gpu::Attribute unpackAttribute(AttributeFormat format, std::span<const gpu::uint> words, std::uint64_t index)
 {
-    assert(isPacked(form));
-    if (form == AttributeForm::Blocks)
+    assert(isPacked(format));
+    if (format == AttributeFormat::Blocks)
     {
         return unpackBlock(words.subspan(index / gpu::kBlockVoxels * gpu::kBlockWords, gpu::kBlockWords),
                            static_cast<std::uint32_t>(index % gpu::kBlockVoxels));

@@ -20,8 +20,8 @@
 namespace zvo::test
 {
 
-/// Where a mover is.
-struct Place
+/// Where a dynamic object is.
+struct Placement
 {
     enum class Kind
     {
@@ -38,24 +38,24 @@ struct Place
     Kind kind = Kind::Inside;
     std::array<int, 3> at{}; // 0 to 3 inside
 
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const Placement&) const = default;
 
     [[nodiscard]] glm::mat4 transform() const;
 };
 
-std::ostream& operator<<(std::ostream& out, const Place& place);
+std::ostream& operator<<(std::ostream& out, const Placement& place);
 
 /// A mesh in its place.
 struct Item
 {
-    std::uint32_t mesh = 0; // less than MoverScenery::kMeshCount
-    Place place;
+    std::uint32_t mesh = 0; // less than DynamicScenery::kMeshCount
+    Placement placement;
     std::uint32_t bend = 0; // number of a shape that joints and morph weights pull it into; 0 for a rigid mesh
 
     auto operator<=>(const Item&) const = default;
 };
 
-/// What octrees of the scenery are like, and the movers in them.
+/// What octrees of the scenery are like, and the dynamic objects in them.
 struct DynamicSetting
 {
     static constexpr std::uint32_t kWideDepth = 13; // keys of its leaves do not fit 32 bits
@@ -69,7 +69,7 @@ struct DynamicSetting
     bool compressed = false; // the static part is a DAG
     bool minimal_capacities = false;
     std::uint32_t frames_in_flight = 2;
-    std::uint32_t steps_max = 16;
+    std::uint32_t entries_max = 16;
     Shot shot = {};
 
     /// The scene's extent takes 64 voxels at most; a deeper grid has it in its farthest corner, where all bits of codes
@@ -92,20 +92,20 @@ struct Rebuilt
 /// Meshes of a few dozen triangles with textures, alpha and, if they are to, emission: two that are rigid, one with
 /// skins, one with morph targets, and one with both, on one primitive, too. Some instances of these are rigid. Must not
 /// outlive the device.
-class MoverScenery
+class DynamicScenery
 {
 public:
     static constexpr std::uint32_t kRigidCount = 2;
     static constexpr std::uint32_t kMeshCount = 5; // the first ones are rigid
 
-    MoverScenery(vk::HeadlessDevice& device, bool emits);
+    DynamicScenery(vk::HeadlessDevice& device, bool emits);
 
     [[nodiscard]] float emissionScale() const { return m_scale; }
 
     /// The static part, or without one the tree of nothing.
     [[nodiscard]] DeviceTree buildStatic(const DynamicSetting& setting) const;
 
-    [[nodiscard]] std::shared_ptr<const MoverMesh> mover(std::uint32_t mesh, bool attributes);
+    [[nodiscard]] std::shared_ptr<const DynamicMesh> object(std::uint32_t mesh, bool attributes);
     [[nodiscard]] const Scene& mesh(std::uint32_t number) const { return m_meshes.at(number); }
     [[nodiscard]] Pose poseOf(const Item& item) const;
 
@@ -123,7 +123,7 @@ private:
     Scene m_static;
     std::array<Scene, kMeshCount> m_meshes;
     float m_scale = 0;
-    std::map<std::pair<std::uint32_t, bool>, std::shared_ptr<const MoverMesh>> m_uploaded;
+    std::map<std::pair<std::uint32_t, bool>, std::shared_ptr<const DynamicMesh>> m_uploaded;
     std::map<Key, std::shared_ptr<const Rebuilt>> m_rebuilt;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Movers above what brushes have left, case by case.
+// Dynamic objects above what brushes have left, case by case.
 #include "oracle/morton.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
@@ -18,14 +18,14 @@ namespace
 {
 
 using test::Cell;
+using test::DynamicScenery;
 using test::DynamicSetting;
 using test::EditCommand;
 using test::EditMachine;
 using test::EditModel;
 using test::Item;
-using test::MoverScenery;
 using Action = EditCommand::Action;
-using Kind = test::Place::Kind;
+using Kind = test::Placement::Kind;
 
 using test::dab;
 using test::device;
@@ -45,7 +45,7 @@ void runFrame(DynamicOctree& octree, const std::function<void(vk::FrameGraph&)>&
     octree.frameDone(frame);
 }
 
-std::vector<Cell> mergedCells(MoverScenery& scenery, const DynamicSetting& setting, const EditModel& model,
+std::vector<Cell> mergedCells(DynamicScenery& scenery, const DynamicSetting& setting, const EditModel& model,
                               const std::multiset<Item>& items)
 {
     return model
@@ -54,10 +54,10 @@ std::vector<Cell> mergedCells(MoverScenery& scenery, const DynamicSetting& setti
         .cells();
 }
 
-// A stroke ends the movers' history: what they were merged with is another tree.
-TEST(EditMovers, HaveAHistoryAboveEachStroke)
+// A stroke ends the dynamic objects' history: what they were merged with is another tree.
+TEST(EditDynamicObjects, HaveAHistoryAboveEachStroke)
 {
-    MoverScenery scenery(device(), true);
+    DynamicScenery scenery(device(), true);
     for (const bool compressed : {false, true})
     {
         SCOPED_TRACE(compressed);
@@ -76,7 +76,7 @@ TEST(EditMovers, HaveAHistoryAboveEachStroke)
         machine.run({Action::EndStroke});
         machine.run(add(kMiddle));
         machine.run({Action::Compare});
-        machine.run({.action = Action::Place, .item = kApart});
+        machine.run({.action = Action::Move, .item = kApart});
         machine.run({Action::Compare});
         EXPECT_EQ(octree.history().undoCount(), 2U);
         EXPECT_TRUE(move(true));
@@ -99,10 +99,11 @@ TEST(EditMovers, HaveAHistoryAboveEachStroke)
     }
 }
 
-// In leaves that a brush has changed a mover's voxels look like the mover, in the others like the mean.
-TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
+// In leaves that a brush has changed a dynamic object's voxels look like the dynamic object, in the others like the
+// mean.
+TEST(EditDynamicObjects, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
 {
-    MoverScenery scenery(device(), true);
+    DynamicScenery scenery(device(), true);
     const DynamicSetting setting = {.depth = 6};
     EditMachine machine(device(), setting, {}, scenery);
     const std::uint32_t leaf_level = setting.grid().nodeLevels();
@@ -121,7 +122,7 @@ TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
     const std::map<std::uint64_t, Cell> fixed = voxels(scenery.rebuilt(setting, true, {})->cells);
     const std::map<std::uint64_t, Cell> moving = voxels(scenery.rebuilt(setting, false, {kMiddle})->cells);
     const std::map<std::uint64_t, Cell> means = voxels(scenery.rebuilt(setting, true, {kMiddle})->cells);
-    std::vector<std::uint64_t> shared; // whose mean differs from the mover's look
+    std::vector<std::uint64_t> shared; // whose mean differs from the dynamic object's look
     for (const auto& [code, voxel] : moving)
     {
         if (fixed.contains(code) && !(voxel == means.at(code)))
@@ -157,9 +158,9 @@ TEST(EditMovers, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
 }
 
 // A brush comes after each slice of an update.
-TEST(EditMovers, AnUpdateUnderWayIsGivenUpForAStroke)
+TEST(EditDynamicObjects, AnUpdateUnderWayIsGivenUpForAStroke)
 {
-    MoverScenery scenery(device(), true);
+    DynamicScenery scenery(device(), true);
     for (std::size_t slices = 1; slices < 12; ++slices)
     {
         EditMachine machine(device(), {.depth = 5, .compressed = slices % 2 == 0}, {}, scenery);

@@ -23,13 +23,13 @@ namespace fs = std::filesystem;
 
 /// A folder with cube.glb, models/slab.glb and test.scene.json, in which the cube stands and the slab slides through
 /// it.
-class CliStage : public testing::Test
+class CliSceneFile : public testing::Test
 {
 protected:
     void SetUp() override
     {
         fs::create_directory(m_dir.path() / "models");
-        m_dir.write("cube.glb", colouredCube().glb());
+        m_dir.write("cube.glb", coloredCube().glb());
         m_dir.write("models/slab.glb", slab(0.0).glb());
         m_dir.write("test.scene.json", std::string_view(R"({"seconds": 2, "frames_per_second": 4,
             "grid": {"depth": 5, "bounds": {"min": [-1.625, -1, -1], "max": [2.375, 3, 3]}},
@@ -41,7 +41,7 @@ protected:
     /// The cube, flattened, at x.
     static GltfBuilder slab(double x)
     {
-        GltfBuilder builder = colouredCube();
+        GltfBuilder builder = coloredCube();
         builder.document["nodes"][0]["scale"] = {0.25, 0.5, 1.5};
         builder.document["nodes"][0]["translation"] = {x, 0.25, -0.25};
         builder.document["nodes"].erase(1);
@@ -79,7 +79,7 @@ std::string gridText(const json& report)
            grid["voxel_size"].dump();
 }
 
-TEST_F(CliStage, VoxelsAtATimeAreTheUnionOfTheObjectsInTheirPlaces)
+TEST_F(CliSceneFile, VoxelsAtATimeAreTheUnionOfTheObjectsInTheirPlaces)
 {
     for (const double seconds : {0.0, 0.125, 0.5, 1.0, 1.25}) // outside, half outside, beside, within
     {
@@ -105,7 +105,7 @@ TEST_F(CliStage, VoxelsAtATimeAreTheUnionOfTheObjectsInTheirPlaces)
     }
 }
 
-TEST_F(CliStage, FramesAreTimesAndBeginAnew)
+TEST_F(CliSceneFile, FramesAreTimesAndBeginAnew)
 {
     const std::vector<std::string> common = {"--scenes", "models", "--size", "64x48", "--view", "albedo"};
     const auto render = [&](std::vector<std::string> arguments)
@@ -167,7 +167,7 @@ TEST_F(CliStage, FramesAreTimesAndBeginAnew)
     }
 }
 
-TEST_F(CliStage, WhatIsCompressedLooksTheSame)
+TEST_F(CliSceneFile, WhatIsCompressedLooksTheSame)
 {
     for (const std::vector<std::string>& how :
          {std::vector<std::string>{"test.scene.json", "--scenes", "models", "--frames", "3..4"},
@@ -205,17 +205,17 @@ TEST_F(CliStage, WhatIsCompressedLooksTheSame)
     }
 }
 
-TEST_F(CliStage, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
+TEST_F(CliSceneFile, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
 {
     // The slab, turned so that a green side is in front, shares voxels of the cube's blue front.
     std::map<std::string, std::string> pictures;
     for (const char* rule : {"average", "dynamic", "static"})
     {
-        json stage = json::parse(file("test.scene.json"));
-        stage["merge"] = rule;
-        stage["objects"][1]["place"]["rotation"] = {{"axis", {1, 0, 0}}, {"degrees", 90}};
-        stage["objects"][1]["motion"]["line"] = {{"from", {0, 0.75, 0.25}}, {"to", {1, 0.75, 0.25}}};
-        m_dir.write("rule.scene.json", stage.dump());
+        json animated = json::parse(file("test.scene.json"));
+        animated["merge"] = rule;
+        animated["objects"][1]["place"]["rotation"] = {{"axis", {1, 0, 0}}, {"degrees", 90}};
+        animated["objects"][1]["motion"]["line"] = {{"from", {0, 0.75, 0.25}}, {"to", {1, 0.75, 0.25}}};
+        m_dir.write("rule.scene.json", animated.dump());
         const Outcome outcome =
             run({"render", "rule.scene.json", "--scenes", "models", "-o", "rule.png", "-f", "--time", "0.5", "--size",
                  "64x48", "--view", "albedo", "--camera", "3,3,4,0.5,0.5,0.5"});
@@ -227,7 +227,7 @@ TEST_F(CliStage, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
     EXPECT_TRUE(pictures["dynamic"] != pictures["static"]);
 }
 
-TEST_F(CliStage, TheCameraOfTheSceneFileStandsStill)
+TEST_F(CliSceneFile, TheCameraOfTheSceneFileStandsStill)
 {
     // The slab's face towards the camera is blue and a quarter wide: find its middle.
     const auto middleAt = [this](const char* seconds)
@@ -260,7 +260,7 @@ TEST_F(CliStage, TheCameraOfTheSceneFileStandsStill)
     EXPECT_NEAR(middleAt("1.2"), cube, 1.5);
 }
 
-TEST_F(CliStage, OptionsStandBeforeTheSceneFile)
+TEST_F(CliSceneFile, OptionsStandBeforeTheSceneFile)
 {
     const json report = json::parse(run({"voxelize", "test.scene.json", "--scenes", "models", "-o", "a.morton",
                                          "--resolution", "16", "--bounds", "0,0,0,1,1,1", "--json", "-"})
@@ -272,7 +272,7 @@ TEST_F(CliStage, OptionsStandBeforeTheSceneFile)
     EXPECT_NE(file("named.png"), file("file.png"));
 }
 
-TEST_F(CliStage, FramesOfWhatStandsStillTurnTheCamera)
+TEST_F(CliSceneFile, FramesOfWhatStandsStillTurnTheCamera)
 {
     m_dir.write("still.scene.json", std::string_view(R"({"objects": [{"file": "cube.glb"}], "grid": {"depth": 5}})"));
     const std::vector<std::string> options = {"--frames", "0..2", "--size", "32x32", "--resolution", "32"};
@@ -291,9 +291,9 @@ TEST_F(CliStage, FramesOfWhatStandsStillTurnTheCamera)
     EXPECT_TRUE(contains(idle.err, "warning: nothing moves in this scene")) << idle.err;
 }
 
-TEST_F(CliStage, AnimationsOfAFileRunWhereTimesAreAskedFor)
+TEST_F(CliSceneFile, AnimationsOfAFileRunWhereTimesAreAskedFor)
 {
-    GltfBuilder builder = colouredCube();
+    GltfBuilder builder = coloredCube();
     const std::size_t times = builder.addAccessor("SCALAR", kF32, 2, std::vector<float>{0.0F, 2.0F});
     const std::size_t values = builder.addAccessor("VEC3", kF32, 2, std::vector<float>{1, 0, 0, 3, 0, 0});
     const json sampler = {{"input", times}, {"output", values}};
@@ -323,19 +323,19 @@ TEST_F(CliStage, AnimationsOfAFileRunWhereTimesAreAskedFor)
     EXPECT_NE(file("f_44.png"), file("moved.png"));
 }
 
-TEST_F(CliStage, TrianglesOfWhatMovesThatMakeNoSenseAreToldOfOnce)
+TEST_F(CliSceneFile, TrianglesOfWhatMovesThatMakeNoSenseAreToldOfOnce)
 {
     // One face, of two triangles, has a corner that is no number; from 0.5 s on another object is too large.
     GltfBuilder broken = slab(0.0);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(broken.bin.data() + 4, &nan, sizeof(nan)); // y of the first position
     m_dir.write("models/broken.glb", broken.glb());
-    json stage = json::parse(file("test.scene.json"));
-    stage["objects"][1]["file"] = "broken.glb";
-    m_dir.write("broken.scene.json", stage.dump());
-    stage["objects"][1] = {{"file", "cube.glb"},
-                           {"motion", {{"keys", {{"times", {0, 0.25, 0.5}}, {"scales", {1, 1, 1e30}}}}}}};
-    m_dir.write("grows.scene.json", stage.dump());
+    json animated = json::parse(file("test.scene.json"));
+    animated["objects"][1]["file"] = "broken.glb";
+    m_dir.write("broken.scene.json", animated.dump());
+    animated["objects"][1] = {{"file", "cube.glb"},
+                              {"motion", {{"keys", {{"times", {0, 0.25, 0.5}}, {"scales", {1, 1, 1e30}}}}}}};
+    m_dir.write("grows.scene.json", animated.dump());
     const auto render = [this](const char* scene)
     {
         return run({"render", scene, "--scenes", "models", "-o", "f_#.png", "-f", "--frames", "0..2", "--size", "32x32",
@@ -370,11 +370,11 @@ TEST_F(CliStage, TrianglesOfWhatMovesThatMakeNoSenseAreToldOfOnce)
     EXPECT_EQ(json::parse(file("report.json"))["frames"][0]["dropped"]["outside"], 12);
 }
 
-TEST_F(CliStage, RulesThatARebuildCannotFollowAreToldOf)
+TEST_F(CliSceneFile, RulesThatARebuildCannotFollowAreToldOf)
 {
-    json stage = json::parse(file("test.scene.json"));
-    stage["merge"] = "dynamic";
-    m_dir.write("rule.scene.json", stage.dump());
+    json animated = json::parse(file("test.scene.json"));
+    animated["merge"] = "dynamic";
+    m_dir.write("rule.scene.json", animated.dump());
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"voxelize", "-o", "a.morton"},
                                                       {"render", "-o", "a.png", "--size", "16x16", "--rebuild"}})
     {
@@ -450,14 +450,14 @@ const std::vector<WrongUse>& wrongUses()
     return uses;
 }
 
-class CliStageError : public CliStage, public testing::WithParamInterface<WrongUse>
+class CliSceneFileError : public CliSceneFile, public testing::WithParamInterface<WrongUse>
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(CliStage, CliStageError, testing::ValuesIn(wrongUses()),
+INSTANTIATE_TEST_SUITE_P(CliSceneFile, CliSceneFileError, testing::ValuesIn(wrongUses()),
                          [](const auto& use) { return std::string(use.param.name); });
 
-TEST_P(CliStageError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
+TEST_P(CliSceneFileError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
 {
     m_dir.write("typo.scene.json", std::string_view(R"({"objects": [{"file": "cube.glb", "plaec": {}}]})"));
     m_dir.write("text.scene.json", std::string_view("a cube, please"));

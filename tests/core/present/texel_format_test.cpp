@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures in all texel forms: the same picture, as exactly as each form can hold it.
+// Pictures in all texel formats: the same picture, as exactly as each format can hold it.
 #include "core/trace/trace.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
@@ -34,29 +34,29 @@ struct Shown
     std::vector<gpu::Hit> hits;
 };
 
-Shown show(const DeviceTree& octree, const ViewCamera& view, TexelForm form, const TraceOptions& options)
+Shown show(const DeviceTree& octree, const ViewCamera& view, TexelFormat format, const TraceOptions& options)
 {
     BeamGrid beam(device().device());
-    TraceBuffers buffers(device().device(), kTexelsWide, kTexelsHigh, form);
+    TraceBuffers buffers(device().device(), kTexelsWide, kTexelsHigh, format);
     const TraceCamera camera = traceCamera(view, octree.grid, kTexelsHigh);
     test::Picture picture = test::takePicture(device(), octree, beam, camera, buffers, options);
     return {std::move(picture.image), std::move(picture.hits)};
 }
 
-glm::dvec4 codesOf(TexelForm form, const Words& image, std::size_t pixel)
+glm::dvec4 codesOf(TexelFormat format, const Words& image, std::size_t pixel)
 {
     const gpu::uint word = image.at(pixel);
     const glm::dvec3 low(word & 255U, word >> 8 & 255U, word >> 16 & 255U);
-    switch (form)
+    switch (format)
     {
-    case TexelForm::Rgba8:
+    case TexelFormat::Rgba8:
         return glm::dvec4(low, word >> 24) / 255.0;
-    case TexelForm::Bgra8:
+    case TexelFormat::Bgra8:
         return glm::dvec4(low.z, low.y, low.x, word >> 24) / 255.0;
-    case TexelForm::Rgb10:
+    case TexelFormat::Rgb10:
         return glm::dvec4(glm::dvec3(word & 1023U, word >> 10 & 1023U, word >> 20 & 1023U) / 1023.0,
                           (word >> 30) / 3.0);
-    case TexelForm::Half:
+    case TexelFormat::Half:
         break;
     }
     ADD_FAILURE();
@@ -95,23 +95,23 @@ ViewCamera sphereView()
     return ViewCamera::lookAt({80.0, 60.0, 90.0}, {32.0, 32.0, 32.0}, 0.8);
 }
 
-TEST(TexelForm, BlueFirstIsTheSamePictureWithItsBytesSwapped)
+TEST(TexelFormat, BlueFirstIsTheSamePictureWithItsBytesSwapped)
 {
     const DeviceTree octree = coloredSphere();
     for (const View view : kTexelViews)
     {
         TraceOptions options;
         options.view = view;
-        Words expected = show(octree, sphereView(), TexelForm::Rgba8, options).image;
+        Words expected = show(octree, sphereView(), TexelFormat::Rgba8, options).image;
         for (gpu::uint& word : expected)
         {
             word = (word & 0xFF00FF00U) | (word & 255U) << 16 | (word >> 16 & 255U);
         }
-        EXPECT_EQ(show(octree, sphereView(), TexelForm::Bgra8, options).image, expected);
+        EXPECT_EQ(show(octree, sphereView(), TexelFormat::Bgra8, options).image, expected);
     }
 }
 
-TEST(TexelForm, TenBitsShowWhatEightDo)
+TEST(TexelFormat, TenBitsShowWhatEightDo)
 {
     const DeviceTree octree = coloredSphere();
     for (const View view : kTexelViews)
@@ -119,15 +119,15 @@ TEST(TexelForm, TenBitsShowWhatEightDo)
         SCOPED_TRACE(static_cast<int>(view));
         TraceOptions options;
         options.view = view;
-        const Words eight = show(octree, sphereView(), TexelForm::Rgba8, options).image;
-        const Words ten = show(octree, sphereView(), TexelForm::Rgb10, options).image;
+        const Words eight = show(octree, sphereView(), TexelFormat::Rgba8, options).image;
+        const Words ten = show(octree, sphereView(), TexelFormat::Rgb10, options).image;
         // Half a code by rounding; what is lit is dithered by up to half a code more.
         const double codes = view == View::Color ? 1.0 : 0.5;
         std::size_t finer_count = 0;
         for (std::size_t i = 0; i < eight.size(); ++i)
         {
-            const glm::dvec4 coarse = codesOf(TexelForm::Rgba8, eight, i);
-            const glm::dvec4 fine = codesOf(TexelForm::Rgb10, ten, i);
+            const glm::dvec4 coarse = codesOf(TexelFormat::Rgba8, eight, i);
+            const glm::dvec4 fine = codesOf(TexelFormat::Rgb10, ten, i);
             ASSERT_EQ(fine.w, 1.0);
             for (int c = 0; c < 3; ++c)
             {
@@ -142,19 +142,19 @@ TEST(TexelForm, TenBitsShowWhatEightDo)
     }
 }
 
-TEST(TexelForm, HalfFloatsToneMappedAreTheCodesOfThePicture)
+TEST(TexelFormat, HalfFloatsToneMappedAreTheCodesOfThePicture)
 {
     const DeviceTree octree = coloredSphere();
     TraceOptions options;
     options.exposure = 1.7F;
     options.occlusion_rays = 3;
-    const Words codes = show(octree, sphereView(), TexelForm::Rgba8, options).image;
-    const Words halfs = show(octree, sphereView(), TexelForm::Half, options).image;
+    const Words codes = show(octree, sphereView(), TexelFormat::Rgba8, options).image;
+    const Words halfs = show(octree, sphereView(), TexelFormat::Half, options).image;
     ASSERT_EQ(halfs.size(), 2 * codes.size());
     double brightest = 0.0;
     for (std::size_t i = 0; i < codes.size(); ++i)
     {
-        const glm::dvec4 code = codesOf(TexelForm::Rgba8, codes, i);
+        const glm::dvec4 code = codesOf(TexelFormat::Rgba8, codes, i);
         const glm::dvec4 half = halfsOf(halfs, i);
         ASSERT_EQ(half.w, 1.0);
         for (int c = 0; c < 3; ++c)
@@ -170,7 +170,7 @@ TEST(TexelForm, HalfFloatsToneMappedAreTheCodesOfThePicture)
     EXPECT_GT(brightest, 1.5) << "not radiance but what a screen shows";
 }
 
-TEST(TexelForm, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
+TEST(TexelFormat, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
 {
     const DeviceTree octree = coloredSphere();
     for (const View view : kTexelViews)
@@ -182,12 +182,12 @@ TEST(TexelForm, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
         SCOPED_TRACE(static_cast<int>(view));
         TraceOptions options;
         options.view = view;
-        const Words codes = show(octree, sphereView(), TexelForm::Rgba8, options).image;
-        const Shown halfs = show(octree, sphereView(), TexelForm::Half, options);
+        const Words codes = show(octree, sphereView(), TexelFormat::Rgba8, options).image;
+        const Shown halfs = show(octree, sphereView(), TexelFormat::Half, options);
         std::size_t miss_count = 0;
         for (std::size_t i = 0; i < codes.size(); ++i)
         {
-            const glm::dvec4 code = codesOf(TexelForm::Rgba8, codes, i);
+            const glm::dvec4 code = codesOf(TexelFormat::Rgba8, codes, i);
             const glm::dvec4 half = halfsOf(halfs.image, i);
             ASSERT_EQ(half.w, 1.0);
             for (int c = 0; c < 3; ++c)
@@ -223,7 +223,7 @@ void expectNear(const glm::dvec4& half, const glm::dvec3& expected)
 }
 
 // A wall that fills the picture, seen from the front, of one colour, all of it emissive.
-TEST(TexelForm, HalfFloatsAreExposedRadiance)
+TEST(TexelFormat, HalfFloatsAreExposedRadiance)
 {
     const test::Codes codes = test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; });
     DeviceTree octree = test::octreeOf(device(), codes, 4);
@@ -240,7 +240,7 @@ TEST(TexelForm, HalfFloatsAreExposedRadiance)
     const auto decode = [](double code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
     const glm::dvec3 albedo(decode(200.0), decode(100.0), decode(50.0));
     const glm::dvec3 arrives = 5.0 * 0.8 * kSunColor + skyAmbient({0.0, 0.0, 1.0});
-    expectNear(halfsOf(show(octree, front, TexelForm::Half, options).image, middle), 1.7 * albedo * arrives);
+    expectNear(halfsOf(show(octree, front, TexelFormat::Half, options).image, middle), 1.7 * albedo * arrives);
 
     // Emission of (256, 128, 1) / 512 in RGB9E5, times a scale.
     std::vector<gpu::uvec2> words;
@@ -253,17 +253,17 @@ TEST(TexelForm, HalfFloatsAreExposedRadiance)
     octree.emission = device().makeBuffer<gpu::uint>("emission", emission);
     octree.emission_scale = 100.0F;
     const glm::dvec3 emitted(0.5, 0.25, 1.0 / 512.0);
-    expectNear(halfsOf(show(octree, front, TexelForm::Half, options).image, middle),
+    expectNear(halfsOf(show(octree, front, TexelFormat::Half, options).image, middle),
                1.7 * (albedo * arrives + 100.0 * emitted));
 
     octree.emission_scale = 1e6F;
-    const glm::dvec4 clamped = halfsOf(show(octree, front, TexelForm::Half, options).image, middle);
+    const glm::dvec4 clamped = halfsOf(show(octree, front, TexelFormat::Half, options).image, middle);
     EXPECT_EQ(clamped.x, 65504.0);
     EXPECT_EQ(clamped.y, 65504.0);
     EXPECT_NEAR(clamped.z, 1.7e6 / 512.0, 1e6 * kHalfError);
 }
 
-TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
+TEST(TexelFormat, HalfFloatsOfTheSkyAreExposedRadiance)
 {
     const DeviceTree octree = test::octreeOf(device(), {}, 4);
     const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2; // sizes are odd: the ray along forward
@@ -273,7 +273,7 @@ TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
     const auto towards = [&](const glm::dvec3& direction)
     {
         const ViewCamera view = ViewCamera::lookAt(glm::dvec3(0.0), direction, 0.9);
-        return halfsOf(show(octree, view, TexelForm::Half, options).image, middle);
+        return halfsOf(show(octree, view, TexelFormat::Half, options).image, middle);
     };
     const double above = 1.0 - 0.4 * 0.4; // of the way from horizon to zenith at 0.6 up
     const glm::dvec3 sky = glm::mix(glm::dvec3(0.72, 0.80, 0.90), glm::dvec3(0.16, 0.34, 0.70), above);
@@ -283,7 +283,7 @@ TEST(TexelForm, HalfFloatsOfTheSkyAreExposedRadiance)
     expectNear(towards({0.0, 0.6, 0.8}), 0.5 * (sky + 4.0 * 30.0 * kSunColor));
 }
 
-TEST(TexelForm, ViewsWithoutSkyOfAnEmptyOctreeAreBlackInEveryForm)
+TEST(TexelFormat, ViewsWithoutSkyOfAnEmptyOctreeAreBlackInEveryFormat)
 {
     const DeviceTree octree = test::octreeOf(device(), {}, 5);
     const std::size_t pixels = std::size_t{kTexelsWide} * kTexelsHigh;
@@ -293,10 +293,10 @@ TEST(TexelForm, ViewsWithoutSkyOfAnEmptyOctreeAreBlackInEveryForm)
         options.view = view;
         if (view != View::Color)
         {
-            EXPECT_EQ(show(octree, sphereView(), TexelForm::Rgba8, options).image, Words(pixels, 255U << 24));
-            EXPECT_EQ(show(octree, sphereView(), TexelForm::Bgra8, options).image, Words(pixels, 255U << 24));
-            EXPECT_EQ(show(octree, sphereView(), TexelForm::Rgb10, options).image, Words(pixels, 3U << 30));
-            const Words halfs = show(octree, sphereView(), TexelForm::Half, options).image;
+            EXPECT_EQ(show(octree, sphereView(), TexelFormat::Rgba8, options).image, Words(pixels, 255U << 24));
+            EXPECT_EQ(show(octree, sphereView(), TexelFormat::Bgra8, options).image, Words(pixels, 255U << 24));
+            EXPECT_EQ(show(octree, sphereView(), TexelFormat::Rgb10, options).image, Words(pixels, 3U << 30));
+            const Words halfs = show(octree, sphereView(), TexelFormat::Half, options).image;
             for (std::size_t i = 0; i < pixels; ++i)
             {
                 ASSERT_EQ(halfs.at(2 * i), 0U);

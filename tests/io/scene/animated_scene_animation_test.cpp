@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stages of files with animations: which of them play, and what of a file is a mover.
-#include "io/scene/stage.h"
+// Animated scenes of files with animations: which of them play, and what of a file is a dynamic object.
+#include "io/scene/animated_scene.h"
 
+#include "animated_scene_fixture.h"
 #include "io/gltf/gltf_builder.h"
-#include "stage_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -37,55 +37,58 @@ GltfBuilder animatedDocument()
     return builder;
 }
 
-TEST_F(StageTest, AnimatedInstancesOfAFileAreAMover)
+TEST_F(AnimatedSceneTest, AnimatedInstancesOfAFileAreADynamicObject)
 {
-    const Stage stage = loadStage(m_dir.write("scenes/animated.glb", animatedDocument().glb()));
-    EXPECT_EQ(stage.seconds, 2.0) << "as long as the animation";
-    ASSERT_EQ(stage.movers.size(), 1U);
-    EXPECT_EQ(stage.movers[0].name, "animated");
-    EXPECT_TRUE(stage.movers[0].deforms);
-    EXPECT_EQ(stage.movers[0].scene.triangleCount(), 1U);
-    EXPECT_EQ(stage.movers[0].scene.materials.size(), 1U) << "only what it needs";
-    EXPECT_EQ(stage.fixed.materials.size(), 2U);
-    EXPECT_EQ(stage.fixed.materials.at(stage.fixed.primitives.at(stage.fixed.instances.at(1).primitive).material).name,
-              "still");
-    ASSERT_EQ(stage.fixed.cameras.size(), 1U);
-    EXPECT_TRUE(stage.fixed.nodes.empty() && stage.fixed.animations.empty());
+    const AnimatedScene animated = loadAnimatedScene(m_dir.write("scenes/animated.glb", animatedDocument().glb()));
+    EXPECT_EQ(animated.seconds, 2.0) << "as long as the animation";
+    ASSERT_EQ(animated.objects.size(), 1U);
+    EXPECT_EQ(animated.objects[0].name, "animated");
+    EXPECT_TRUE(animated.objects[0].deforms);
+    EXPECT_EQ(animated.objects[0].scene.triangleCount(), 1U);
+    EXPECT_EQ(animated.objects[0].scene.materials.size(), 1U) << "only what it needs";
+    EXPECT_EQ(animated.fixed.materials.size(), 2U);
+    EXPECT_EQ(
+        animated.fixed.materials.at(animated.fixed.primitives.at(animated.fixed.instances.at(1).primitive).material)
+            .name,
+        "still");
+    ASSERT_EQ(animated.fixed.cameras.size(), 1U);
+    EXPECT_TRUE(animated.fixed.nodes.empty() && animated.fixed.animations.empty());
     const std::vector<glm::vec3> expected = {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}, {0, 0, 9}, {1, 0, 9},
                                              {0, 1, 9}, {3, 0, 0}, {4, 0, 0}, {3, 1, 0}};
-    EXPECT_EQ(corners(stageAt(stage, 1.5)), expected);
-    EXPECT_EQ(stageAt(stage, 1.5).cameras.size(), 1U);
-    const Bounds bounds = stageBounds(stage);
+    EXPECT_EQ(corners(sceneAt(animated, 1.5)), expected);
+    EXPECT_EQ(sceneAt(animated, 1.5).cameras.size(), 1U);
+    const Bounds bounds = boundsOverTime(animated);
     EXPECT_EQ(bounds.min, glm::vec3(0, 0, 0));
     EXPECT_NEAR(bounds.max.x, 5.0F, 4.0F / 60.0F) << "at the last frame";
     EXPECT_EQ(bounds.max.z, 9.0F);
 }
 
-TEST_F(StageTest, AnimationsOfObjectsRunUnlessTheyAreStatic)
+TEST_F(AnimatedSceneTest, AnimationsOfObjectsRunUnlessTheyAreStatic)
 {
     m_dir.write("scenes/animated.glb", animatedDocument().glb());
-    const Stage split = load(R"({"objects": [{"file": "animated.glb", "place": {"translation": [0, 10, 0]}}]})");
-    ASSERT_EQ(split.movers.size(), 1U);
+    const AnimatedScene split =
+        load(R"({"objects": [{"file": "animated.glb", "place": {"translation": [0, 10, 0]}}]})");
+    ASSERT_EQ(split.objects.size(), 1U);
     EXPECT_EQ(split.fixed.triangleCount(), 2U);
     EXPECT_EQ(split.fixed.cameras.at(0).transform[3], glm::vec4(1, 12, 3, 1));
-    EXPECT_EQ(corners(stageAt(split, 1.0)).at(6), glm::vec3(2, 10, 0));
-    EXPECT_EQ(corners(stageAt(split, 3.0)).at(6), glm::vec3(2, 10, 0)) << "the animation lasts two seconds";
+    EXPECT_EQ(corners(sceneAt(split, 1.0)).at(6), glm::vec3(2, 10, 0));
+    EXPECT_EQ(corners(sceneAt(split, 3.0)).at(6), glm::vec3(2, 10, 0)) << "the animation lasts two seconds";
 
-    const Stage still = load(R"({"objects": [{"file": "animated.glb", "static": true}]})");
-    EXPECT_TRUE(still.movers.empty());
-    EXPECT_EQ(corners(stageAt(still, 1.0)).at(0), glm::vec3(0, 0, 0));
+    const AnimatedScene still = load(R"({"objects": [{"file": "animated.glb", "static": true}]})");
+    EXPECT_TRUE(still.objects.empty());
+    EXPECT_EQ(corners(sceneAt(still, 1.0)).at(0), glm::vec3(0, 0, 0));
 
-    const Stage whole = load(R"({"objects": [{"file": "animated.glb", "dynamic": true}]})");
-    ASSERT_EQ(whole.movers.size(), 1U);
+    const AnimatedScene whole = load(R"({"objects": [{"file": "animated.glb", "dynamic": true}]})");
+    ASSERT_EQ(whole.objects.size(), 1U);
     EXPECT_EQ(whole.fixed.triangleCount(), 0U);
-    EXPECT_EQ(whole.movers[0].scene.triangleCount(), 3U);
+    EXPECT_EQ(whole.objects[0].scene.triangleCount(), 3U);
     EXPECT_EQ(whole.fixed.cameras.size(), 1U) << "its place does not move";
 
     // The motion comes after the animation.
-    const Stage both = load(R"({"objects": [{"file": "animated.glb", "place": {"scale": 2}, "motion": {"orbit":
+    const AnimatedScene both = load(R"({"objects": [{"file": "animated.glb", "place": {"scale": 2}, "motion": {"orbit":
         {"axis": [0, 0, 1], "turns": 1}}}]})");
-    EXPECT_EQ(corners(stageAt(both, 1.0)).at(0), glm::vec3(0, 4, 0)) << "2 to the right, scaled, a quarter turn";
-    EXPECT_EQ(moverPose(both.movers.at(0), 1.0).transforms.at(0), stageAt(both, 1.0).instances.at(0).transform);
+    EXPECT_EQ(corners(sceneAt(both, 1.0)).at(0), glm::vec3(0, 4, 0)) << "2 to the right, scaled, a quarter turn";
+    EXPECT_EQ(poseAt(both.objects.at(0), 1.0).transforms.at(0), sceneAt(both, 1.0).instances.at(0).transform);
     EXPECT_TRUE(both.fixed.cameras.empty());
 }
 
@@ -110,38 +113,38 @@ GltfBuilder manyAnimationsDocument()
     return builder;
 }
 
-TEST_F(StageTest, TheFirstAnimationOfAFilePlays)
+TEST_F(AnimatedSceneTest, TheFirstAnimationOfAFilePlays)
 {
-    const Stage stage = loadStage(m_dir.write("scenes/many.glb", manyAnimationsDocument().glb()));
-    EXPECT_EQ(stage.seconds, 2.0) << "as long as the one that plays";
-    EXPECT_EQ(stage.fixed.triangleCount(), 2U) << "what other animations move stands still";
-    EXPECT_EQ(corners(stageAt(stage, 1.5)).at(6), glm::vec3(3, 0, 0));
-    const Stage object = load(R"({"objects": [{"file": "many.glb"}]})");
+    const AnimatedScene animated = loadAnimatedScene(m_dir.write("scenes/many.glb", manyAnimationsDocument().glb()));
+    EXPECT_EQ(animated.seconds, 2.0) << "as long as the one that plays";
+    EXPECT_EQ(animated.fixed.triangleCount(), 2U) << "what other animations move stands still";
+    EXPECT_EQ(corners(sceneAt(animated, 1.5)).at(6), glm::vec3(3, 0, 0));
+    const AnimatedScene object = load(R"({"objects": [{"file": "many.glb"}]})");
     EXPECT_EQ(object.fixed.triangleCount(), 2U);
-    EXPECT_EQ(corners(stageAt(object, 1.5)).at(6), glm::vec3(3, 0, 0));
+    EXPECT_EQ(corners(sceneAt(object, 1.5)).at(6), glm::vec3(3, 0, 0));
 }
 
-TEST_F(StageTest, ObjectsChooseTheAnimationThatPlays)
+TEST_F(AnimatedSceneTest, ObjectsChooseTheAnimationThatPlays)
 {
     m_dir.write("scenes/many.glb", manyAnimationsDocument().glb());
     const auto play = [this](const std::string& choice)
     { return load(R"({"objects": [{"file": "many.glb", "animation": )" + choice + "}]}"); };
     for (const char* choice : {"\"rise\"", "2"})
     {
-        const Stage stage = play(choice);
-        EXPECT_EQ(stage.movers.at(0).scene.triangleCount(), 1U);
-        EXPECT_EQ(corners(stageAt(stage, 1.0)).at(6), glm::vec3(0, 2, 0)) << choice;
+        const AnimatedScene animated = play(choice);
+        EXPECT_EQ(animated.objects.at(0).scene.triangleCount(), 1U);
+        EXPECT_EQ(corners(sceneAt(animated, 1.0)).at(6), glm::vec3(0, 2, 0)) << choice;
     }
-    EXPECT_EQ(corners(stageAt(play("3"), 0.5)).at(6), glm::vec3(0.5F, 0, 0)) << "the second node";
+    EXPECT_EQ(corners(sceneAt(play("3"), 0.5)).at(6), glm::vec3(0.5F, 0, 0)) << "the second node";
     // One file, two objects.
-    const Stage both =
+    const AnimatedScene both =
         load(R"({"objects": [{"file": "many.glb", "animation": 0}, {"file": "many.glb", "animation": 2}]})");
-    ASSERT_EQ(both.movers.size(), 2U);
-    EXPECT_EQ(corners(posedScene(both.movers[0].scene, moverPose(both.movers[0], 1.0))).at(0), glm::vec3(2, 0, 0));
-    EXPECT_EQ(corners(posedScene(both.movers[1].scene, moverPose(both.movers[1], 1.0))).at(0), glm::vec3(0, 2, 0));
+    ASSERT_EQ(both.objects.size(), 2U);
+    EXPECT_EQ(corners(posedScene(both.objects[0].scene, poseAt(both.objects[0], 1.0))).at(0), glm::vec3(2, 0, 0));
+    EXPECT_EQ(corners(posedScene(both.objects[1].scene, poseAt(both.objects[1], 1.0))).at(0), glm::vec3(0, 2, 0));
 }
 
-TEST_F(StageTest, AnimationsThatAreNotThereAreToldWithThoseThatAre)
+TEST_F(AnimatedSceneTest, AnimationsThatAreNotThereAreToldWithThoseThatAre)
 {
     GltfBuilder many = manyAnimationsDocument();
     m_dir.write("scenes/many.glb", many.glb());
@@ -169,7 +172,7 @@ TEST_F(StageTest, AnimationsThatAreNotThereAreToldWithThoseThatAre)
                   R"(has 0 ("go"), 2 ("rise"), 3, 4 ("go"), 5 ("go"), 6 ("go"), 7 ("go"), 8 ("go"), 4 more)");
 }
 
-TEST_F(StageTest, WhatStandsAtRestIsToldOf)
+TEST_F(AnimatedSceneTest, WhatStandsAtRestIsToldOf)
 {
     GltfBuilder builder = animatedDocument();
     const std::size_t deltas = builder.addPositions({0, 0, 1, 0, 0, 1, 0, 0, 1});
@@ -177,14 +180,14 @@ TEST_F(StageTest, WhatStandsAtRestIsToldOf)
     mesh["primitives"][0]["targets"] = json::array({{{"POSITION", deltas}}});
     mesh["weights"] = {1.0};
     m_dir.write("scenes/morphed.glb", builder.glb());
-    const Stage split = load(R"({"objects": [{"file": "morphed.glb"}]})");
+    const AnimatedScene split = load(R"({"objects": [{"file": "morphed.glb"}]})");
     ASSERT_EQ(split.warnings.size(), 1U);
     EXPECT_TRUE(contains(split.warnings[0], "morph targets are not applied")) << split.warnings[0];
-    EXPECT_EQ(corners(stageAt(split, 0.0)).at(3), glm::vec3(0, 0, 9));
-    const Stage whole = load(R"({"objects": [{"file": "morphed.glb", "dynamic": true}]})");
+    EXPECT_EQ(corners(sceneAt(split, 0.0)).at(3), glm::vec3(0, 0, 9));
+    const AnimatedScene whole = load(R"({"objects": [{"file": "morphed.glb", "dynamic": true}]})");
     EXPECT_TRUE(whole.warnings.empty());
-    EXPECT_EQ(corners(stageAt(whole, 0.0)).at(6), glm::vec3(0, 0, 10));
-    EXPECT_EQ(stageBounds(whole).max.z, 10.0F);
+    EXPECT_EQ(corners(sceneAt(whole, 0.0)).at(6), glm::vec3(0, 0, 10));
+    EXPECT_EQ(boundsOverTime(whole).max.z, 10.0F);
 }
 
 } // namespace

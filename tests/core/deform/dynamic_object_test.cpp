@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What moves is voxelized from buffers that change in place: the bytes are those of a scene uploaded anew.
-#include "core/deform/mover.h"
+#include "core/deform/dynamic_object.h"
 
 #include "core/headless/pipeline.h"
 #include "core/octree/octree_build.h"
@@ -38,15 +38,15 @@ using test::MovedScene;
 
 using test::device;
 
-TEST(Mover, OfAllSortsOfInstancesEqualsAnUploadInEveryPose)
+TEST(DynamicObject, OfAllSortsOfInstancesEqualsAnUploadInEveryPose)
 {
     std::mt19937 random(21);
     auto [scene, pose] = mixedScene(random);
-    MovedScene mover(device(), scene);
-    EXPECT_EQ(mover.mesh().parts.size(), 6U);
+    MovedScene object(device(), scene);
+    EXPECT_EQ(object.mesh().parts.size(), 6U);
     for (int round = 0; round < 3; ++round)
     {
-        EXPECT_GT(expectEqualsPosed(mover, scene, pose), 5000U);
+        EXPECT_GT(expectEqualsPosed(object, scene, pose), 5000U);
         test::changePose(random, pose);
     }
 }
@@ -139,21 +139,21 @@ Scene bendingScene()
     return scene;
 }
 
-TEST(Mover, FollowsAnimationsThroughTheirTime)
+TEST(DynamicObject, FollowsAnimationsThroughTheirTime)
 {
     const Scene scene = bendingScene();
-    MovedScene mover(device(), scene);
-    EXPECT_EQ(mover.mesh().parts.size(), 2U);
+    MovedScene object(device(), scene);
+    EXPECT_EQ(object.mesh().parts.size(), 2U);
     std::set<std::string> shas;
     for (const double seconds : {0.0, 0.3, 0.5, 1.0, 1.7})
     {
         const Pose pose = poseAt(scene, seconds);
-        EXPECT_GT(expectEqualsPosed(mover, scene, pose), 1000U);
-        shas.insert(mover.make(kGrid, Coverage::Thin).sha);
+        EXPECT_GT(expectEqualsPosed(object, scene, pose), 1000U);
+        shas.insert(object.make(kGrid, Coverage::Thin).sha);
     }
     EXPECT_EQ(shas.size(), 5U);
-    mover.place(poseAt(scene, 2.0)); // where it began
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha,
+    object.setPose(poseAt(scene, 2.0)); // where it began
+    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha,
               makeAnew(posedScene(scene, poseAt(scene, 0.0)), kGrid, Coverage::Thin).sha);
 }
 
@@ -174,10 +174,10 @@ Scene flatBall()
     return scene;
 }
 
-TEST(Mover, WithoutNormalsOnJointsThatMirrorEqualsARigidInstance)
+TEST(DynamicObject, WithoutNormalsOnJointsThatMirrorEqualsARigidInstance)
 {
     const Scene scene = flatBall();
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     Scene rigid = test::sphereScene(glm::vec3(0.0F), 1.0F, 24);
     std::set<std::string> shas;
     for (const glm::vec3& scale : {glm::vec3(2, 1, 1.5F), glm::vec3(-2, 1, 1.5F), glm::vec3(-2, -1, 1.5F),
@@ -186,38 +186,38 @@ TEST(Mover, WithoutNormalsOnJointsThatMirrorEqualsARigidInstance)
         const glm::mat4 transform = glm::scale(glm::rotate(glm::mat4(1.0F), 0.4F, glm::vec3(0.0F, 0.6F, 0.8F)), scale);
         rigid.instances[0].transform = transform;
         const Pose pose{{glm::mat4(1.0F)}, {{transform, transform}}, {{}}};
-        EXPECT_GT(expectEqualsPosed(mover, scene, pose), 1000U);
+        EXPECT_GT(expectEqualsPosed(object, scene, pose), 1000U);
         const std::string sha = makeAnew(rigid, kGrid, Coverage::Thin).sha;
-        EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, sha) << scale.x << " " << scale.y << " " << scale.z;
+        EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, sha) << scale.x << " " << scale.y << " " << scale.z;
         shas.insert(sha);
     }
     EXPECT_GT(shas.size(), 1U);
 }
 
-TEST(Mover, WithoutNormalsEachVertexFollowsTheSideOfItsJoints)
+TEST(DynamicObject, WithoutNormalsEachVertexFollowsTheSideOfItsJoints)
 {
     // The upper half is mirrored, the lower one turned: the ball is the same, but its upper half inside out.
     const Scene scene = flatBall();
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     const glm::mat4 mirrored = glm::scale(glm::mat4(1.0F), glm::vec3(-2, 2, 2));
     const glm::mat4 turned = glm::scale(glm::mat4(1.0F), glm::vec3(-2, 2, -2));
     const Pose pose{{glm::mat4(1.0F)}, {{mirrored, turned}}, {{}}};
-    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 1000U);
+    EXPECT_GT(expectEqualsPosed(object, scene, pose), 1000U);
     const DeviceTree octree =
-        buildOctree(device(), {mover.uploaded(), mover.buffers()}, kGrid, {Coverage::Thin, true, {}}).octree;
+        buildOctree(device(), {object.uploaded(), object.buffers()}, kGrid, {Coverage::Thin, true, {}}).octree;
     const std::vector<std::uint64_t> codes = voxelCodes(device(), octree);
     const std::vector<gpu::Attribute> attributes = device().download(octree.voxel_attributes);
     int outward[2] = {};
     int inward[2] = {};
     for (std::size_t i = 0; i < codes.size(); ++i)
     {
-        const glm::dvec3 centre = glm::dvec3(kGrid.origin) + (glm::dvec3(oracle::mortonDecode(codes[i])) + 0.5) *
+        const glm::dvec3 center = glm::dvec3(kGrid.origin) + (glm::dvec3(oracle::mortonDecode(codes[i])) + 0.5) *
                                                                  static_cast<double>(kGrid.voxel_size);
-        if (std::abs(centre.y) > 0.5) // beyond the triangles that hang on both
+        if (std::abs(center.y) > 0.5) // beyond the triangles that hang on both
         {
-            const double along = glm::dot(test::normalOf(attributes[i]), glm::normalize(centre));
+            const double along = glm::dot(test::normalOf(attributes[i]), glm::normalize(center));
             EXPECT_GT(std::abs(along), 0.8);
-            ++(along > 0 ? outward : inward)[centre.y > 0 ? 1 : 0];
+            ++(along > 0 ? outward : inward)[center.y > 0 ? 1 : 0];
         }
     }
     const int* const right = outward[0] > 0 ? outward : inward; // as the ball's own winding has it
@@ -227,13 +227,13 @@ TEST(Mover, WithoutNormalsEachVertexFollowsTheSideOfItsJoints)
     EXPECT_EQ(wrong[0] + wrong[1], 0);
 }
 
-TEST(Mover, RigidWithAllMaterialsEqualsAnUpload)
+TEST(DynamicObject, RigidWithAllMaterialsEqualsAnUpload)
 {
     std::mt19937 random(22);
     const Scene scene = test::materialsScene(3.0F);
-    MovedScene mover(device(), scene);
-    EXPECT_TRUE(mover.mesh().empty());
-    EXPECT_EQ(mover.buffers().positions.bytes(), 0U) << "it shares the vertices of the scene";
+    MovedScene object(device(), scene);
+    EXPECT_TRUE(object.mesh().empty());
+    EXPECT_EQ(object.buffers().positions.bytes(), 0U) << "it shares the vertices of the scene";
     for (int round = 0; round < 3; ++round)
     {
         std::vector<glm::mat4> transforms;
@@ -246,32 +246,32 @@ TEST(Mover, RigidWithAllMaterialsEqualsAnUpload)
         {
             moved.instances[i].transform = transforms[i];
         }
-        device().run([&](vk::FrameGraph& graph) { placeMover(graph, transforms, mover.buffers()); });
+        device().run([&](vk::FrameGraph& graph) { setPose(graph, transforms, object.buffers()); });
         const Made expected = makeAnew(moved, kGrid, Coverage::Thin);
-        EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, expected.sha);
+        EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, expected.sha);
         EXPECT_GT(expected.voxel_count, 5000U);
     }
 }
 
-TEST(Mover, HasTheVoxelsOfTheOracle)
+TEST(DynamicObject, HasTheVoxelsOfTheOracle)
 {
     std::mt19937 random(23);
     const auto [scene, pose] = mixedScene(random);
-    MovedScene mover(device(), scene);
-    mover.place(pose);
+    MovedScene object(device(), scene);
+    object.setPose(pose);
     const Scene posed = posedScene(scene, pose);
     EXPECT_EQ(test::expectEqualsOracle(device(), posed, kGrid, Coverage::Thin),
-              mover.make(kGrid, Coverage::Thin).voxel_count);
+              object.make(kGrid, Coverage::Thin).voxel_count);
 }
 
-TEST(Mover, AsItWasUploadedEqualsTheUpload)
+TEST(DynamicObject, AsItWasUploadedEqualsTheUpload)
 {
     const Scene scene = test::materialsScene(3.0F);
-    MovedScene mover(device(), scene);
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, makeAnew(scene, kGrid, Coverage::Thin).sha);
+    MovedScene object(device(), scene);
+    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, makeAnew(scene, kGrid, Coverage::Thin).sha);
 }
 
-TEST(Mover, WithoutWeightsStandsAsAtRest)
+TEST(DynamicObject, WithoutWeightsStandsAsAtRest)
 {
     std::mt19937 random(24);
     Scene scene;
@@ -281,13 +281,13 @@ TEST(Mover, WithoutWeightsStandsAsAtRest)
     test::addDeforming(random, scene, pose, 0, 0);
     scene.instances[0].transform = pose.transforms[0];
     const Made rest = makeAnew(scene, kGrid, Coverage::Thin);
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     pose.morph_weights[0].assign(4, 0.0F);
-    mover.place(pose);
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, rest.sha);
+    object.setPose(pose);
+    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, rest.sha);
     pose.morph_weights[0][0] = 0.5F;
-    mover.place(pose);
-    EXPECT_NE(mover.make(kGrid, Coverage::Thin).sha, rest.sha);
+    object.setPose(pose);
+    EXPECT_NE(object.make(kGrid, Coverage::Thin).sha, rest.sha);
 }
 
 } // namespace

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Forms in which a tree's attributes are stored (docs/attributes.md). Whatever the form, what is read is an Attribute.
+// Formats in which a tree's attributes are stored (docs/attributes.md). Whatever the format, what is read is an
+// Attribute.
 //
-//   form 4: a word, from the lowest bit on
+//   format 4: a word, from the lowest bit on
 //
 //     | red 5 | green 6 | blue 5 | x 8 | y 8 |       colour as fractions of 31 and 63, octahedral normal as two snorm8
 //
-//   form of blocks: 6 words for 16 voxels that follow each other in Morton order; the last block is filled up with
-//   copies of the last voxel. Nodes have form 4.
+//   format of blocks: 6 words for 16 voxels that follow each other in Morton order; the last block is filled up with
+//   copies of the last voxel. Nodes have format 4.
 //
-//     word 0   | first colour 16 | second colour 16 |                   as in form 4
+//     word 0   | first colour 16 | second colour 16 |                   as in format 4
 //     word 1   | 16 indices of 2 bits |                                 0: first, 3: second, 1 and 2: between them
 //     word 2   | x first 7 | x second 7 | y first 7 | y second 7 | axis 2 | negative 1 | diagonal 1 |
 //     word 3   | bit 0 of 16 indices of x | bit 0 of 16 indices of y |  0: first, 7: second, 1 to 6: between them
@@ -18,24 +19,24 @@
 //   and y of the coordinates are the two axes that follow, cyclically. The ends of a scale are 0 to 126 for -63 to 63,
 //   which are -1 to 1. Diagonal: what is stored are (x + y) / 2 and (x - y) / 2.
 //
-// Flags are in the form of 8 bytes alone: a voxel emits if its bit in the emission table is set.
-#ifndef ZVO_SHADERS_SHARED_ATTRIBUTE_FORMS_H
-#define ZVO_SHADERS_SHARED_ATTRIBUTE_FORMS_H
+// Flags are in the format of 8 bytes alone: a voxel emits if its bit in the emission table is set.
+#ifndef ZVO_SHADERS_SHARED_ATTRIBUTE_FORMATS_H
+#define ZVO_SHADERS_SHARED_ATTRIBUTE_FORMATS_H
 
 #include "shared/octree.h"
 
 GPU_NAMESPACE_BEGIN
 
-// Specialization constants of the kernels that read attributes; AttributeForm of the host.
-const uint kFormNone = 0u;
-const uint kForm4 = 1u;
-const uint kForm8 = 2u; // Attribute
-const uint kFormBlocks = 3u;
+// Specialization constants of the kernels that read attributes; AttributeFormat of the host.
+const uint kFormatNone = 0u;
+const uint kFormat4 = 1u;
+const uint kFormat8 = 2u; // Attribute
+const uint kFormatBlocks = 3u;
 
 const uint kRedBits = 5u; // of a packed colour, red in the lowest
 const uint kGreenBits = 6u;
 const uint kBlueBits = 5u;
-const uint kNormalShift4 = 16u; // of x in form 4
+const uint kNormalShift4 = 16u; // of x in format 4
 const int kNormalOne4 = 127;    // 1 as a snorm8
 
 const uint kBlockVoxels = 16u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Movers in command buffers, frame after frame: what waits for what, what takes memory, what is refused.
-#include "core/deform/mover.h"
+// Dynamic objects in command buffers, frame after frame: what waits for what, what takes memory, what is refused.
+#include "core/deform/dynamic_object.h"
 
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
@@ -36,17 +36,17 @@ using test::MovedScene;
 
 using test::device;
 
-TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
+TEST(DynamicObject, PlacesAndVoxelizesInOneCommandBuffer)
 {
     std::mt19937 random(25);
     const std::pair<Scene, Pose> made = mixedScene(random);
     const Scene& scene = made.first;
     const Pose& pose = made.second;
     const GpuScene posed = uploadScene(device(), posedScene(scene, pose), true);
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     const VoxelizeCapacities capacities{1 << 15, 1 << 12, 1 << 16};
     const auto cover =
-        [&](vk::FrameGraph& graph, const PlacedScene& placed, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
+        [&](vk::FrameGraph& graph, const PosedGpuScene& placed, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
     {
         voxelizeCoverage(graph, placed, kGrid, Coverage::Thin, voxelize);
         listNodes(graph, kGrid, voxelize, work);
@@ -64,9 +64,9 @@ TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
                 {
                     Pose other = pose; // overwritten before anything reads it
                     test::changePose(random, other);
-                    placeMover(graph, mover.mesh(), other, mover.buffers());
-                    placeMover(graph, mover.mesh(), pose, mover.buffers());
-                    cover(graph, {mover.uploaded(), mover.buffers()}, voxelize, work);
+                    setPose(graph, object.mesh(), other, object.buffers());
+                    setPose(graph, object.mesh(), pose, object.buffers());
+                    cover(graph, {object.uploaded(), object.buffers()}, voxelize, work);
                     dump = graph.dump();
                 }
                 else
@@ -88,17 +88,17 @@ TEST(Mover, PlacesAndVoxelizesInOneCommandBuffer)
     EXPECT_NE(dump.find("reads mover/positions"), std::string::npos);
 }
 
-TEST(Mover, PassesThatWalkItWaitForItsDraws)
+TEST(DynamicObject, PassesThatWalkItWaitForItsDraws)
 {
     const Scene scene = test::boxScene(glm::vec3(-1.0F), glm::vec3(1.0F));
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     std::string dump;
-    VoxelizeBuffers voxelize(device().device(), {1 << 12, 1 << 10, 1 << 12}, mover.uploaded());
+    VoxelizeBuffers voxelize(device().device(), {1 << 12, 1 << 10, 1 << 12}, object.uploaded());
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            placeMover(graph, std::vector{glm::mat4(1.0F)}, mover.buffers());
-            voxelizeCoverage(graph, {mover.uploaded(), mover.buffers()}, kGrid, Coverage::Thin, voxelize);
+            setPose(graph, std::vector{glm::mat4(1.0F)}, object.buffers());
+            voxelizeCoverage(graph, {object.uploaded(), object.buffers()}, kGrid, Coverage::Thin, voxelize);
             dump = graph.dump();
         });
     const std::size_t updated = dump.find("pass update mover/draws");
@@ -109,52 +109,52 @@ TEST(Mover, PassesThatWalkItWaitForItsDraws)
     EXPECT_NE(dump.find("reads mover/draws", walked), std::string::npos) << dump;
 }
 
-TEST(Mover, WhatIsNotFiniteIsCountedAndTheRestIsThere)
+TEST(DynamicObject, WhatIsNotFiniteIsCountedAndTheRestIsThere)
 {
     std::mt19937 random(26);
     auto [scene, pose] = mixedScene(random);
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     pose.joint_matrices[1][2][3].x = std::numeric_limits<float>::infinity();
     pose.transforms[0][1][1] = nan;
     pose.morph_weights[8][0] = nan;
-    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 3000U);
+    EXPECT_GT(expectEqualsPosed(object, scene, pose), 3000U);
     // The instances of numbers 0 and 8 are gone, that of 1 in part.
-    EXPECT_GT(mover.make(kGrid, Coverage::Thin).dropped["nonfinite"], 2U * 58);
-    EXPECT_LT(mover.make(kGrid, Coverage::Thin).dropped["nonfinite"], 3U * 58);
+    EXPECT_GT(object.make(kGrid, Coverage::Thin).dropped["nonfinite"], 2U * 58);
+    EXPECT_LT(object.make(kGrid, Coverage::Thin).dropped["nonfinite"], 3U * 58);
 }
 
-TEST(Mover, ComesBackToTheSameBytesInConstantMemory)
+TEST(DynamicObject, ComesBackToTheSameBytesInConstantMemory)
 {
     std::mt19937 random(27);
     auto [scene, first] = mixedScene(random);
     Pose second = first;
     test::changePose(random, second);
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     const std::string shas[2] = {makeAnew(posedScene(scene, first), kGrid, Coverage::Thin).sha,
                                  makeAnew(posedScene(scene, second), kGrid, Coverage::Thin).sha};
-    mover.place(first);
+    object.setPose(first);
     vk::MemoryAllocator& memory = device().device().memory();
     const std::uint64_t used = memory.usedBytes();
     memory.resetPeak();
-    const auto* const draws = mover.buffers().host_draws.data();
-    const auto* const joints = mover.buffers().pose.host_joint_matrices.data();
-    const auto* const terms = mover.buffers().pose.host_morph_terms.data();
+    const auto* const draws = object.buffers().host_draws.data();
+    const auto* const joints = object.buffers().pose.host_joint_matrices.data();
+    const auto* const terms = object.buffers().pose.host_morph_terms.data();
     for (int frame = 0; frame < 500; ++frame)
     {
-        mover.place(frame % 2 == 0 ? second : first);
+        object.setPose(frame % 2 == 0 ? second : first);
     }
     EXPECT_EQ(memory.usedBytes(), used);
     EXPECT_EQ(memory.peakBytes(), used) << "a frame allocates nothing on the device";
-    EXPECT_EQ(mover.buffers().host_draws.data(), draws);
-    EXPECT_EQ(mover.buffers().pose.host_joint_matrices.data(), joints);
-    EXPECT_EQ(mover.buffers().pose.host_morph_terms.data(), terms);
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, shas[0]);
-    mover.place(second);
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, shas[1]);
+    EXPECT_EQ(object.buffers().host_draws.data(), draws);
+    EXPECT_EQ(object.buffers().pose.host_joint_matrices.data(), joints);
+    EXPECT_EQ(object.buffers().pose.host_morph_terms.data(), terms);
+    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, shas[0]);
+    object.setPose(second);
+    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, shas[1]);
 }
 
-TEST(Mover, TwoSetsOfBuffersOfOneSceneAreIndependent)
+TEST(DynamicObject, TwoSetsOfBuffersOfOneSceneAreIndependent)
 {
     std::mt19937 random(28);
     const std::pair<Scene, Pose> made = mixedScene(random);
@@ -162,44 +162,45 @@ TEST(Mover, TwoSetsOfBuffersOfOneSceneAreIndependent)
     const Pose& pose = made.second;
     Pose other = pose;
     test::changePose(random, other);
-    MovedScene mover(device(), scene);
-    MoverBuffers second = makeMover(device(), planMover(scene, mover.mesh()), mover.uploaded(), mover.mesh());
+    MovedScene object(device(), scene);
+    DynamicObjectBuffers second =
+        makeDynamicObject(device(), planDynamicObject(scene, object.mesh()), object.uploaded(), object.mesh());
     device().run(
         [&](vk::FrameGraph& graph)
         {
-            placeMover(graph, mover.mesh(), pose, mover.buffers());
-            placeMover(graph, mover.mesh(), other, second);
+            setPose(graph, object.mesh(), pose, object.buffers());
+            setPose(graph, object.mesh(), other, second);
         });
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
-    EXPECT_EQ(makeOctree(device(), {mover.uploaded(), second}, kGrid, Coverage::Thin).sha,
+    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
+    EXPECT_EQ(makeOctree(device(), {object.uploaded(), second}, kGrid, Coverage::Thin).sha,
               makeAnew(posedScene(scene, other), kGrid, Coverage::Thin).sha);
 }
 
-TEST(Mover, SplitOverSubmissionsItHasTheSameBytes)
+TEST(DynamicObject, SplitOverSubmissionsItHasTheSameBytes)
 {
     std::mt19937 random(29);
     const auto [scene, pose] = mixedScene(random);
     vk::HeadlessOptions options = test::deviceOptions();
     options.slices.most_units = 2;
     vk::HeadlessDevice sliced(options, zvoKernels());
-    MovedScene mover(sliced, scene);
-    mover.place(pose);
-    EXPECT_EQ(mover.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
+    MovedScene object(sliced, scene);
+    object.setPose(pose);
+    EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha, makeAnew(posedScene(scene, pose), kGrid, Coverage::Thin).sha);
 }
 
-TEST(Mover, TransformsOfAnotherSceneAreRefused)
+TEST(DynamicObject, TransformsOfAnotherSceneAreRefused)
 {
     std::mt19937 random(30);
     auto [scene, pose] = mixedScene(random);
-    MovedScene mover(device(), scene);
+    MovedScene object(device(), scene);
     Pose other = pose;
     other.transforms.pop_back();
-    EXPECT_THROW(mover.place(other), Error);
-    EXPECT_THROW(mover.place({}), Error);
-    EXPECT_GT(expectEqualsPosed(mover, scene, pose), 5000U) << "and it goes on";
+    EXPECT_THROW(object.setPose(other), Error);
+    EXPECT_THROW(object.setPose({}), Error);
+    EXPECT_GT(expectEqualsPosed(object, scene, pose), 5000U) << "and it goes on";
 }
 
-TEST(Mover, NeedsAreNamedBeforeMemoryIsTaken)
+TEST(DynamicObject, NeedsAreNamedBeforeMemoryIsTaken)
 {
     std::mt19937 random(31);
     Scene scene;
@@ -218,7 +219,7 @@ TEST(Mover, NeedsAreNamedBeforeMemoryIsTaken)
     const std::uint64_t used = limited.device().memory().usedBytes();
     try
     {
-        const MoverBuffers mover = makeMover(limited, planMover(scene, mesh), uploaded, mesh);
+        const DynamicObjectBuffers object = makeDynamicObject(limited, planDynamicObject(scene, mesh), uploaded, mesh);
         FAIL() << "400 instances of 1000 vertices, 24 bytes each";
     }
     catch (const Error& error)

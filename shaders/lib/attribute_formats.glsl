@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Attributes out of any form, in integers: src/core/tree/attribute_form.cpp is the same for the host.
+// Attributes out of any format, in integers: src/core/tree/attribute_format.cpp is the same for the host.
 #include "lib/normal_code.glsl"
-#include "shared/attribute_forms.h"
+#include "shared/attribute_formats.h"
 
 // 8 bits a channel of a colour in 5, 6 and 5 bits: c * 255 / 31 and c * 255 / 63, rounded.
 uvec3 unpackColor565(uint code)
@@ -80,12 +80,12 @@ Attribute unpackBlock(uint_ConstPtr words, uint index)
 }
 
 // The attribute of a voxel or, where voxel is not set, of a node.
-Attribute readAttribute(uint form, bool voxel, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes, uint index)
+Attribute readAttribute(uint format, bool voxel, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes, uint index)
 {
-    if (form == kFormBlocks && voxel)
+    if (format == kFormatBlocks && voxel)
         return unpackBlock(uint_ConstPtr(uint64_t(voxels)), index);
     uint64_t address = voxel ? uint64_t(voxels) : uint64_t(nodes);
-    if (form != kForm8)
+    if (format != kFormat8)
         return unpackAttribute4(uint_ConstPtr(address).data[index]);
     uvec2 stored = unpackUint2x32(uint64_t_ConstPtr(address).data[index]);
     return Attribute(stored.x, stored.y);

@@ -12,18 +12,18 @@
 namespace zvo
 {
 
-/// A step of an update that can be recorded on its own.
-struct RecordedStep
+/// A stage of an update that can be recorded on its own.
+struct RecordedStage
 {
-    UpdateStep step;
+    UpdateStage stage;
     std::function<void(vk::FrameGraph&, std::uint64_t first_unit, std::uint64_t unit_count)> record;
 };
 
-using RecordedSteps = std::vector<RecordedStep>;
+using RecordedStages = std::vector<RecordedStage>;
 
-inline void addStep(RecordedSteps& steps, UpdateStep step, decltype(RecordedStep::record) record)
+inline void addStage(RecordedStages& stages, UpdateStage stage, decltype(RecordedStage::record) record)
 {
-    steps.push_back({std::move(step), std::move(record)});
+    stages.push_back({std::move(stage), std::move(record)});
 }
 
 } // namespace zvo

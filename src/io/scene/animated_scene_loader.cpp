@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loading of stages (core/stage.h): files are found and loaded, and divided into what stands still and what moves.
+// Loading of animated scenes (io/scene/animated_scene.h): files are found and loaded, and divided into what stands
+// still and what moves.
 #include "core/base/finite.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
@@ -7,9 +8,9 @@
 #include "core/scene/deform.h"
 #include "core/scene/scene_size.h"
 #include "io/file/folder_bounds.h"
+#include "io/scene/animated_scene.h"
 #include "io/scene/load_scene.h"
 #include "io/scene/scene_part.h"
-#include "io/scene/stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,21 +30,21 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t kShownAnimations = 8;                       // more are only counted
-constexpr std::size_t kStageFileBytesMax = std::size_t{4} << 20U; // many times what 4096 objects take
+constexpr std::size_t kSceneFileBytesMax = std::size_t{4} << 20U; // many times what 4096 objects take
 
 /// The product in double precision, rounded once.
-glm::mat4 placed(const glm::dmat4& place, const glm::mat4& transform)
+glm::mat4 placed(const glm::dmat4& to_world, const glm::mat4& transform)
 {
-    return glm::mat4(place * glm::dmat4(transform));
+    return glm::mat4(to_world * glm::dmat4(transform));
 }
 
-Error objectError(const fs::path& stage_path, const StageObject& object, std::string_view text)
+Error objectError(const fs::path& scene_file_path, const SceneFileObject& object, std::string_view text)
 {
-    return inputError(stage_path, fmt::format("{}.{}", object.where, text));
+    return inputError(scene_file_path, fmt::format("{}.{}", object.where, text));
 }
 
 /// The file of an object in the first of the folders that has it. other_folder: how messages call the second one.
-fs::path resolve(const fs::path& stage_path, const StageObject& object, const std::vector<fs::path>& folders,
+fs::path resolve(const fs::path& scene_file_path, const SceneFileObject& object, const std::vector<fs::path>& folders,
                  const std::string& other_folder)
 {
     const fs::path file = object.file;
@@ -52,7 +53,7 @@ fs::path resolve(const fs::path& stage_path, const StageObject& object, const st
         std::error_code missing;
         if (file.is_absolute() || !liesBelow(folder, folder / file))
         {
-            throw objectError(stage_path, object,
+            throw objectError(scene_file_path, object,
                               fmt::format("file is \"{}\", which leaves the folder of the scene file or of {}; "
                                           "expected a file in one of them or below",
                                           object.file, other_folder));
@@ -65,7 +66,7 @@ fs::path resolve(const fs::path& stage_path, const StageObject& object, const st
     std::vector<std::string> names;
     std::transform(folders.begin(), folders.end(), std::back_inserter(names),
                    [](const fs::path& folder) { return folder.string(); });
-    throw objectError(stage_path, object,
+    throw objectError(scene_file_path, object,
                       fmt::format("file is \"{}\", which is not in {}; {}{} tells where else to look", object.file,
                                   fmt::join(names, " or "), folders.size() > 1 ? "another " : "", other_folder));
 }
@@ -108,11 +109,12 @@ SceneSize sizeOf(const Scene& scene)
     return size;
 }
 
-/// Loads the files of a stage's objects, each once.
+/// Loads the files of an animated scene's objects, each once.
 class ObjectLoader
 {
 public:
-    ObjectLoader(const fs::path& stage_path, const std::vector<fs::path>& paths) : m_stage_path(stage_path)
+    ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths)
+        : m_scene_file_path(scene_file_path)
     {
         for (const fs::path& path : paths)
         {
@@ -134,7 +136,7 @@ public:
         m_size.triangle_count += file.size.triangle_count;
         m_size.vertex_count = std::max(m_size.vertex_count, file.size.vertex_count);
         m_size.bytes += file.size.bytes;
-        checkSceneSize(m_stage_path, m_size); // before it is copied
+        checkSceneSize(m_scene_file_path, m_size); // before it is copied
         if (--file.use_count == 0)
         {
             return std::move(file.scene);
@@ -154,27 +156,27 @@ private:
         SceneSize size;
     };
 
-    const fs::path& m_stage_path;
+    const fs::path& m_scene_file_path;
     std::map<fs::path, File> m_files;
     SceneSize m_size; // of all objects
 };
 
-void placeCamera(const glm::dmat4& place, Camera& camera)
+void placeCamera(const glm::dmat4& to_world, Camera& camera)
 {
     const glm::dvec3 up(camera.transform[1]);
     const double length = glm::length(up);
-    const double scale = length > 0.0 ? glm::length(glm::dmat3(place) * up) / length : 1.0;
-    camera.transform = placed(place, camera.transform);
+    const double scale = length > 0.0 ? glm::length(glm::dmat3(to_world) * up) / length : 1.0;
+    camera.transform = placed(to_world, camera.transform);
     camera.half_height = static_cast<float>(scale * static_cast<double>(camera.half_height));
 }
 
-void checkPlace(const fs::path& stage_path, const StageObject& object, const Scene& scene)
+void checkTransform(const fs::path& scene_file_path, const SceneFileObject& object, const Scene& scene)
 {
     for (const Instance& instance : scene.instances)
     {
-        if (!isFinite(placed(object.place, instance.transform)))
+        if (!isFinite(placed(object.transform, instance.transform)))
         {
-            throw objectError(stage_path, object,
+            throw objectError(scene_file_path, object,
                               "place makes the object larger than single precision holds; expected a smaller scale");
         }
     }
@@ -202,7 +204,7 @@ std::string listAnimations(const std::vector<Animation>& animations)
 }
 
 /// Leaves the scene of an object the animation that plays.
-void chooseAnimation(const fs::path& stage_path, const StageObject& object, Scene& scene)
+void chooseAnimation(const fs::path& scene_file_path, const SceneFileObject& object, Scene& scene)
 {
     if (keepAnimation(scene, object.animation))
     {
@@ -211,7 +213,7 @@ void chooseAnimation(const fs::path& stage_path, const StageObject& object, Scen
     const auto* const name = std::get_if<std::string>(&*object.animation);
     const std::string wanted =
         name != nullptr ? fmt::format("\"{}\"", *name) : fmt::format("{}", std::get<std::uint32_t>(*object.animation));
-    throw objectError(stage_path, object,
+    throw objectError(scene_file_path, object,
                       fmt::format("animation is {}, which {} does not have; it {}", wanted, object.file,
                                   listAnimations(scene.animations)));
 }
@@ -224,69 +226,70 @@ bool isDeformedAtAll(const Scene& scene)
 }
 
 /// Adds what stands still, cameras included.
-void addFixed(Stage& stage, Scene&& scene, const glm::dmat4& place)
+void addFixed(AnimatedScene& animated, Scene&& scene, const glm::dmat4& to_world)
 {
     if (isDeformedAtAll(scene))
     {
-        moveBehind(stage.warnings, scene.rest_warnings);
+        moveBehind(animated.warnings, scene.rest_warnings);
     }
     scene = atRest(std::move(scene));
     scene.rest_warnings.clear();
     for (Instance& instance : scene.instances)
     {
-        instance.transform = placed(place, instance.transform);
+        instance.transform = placed(to_world, instance.transform);
     }
     for (Camera& camera : scene.cameras)
     {
-        placeCamera(place, camera);
+        placeCamera(to_world, camera);
     }
-    stage.fixed.append(std::move(scene));
+    animated.fixed.append(std::move(scene));
 }
 
-/// Adds a mover that has no scene yet, with those instances of scene that move, and the others as what stands still.
-void addParts(Stage& stage, Mover mover, Scene&& scene, const std::vector<bool>& moves)
+/// Adds a dynamic object that has no scene yet, with those instances of scene that move, and the others as what stands
+/// still.
+void addParts(AnimatedScene& animated, DynamicObject moving, Scene&& scene, const std::vector<bool>& moves)
 {
-    moveBehind(stage.warnings, scene.warnings);
-    if (!std::holds_alternative<std::monostate>(mover.motion))
+    moveBehind(animated.warnings, scene.warnings);
+    if (!std::holds_alternative<std::monostate>(moving.motion))
     {
         scene.cameras.clear(); // they would have to move
     }
     if (std::find(moves.begin(), moves.end(), true) == moves.end())
     {
-        addFixed(stage, std::move(scene), mover.place);
+        addFixed(animated, std::move(scene), moving.transform);
         return;
     }
     std::vector<bool> stays = moves;
     stays.flip();
-    addFixed(stage, partOf(scene, stays), mover.place);
-    mover.scene = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
-    mover.scene.cameras.clear();
-    mover.scene.rest_warnings.clear();
-    const std::vector<bool> animated = animatedInstances(mover.scene);
-    mover.deforms = std::find(animated.begin(), animated.end(), true) != animated.end();
-    stage.movers.push_back(std::move(mover));
+    addFixed(animated, partOf(scene, stays), moving.transform);
+    moving.scene = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
+    moving.scene.cameras.clear();
+    moving.scene.rest_warnings.clear();
+    const std::vector<bool> is_animated = animatedInstances(moving.scene);
+    moving.deforms = std::find(is_animated.begin(), is_animated.end(), true) != is_animated.end();
+    animated.objects.push_back(std::move(moving));
 }
 
-void addObject(Stage& stage, const StageObject& object, Scene&& scene)
+void addObject(AnimatedScene& animated, const SceneFileObject& object, Scene&& scene)
 {
     const std::vector<bool> moves =
         object.is_dynamic ? std::vector<bool>(scene.instances.size(), *object.is_dynamic) : animatedInstances(scene);
-    Mover mover;
-    mover.name = object.name;
-    mover.place = object.place;
-    mover.motion = object.motion;
-    addParts(stage, std::move(mover), std::move(scene), moves);
+    DynamicObject moving;
+    moving.name = object.name;
+    moving.transform = object.transform;
+    moving.motion = object.motion;
+    addParts(animated, std::move(moving), std::move(scene), moves);
 }
 
-void checkCamera(const fs::path& stage_path, const Stage& stage)
+void checkCamera(const fs::path& scene_file_path, const AnimatedScene& animated)
 {
-    const auto* const name = stage.camera ? std::get_if<std::string>(&*stage.camera) : nullptr;
+    const auto* const name = animated.camera ? std::get_if<std::string>(&*animated.camera) : nullptr;
     if (name == nullptr || *name == "auto" || *name == "close")
     {
         return;
     }
     std::vector<std::string> names = {"auto", "close"};
-    for (const Camera& camera : stage.fixed.cameras)
+    for (const Camera& camera : animated.fixed.cameras)
     {
         if (camera.name == *name)
         {
@@ -294,78 +297,78 @@ void checkCamera(const fs::path& stage_path, const Stage& stage)
         }
         names.push_back(camera.name);
     }
-    throw inputError(stage_path,
+    throw inputError(scene_file_path,
                      fmt::format("camera is \"{}\"; expected one of {} (cameras of objects without a motion), or "
                                  "an object with eye and target",
                                  *name, fmt::join(names, ", ")));
 }
 
-std::string readStageText(const fs::path& path)
+std::string readSceneFileText(const fs::path& path)
 {
     const std::vector<std::uint8_t> content = readFile(path);
-    if (content.size() > kStageFileBytesMax)
+    if (content.size() > kSceneFileBytesMax)
     {
         throw inputError(
-            path, fmt::format("a scene file of {} bytes; expected {} at most", content.size(), kStageFileBytesMax));
+            path, fmt::format("a scene file of {} bytes; expected {} at most", content.size(), kSceneFileBytesMax));
     }
     return {content.begin(), content.end()};
 }
 
 } // namespace
 
-Stage stageOf(Scene scene, const std::string& name)
+AnimatedScene animatedSceneOf(Scene scene, const std::string& name)
 {
-    Stage stage;
+    AnimatedScene animated;
     double seconds = 0.0;
     for (const Animation& animation : scene.animations)
     {
         seconds = std::max(seconds, animation.seconds);
     }
-    stage.seconds = seconds > 0.0 ? seconds : stage.seconds;
+    animated.seconds = seconds > 0.0 ? seconds : animated.seconds;
     const std::vector<bool> moves = animatedInstances(scene);
-    Mover mover;
-    mover.name = name;
-    addParts(stage, std::move(mover), std::move(scene), moves);
-    return stage;
+    DynamicObject moving;
+    moving.name = name;
+    addParts(animated, std::move(moving), std::move(scene), moves);
+    return animated;
 }
 
-Stage loadStage(const fs::path& path, const StageOptions& options)
+AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions& options)
 {
-    if (!isStageFile(path))
+    if (!isSceneFile(path))
     {
-        Stage stage = stageOf(loadScene(std::span(&path, 1), options.load), path.stem().string());
-        stage.files.push_back(path);
-        return stage;
+        AnimatedScene animated = animatedSceneOf(loadScene(std::span(&path, 1), options.load), path.stem().string());
+        animated.files.push_back(path);
+        return animated;
     }
-    const StageFile file = parseStageFile(readStageText(path), path);
+    const SceneFile file = parseSceneFile(readSceneFileText(path), path);
     std::vector<fs::path> folders = {path.has_parent_path() ? path.parent_path() : fs::path(".")};
     if (options.scenes_folder)
     {
         folders.push_back(*options.scenes_folder);
     }
-    Stage stage;
-    stage.seconds = file.seconds;
-    stage.frames_per_second = file.frames_per_second;
-    stage.grid_depth = file.grid_depth;
-    stage.grid_bounds = file.grid_bounds;
-    stage.camera = file.camera;
-    stage.merge = file.merge;
-    for (const StageObject& object : file.objects)
+    AnimatedScene animated;
+    animated.seconds = file.seconds;
+    animated.frames_per_second = file.frames_per_second;
+    animated.grid_depth = file.grid_depth;
+    animated.grid_bounds = file.grid_bounds;
+    animated.camera = file.camera;
+    animated.merge = file.merge;
+    for (const SceneFileObject& object : file.objects)
     {
-        stage.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
+        animated.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
     }
-    ObjectLoader loader(path, stage.files);
+    ObjectLoader loader(path, animated.files);
     for (std::size_t i = 0; i < file.objects.size(); ++i)
     {
-        const StageObject& object = file.objects[i];
-        Scene scene = loader.load(stage.files[i]);
-        checkPlace(path, object, scene);
+        const SceneFileObject& object = file.objects[i];
+        Scene scene = loader.load(animated.files[i]);
+        checkTransform(path, object, scene);
         chooseAnimation(path, object, scene);
-        addObject(stage, object, std::move(scene));
+        addObject(animated, object, std::move(scene));
     }
-    checkCamera(path, stage);
-    stage.files.push_back(path);
-    return stage;
+    checkCamera(path, animated);
+    animated.files.push_back(path);
+    return animated;
 }
 
 } // namespace zvo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/file/looks_check.h"
+#include "core/file/attributes_check.h"
 
 #include "core/base/divide_up.h"
 
@@ -58,23 +58,23 @@ Fault checkBlocks(std::span<const gpu::uint> words)
 Fault checkPacked(const TreeData& tree)
 {
     const PackedWords& packed = tree.packed;
-    const bool is_packed = packed.form == AttributeForm::Bytes4 || packed.form == AttributeForm::Blocks;
-    if (!is_packed && packed.form != AttributeForm::None)
+    const bool is_packed = packed.format == AttributeFormat::Bytes4 || packed.format == AttributeFormat::Blocks;
+    if (!is_packed && packed.format != AttributeFormat::None)
     {
-        return "the attributes have an unknown form";
+        return "the attributes have an unknown format";
     }
     if (is_packed && (!tree.voxel_attributes.empty() || !tree.node_attributes.empty()))
     {
-        return "there are attributes in two forms";
+        return "there are attributes in two formats";
     }
-    const std::uint64_t voxel_words = is_packed ? packedWords(packed.form, tree.voxel_count) : 0;
-    const std::uint64_t node_words = is_packed ? packedWords(nodeForm(packed.form), tree.octree_node_count) : 0;
+    const std::uint64_t voxel_words = is_packed ? packedWords(packed.format, tree.voxel_count) : 0;
+    const std::uint64_t node_words = is_packed ? packedWords(nodeFormat(packed.format), tree.octree_node_count) : 0;
     if (packed.voxels.size() != voxel_words || packed.nodes.size() != node_words)
     {
         return fmt::format("packed attributes of voxels and nodes take {} and {} words, where they must take {} and {}",
                            packed.voxels.size(), packed.nodes.size(), voxel_words, node_words);
     }
-    const bool are_blocks = packed.form == AttributeForm::Blocks;
+    const bool are_blocks = packed.format == AttributeFormat::Blocks;
     if (Fault fault = are_blocks ? checkBlocks(packed.voxels) : checkWords4(packed.voxels, "voxels"))
     {
         return fault;
@@ -159,7 +159,7 @@ Fault checkEmission(const TreeData& tree)
 
 } // namespace
 
-std::optional<std::string> checkLooks(const TreeData& tree)
+std::optional<std::string> checkAttributes(const TreeData& tree)
 {
     if (Fault fault = checkPlain(tree))
     {

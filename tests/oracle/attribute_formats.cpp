@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oracle/attribute_forms.h"
+#include "oracle/attribute_formats.h"
 
 #include <algorithm>
 #include <array>

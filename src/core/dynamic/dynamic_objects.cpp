@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: MIT
+#include "core/dynamic/dynamic_objects.h"
+
+#include "core/base/with_slack.h"
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+// What a layer that failed needs, as far as it tells: counts past a capacity are exact unless the table was full.
+LayerCapacities grown(const LayerCapacities& tried, const gpu::LayerCounters& counters)
+{
+    LayerCapacities result = tried;
+    if (counters.overflow_count != 0)
+    {
+        result.voxelize.bricks = std::min(4 * tried.voxelize.bricks, VoxelizeCapacities::kBricksMax);
+    }
+    result.voxelize.big_triangles = std::max<std::uint64_t>(tried.voxelize.big_triangles, counters.big_count);
+    result.voxelize.row_blocks = std::max<std::uint64_t>(tried.voxelize.row_blocks, counters.block_count);
+    if (counters.leaf_count > tried.leaves)
+    {
+        result.leaves = withSlack(counters.leaf_count);
+    }
+    if (counters.voxel_count > tried.voxels)
+    {
+        result.voxels = withSlack(counters.voxel_count);
+    }
+    return result;
+}
+
+// Throws Error{Usage} for a pose that does not fit.
+void checkPose(const DynamicMesh& mesh, const Pose& pose)
+{
+    if (pose.transforms.size() != mesh.scene.instances.size())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("a dynamic object of {} instances was given {} transforms",
+                                                  mesh.scene.instances.size(), pose.transforms.size()));
+    }
+    checkPose(mesh.deform, pose);
+}
+
+template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+// By their bits: what is not a number equals itself.
+bool isSame(const Pose& a, const Pose& b)
+{
+    const auto same = [](const auto& x, const auto& y) { return isSame(x, y); };
+    return isSame(a.transforms, b.transforms) && std::ranges::equal(a.joint_matrices, b.joint_matrices, same) &&
+           std::ranges::equal(a.morph_weights, b.morph_weights, same);
+}
+
+// Leaves of a scene what tells how it can be posed.
+void dropContents(Scene& scene)
+{
+    scene.images.clear();
+    for (Primitive& primitive : scene.primitives)
+    {
+        const std::size_t target_count = primitive.morph_targets.size();
+        primitive = Primitive();
+        primitive.morph_targets.resize(target_count);
+    }
+}
+
+} // namespace
+
+std::shared_ptr<const DynamicMesh> uploadDynamicMesh(vk::Uploader& device, Scene scene, bool attributes,
+                                                     float emission_scale)
+{
+    auto mesh = std::make_shared<DynamicMesh>();
+    mesh->uploaded = uploadScene(device, scene, attributes, emission_scale);
+    mesh->deform = uploadDeformMesh(device, scene);
+    mesh->emits = brightestEmission(scene) > 0;
+    mesh->plan = planDynamicObject(scene, mesh->deform);
+    dropContents(scene);
+    mesh->scene = std::move(scene);
+    return mesh;
+}
+
+DynamicObjects::DynamicObjects(vk::Uploader& device, const Grid& grid, const DynamicObjectOptions& options,
+                               vk::DeletionQueue& deletion_queue)
+    : m_device(device), m_grid(grid), m_options(options), m_deletion_queue(deletion_queue),
+      m_reports(device.device(), "update/layer_reports", (std::uint64_t{options.updates_max} + 1) * gpu::kLayersMax,
+                vk::MemoryKind::Readback)
+{
+}
+
+DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pose pose)
+{
+    if (presentObjects().size() == gpu::kLayersMax)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("an octree takes {} dynamic objects at most", gpu::kLayersMax));
+    }
+    if (mesh->uploaded.emission_scale != 0 && mesh->uploaded.emission_scale != m_options.emission_scale)
+    {
+        throw Error(ErrorCode::Usage, "dynamic objects and the static scene need one emission scale");
+    }
+    if (m_options.contents.attributes && !mesh->uploaded.has_attributes)
+    {
+        throw Error(ErrorCode::Usage,
+                    "the dynamic object was uploaded without attributes, the static octree or DAG has them");
+    }
+    checkPose(*mesh, pose);
+    Object object;
+    object.buffers = makeDynamicObject(m_device, mesh->plan, mesh->uploaded, mesh->deform);
+    object.capacities = m_options.minimal_capacities ? LayerCapacities{{1, 0, 0}, 1, 1}
+                                                     : LayerCapacities::estimate(mesh->uploaded, m_grid);
+    object.mesh = std::move(mesh);
+    object.version = addPose(std::move(pose));
+    m_objects.emplace(m_next_object, std::move(object));
+    return m_next_object++;
+}
+
+void DynamicObjects::setPose(DynamicObjectId object, Pose pose)
+{
+    Object& m = presentObject(object);
+    checkPose(*m.mesh, pose);
+    if (!isSame(pose, *m_poses.at(m.version)))
+    {
+        m.version = addPose(std::move(pose));
+    }
+}
+
+void DynamicObjects::remove(DynamicObjectId object)
+{
+    Object& m = presentObject(object);
+    m.present = false;
+    dropLayer(m);
+}
+
+void DynamicObjects::bringBack(std::span<const LayerState> states)
+{
+    for (auto& [id, object] : m_objects)
+    {
+        const auto state = std::ranges::find(states, id, &LayerState::layer);
+        object.present = state != states.end();
+        if (object.present)
+        {
+            object.version = state->version;
+        }
+        else
+        {
+            dropLayer(object);
+        }
+    }
+}
+
+bool DynamicObjects::isEmpty() const
+{
+    return std::ranges::none_of(m_objects, [](const auto& entry) { return entry.second.present; });
+}
+
+std::vector<LayerState> DynamicObjects::states() const
+{
+    std::vector<LayerState> states;
+    for (const auto& [id, object] : m_objects)
+    {
+        if (object.present)
+        {
+            states.push_back({id, object.version});
+        }
+    }
+    return states;
+}
+
+std::vector<const LayerBuffers*> DynamicObjects::layers()
+{
+    std::vector<const LayerBuffers*> layers;
+    for (const Object* object : presentObjects())
+    {
+        layers.push_back(object->layer.get());
+    }
+    return layers;
+}
+
+std::uint64_t DynamicObjects::leafCapacity()
+{
+    std::uint64_t leaves = 0;
+    for (const Object* object : presentObjects())
+    {
+        leaves += object->capacities.leaves;
+    }
+    return leaves;
+}
+
+DynamicObjects::Object& DynamicObjects::presentObject(DynamicObjectId id)
+{
+    const auto found = m_objects.find(id);
+    if (found == m_objects.end() || !found->second.present)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("there is no dynamic object {}", id));
+    }
+    return found->second;
+}
+
+std::vector<DynamicObjects::Object*> DynamicObjects::presentObjects()
+{
+    std::vector<Object*> objects;
+    for (auto& [id, object] : m_objects)
+    {
+        if (object.present)
+        {
+            objects.push_back(&object);
+        }
+    }
+    return objects;
+}
+
+// The layer is made anew when it is needed again.
+void DynamicObjects::dropLayer(Object& object)
+{
+    object.voxelized = 0;
+    if (object.layer != nullptr)
+    {
+        m_deletion_queue.keep(std::move(object.layer));
+    }
+}
+
+std::uint64_t DynamicObjects::addPose(Pose pose)
+{
+    m_poses.emplace(m_next_version, std::make_shared<const Pose>(std::move(pose)));
+    return m_next_version++;
+}
+
+void DynamicObjects::forgetPoses(std::span<const LayerState> states)
+{
+    std::set<std::uint64_t> versions;
+    std::set<DynamicObjectId> shown;
+    for (const LayerState& state : states)
+    {
+        versions.insert(state.version);
+        shown.insert(state.layer);
+    }
+    for (auto it = m_objects.begin(); it != m_objects.end();)
+    {
+        if (it->second.present || shown.contains(it->first))
+        {
+            versions.insert(it->second.version);
+            ++it;
+        }
+        else
+        {
+            m_deletion_queue.keep(std::move(it->second));
+            it = m_objects.erase(it);
+        }
+    }
+    std::erase_if(m_poses, [&](const auto& entry) { return !versions.contains(entry.first); });
+    m_poses_max = 2 * m_poses.size() + 1024;
+}
+
+void DynamicObjects::makeLayers()
+{
+    if (std::ranges::any_of(presentObjects(), &Object::is_hopeless))
+    {
+        throw Error(ErrorCode::Memory,
+                    "a dynamic object makes more pieces than 32-bit numbers count; lower the resolution");
+    }
+    std::uint64_t voxelized_count = 0;
+    for (Object* object : presentObjects())
+    {
+        voxelized_count += object->voxelized != object->version ? 1 : 0;
+        if (object->voxelized != object->version && object->layer == nullptr)
+        {
+            const GpuScene& scene = object->mesh->uploaded;
+            const LayerContents contents = {m_options.contents.attributes,
+                                            m_options.contents.emission && object->mesh->emits};
+            m_device.device().memory().require(LayerBuffers::bytes(object->capacities, scene, contents),
+                                               "the voxels of a dynamic object");
+            object->layer = std::make_unique<LayerBuffers>(m_device.device(), object->capacities, scene, contents);
+        }
+    }
+    const std::uint64_t awaited = m_pending.empty() ? 0 : m_report_count - m_pending.front().report;
+    if (awaited + voxelized_count > m_reports.count())
+    {
+        throw Error(ErrorCode::Usage, "more updates are under way than frames in flight were announced");
+    }
+}
+
+std::vector<DynamicObjectId> DynamicObjects::addStages(std::uint32_t sum_shift, RecordedStages& stages)
+{
+    std::vector<DynamicObjectId> voxelized;
+    for (auto& entry : m_objects)
+    {
+        const DynamicObjectId id = entry.first;
+        Object& object = entry.second;
+        if (!object.present || object.voxelized == object.version)
+        {
+            continue;
+        }
+        const GpuScene& scene = object.mesh->uploaded;
+        const std::uint64_t report = m_report_count++;
+        addStage(stages, {"pose a dynamic object", scene.triangle_count},
+                 [&object, pose = m_poses.at(object.version)](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
+                 { zvo::setPose(graph, object.mesh->deform, *pose, object.buffers); });
+        addLayerStages({.scene = {scene, object.buffers},
+                        .grid = m_grid,
+                        .coverage = m_options.coverage,
+                        .sum_shift = sum_shift,
+                        .layer = *object.layer,
+                        .reports = m_reports,
+                        .report = static_cast<std::uint32_t>(report % m_reports.count())},
+                       stages);
+        // In the frame that writes the report, or one after it.
+        addStage(stages, {"await a report", 1},
+                 [this, &object, id, report](vk::FrameGraph&, std::uint64_t, std::uint64_t) {
+                     m_pending.push_back({m_deletion_queue.frame(), id, report, object.capacities});
+                 });
+        object.voxelized = object.version;
+        voxelized.push_back(id);
+    }
+    return voxelized;
+}
+
+void DynamicObjects::forgetLayers(std::span<const DynamicObjectId> objects)
+{
+    for (const DynamicObjectId id : objects)
+    {
+        m_objects.at(id).voxelized = 0;
+    }
+}
+
+void DynamicObjects::forgetLayers()
+{
+    for (auto& [id, object] : m_objects)
+    {
+        object.voxelized = 0;
+    }
+}
+
+// Gives a layer that failed more room. False if there is nothing to do.
+bool DynamicObjects::learn(const PendingLayer& pending)
+{
+    const auto found = m_objects.find(pending.object);
+    if (found == m_objects.end() || found->second.capacities != pending.capacities)
+    {
+        return false; // gone, or larger already
+    }
+    const gpu::LayerCounters counters = m_reports.mappedData()[pending.report % m_reports.count()];
+    Object& object = found->second;
+    object.dropped = counters;
+    if (counters.failed == 0)
+    {
+        return false;
+    }
+    object.is_hopeless =
+        counters.blocks_exceeded != 0 ||
+        (counters.overflow_count != 0 && pending.capacities.voxelize.bricks >= VoxelizeCapacities::kBricksMax);
+    object.capacities = grown(pending.capacities, counters);
+    dropLayer(object);
+    return true;
+}
+
+void DynamicObjects::frameDone(std::uint64_t frame)
+{
+    while (!m_pending.empty() && m_pending.front().frame <= frame)
+    {
+        m_has_failed = learn(m_pending.front()) || m_has_failed;
+        m_pending.pop_front();
+    }
+}
+
+void DynamicObjects::frameLost()
+{
+    std::erase_if(m_pending, [&](const PendingLayer& pending) { return pending.frame == m_deletion_queue.frame(); });
+    if (!m_pending.empty())
+    {
+        m_report_count = m_pending.back().report + 1; // the lost ones are not awaited
+    }
+    forgetLayers();
+}
+
+std::map<std::string, std::uint64_t> DynamicObjects::droppedTriangles()
+{
+    std::map<std::string, std::uint64_t> dropped;
+    for (const Object* object : presentObjects())
+    {
+        dropped["nonfinite"] += object->dropped.nonfinite;
+        dropped["out_of_range"] += object->dropped.out_of_range;
+        dropped["outside"] += object->dropped.outside;
+        dropped["zero_area"] += object->dropped.zero_area;
+    }
+    std::erase_if(dropped, [](const auto& entry) { return entry.second == 0; });
+    return dropped;
+}
+
+} // namespace zvo
