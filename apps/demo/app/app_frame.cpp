@@ -97,7 +97,7 @@ bool App::prepare(const Picture& picture)
 {
     try
     {
-        m_renderer.begin(m_drawn_count, picture, vk::encodesSrgb(m_swapchain.format()));
+        m_renderer.begin(m_drawn_count, m_world->scene.tree(), picture, vk::encodesSrgb(m_swapchain.format()));
         m_lacks_memory = false;
         return true;
     }

@@ -8,10 +8,11 @@
 namespace zvo::demo
 {
 
-void Renderer::begin(std::uint64_t frame, const Picture& picture, bool encodes_srgb)
+void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture& picture, bool encodes_srgb)
 {
     m_deletion_queue.beginFrame(frame);
     m_tracer.resize(picture.internal.width, picture.internal.height);
+    m_tracer.reserve(tree);
     if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
     {
         auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);

@@ -42,9 +42,9 @@ public:
     {
     }
 
-    /// The frame with this number begins, upwards. encodes_srgb: of the swapchain's format. Throws Error{Memory} for
-    /// pictures that the device's budget does not allow: then the last ones stay.
-    void begin(std::uint64_t frame, const Picture& picture, bool encodes_srgb);
+    /// The frame with this number begins, upwards; it shows tree. encodes_srgb: of the swapchain's format. Throws
+    /// Error{Memory} for pictures that the device's budget does not allow: then the last ones stay.
+    void begin(std::uint64_t frame, const DeviceTree& tree, const Picture& picture, bool encodes_srgb);
 
     /// Records it, of a tree.
     void record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture);

@@ -23,17 +23,23 @@ void TreeTracer::resize(std::uint32_t width, std::uint32_t height)
     }
 }
 
+void TreeTracer::reserve(const DeviceTree& tree)
+{
+    if (m_beam == nullptr || (tree.isDag() && !m_beam_is_for_dags))
+    {
+        replace(m_beam, std::make_unique<BeamGrid>(m_device, tree.isDag()));
+        m_beam_is_for_dags = tree.isDag();
+        forget();
+    }
+}
+
 void TreeTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree)
 {
     if (m_beam_version == tree.version)
     {
         return;
     }
-    if (m_beam == nullptr || (tree.isDag() && !m_beam_is_for_dags))
-    {
-        replace(m_beam, std::make_unique<BeamGrid>(m_device, tree.isDag()));
-        m_beam_is_for_dags = tree.isDag();
-    }
+    reserve(tree);
     forget(); // should the next line throw
     buildBeam(graph, tree, *m_beam);
     m_beam_version = tree.version;

@@ -26,6 +26,10 @@ public:
     /// device's budget does not allow: the size stays.
     void resize(std::uint32_t width, std::uint32_t height);
 
+    /// Makes the buffers of the beam grid that tree takes, unless they are there. Throws Error{Memory}: then nothing
+    /// changes. prepare() begins with this.
+    void reserve(const DeviceTree& tree);
+
     /// Records the passes that make the beam grid of tree, where they are needed (buildBeam()). Both calls below begin
     /// with this one.
     void prepare(vk::FrameGraph& graph, const DeviceTree& tree);
