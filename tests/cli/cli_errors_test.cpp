@@ -147,14 +147,7 @@ TEST_P(CliError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
     const std::vector<std::string> before = filesIn(dir.path());
 
     const Outcome outcome = runZvo(dir.path(), GetParam().arguments, GetParam().environment);
-    EXPECT_EQ(outcome.exit_code, GetParam().exit_code) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
-    EXPECT_EQ(outcome.err.find_first_of("\n\r\t"), outcome.err.size() - 1) << outcome.err;
-    for (const std::string& word : GetParam().words)
-    {
-        EXPECT_TRUE(contains(outcome.err, word)) << '"' << word << "\" is not in: " << outcome.err;
-    }
+    expectErrorLine(outcome, GetParam().exit_code, GetParam().words);
     EXPECT_EQ(filesIn(dir.path()), before);
     EXPECT_EQ(contentOf(dir.path() / "taken.png"), "kept");
 }

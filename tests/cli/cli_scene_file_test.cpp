@@ -465,14 +465,7 @@ TEST_P(CliSceneFileError, IsOneLineAndAnExitCodeAndLeavesNothingBehind)
     const std::vector<std::string> before = filesIn(m_dir.path());
     const std::string slab = file("models/slab.glb");
     const Outcome outcome = runZvo(m_dir.path(), GetParam().arguments);
-    EXPECT_EQ(outcome.exit_code, GetParam().exit_code) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
-    EXPECT_EQ(outcome.err.find_first_of("\n\r\t"), outcome.err.size() - 1) << outcome.err;
-    for (const std::string& word : GetParam().words)
-    {
-        EXPECT_TRUE(contains(outcome.err, word)) << '"' << word << "\" is not in: " << outcome.err;
-    }
+    expectErrorLine(outcome, GetParam().exit_code, GetParam().words);
     EXPECT_EQ(filesIn(m_dir.path()), before);
     EXPECT_EQ(file("models/slab.glb"), slab);
 }

@@ -3,6 +3,8 @@
 
 #include "support/device.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -175,6 +177,18 @@ std::vector<std::string> filesIn(const std::filesystem::path& folder)
     }
     std::sort(names.begin(), names.end());
     return names;
+}
+
+void expectErrorLine(const Outcome& outcome, int exit_code, const std::vector<std::string>& words)
+{
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
+    EXPECT_EQ(outcome.err.find_first_of("\n\r\t"), outcome.err.size() - 1) << outcome.err;
+    for (const std::string& word : words)
+    {
+        EXPECT_NE(outcome.err.find(word), std::string::npos) << '"' << word << "\" is not in: " << outcome.err;
+    }
 }
 
 } // namespace zvo::test

@@ -47,6 +47,9 @@ private:
 Outcome runZvo(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                const std::vector<std::string>& environment = {});
 
+/// Expects that a run failed with exit_code, and told why in one line that has each of words; it printed nothing else.
+void expectErrorLine(const Outcome& outcome, int exit_code, const std::vector<std::string>& words);
+
 /// All bytes of a file.
 std::string contentOf(const std::filesystem::path& file);
 
