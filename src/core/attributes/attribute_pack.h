@@ -13,24 +13,25 @@
 namespace zvo
 {
 
-/// Records the passes that pack attributes into words, [packedWords(format, attributes.count())]. The words follow from
-/// the attributes alone. Cost: attributes.
+/// Records the passes that pack `attributes` into `words`, [packedWords(format, attributes.count())]. Equal attributes
+/// give equal words. Cost: proportional to the number of attributes.
 void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& attributes, AttributeFormat format,
                     vk::BufferOf<gpu::uint>& words);
 
-/// Replaces the attributes of a tree, those of voxels and of nodes, by such in a packed format, in one step. Done from
-/// the start for a tree without attributes of 8 bytes, and for another format.
+/// A job of one step that replaces the attributes of a tree, of voxels and of nodes, by the same attributes in a packed
+/// format. The job is done from the start where there is nothing to pack: when `format` is not a packed one, or when
+/// the tree has no attributes of 8 bytes.
 class TreePacker final : public StepJob
 {
 public:
-    /// tree: an octree, or what a DAG has of one. It must outlive the steps.
+    /// tree: an octree, or a DAG (only attributes are touched). It must outlive the job.
     TreePacker(vk::Device& device, AttributeFormat format, DeviceTree& tree);
 
     [[nodiscard]] bool isDone() const override { return m_is_done; }
     void record(vk::FrameGraph& graph) override;
     void resume(std::vector<vk::PassTime> passes) override;
 
-    /// The passes, once.
+    /// Hands out the times of the job's passes. Call it once, after the job is done.
     [[nodiscard]] std::vector<vk::PassTime> take() { return std::move(m_passes); }
 
 private:

@@ -12,7 +12,7 @@
 namespace zvo
 {
 
-/// A file's bytes, wherever they are.
+/// The bytes of a file, wherever they are stored.
 class ByteSource
 {
 public:
@@ -23,11 +23,12 @@ public:
 
     [[nodiscard]] virtual std::uint64_t size() const = 0;
 
-    /// Fills target with the bytes from offset on, which the file has. Throws Error{Input} where they cannot be read.
+    /// Fills target with the bytes from offset on. The file must be long enough. Throws Error{Input} when they cannot
+    /// be read.
     virtual void read(std::uint64_t offset, std::span<std::byte> target) = 0;
 };
 
-/// Bytes in memory, which must outlive this.
+/// Bytes in memory. They must outlive the source.
 class MemorySource : public ByteSource
 {
 public:
@@ -44,11 +45,11 @@ private:
     std::span<const std::byte> m_bytes;
 };
 
-/// A file in which one can go back and forth.
+/// A file on disk, read at any offset.
 class FileSource : public ByteSource
 {
 public:
-    /// size: of the file, in bytes. Throws Error{Input} where it cannot be opened.
+    /// size: length of the file in bytes. Throws Error{Input} when the file cannot be opened.
     FileSource(const std::filesystem::path& path, std::uint64_t size);
 
     [[nodiscard]] std::uint64_t size() const override { return m_size; }

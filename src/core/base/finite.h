@@ -8,7 +8,7 @@
 namespace zvo
 {
 
-/// Whether no component is infinite or not a number; of a matrix, in its upper three rows.
+/// Whether all components are finite: neither infinite nor NaN. Of a matrix, the upper three rows are checked.
 inline bool isFinite(const glm::vec3& vector)
 {
     return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);

@@ -21,11 +21,11 @@ struct Bounds
     }
 };
 
-/// Bits of a Morton code for each level of octree nodes, of 4^3 children.
+/// Bits of a Morton code that select one of the 4^3 children of a node.
 inline constexpr std::uint32_t kCellBits = 6;
 
-/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on. Both numbers
-/// are single precision: printed with nine digits they give the same grid again, bit for bit.
+/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box of edge voxel_size whose minimum corner is origin +
+/// voxel_size * (x, y, z). Both members are single precision: printed with nine digits they are read back bit for bit.
 struct Grid
 {
     glm::vec3 origin{0.0F};  // world position of the minimum corner
@@ -36,10 +36,11 @@ struct Grid
 
     [[nodiscard]] std::uint32_t resolution() const { return 1U << depth; }
 
-    /// Levels of octree nodes: two octree levels each, the odd one at the root.
+    /// Levels of octree nodes. A node spans two octree levels; where the depth is odd, the root spans only one.
     [[nodiscard]] std::uint32_t nodeLevels() const { return (depth + 1) / 2; }
 
-    /// Voxels per edge of the cube that the root node covers, 4^nodeLevels(): the resolution, or twice it.
+    /// Voxels per edge of the cube that the root node covers, 4^nodeLevels(): the resolution, or twice that for an odd
+    /// depth.
     [[nodiscard]] std::uint32_t rootResolution() const { return 1U << (2 * nodeLevels()); }
 
     /// The smallest cube around bounds, centred on it. Empty bounds or a single point give a cube of edge 1.
@@ -49,12 +50,14 @@ struct Grid
     static Grid withCorner(const Bounds& bounds, std::uint32_t depth);
 };
 
-/// A cube of a grid, (1 << depth)^3 voxels, or all of the grid. Cubes have indices along x, y and z.
+/// A cube of (1 << depth)^3 voxels of a grid, or the whole grid. The grid is divided into such cubes; `index` numbers
+/// them along x, y and z.
 struct GridTile
 {
-    GridTile(const Grid& whole) : grid(whole), depth(whole.depth) {} // implicit: all of it
+    /// Implicit conversion: the tile that is the whole grid.
+    GridTile(const Grid& whole) : grid(whole), depth(whole.depth) {}
 
-    /// tile_index: below 1 << (grid.depth - depth), and below kTilesMax.
+    /// tile_index: each component below 1 << (grid.depth - tile_depth), and below kTilesMax.
     GridTile(const Grid& whole, std::uint32_t tile_depth, const glm::uvec3& tile_index)
         : grid(whole), depth(tile_depth), index(tile_index)
     {

@@ -13,8 +13,9 @@
 namespace zvo
 {
 
-/// Work whose sizes only the device knows, in steps. A step is the piece of a job that is recorded into one frame; what
-/// it came to is learnt when the device is done with it, and decides about the next one. A job never waits:
+/// Work on the device that is done in steps, because the sizes of its buffers are known only after earlier parts have
+/// run. A step is the piece of a job that is recorded into one frame. Its results are read once the device is done with
+/// it, and decide about the next step. A job never waits:
 ///
 ///     while (!job.isDone())
 ///     {
@@ -22,7 +23,7 @@ namespace zvo
 ///         job.resume(passes); // once the device is done
 ///     }
 ///
-/// runJob() does this and waits; JobRun (src/api) does it in frames of a host.
+/// runJob() runs this loop and waits after each step; JobRun (src/api) spreads the steps over frames of a host.
 class StepJob
 {
 public:
@@ -33,19 +34,22 @@ public:
 
     [[nodiscard]] virtual bool isDone() const = 0;
 
-    /// Records the next step. The device must be done with the one before, unless that never reached it: then this is
-    /// the same one again. Throws Error{Memory} when the device's budget does not suffice, and what making a kernel
-    /// throws; what was recorded may reach the device all the same, and the step can be recorded again.
+    /// Records the next step. The device must be done with the step before. If that step never reached the device, the
+    /// same step is recorded again. Throws Error{Memory} when the device's budget does not suffice, and what making a
+    /// kernel throws. Passes that were recorded before the exception may still be submitted, and the step can be
+    /// recorded again.
     virtual void record(vk::FrameGraph& graph) = 0;
 
-    /// The device is done with the step that was recorded last: learns what it came to. passes: its times, if they were
-    /// taken. Where it throws, nothing comes of the job.
+    /// Reads the results of the step that was recorded last. Call it once the device is done with that step. passes:
+    /// the times of the step's passes, or empty if they were not taken. After an exception the job has failed and
+    /// yields no result.
     virtual void resume(std::vector<vk::PassTime> passes) = 0;
 };
 
-/// A job that makes a Result, which has passes and retry_count. Builder has two functions for each of its steps: one
-/// records it, and one learns what it came to and names the next step. Where that adds to retry_count the step is
-/// thrown away, and comes again.
+/// A job that makes a Result, a type with the members `passes` and `retry_count`. For each of its steps, Builder has
+/// two functions: one records the step, the other reads what it came to and sets m_step to the next one. If the second
+/// one increases retry_count, the step's results are thrown away and the step is recorded again; its passes are not
+/// listed.
 template <typename Builder, typename Result> class BuildJob : public StepJob
 {
 public:
@@ -69,13 +73,13 @@ public:
         }
     }
 
-    /// What came of it, once.
+    /// Hands out the result. Call it once, after the job is done.
     [[nodiscard]] Result take() { return std::move(m_result); }
 
 protected:
     struct Step
     {
-        void (Builder::*record)(vk::FrameGraph&) = nullptr; // null: there is none, the job is done
+        void (Builder::*record)(vk::FrameGraph&) = nullptr; // null: the job is done
         void (Builder::*learn)() = nullptr;
     };
 
@@ -85,9 +89,9 @@ protected:
         m_readback = {};
     }
 
-    Step m_step; // that comes next
+    Step m_step; // the next one
     Result m_result;
-    vk::Readback m_readback; // what a step leaves for its end
+    vk::Readback m_readback; // what a step leaves for its learn()
 };
 
 } // namespace zvo

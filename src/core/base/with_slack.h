@@ -6,7 +6,8 @@
 namespace zvo
 {
 
-/// A quarter more than was needed: what moves needs a little more or less in every frame.
+/// Capacity for something that needed `needed` elements: a quarter more, as the need of moving objects varies from
+/// frame to frame.
 constexpr std::uint64_t withSlack(std::uint64_t needed)
 {
     return needed + needed / 4 + 64;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Morph targets and skins on the device: what of a scene deforms, what a pose is, and the pass that makes vertices of
-// the two.
+// Morph targets and skins on the device: the deforming parts of a scene, a pose of them, and the pass that makes the
+// deformed vertices of both.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -18,8 +18,9 @@ namespace zvo
 
 struct Pose;
 
-/// Everything that the deforming instances of a scene need on the device and that no pose changes. Instances of one
-/// primitive share what is at rest; each has vertices of its own in the outputs. Without such instances, all is empty.
+/// What the deforming instances of a scene need on the device and no pose changes. Instances of one primitive share its
+/// data at rest, but each instance has vertices of its own in the output. Everything is empty for a scene without
+/// deforming instances.
 struct DeformMesh
 {
     /// Where a vertex array starts in the outputs.
@@ -47,7 +48,7 @@ struct DeformMesh
         std::uint32_t first_normal;
     };
 
-    /// Chunks of the items of one variant.
+    /// The chunks of all items of one variant (gpu::kDeformMorphed and so on).
     struct ChunkRange
     {
         std::uint32_t first = 0;
@@ -74,12 +75,12 @@ struct DeformMesh
     [[nodiscard]] bool empty() const { return parts.empty(); }
 };
 
-/// Uploads what deforms in scene by way of device: done when that says (vk/uploader.h). Throws Error{Memory} when the
-/// device's budget does not suffice and Error{Input} for a joint that is not there and for more of anything than 32-bit
-/// numbers count.
+/// Uploads the deforming parts of scene through `device`, whose uploads take effect as vk/uploader.h says. Throws
+/// Error{Memory} when the device's budget does not suffice, and Error{Input} for a joint that does not exist or for
+/// more of anything than 32-bit numbers count.
 DeformMesh uploadDeformMesh(vk::Uploader& device, const Scene& scene);
 
-/// What a pose is on the device, and the host's copies from which it is written.
+/// A pose on the device, and the host's copies from which it is written.
 struct PoseBuffers
 {
     PoseBuffers() = default;
@@ -99,16 +100,16 @@ struct PoseBuffers
     static std::uint64_t bytesOf(const DeformMesh& mesh);
 };
 
-/// Throws Error{Usage} when pose has not as many joint matrices and morph weights as the scene of mesh.
+/// Throws Error{Usage} when the numbers of joint matrices and morph weights in pose differ from those of mesh's scene.
 void checkPose(const DeformMesh& mesh, const Pose& pose);
 
-/// Records the writing of pose to buffers: its values travel inside the command buffer, nothing is allocated and
+/// Records the writing of pose to buffers. The values travel inside the command buffer: nothing is allocated and
 /// nothing waits. Throws Error{Usage} when pose does not fit the scene of mesh.
 void updatePose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, PoseBuffers& buffers);
 
-/// Records the pass that writes the vertices of all deforming instances to positions and normals
-/// ([mesh.position_count], [mesh.normal_count]; other vertices are left alone). Cost: vertices times the morph targets
-/// of weights other than 0.
+/// Records the pass that writes the vertices of all deforming instances to positions [mesh.position_count] and normals
+/// [mesh.normal_count]. Vertices of other instances stay as they are. Cost: vertices times the morph targets whose
+/// weights are not 0.
 void deform(vk::FrameGraph& graph, const DeformMesh& mesh, const PoseBuffers& pose, vk::BufferOf<gpu::vec3>& positions,
             vk::BufferOf<gpu::vec3>& normals);
 

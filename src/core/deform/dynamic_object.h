@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene that moves: what of it changes from frame to frame, and how that gets to the device without waiting.
+// A scene that moves: which of its data change from frame to frame, and how they get to the device without waiting.
 #pragma once
 
 #include "core/deform/deform_mesh.h"
@@ -17,9 +17,10 @@ namespace zvo
 
 struct Pose;
 
-/// What changes of an uploaded scene when it moves; everything else it shares with the GpuScene, which must outlive it.
-/// The device writes these buffers in the order of the queue. So frames in flight may share them if each begins behind
-/// a barrier that covers the reads of the one before; otherwise, each has its own.
+/// The data of an uploaded scene that change when it moves. The rest is shared with the GpuScene, which must outlive
+/// this struct. The device writes these buffers in the order of the queue. So frames in flight may share them if each
+/// frame begins behind a barrier that covers the reads of the frame before; otherwise each frame needs buffers of its
+/// own.
 struct DynamicObjectBuffers
 {
     vk::BufferOf<gpu::Draw> draws;     // [instances]
@@ -31,10 +32,10 @@ struct DynamicObjectBuffers
     std::vector<gpu::Draw> host_draws; // what draws is written from
 };
 
-/// What dynamic objects of a scene begin with, beside its GpuScene and DeformMesh.
+/// What is known beforehand of the buffers of a dynamic object, beside its GpuScene and DeformMesh.
 struct DynamicObjectPlan
 {
-    /// A primitive of rigid instances, by numbers of vertices.
+    /// Vertices of a rigid primitive that are copied once from the GpuScene; all numbers count vertices.
     struct VertexCopy
     {
         std::uint32_t first_position_from = 0; // in the GpuScene
@@ -48,34 +49,36 @@ struct DynamicObjectPlan
     std::vector<VertexCopy> rigid_copies; // empty where nothing deforms
 };
 
-/// mesh: made of scene.
+/// mesh: the DeformMesh of the same scene.
 DynamicObjectPlan planDynamicObject(const Scene& scene, const DeformMesh& mesh);
 
-/// The buffers of a dynamic object in its pose at rest; vertices that deform are undefined until setPose. plan,
-/// uploaded and mesh: made of one scene. By way of device: done when that says (vk/uploader.h). Throws Error{Memory}
-/// when the device's budget does not suffice.
+/// Makes the buffers of a dynamic object in its pose at rest. Vertices that deform are undefined until setPose(). plan,
+/// uploaded and mesh must belong to one scene. Data are uploaded through `device`, whose uploads take effect as
+/// vk/uploader.h says. Throws Error{Memory} when the device's budget does not suffice.
 DynamicObjectBuffers makeDynamicObject(vk::Uploader& device, const DynamicObjectPlan& plan, const GpuScene& uploaded,
                                        const DeformMesh& mesh);
 
-/// Records what puts the dynamic object into pose: its draws and, where it deforms, its vertices. Values travel inside
-/// the command buffer; nothing is allocated and nothing waits. Throws Error{Usage} when pose does not fit the dynamic
-/// object's scene.
+/// Records what puts the dynamic object into pose: it writes the draws and, where the object deforms, the vertices. The
+/// values travel inside the command buffer: nothing is allocated and nothing waits. Throws Error{Usage} when pose does
+/// not fit the dynamic object's scene.
 void setPose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, DynamicObjectBuffers& object);
 
-/// The same for a dynamic object of which nothing deforms: transforms [instances], object to world.
+/// The same for a dynamic object without deforming instances. transforms: [instances], object to world.
 void setPose(vk::FrameGraph& graph, std::span<const glm::mat4> transforms, DynamicObjectBuffers& object);
 
-/// What a voxelization walks: a scene as it was uploaded, or in the pose of a dynamic object. Refers to both.
+/// The scene that a voxelization walks: a GpuScene as it was uploaded, or as setPose() has posed it with the buffers of
+/// a dynamic object. Keeps references to both.
 class PosedGpuScene
 {
 public:
-    PosedGpuScene(const GpuScene& scene) : m_scene(scene) {} // implicit: a scene stands where it is
+    PosedGpuScene(const GpuScene& scene) : m_scene(scene) {} // implicit conversion: the scene as it was uploaded
     PosedGpuScene(const GpuScene& scene, const DynamicObjectBuffers& object) : m_scene(scene), m_object(&object) {}
 
-    /// Materials, textures, chunks and triangles, and what is known of them at rest.
+    /// The uploaded scene: materials, textures, chunks, triangles, and what is known of the pose at rest.
     [[nodiscard]] const GpuScene& uploaded() const { return m_scene; }
 
-    /// Declares that pass reads the scene, and everything of it that changes. Returns the address of the table.
+    /// Declares that pass reads the scene and the buffers that change. Returns the address of the scene's table of
+    /// buffers.
     gpu::ConstPtr<gpu::SceneView> read(vk::AnyPass& pass) const;
 
 private:

@@ -29,50 +29,50 @@ namespace zvo
 /// A mesh that can move, in device memory. Several dynamic objects may share it.
 struct DynamicMesh
 {
-    Scene scene; // what poses it: without images, and without what primitives consist of
+    Scene scene; // what a pose needs of it: without images and without the primitives' arrays
     DynamicObjectPlan plan;
     GpuScene uploaded;
     DeformMesh deform;
     bool emits = false; // any of its materials
 };
 
-/// Uploads scene as a dynamic object by way of device: done when that says (vk/uploader.h). emission_scale: the common
-/// one. Throws as uploadScene and uploadDeformMesh.
+/// Uploads scene as the mesh of dynamic objects through `device`, whose uploads take effect as vk/uploader.h says.
+/// emission_scale: the one that the octree and all dynamic objects share. Throws as uploadScene and uploadDeformMesh.
 std::shared_ptr<const DynamicMesh> uploadDynamicMesh(vk::Uploader& device, Scene scene, bool attributes,
                                                      float emission_scale);
 
-/// Number of a dynamic object, for as long as its octree lives.
+/// Number of a dynamic object. It is never used again during the life of its octree.
 using DynamicObjectId = std::uint32_t;
 
 /// How dynamic objects are voxelized.
 struct DynamicObjectOptions
 {
     Coverage coverage = Coverage::Thin;
-    LayerContents contents;          // of the octree that they are merged with
+    LayerContents contents;          // as of the octree that the objects are merged with
     float emission_scale = 0;        // common to the static scene and all dynamic objects
-    std::uint32_t updates_max = 1;   // that may be under way on the device
+    std::uint32_t updates_max = 1;   // updates that may be under way on the device at once
     bool minimal_capacities = false; // everything starts with room for one
 };
 
-/// The dynamic objects of an octree: where each is to be, and its layer, the voxels of where it was last. Poses have
-/// versions, so that an entry of the history names its dynamic objects' states by numbers. Knows nothing of merging and
-/// of what is shown.
+/// The dynamic objects of an octree. Each has the pose that it is to be in, and a layer: the voxels of the pose in
+/// which it was voxelized last. Poses have version numbers, so that an entry of the history can name the states of its
+/// dynamic objects by numbers. This class knows nothing of merging, nor of what is shown.
 class DynamicObjects final : public vk::FrameParticipant
 {
 public:
-    /// What frames in flight may use goes to deletion_queue, which outlives this.
+    /// Whatever frames in flight may still use is put into deletion_queue, which must outlive this object.
     DynamicObjects(vk::Uploader& device, const Grid& grid, const DynamicObjectOptions& options,
                    vk::DeletionQueue& deletion_queue);
 
-    /// See DynamicOctree.
+    /// As the functions of DynamicOctree.
     DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose);
     void setPose(DynamicObjectId object, Pose pose);
     void remove(DynamicObjectId object);
 
-    /// Throws Error{Usage} for a dynamic object that is not there.
+    /// Throws Error{Usage} for a dynamic object that does not exist.
     [[nodiscard]] const DynamicMesh& mesh(DynamicObjectId object) { return *presentObject(object).mesh; }
 
-    /// Dynamic objects, present ones only, and their poses become those of an earlier time.
+    /// Restores an earlier state: the dynamic objects named in states are present, in those poses; all others are not.
     void bringBack(std::span<const LayerState> states);
 
     [[nodiscard]] bool isEmpty() const; // no dynamic object is present
@@ -80,34 +80,35 @@ public:
     [[nodiscard]] std::vector<const LayerBuffers*> layers();
     [[nodiscard]] std::uint64_t leafCapacity(); // of all layers
 
-    /// Gives dynamic objects that changed and have no layer one. Throws Error{Memory} when the device's budget does not
-    /// suffice or a layer can never be large enough, Error{Usage} where more updates are under way than were announced.
+    /// Makes layers for the dynamic objects that have changed and have none. Throws Error{Memory} when the device's
+    /// budget does not suffice or when no layer can be large enough, and Error{Usage} when more updates are under way
+    /// than DynamicObjectOptions::updates_max.
     void makeLayers();
 
-    /// Adds everything that voxelizes the dynamic objects which changed; they count as voxelized from now on. Returns
-    /// them. What is recorded must be recorded before a dynamic object of them is removed.
+    /// Adds the stages that voxelize the dynamic objects which have changed, and returns these objects. They count as
+    /// voxelized from now on. The stages must be recorded before one of the objects is removed.
     std::vector<DynamicObjectId> addStages(std::uint32_t sum_shift, RecordedStages& stages);
 
-    /// What was voxelized into their layers does not count: they are voxelized again.
+    /// Declares the contents of these objects' layers, or of all layers, invalid: the objects are voxelized again.
     void forgetLayers(std::span<const DynamicObjectId> objects);
     void forgetLayers();
 
-    /// Layers that turned out too small get more room and are to be made again.
+    /// Reads the reports of the frames that are done. Layers that were too small are dropped and get larger capacities.
     void frameDone(std::uint64_t frame) override;
 
-    /// Whether there were any since this was asked last.
+    /// Whether a layer has turned out too small since the last call.
     [[nodiscard]] bool takeFailure() { return std::exchange(m_has_failed, false); }
 
-    /// Everything is voxelized again.
+    /// All layers become invalid: every object is voxelized again.
     void frameLost() override;
 
-    /// Triangles left out, by reason, of all dynamic objects as they were voxelized last.
+    /// Triangles that were left out when the dynamic objects were voxelized last, by reason, summed over all objects.
     [[nodiscard]] std::map<std::string, std::uint64_t> droppedTriangles();
 
-    /// Whether so many poses are kept that forgetPoses() is worth its time.
+    /// Whether enough poses are kept to make a call of forgetPoses() worth its time.
     [[nodiscard]] bool hasManyPoses() const { return m_poses.size() >= m_poses_max; }
 
-    /// Drops the poses, and the dynamic objects, that are not present and not in states.
+    /// Drops poses and dynamic objects that are neither present nor named in states.
     void forgetPoses(std::span<const LayerState> states);
 
 private:
@@ -117,17 +118,17 @@ private:
         DynamicObjectBuffers buffers;
         LayerCapacities capacities;
         std::unique_ptr<LayerBuffers> layer;
-        bool present = true;          // or taken away, for as long as an entry shows it
-        std::uint64_t version = 0;    // of the pose that it is to be in
-        std::uint64_t voxelized = 0;  // version that layer shows; 0: none
-        gpu::LayerCounters dropped{}; // as it was voxelized last
-        bool is_hopeless = false;     // no layer is large enough
+        bool present = true;          // false: removed, but kept while an entry of the history shows it
+        std::uint64_t version = 0;    // of the pose that the object is to be in
+        std::uint64_t voxelized = 0;  // version of the pose in `layer`; 0: none
+        gpu::LayerCounters dropped{}; // counts of the last voxelization
+        bool is_hopeless = false;     // no layer can be large enough
     };
     struct PendingLayer
     {
         std::uint64_t frame;
         DynamicObjectId object;
-        std::uint64_t report; // counted: element of m_reports, a ring
+        std::uint64_t report; // number of the report; its element in the ring m_reports is this modulo the ring's size
         LayerCapacities capacities;
     };
 
@@ -145,11 +146,11 @@ private:
     DynamicObjectId m_next_object = 1;
     std::uint64_t m_next_version = 1;
     std::map<std::uint64_t, std::shared_ptr<const Pose>> m_poses; // by version
-    std::size_t m_poses_max = 1024;                               // until those that are not used are dropped
-    vk::BufferOf<gpu::LayerCounters> m_reports;                   // host-visible, a ring
+    std::size_t m_poses_max = 1024;             // number of poses from which on unused ones are dropped
+    vk::BufferOf<gpu::LayerCounters> m_reports; // host-visible, a ring
     std::uint64_t m_report_count = 0;
     std::deque<PendingLayer> m_pending; // in order of frames
-    bool m_has_failed = false;          // a layer, for takeFailure()
+    bool m_has_failed = false;          // a layer was too small (takeFailure())
 };
 
 } // namespace zvo
