@@ -27,144 +27,161 @@
 namespace zvo
 {
 
-/// How a DynamicOctree works. What a host can choose is what DynamicTreeInfo says (zvo/dynamic_tree.h), with the same
-/// defaults.
+/// Options of a DynamicOctree. Those that a host can choose have the names and defaults of DynamicTreeInfo
+/// (zvo/dynamic_tree.h).
 struct DynamicOptions
 {
-    Coverage coverage = DynamicTreeInfo().coverage; // of the dynamic objects; as the static tree's
+    Coverage coverage = DynamicTreeInfo().coverage; // of the dynamic objects; should be the static tree's
     MergeRule merge = DynamicTreeInfo().merge;
-    std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight; // recorded before frameDone() of the first
+    std::uint32_t frames_in_flight =
+        DynamicTreeInfo().frames_in_flight; // frames that may be recorded before frameDone() of the first one
     HistoryBounds history = {};
     EditBounds edits = {};
     float emission_scale = DynamicTreeInfo().emission_scale;
-    bool attributes = true;          // of an empty static tree, which does not say
-    bool minimal_capacities = false; // everything starts with room for one: for tests
+    bool attributes = true;          // whether dynamic objects get attributes; used where the static tree is empty
+    bool minimal_capacities = false; // for tests: every buffer starts with room for one element
 };
 
-/// What an update came to, known once the device is done with its frame.
+/// The result of an update, known once the device is done with the update's frame.
 struct UpdateReport
 {
-    std::uint64_t entry = 0;                           // of the history
-    std::uint32_t failed = 0;                          // bits kFailed*; 0: its root is shown
-    std::uint32_t node_count = 0;                      // of the overlay
-    std::uint32_t voxel_count = 0;                     // with attributes of their own in the overlay
-    std::uint32_t touched_count = 0;                   // nodes of the overlay that are not mere copies
-    std::uint32_t dynamic_count = 0;                   // voxels that dynamic objects cover
+    std::uint64_t entry = 0;         // of the history
+    std::uint32_t failed = 0;        // bits gpu::kFailed*; 0: the update succeeded and its root is shown
+    std::uint32_t node_count = 0;    // of the overlay
+    std::uint32_t voxel_count = 0;   // with attributes of their own in the overlay
+    std::uint32_t touched_count = 0; // nodes of the overlay that are not mere copies
+    std::uint32_t dynamic_count = 0; // voxels that dynamic objects cover
     std::map<std::string, std::uint64_t> dropped = {}; // dynamic objects' triangles that were left out, by reason
 };
 
-/// A static octree or DAG that a brush edits and into which moving meshes are merged, frame by frame. The static tree
-/// never changes: an update copies the paths that dynamic objects touch behind it, and shows the copy; undo shows an
-/// older one. A brush does the same, and dynamic objects are merged with what it leaves. What it does has a history of
-/// its own.
+/// A static octree or DAG that brushes edit and into which moving meshes are merged, frame by frame. The static tree
+/// never changes. An update writes copies of the paths that dynamic objects touch behind the static tree, and shows the
+/// copy; undo() shows an older copy. A brush works in the same way, and dynamic objects are merged with the edited
+/// tree. Brushes have a history of their own.
 ///
-/// Every frame: beginFrame(), then the brush's calls, then at most four of update(), undo() and redo(), and the tracing
-/// of tree() into a command buffer, then, once the device is done with it, frameDone(). Frames share buffers: a command
-/// buffer is submitted after those of earlier frames and begins behind a full memory barrier. Nothing waits for the
-/// device. Each of these calls gives the tree another version: what was made of it before (a BeamGrid, addresses of its
-/// buffers) is out of date. The device must be done with all frames when a DynamicOctree goes, and outlive it. What an
-/// update needs beyond the memory there is, it reports; the frame then shows the last root that is complete, and a
-/// later update has more memory. Where recording a frame or submitting it fails, whatever it was, frameLost() takes the
-/// frame back, and the octree goes on.
+/// Every frame: beginFrame(); then the calls for the brush; then at most four of update(), undo() and redo(); then the
+/// tracing of tree() into the same command buffer; and frameDone() once the device is done with the frame. Frames share
+/// buffers: a command buffer must be submitted after those of earlier frames, and begin behind a full memory barrier.
+/// Nothing waits for the device. Each of these calls gives the tree another version, and what was made from the last
+/// one (a BeamGrid, addresses of its buffers) is out of date. The device must outlive a DynamicOctree, and be done with
+/// all its frames when it is destroyed.
+///
+/// An update that has too little memory says so in its report. The frame then shows the last complete root, and a later
+/// update gets more memory. Where recording or submitting a frame fails for any reason, frameLost() takes the frame
+/// back, and the octree can be used on.
 class DynamicOctree
 {
 public:
-    /// Takes over a static tree (for MergeRule::Average with the sums it was made of: BuildOptions::keep_sums). Throws
-    /// Error{Usage} where those are missing, and takes nothing; Error{Memory} when the device's budget does not
-    /// suffice.
+    /// Takes over a static tree. MergeRule::Average needs the sums that the tree's attributes were made of
+    /// (BuildOptions::keep_sums); without them the constructor throws Error{Usage} and takes nothing. Throws
+    /// Error{Memory} when the device's budget does not suffice.
     DynamicOctree(vk::Uploader& device, DeviceTree&& fixed, const DynamicOptions& options);
     DynamicOctree(const DynamicOctree&) = delete;
     DynamicOctree& operator=(const DynamicOctree&) = delete;
 
-    /// Adds a dynamic object in a pose of its mesh's scene, by way of the constructor's device: done when that says
-    /// (vk/uploader.h). Shown from the next update() on, as all changes are. Throws Error{Usage} for more than
-    /// kLayersMax dynamic objects, a mesh with another emission scale or a pose that does not fit the mesh, and
-    /// Error{Memory}.
+    /// Adds a dynamic object in a pose of its mesh's scene. Its buffers are filled through the constructor's device,
+    /// whose uploads take effect as vk/uploader.h says. Like all changes, it is shown from the next update() on. Throws
+    /// Error{Usage} for more than kLayersMax dynamic objects, a mesh with another emission scale or a pose that does
+    /// not fit the mesh, and Error{Memory}.
     DynamicObjectId add(std::shared_ptr<const DynamicMesh> mesh, Pose pose);
 
-    /// Puts the dynamic object into another pose: nothing changes where it is the same, bit for bit. Where it is not
-    /// finite, triangles are left out and counted. Throws as add().
+    /// Puts the dynamic object into another pose. A pose that is equal to the last one, bit for bit, changes nothing.
+    /// Triangles with vertices that are not finite are left out and counted. Throws as add().
     void setPose(DynamicObjectId object, Pose pose);
 
-    /// Takes the dynamic object away; gives up an update that is under way. Throws Error{Usage} for one that is not
-    /// there, as setPose() does.
+    /// Takes the dynamic object away and gives up an update that is under way. Throws Error{Usage} for an object that
+    /// does not exist.
     void remove(DynamicObjectId object);
 
-    /// What the dynamic object is made of. Throws Error{Usage} for one that is not there.
+    /// The mesh of the dynamic object. Throws Error{Usage} for an object that does not exist.
     [[nodiscard]] const DynamicMesh& mesh(DynamicObjectId object) { return m_objects.mesh(object); }
 
-    /// Numbers the frame that is to be recorded.
+    /// Begins the next frame and returns its number.
     std::uint64_t beginFrame()
     {
         m_has_recorded = false;
         return m_frames.begin();
     }
 
-    /// Records an update: dynamic objects that changed are voxelized, all are merged with the static tree, and the
-    /// result is shown. It becomes an entry of the history. Under a budget of GPU time, as much of it as is thought to
-    /// fit (UpdateBudget), and the rest in the next calls: until then the last root is shown, and changes of dynamic
-    /// objects count for the update after this one. 0: no bound. Returns whether the update is complete. While memory
-    /// is short and frames in flight hold what it takes, records nothing: needsUpdate() says so. Throws Error{Usage}
-    /// for more updates than frames_in_flight allow, Error{Memory} when the device's budget or the device's memory does
-    /// not suffice, and what making a kernel throws. Then the update is given up, needsUpdate() says so, and the frame
-    /// shows what it showed before. It may be submitted all the same; if not: frameLost().
+    /// Records an update: dynamic objects that have changed are voxelized, all are merged with the edited tree, and the
+    /// result is shown and becomes an entry of the history. Returns whether the update is complete.
+    ///
+    /// budget_ms: GPU time for this call; 0: no bound. Under a budget, as much of the update is recorded as is expected
+    /// to fit (UpdateBudget), and the rest by the next calls. Until the update is complete the last root stays in view,
+    /// and changes of dynamic objects wait for the update after this one.
+    ///
+    /// Where memory is short only because frames in flight still use it, nothing is recorded, and needsUpdate() returns
+    /// true. Throws Error{Usage} for more updates than frames_in_flight allows, Error{Memory} when the device's budget
+    /// or memory does not suffice, and what making a kernel throws. After an exception the update is given up,
+    /// needsUpdate() returns true, and the frame shows what was shown before; it may still be submitted, and if it is
+    /// not, frameLost() must be called.
     bool update(vk::FrameGraph& graph, double budget_ms = 0);
 
     /// Whether an update is under way that the next update() resumes.
     [[nodiscard]] bool isUpdating() const { return m_job != nullptr; }
 
-    /// Records that the entry before, or behind, the one that is shown is shown again. Dynamic objects are where they
-    /// were then; an update under way is given up. False if there is none. Throws what making a kernel throws: then
-    /// nothing changes.
+    /// Record that the previous or the next entry of the history is shown. Dynamic objects get the poses of that entry,
+    /// and an update under way is given up. Return false if there is no such entry. Throw what making a kernel throws;
+    /// then nothing changes.
     bool undo(vk::FrameGraph& graph);
     bool redo(vk::FrameGraph& graph);
 
-    /// Records a dab of a brush on what does not move. Dabs up to endStroke() are one stroke, an entry to be undone. Of
-    /// dynamic objects the frame shows nothing until update(), which needsUpdate() asks for where there are any; their
-    /// history ends here. A voxel that lies in a leaf which a brush has changed no longer counts in a mean with dynamic
-    /// objects: these win. False, and no dab, while the device has to tell first how much room there is: to be tried
-    /// again in a later frame. Throws Error{Usage} for a radius above kBrushRadiusMax or more than kDabsPerFrameMax
-    /// dabs in a frame, Error{Memory}, and what making a kernel throws: then there is no dab, or needsUpdate() asks for
-    /// showing it. Cost: the brush's volume; where edits need more room, now and then, what they hold.
+    /// Records a dab of a brush on the edited tree. Dabs up to endStroke() are one stroke, which is undone as a whole.
+    /// Returns false, and records no dab, while the device has yet to report how much room there is: try again in a
+    /// later frame.
+    ///
+    /// The frame shows no dynamic objects until the next update(); needsUpdate() returns true if there are any. Their
+    /// history ends here. In a leaf that a brush has changed, MergeRule::Average no longer averages: dynamic objects
+    /// win.
+    ///
+    /// Throws Error{Usage} for a radius above kBrushRadiusMax or for more than kDabsPerFrameMax dabs in a frame,
+    /// Error{Memory}, and what making a kernel throws. After an exception there is no dab, or there is one that is not
+    /// shown yet and needsUpdate() returns true. Cost: the volume of the brush; and where edits need more room, now and
+    /// then, all that they hold.
     bool edit(vk::FrameGraph& graph, const Brush& brush);
 
-    /// The next dab begins a stroke.
+    /// Ends the stroke: the next dab begins another one.
     void endStroke() { m_edits.endStroke(); }
 
-    /// Records that the strokes before, or behind, are shown again; dynamic objects as after edit(). Constant time.
-    /// False if there is none. Throws what making a kernel throws: then needsUpdate() asks for showing them.
+    /// Record that the previous or the next stroke's state is shown. Dynamic objects are treated as in edit(). Return
+    /// false if there is no such stroke. Throw what making a kernel throws; then needsUpdate() returns true. Constant
+    /// time.
     bool undoEdit(vk::FrameGraph& graph);
     bool redoEdit(vk::FrameGraph& graph);
 
-    /// What can be undone, and what it holds.
+    /// The edited tree: which strokes can be undone, and how much memory they hold.
     [[nodiscard]] const Edits& edits() const { return m_edits; }
 
-    /// The device is done with a frame and all before it: learns what its updates came to and, from the times of all
-    /// its passes, how much goes into a budget.
+    /// Tells that the device is done with `frame` and all frames before it. Returns the reports of their updates.
+    /// passes: the times of all passes of the frame, from which update() learns how much fits a budget.
     std::vector<UpdateReport> frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes = {});
 
-    /// The frame that began last does not reach the device, or not all of it: something threw between beginFrame() and
-    /// the end of its submission. What it has recorded was not: the history and tree() are those from before it,
-    /// which can be traced and updated. Dynamic objects stay where they were put, by undo() and redo() as well:
-    /// needsUpdate(). A stroke under way ends, and strokes that could be redone may be gone. Frames before it count as
-    /// ever. Where the device came as far as that, tree() shows what the frame was to show, until the next update(),
-    /// undo() or redo(). Not for frames that were submitted: frameDone(), however they ended.
+    /// Tells that the frame that began last does not reach the device, or not all of it: something threw between
+    /// beginFrame() and the end of its submission. For frames that were submitted, call frameDone(), however they
+    /// ended.
+    ///
+    /// The frame is taken back: the history and tree() are those from before it, and can be traced and updated. Dynamic
+    /// objects keep the poses that were set in the frame, also by undo() and redo(), so needsUpdate() returns true. A
+    /// stroke under way ends, and strokes that could be redone may be gone. Earlier frames are not affected. If the
+    /// device did run a part of the frame, tree() may show what the frame was to show until the next update(), undo()
+    /// or redo().
     void frameLost();
 
-    /// Whether what is missing has to be shown by another update(): one failed, was given up, was lost or had to wait,
-    /// and none was recorded since, nor undo() or redo().
+    /// Whether another update() is needed to show the current state: one has failed, was given up, was lost or had to
+    /// wait, or a stroke has taken dynamic objects out of view; and since then neither an update was recorded nor
+    /// undo() or redo().
     [[nodiscard]] bool needsUpdate() const { return m_needs_update; }
 
-    /// What to trace. node_count and voxel_count are those of the static tree (1 node for an empty one). It has no
-    /// levels: what goes through those (octreeSha256, voxelCodes) tells nothing of it.
+    /// The tree to trace. Its node_count and voxel_count are those of the static tree (1 node for an empty one). It has
+    /// no levels, so functions that walk levels (octreeSha256, voxelCodes) do not apply to it.
     [[nodiscard]] const DeviceTree& tree() const { return m_overlays.tree(); }
 
     [[nodiscard]] const RootHistory& history() const { return m_history; }
 
-    /// Number of the node behind the static nodes and lists: the static root, untouched by what is shown.
+    /// Number of the static tree's root. It stands behind the static nodes and lists, whatever is shown.
     [[nodiscard]] std::uint32_t staticRoot() const { return m_overlays.tree().overlays.static_root; }
 
-    /// Number of the node that dynamic objects are merged with: the root of what strokes have left.
+    /// Number of the node that dynamic objects are merged with: the root of the edited tree.
     [[nodiscard]] std::uint32_t editedRoot() const { return m_edits.root(); }
 
 private:
@@ -174,16 +191,16 @@ private:
         std::uint64_t entry;  // of the history
         std::uint32_t result; // element of m_results
         OverlayRegion region;
-        std::uint64_t touched; // entries that its table had
+        std::uint64_t touched; // capacity of its table of touched nodes, in entries
     };
     // An update under way.
     struct Job
     {
         UpdateJob merge;
-        std::vector<LayerState> states;         // of the dynamic objects that it shows
-        std::vector<DynamicObjectId> voxelized; // by it
+        std::vector<LayerState> states;         // of the dynamic objects that the update shows
+        std::vector<DynamicObjectId> voxelized; // by this update
         RecordedStages stages;
-        std::vector<UpdateStage> plan; // the same, as UpdateBudget takes them
+        std::vector<UpdateStage> plan; // the same stages, as UpdateBudget takes them
         UpdateProgress progress;
     };
     struct PendingSlices
@@ -218,7 +235,7 @@ private:
     RootHistory m_history;
     Edits m_edits;
     vk::FrameList m_frames;
-    GpuScene m_tables; // a scene of nothing: the tables of sRGB codes
+    GpuScene m_tables; // an empty scene, for its tables of sRGB codes
     vk::BufferOf<gpu::MergeView> m_merge_view;
     std::uint32_t m_sum_shift; // of the layers
 
@@ -234,8 +251,8 @@ private:
     std::unique_ptr<Job> m_job;
     UpdateBudget m_budget;
     bool m_needs_update = false;
-    bool m_has_recorded = false; // the last frame: it matters whether it is lost
-    bool m_owes_root = false;    // a lost frame may have shown another root than the current one
+    bool m_has_recorded = false; // the last frame has recorded a change: it matters whether it is lost
+    bool m_owes_root = false;    // the current root has to be shown again: a lost frame may have shown another one
 };
 
 } // namespace zvo

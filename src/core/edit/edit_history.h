@@ -11,61 +11,66 @@
 namespace zvo
 {
 
-/// How much edits keep.
+/// Bounds of what is kept of edits.
 struct EditBounds
 {
     std::size_t entries_max = DynamicTreeInfo().strokes;    // at least 1
-    std::uint64_t bytes_max = DynamicTreeInfo().edit_bytes; // more only where a single entry needs it
+    std::uint64_t bytes_max = DynamicTreeInfo().edit_bytes; // exceeded only where a single entry needs more
 };
 
-/// Dabs that may be recorded in a frame: so many slots are kept free for them.
+/// Dabs that may be recorded in a frame. As many slots are kept free for them.
 inline constexpr std::uint32_t kDabsPerFrameMax = 32;
 
-/// How far up the copies reach that a slot of edits is made of (gpu::EditState), counted from the region's start.
+/// The end of the nodes and voxels that a slot of edits is made of (gpu::EditState), counted from the start of the
+/// region.
 struct EditTop
 {
-    std::uint64_t nodes = 0;       // at most, until is_exact
+    std::uint64_t nodes = 0;       // an upper bound while is_exact is false
     std::uint64_t voxels = 0;      // likewise
-    std::uint32_t voxel_count = 0; // of the whole tree; of the slot that the dab began at, until is_exact
+    std::uint32_t voxel_count = 0; // of the whole tree; while is_exact is false, of the slot that the dab began at
     bool is_exact = true;
 };
 
-/// The strokes of a brush that can be undone and redone: a line of entries with a cursor, each a slot of edits
-/// (shaders/edit/edit.h). Host logic only, a value: a copy is what it was. A stroke is one entry, however many dabs it
-/// has. undo(), redo() and what tells of a slot take constant time, everything else at most as long as the line.
+/// The strokes of a brush that can be undone and redone: a line of entries with a cursor. Each entry is a slot of edits
+/// (shaders/edit/edit.h). A stroke is one entry, however many dabs it has. Host logic only. The class is a value: a
+/// copy restores the earlier state. undo(), redo() and queries of a slot take constant time, everything else at most
+/// time proportional to the number of entries.
 ///
-/// What a slot is made of stands below its top, and reaches down into what earlier entries have. So tops grow along
-/// the line, and a dab may write above the top of the slot that it begins at: what is there belongs to entries that
-/// the push drops. Where these may come back, as the frame is not sure to reach the device, it goes above their tops. A
-/// slot that is freed is used again kDabsPerFrameMax pushes later at the earliest.
+/// The nodes and voxels of a slot stand below its top, and some of them belong to earlier entries as well. So tops grow
+/// along the line, and a dab may write above the top of the slot that it begins at: whatever stands there belongs to
+/// entries to redo, which push() drops. These entries come back if the frame is lost, so until the frame is submitted
+/// dabs write above the top of the slot that was shown before it. A slot that is freed is used again after at least
+/// kDabsPerFrameMax more pushes.
 class EditHistory
 {
 public:
     explicit EditHistory(std::size_t entries_max);
 
-    /// Slots for entries, dabs in a frame and what nothing was done to.
+    /// Number of slots: one for each entry, one for each dab in a frame, and those of the unedited tree and of a new
+    /// entry.
     [[nodiscard]] std::uint32_t slotCount() const { return static_cast<std::uint32_t>(m_tops.size()); }
 
-    /// The slot that is shown.
+    /// The slot of the current entry.
     [[nodiscard]] std::uint32_t slot() const { return m_line[m_current]; }
     [[nodiscard]] const EditTop& top(std::uint32_t slot) const { return m_tops[slot]; }
 
-    /// Where a dab begins that takes no room of what is shown, nor of another slot, whether an entry has that or not.
+    /// The top at which a dab begins that overwrites nothing of the current slot, nor of the slot `kept`, which need
+    /// not belong to an entry.
     [[nodiscard]] EditTop topAbove(std::uint32_t kept) const;
 
-    /// A dab that begins at topAbove(kept) and takes at most so many nodes and voxels: returns its slot. It begins a
-    /// entry, or goes on with the stroke that is under way, whose slot it replaces. Entries to redo are dropped, and
-    /// the oldest one if there are too many.
+    /// Adds a dab that begins at topAbove(kept) and takes at most node_bound nodes and voxel_bound voxels; returns its
+    /// slot. The first dab of a stroke adds an entry, and drops the oldest one if there are too many. A later dab
+    /// replaces the slot of the stroke's entry. Entries to redo are dropped.
     std::uint32_t push(std::uint64_t node_bound, std::uint64_t voxel_bound, std::uint32_t kept);
     std::uint32_t push(std::uint64_t node_bound, std::uint64_t voxel_bound)
     {
         return push(node_bound, voxel_bound, slot());
     }
 
-    /// The next dab begins an entry.
+    /// Ends the stroke: the next dab adds an entry.
     void endStroke() { m_is_stroke = false; }
 
-    /// Goes to the entry before, or behind; ends the stroke. False at the ends.
+    /// Go to the previous or next entry and end the stroke. Return false if there is none.
     bool undo();
     bool redo();
     [[nodiscard]] std::size_t undoCount() const { return m_current; }
@@ -77,16 +82,16 @@ public:
     /// Drops the entries to redo.
     void dropRedo();
 
-    /// For each slot whether an entry has it.
+    /// For each slot, whether it belongs to an entry.
     [[nodiscard]] std::vector<bool> used() const;
 
-    /// Tops of a slot as the device found them.
+    /// Sets the top of a slot to what the device has reported.
     void learn(std::uint32_t slot, const EditTop& top) { m_tops[slot] = top; }
 
     /// Whether all entries' tops are exact.
     [[nodiscard]] bool isExact() const;
 
-    /// What is below the entries' tops has moved together: they are no longer exact.
+    /// Tells that the contents of all entries have moved: their tops are no longer exact.
     void forgetTops();
 
 private:

@@ -20,52 +20,53 @@
 namespace zvo
 {
 
-/// What a brush did to a static tree, and what of it can be undone. Knows nothing of dynamic objects. Edits stand in
-/// one region of an OverlayBuffers; when that is full they move, without what nothing shows any more, to another one.
-/// Frames are those of DynamicOctree, which owns this.
+/// The edits of a static tree by brushes, and their history. Knows nothing of dynamic objects. Edits stand in one
+/// region of an OverlayBuffers. When the region is full, what is still needed moves to another region. Frame numbers
+/// are those of DynamicOctree, which owns this object.
 class Edits final : public vk::FrameParticipant
 {
 public:
-    /// Regions that frames in flight may use go back by way of regions, what else they may use goes to deletion_queue.
-    /// All must outlive this.
+    /// Regions that frames in flight may still use are given back through `regions`, other objects are put into
+    /// deletion_queue. All references must outlive this object.
     Edits(vk::Device& device, OverlayBuffers& overlays, RootHistory& regions, const EditBounds& bounds,
           std::uint32_t frames_in_flight, vk::DeletionQueue& deletion_queue);
 
-    /// Records a dab of the stroke that is under way, or of a new one. False, and no dab, while its room is not known:
-    /// to be tried again in a later frame. The root that is shown may have moved in both cases. Throws Error{Usage} for
-    /// a radius above kBrushRadiusMax and more than kDabsPerFrameMax dabs in a frame, Error{Memory} when the device's
-    /// budget does not suffice, and what making a kernel throws: then there is no dab, whatever the frame does. Entries
-    /// to redo may be gone.
+    /// Records a dab of the stroke that is under way, or of a new one. Returns false, and records no dab, while it is
+    /// not known how much room there is: try again in a later frame. Whatever it returns, root() may have changed.
+    /// Throws Error{Usage} for a radius above kBrushRadiusMax and for more than kDabsPerFrameMax dabs in a frame,
+    /// Error{Memory} when the device's budget does not suffice, and what making a kernel throws. After an exception
+    /// there is no dab, whether or not the frame is submitted, and entries to redo may be gone.
     bool dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gpu::SceneView>& tables);
 
     void endStroke();
     bool undo();
     bool redo();
 
-    /// Node of what is shown: the static root where nothing was edited.
+    /// Number of the edited tree's root node: the static root where nothing has been edited.
     [[nodiscard]] std::uint32_t root() const;
 
     [[nodiscard]] std::size_t undoCount() const { return m_now.history.undoCount(); }
     [[nodiscard]] std::size_t redoCount() const { return m_now.history.redoCount(); }
 
-    /// Grows with every dab, and whenever what is shown stands elsewhere.
+    /// Grows with every dab, and whenever the edited tree moves to another region.
     [[nodiscard]] std::uint64_t changeCount() const { return m_change_count; }
 
-    /// Bytes of device memory that edits have.
+    /// Bytes of device memory that edits hold.
     [[nodiscard]] std::uint64_t heldBytes() const;
 
-    /// Those below the top of what is shown: at most, until the frame is done that made it.
+    /// Bytes of heldBytes() below the top of the current slot. Until the frame that made the slot is done, an upper
+    /// bound.
     [[nodiscard]] std::uint64_t shownBytes() const;
 
-    /// Voxels of what is shown, without dynamic objects. Of a dab, it is known when its frame is done.
+    /// Voxels of the edited tree, without dynamic objects. What a dab has changed counts once its frame is done.
     [[nodiscard]] std::uint32_t voxelCount() const;
 
     void frameSubmitted() override;
     void beginFrame(std::uint64_t /*frame*/) override { m_dab_count = 0; }
     void frameDone(std::uint64_t frame) override;
 
-    /// A stroke under way ends, and entries to redo may be gone. What was shown before the frame is as it was, even if
-    /// the device has run the frame.
+    /// Restores the edited tree from before the frame, even if the device has run the frame. A stroke under way ends,
+    /// and entries to redo may be gone.
     void frameLost() override;
 
 private:
@@ -74,16 +75,16 @@ private:
         EditHistory history;
         std::optional<OverlayRegion> region = std::nullopt;
         std::shared_ptr<vk::BufferOf<gpu::EditState>> states = {}; // [slots] in region
-        bool is_compact = false;                 // nothing was forgotten since everything moved together
-        std::vector<std::uint64_t> changes = {}; // of slots: number of the last one
+        bool is_compact = false;                                   // no dab has been recorded since the last compaction
+        std::vector<std::uint64_t> changes = {}; // [slots] m_change_count at the last change of the slot
     };
-    // A state that may come back in the frame in which it was left.
+    // A state to which restore() goes back.
     struct Saved
     {
         State state;
         std::size_t left_count; // of m_left
     };
-    // Tops that the device tells with a frame.
+    // States of slots that the device copies to m_reports in a frame.
     struct Report
     {
         std::uint64_t frame;
@@ -91,7 +92,7 @@ private:
         std::uint32_t first_slot;
         std::uint32_t slot_count;
         OverlayRegion region;
-        std::uint64_t change; // that made them: later ones may have made others
+        std::uint64_t change; // m_change_count when they were copied: older than that of a slot changed since then
     };
 
     [[nodiscard]] EditSite site();
@@ -112,15 +113,16 @@ private:
     vk::Device& m_device;
     OverlayBuffers& m_overlays;
     RootHistory& m_regions;
-    vk::DeletionQueue& m_deletion_queue; // knows the frame
+    vk::DeletionQueue& m_deletion_queue; // also knows the current frame
     std::uint64_t m_bytes_max;
     State m_now;
-    std::optional<Saved> m_before;          // of the last frame, if it has changed since that began
-    bool m_has_written = false;             // the last frame, above the top of what was shown
-    std::vector<OverlayRegion> m_left;      // in the last frame
-    vk::BufferOf<gpu::EditState> m_reports; // [ring slots][slots] host-visible: of frames in flight that have any
+    std::optional<Saved> m_before;     // the state when the last frame began, if it has changed since then
+    bool m_has_written = false;        // the last frame has recorded a dab
+    std::vector<OverlayRegion> m_left; // regions that were left in the last frame
+    // [ring slots][slots] host-visible; a ring slot for each frame in flight that has reports
+    vk::BufferOf<gpu::EditState> m_reports;
     std::uint64_t m_ring_slot_count;
-    std::uint64_t m_ring_slot = 0; // of the last frame that has any
+    std::uint64_t m_ring_slot = 0; // of the last frame that has reports
     std::optional<DabBuffers> m_buffers;
     std::deque<Report> m_pending;
     std::uint64_t m_change_count = 0;
