@@ -9,9 +9,10 @@
 namespace zvo
 {
 
-/// What is wrong with the attributes, in whichever format, and the emission of tree, in one line; nothing where they
-/// are sound: as many as its counts of voxels and octree nodes ask for, with codes and flags that mean something, and
-/// emission for those voxels that say so. For checkTree(), which has found those counts to be true.
+/// Says in one line what is wrong with the attributes of tree, in whichever format, or with its emission; nothing where
+/// they are sound. Sound means: there are as many attributes as voxels and octree nodes, their codes and flags are
+/// valid, and exactly the voxels that are marked emissive have emission. For checkTree(), which has verified those
+/// counts before.
 std::optional<std::string> checkAttributes(const TreeData& tree);
 
 } // namespace zvo

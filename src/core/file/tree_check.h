@@ -9,14 +9,14 @@
 namespace zvo
 {
 
-/// What keeps tree from being one that zvo could have made, in one line; nothing where it is sound. Kernels check
-/// nothing: no other tree may reach a device. Looks at every node, entry, count and flag, on the host, once each, and
-/// trusts none of them: child numbers lead into the next level and nowhere else, so that no path is endless, and each
-/// node is reached; counts are those that the nodes have; numbers of voxels lead into the attributes. What nodes of
-/// equal content a DAG has is not asked.
+/// Says in one line why zvo could not have made this tree; nothing where the tree is sound. Kernels do not check what
+/// they read, so no other tree may reach a device. On the host, every node, entry, count and flag is read once and
+/// nothing is taken for granted: the children of a node lie in the next level, so that no path is endless; every node
+/// is reached; counts are those that the nodes have; numbers of voxels lie within the attributes. Whether a DAG stores
+/// equal nodes several times is not checked.
 std::optional<std::string> checkTree(const TreeData& tree);
 
-/// Whether a grid can be one of zvo's, as above.
+/// Says in the same way why zvo could not have made this grid; nothing where the grid is sound.
 std::optional<std::string> checkGrid(const Grid& grid);
 
 } // namespace zvo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `.zvo` files: a tree with its attributes, as docs/file-format.md documents them byte by byte. This is the document's
-// counterpart: structs as they stand in the file, little-endian.
+// `.zvo` files: a tree with its attributes. docs/file-format.md documents every byte; the structs below are those of
+// the file, little-endian.
 //
 //     ZvoHeader 128 bytes | ZvoSection 48 bytes each | zeros up to 64 | section | zeros up to 64 | section ...
 #pragma once
@@ -20,7 +20,8 @@
 namespace zvo
 {
 
-/// The first bytes of a file. What transfers of text do to bytes (line ends, the eighth bit, an end at 26) shows here.
+/// The first bytes of a file. If a transfer as text has changed the file (line ends, the eighth bit, an end at byte
+/// 26), they no longer match.
 inline constexpr std::array<char, 8> kZvoMagic = {'\x8a', 'Z', 'V', 'O', '\r', '\n', '\x1a', '\n'};
 
 inline constexpr std::uint32_t kZvoByteOrder = 0x01020304U;
@@ -43,7 +44,7 @@ enum class ZvoSectionId : std::uint32_t
     Emission = 9,         ///< RGB9E5
 };
 
-/// How a section's elements are laid out. Others than Plain are for attributes alone.
+/// How the elements of a section are laid out. All formats but Plain are for attributes only.
 enum class ZvoFormat : std::uint32_t
 {
     Plain = 1,       ///< as in device memory; attributes: gpu::Attribute, 8 bytes
@@ -51,7 +52,7 @@ enum class ZvoFormat : std::uint32_t
     Blocks = 3,      ///< of voxels: 6 words for 16 of them (likewise)
 };
 
-/// What sections call that format of attributes.
+/// The section format that holds attributes in `format`.
 constexpr ZvoFormat zvoFormat(AttributeFormat format)
 {
     return format == AttributeFormat::Bytes4
@@ -59,16 +60,16 @@ constexpr ZvoFormat zvoFormat(AttributeFormat format)
                : (format == AttributeFormat::Blocks ? ZvoFormat::Blocks : ZvoFormat::Plain);
 }
 
-/// Values of the array in memory that are one element of a section.
+/// How many values of the array in memory make one element of a section.
 constexpr std::uint64_t valuesPerElement(ZvoFormat format)
 {
     return format == ZvoFormat::Blocks ? gpu::kBlockWords : 1;
 }
 
-/// Flag of a section: who does not know its id or format must refuse the file.
+/// Flag of a section: a reader that does not know the section's id or format must refuse the file.
 inline constexpr std::uint32_t kZvoMustUnderstand = 1;
 
-/// Byte 0 of a file.
+/// The header, at byte 0 of a file.
 struct ZvoHeader
 {
     std::array<char, 8> magic = kZvoMagic;
@@ -85,7 +86,7 @@ struct ZvoHeader
     std::uint32_t depth = 0;
     float emission_scale = 0;
     std::uint64_t voxel_count = 0;
-    std::uint64_t node_count = 0;        // that are stored
+    std::uint64_t node_count = 0;        // stored in the file
     std::uint64_t octree_node_count = 0; // before equal subtrees became one
     std::uint64_t entry_count = 0;
     std::uint64_t long_entry_count = 0;
@@ -109,19 +110,19 @@ struct ZvoSection
 };
 static_assert(sizeof(ZvoSection) == 48);
 
-/// A section's name in messages and listings; "section N" for those that this version does not know.
+/// A section's name in messages and listings; "section N" for ids that this version does not know.
 std::string sectionName(std::uint32_t id);
 
-/// Where the next section starts, at that byte or behind it.
+/// Where a section may start: the first multiple of kZvoAlignment at or after `byte`.
 constexpr std::uint64_t zvoAligned(std::uint64_t byte)
 {
     return divideUp(byte, kZvoAlignment) * kZvoAlignment;
 }
 
-/// What ZvoHeader::header_checksum has to be.
+/// The value that ZvoHeader::header_checksum must have.
 std::uint64_t headerChecksum(const ZvoHeader& header);
 
-/// What a file holds.
+/// The contents of a file.
 struct ZvoFile
 {
     ZvoHeader header;
@@ -129,17 +130,17 @@ struct ZvoFile
     TreeData tree;
 };
 
-/// Whether a file, by its first bytes, or else its name, means to be one of these.
+/// Whether a file is meant to be a .zvo file: judged by its first bytes, or else by its name.
 bool isZvoFile(const std::filesystem::path& path);
 
-/// Reads a file and checks everything in it: sizes, checksums, and the tree (core/file/tree_check.h). Takes memory only
-/// for what the file has. Throws Error{Input}, one line with the path.
+/// Reads a file and checks everything in it: sizes, checksums, and the tree (core/file/tree_check.h). Memory stays in
+/// proportion to the size of the file. Throws Error{Input}, one line with the path.
 ZvoFile readZvo(const std::filesystem::path& path);
 
-/// The same for a file that is in memory; name: what messages call it.
+/// The same for a file in memory. name: the path that messages show.
 ZvoFile readZvo(std::span<const std::byte> bytes, const std::filesystem::path& name);
 
-/// Hands the bytes of a file to write, piece by piece from the first on. Equal trees give equal bytes.
+/// Passes the bytes of a file to `write`, piece by piece from the first on. Equal trees give equal bytes.
 void writeZvo(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write);
 
 } // namespace zvo

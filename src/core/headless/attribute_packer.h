@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes in fewer bytes (docs/attributes.md), for those who wait for the device.
+// Packing attributes into fewer bytes (docs/attributes.md), waiting for the device.
 #pragma once
 
 #include "core/tree/device_tree.h"
@@ -11,25 +11,26 @@
 namespace zvo
 {
 
-/// Replaces the attributes of tree by such in a packed format (TreePacker), and waits. Returns the passes. Throws
-/// Error{Memory} when the device's budget does not suffice.
+/// Replaces the attributes of tree by the same in a packed format (TreePacker), and waits. Returns the times of the
+/// passes. Throws Error{Memory} when the device's budget does not suffice.
 std::vector<vk::PassTime> packTree(vk::HeadlessDevice& device, AttributeFormat format, DeviceTree& tree);
 
-/// Attributes that come to the host piece by piece, packed on the device as if all of them had come at once.
+/// Packs attributes that come to the host piece by piece. The result is that of packing all of them at once.
 class AttributePacker
 {
 public:
-    /// format: any; what is not packed is collected as it is.
+    /// format: any. For a format that is not packed, attributes are collected as they are.
     AttributePacker(vk::HeadlessDevice& device, AttributeFormat format) : m_device(device), m_format(format) {}
 
-    /// Adds attributes behind those that came before, packs what is enough for it, and waits. Throws Error{Memory}.
+    /// Adds attributes behind those before, packs as many as make whole pieces, and waits. Throws Error{Memory}.
     void append(std::vector<gpu::Attribute>&& more);
 
-    /// Packs the rest.
+    /// Packs the remaining attributes.
     void finish();
 
-    std::vector<gpu::Attribute> attributes; ///< those that are not packed; in a packed format none, after finish()
-    std::vector<gpu::uint> words;           ///< of those that are
+    std::vector<gpu::Attribute>
+        attributes; ///< attributes that are not packed; empty after finish() if the format is a packed one
+    std::vector<gpu::uint> words; ///< the packed attributes
     std::vector<vk::PassTime> passes;
 
 private:

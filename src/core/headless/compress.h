@@ -8,12 +8,12 @@
 namespace zvo
 {
 
-/// Makes a DAG of an octree, or of a DAG in which equal nodes stand several times (SvdagBuilder). Waits between its
-/// steps. Throws as these.
+/// Makes a DAG of an octree, or of a DAG in which equal nodes occur several times (SvdagBuilder), and waits after each
+/// step. Throws as SvdagBuilder.
 CompressResult compress(vk::HeadlessDevice& device, DeviceTree source, const CompressOptions& options = {});
 
-/// The DAG of an octree in the host's memory, there again. What voxels look like stays there: only nodes and their
-/// attributes go to the device and back. Waits. Throws as these.
+/// The same for an octree in the host's memory. Only nodes and their attributes are copied to the device and back; the
+/// attributes of voxels stay on the host. Waits. Throws as SvdagBuilder.
 TreeData compressTree(vk::HeadlessDevice& device, TreeData octree);
 
 } // namespace zvo

@@ -11,12 +11,12 @@
 namespace zvo
 {
 
-/// Runs all of the static half on device: voxelize, build, attributes (OctreeBuilder). Waits between its steps. Throws
-/// as these.
+/// Makes the octree of a scene: coverage, numbering and attributes, in the steps of OctreeBuilder. Waits after each
+/// step. Throws as OctreeBuilder.
 BuildResult buildOctree(vk::HeadlessDevice& device, const PosedGpuScene& scene, const GridTile& tile,
                         const BuildOptions& options);
 
-/// The Morton codes of all voxels, ascending: voxel_count of them.
+/// The Morton codes of all voxels, ascending: [voxel_count].
 std::vector<std::uint64_t> voxelCodes(vk::HeadlessDevice& device, const DeviceTree& octree);
 
 } // namespace zvo

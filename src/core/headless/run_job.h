@@ -9,7 +9,7 @@
 namespace zvo
 {
 
-/// Runs a job to its end and waits for each of its steps. Returns what came of it. Throws what the steps throw.
+/// Runs a job to its end, waiting after each step, and returns the job's result. Throws what the steps throw.
 template <std::derived_from<StepJob> AnyJob> auto runJob(vk::HeadlessDevice& device, AnyJob job)
 {
     while (!job.isDone())

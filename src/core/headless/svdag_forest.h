@@ -11,39 +11,39 @@
 namespace zvo
 {
 
-/// DAGs of tiles of a grid that become one DAG: equal nodes of different tiles, too, are stored once. Keeps them merged
-/// now and then, so that memory is about that of the result.
+/// Merges the DAGs of the tiles of a grid into one DAG, in which equal nodes of different tiles are stored once, too.
+/// Merges now and then while tiles are added, so that the memory it needs is about that of the result.
 class SvdagForest
 {
 public:
-    /// Tiles are cubes of (1 << tile_depth)^3 voxels: whole nodes, so that tile_depth is even; it is less than
-    /// grid.depth.
+    /// tile_depth: tiles are cubes of (1 << tile_depth)^3 voxels. It must be even, as tiles consist of whole nodes, and
+    /// less than grid.depth.
     SvdagForest(vk::HeadlessDevice& device, const Grid& grid, std::uint32_t tile_depth);
 
-    /// Adds the DAG of the whole grid in which only one tile is occupied. code: the tile's Morton code among tiles,
-    /// more than those before. Takes its nodes, not its attributes. Throws Error{Memory} when the device's budget does
-    /// not suffice.
+    /// Adds the DAG of the whole grid in which only one tile has voxels. code: the tile's Morton code among the tiles;
+    /// it must be greater than those before. Takes over the nodes of the DAG and drops its attributes. Throws
+    /// Error{Memory} when the device's budget does not suffice.
     void add(std::uint64_t code, DeviceTree dag);
 
     [[nodiscard]] bool isEmpty() const { return m_parts.empty(); }
 
-    /// The DAG of all that was added; nothing is left here. Without attributes; with BeforeChild and so on if `ranks`.
-    /// Throws as add().
+    /// Returns the DAG of all tiles, without attributes, and leaves the forest empty. ranks: whether the DAG gets
+    /// ChildLists::before and voxels_before_leaf. Throws as add().
     DeviceTree finish(bool ranks);
 
-    /// Nodes above the tiles' roots, in all tiles' octree.
+    /// Number of nodes above the roots of the tiles in the octree of all tiles.
     [[nodiscard]] std::uint64_t topNodeCount() const;
 
-    /// Of merging so far.
+    /// Times of the passes that have merged tiles so far.
     [[nodiscard]] const std::vector<vk::PassTime>& passes() const { return m_passes; }
 
 private:
     struct Tile
     {
         std::uint64_t code;
-        std::uint32_t root; // node of its part's DAG
+        std::uint32_t root; // node in the DAG of the tile's part
     };
-    // One DAG with the tiles below it, ascending.
+    // A DAG and the tiles that it contains, by ascending code.
     struct Part
     {
         DeviceTree dag;
@@ -56,7 +56,7 @@ private:
 
     vk::HeadlessDevice& m_device;
     Grid m_grid;
-    std::size_t m_top_levels; // of nodes above the tiles' roots
+    std::size_t m_top_levels; // levels of nodes above the tiles' roots
     std::vector<Part> m_parts;
     std::vector<vk::PassTime> m_passes;
 };

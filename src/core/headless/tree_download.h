@@ -7,8 +7,8 @@
 namespace zvo
 {
 
-/// Copies a tree to the host and waits. Its nodes must stand level by level as they were built, without room for
-/// overlays; of a DAG as few words of lists as it takes. Throws Error{Usage} for a tree that does not.
+/// Copies a tree to the host and waits. The nodes must stand level by level as they were built, without room for
+/// overlays, and the lists of a DAG must be packed as tightly as possible. Throws Error{Usage} for any other tree.
 TreeData downloadTree(vk::HeadlessDevice& device, const DeviceTree& tree);
 
 } // namespace zvo

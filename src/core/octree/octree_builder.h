@@ -21,16 +21,16 @@
 namespace zvo
 {
 
-/// What is made of a scene.
+/// Options of a build.
 struct BuildOptions
 {
     Coverage coverage = TreeBuildInfo().coverage;
     bool attributes = true;
-    std::optional<VoxelizeCapacities> capacities = std::nullopt; // where to start; by default, an estimate
-    bool keep_sums = false;                                      // of attributes, in DeviceTree::sums: 28 bytes a voxel
+    std::optional<VoxelizeCapacities> capacities = std::nullopt; // of the first run; by default, an estimate
+    bool keep_sums = false; // keeps the sums of attributes in DeviceTree::sums: 28 bytes a voxel
 };
 
-/// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels, and the fills of its
+/// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels and the fills of its
 /// buffers.
 double operationMs(std::span<const vk::PassTime> passes, std::string_view operation);
 
@@ -40,30 +40,33 @@ struct BuildResult
     DeviceTree octree;
     std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason; only reasons that occurred
     std::vector<vk::PassTime> passes;             // of the runs that succeeded
-    VoxelizeCapacities capacities;                // that sufficed
+    VoxelizeCapacities capacities;                // those that sufficed
     std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
 
     /// operationMs() of the passes.
     [[nodiscard]] double stageMs(std::string_view operation) const { return operationMs(passes, operation); }
 };
 
-/// Makes an octree of a scene. Between steps, sizes are learnt and exactly what is needed is allocated; what turned out
-/// too small grows, and the step comes again: resume() throws Error{Memory} where 32-bit numbers do not suffice, or the
-/// device's budget. Of a tile (GridTile), an octree of the whole grid with what lies in it: its voxels and their
-/// attributes are a slice, in Morton order, of what the whole grid gives, as long as no voxel has more than 65,535
-/// fragments. dropped is that of the whole grid. A scene without triangles in the grid gives an octree without nodes.
+/// Makes an octree of a scene. Between steps the builder reads sizes and allocates exactly what is needed. When
+/// something was too small it grows, and the step is repeated. resume() throws Error{Memory} when 32-bit numbers or the
+/// device's budget do not suffice.
+///
+/// For a GridTile that is a part of the grid, the result is an octree of the whole grid with the voxels in that tile.
+/// These voxels and their attributes are a slice, in Morton order, of those of the whole grid, as long as no voxel has
+/// more than 65,535 fragments. BuildResult::dropped is that of the whole grid. A scene without triangles in the grid
+/// gives an octree without nodes.
 class OctreeBuilder final : public BuildJob<OctreeBuilder, BuildResult>
 {
 public:
-    /// scene outlives it. Throws Error{Usage} for a depth outside 1 to Grid::kDepthMax, a tile that is not there and
-    /// attributes that the scene was not uploaded with.
+    /// scene must outlive the builder. Throws Error{Usage} for a depth outside 1 to Grid::kDepthMax, for a tile outside
+    /// of the grid, and for attributes if the scene was uploaded without them.
     OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, const GridTile& tile, const BuildOptions& options);
 
-    /// What a run showed to be too small.
+    /// New capacities for what a run has shown to be too small.
     struct Growth
     {
-        VoxelizeCapacities needed; // what is known to be: maybe still too little
-        VoxelizeCapacities likely; // what will suffice, as far as the run tells
+        VoxelizeCapacities needed; // known to be needed, perhaps still too little
+        VoxelizeCapacities likely; // likely to suffice, as far as the run tells
     };
 
 private:
@@ -73,12 +76,12 @@ private:
         VoxelizeBuffers voxelize;
         OctreeBuildBuffers work;
     };
-    // In the readback.
+    // Where the values of the last step stand in the readback.
     struct ReadbackOffsets
     {
         std::uint64_t counters = 0;
         std::uint64_t ranges = 0;
-        std::vector<std::uint64_t> rasters; // of the material classes that there are
+        std::vector<std::uint64_t> rasters; // of the material classes that the scene has
         std::uint64_t max_fragments = 0;
         std::uint64_t emissive_count = 0;
     };
