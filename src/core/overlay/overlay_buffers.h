@@ -15,10 +15,10 @@
 namespace zvo
 {
 
-/// What overlays have.
+/// What the nodes and voxels of overlays have besides their geometry.
 struct OverlayContents
 {
-    bool attributes = true;   // where the static tree is empty and does not say
+    bool attributes = true;   // whether overlays have attributes; used where the static tree is empty
     float emission_scale = 0; // 0: nothing emits light
 };
 
@@ -27,52 +27,54 @@ struct OverlayContents
 ///     nodes       | slot | static nodes, lists ... | static root | overlays and room
 ///     attributes  | static voxels ...              | overlays and room
 ///
-/// nodes[0] is the root that is traced. Nothing static is ever written again. When the buffers grow their addresses
-/// change, and all contents stay.
+/// nodes[0], the slot, is the root that is traced. Nothing static is ever written again. When the buffers grow, their
+/// addresses change and their contents stay.
 class OverlayBuffers final : public vk::FrameParticipant
 {
 public:
-    /// Takes over a static tree: traced and overlaid only behind settle(). uploads keeps it, should it not come so far.
-    /// What frames in flight may use goes to deletion_queue. Both outlive this.
+    /// Takes over a static tree. It can be traced and overlaid only after settle(); if settle() is never called, the
+    /// tree is handed to uploads, which keeps it until the device is done with it. Whatever frames in flight may still
+    /// use is put into deletion_queue. Both must outlive this object.
     OverlayBuffers(vk::Uploader& uploads, DeviceTree fixed, const OverlayContents& contents,
                    vk::DeletionQueue& deletion_queue);
     ~OverlayBuffers();
     OverlayBuffers(const OverlayBuffers&) = delete;
     OverlayBuffers& operator=(const OverlayBuffers&) = delete;
 
-    /// Makes the buffers that settle() takes, with room for that many nodes, and voxels. Throws Error{Memory} when the
-    /// device's budget does not suffice.
+    /// Makes the longer buffers that settle() moves the static tree to, with room for that many nodes and that many
+    /// voxels. Throws Error{Memory} when the device's budget does not suffice.
     void reserve(std::uint64_t room);
 
-    /// Records what moves the static tree to what was reserved.
+    /// Records the copies that move the static tree to the buffers of reserve().
     void settle(vk::FrameGraph& graph, vk::DeletionQueue& deletion_queue);
 
-    /// Makes room for one more region of that many nodes and voxels, whatever is held: records the copies to longer
-    /// buffers; the old ones go to the deletion queue when the frame was submitted. Throws Error{Memory} when the
-    /// device's budget does not suffice: then nothing was recorded and nothing has changed.
+    /// Makes room for one more region of that many nodes and voxels, besides all regions that are held: records the
+    /// copies to longer buffers. The old buffers are put into the deletion queue when the frame is submitted. Throws
+    /// Error{Memory} when the device's budget does not suffice; then nothing was recorded and nothing has changed.
     void grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint64_t voxels);
 
     void frameSubmitted() override { deleteBefore(m_deletion_queue); }
 
-    /// The buffers are those from before the frame again, with all their contents. The arena keeps its size; regions
-    /// may lie beyond the buffers until catchUp().
+    /// Restores the buffers from before the frame with all their contents. The arena keeps its size, so regions may lie
+    /// beyond the end of the buffers until catchUp().
     void frameLost() override;
 
-    /// Before a region is used that was handed out after frameLost(): makes the buffers as long as the arena, as grow()
-    /// does. Nothing to do otherwise. Throws as grow().
+    /// Makes the buffers as long as the arena again, as grow() does. To be called before a region is used that was
+    /// allocated after frameLost(). Does nothing where the lengths match. Throws as grow().
     void catchUp(vk::FrameGraph& graph);
 
     [[nodiscard]] const DeviceTree& tree() const { return m_tree; }
     [[nodiscard]] DeviceTree& tree() { return m_tree; }
 
-    /// What is traced has changed.
+    /// Tells that what is traced has changed.
     void renewVersion() { m_tree.version = newTreeVersion(); }
 
     [[nodiscard]] OverlayArena& arena() { return m_arena; }
     [[nodiscard]] bool hasAttributes() const { return m_has_attributes; }
     [[nodiscard]] bool emits() const { return m_emits; }
 
-    /// From the index of an overlay's voxel to its place in tree().emission, modulo 2^32.
+    /// The number that, added to the index of an overlay's voxel, gives the index of its value in tree().emission;
+    /// modulo 2^32.
     [[nodiscard]] std::uint32_t emissionOffset() const;
 
 private:
@@ -81,7 +83,7 @@ private:
         std::uint32_t nodes = 0;
         std::uint32_t voxels = 0;
     };
-    // That grow: empty where the tree has no such thing.
+    // The buffers that grow. Those that the tree does not have are empty.
     struct Buffers
     {
         vk::BufferOf<gpu::Node> nodes;
@@ -114,8 +116,8 @@ private:
     OverlayArena m_arena;
     bool m_is_settled = false;
     Buffers m_reserved;              // for settle()
-    Capacities m_room;               // of them
-    std::optional<Buffers> m_before; // of the tree when the last frame began, if they have been replaced in it
+    Capacities m_room;               // of m_reserved
+    std::optional<Buffers> m_before; // the tree's buffers when the last frame began, if they were replaced since
 };
 
 } // namespace zvo

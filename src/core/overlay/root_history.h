@@ -17,7 +17,7 @@
 namespace zvo
 {
 
-/// Which state of a layer an octree shows.
+/// The state of one layer in a tree that is shown: which layer, and which version of its pose.
 struct LayerState
 {
     std::uint32_t layer = 0;
@@ -26,104 +26,107 @@ struct LayerState
     bool operator==(const LayerState&) const = default;
 };
 
-/// How much a RootHistory keeps.
+/// Bounds of what a RootHistory keeps.
 struct HistoryBounds
 {
-    std::size_t entries_max = DynamicTreeInfo().history_entries; // beside the first one, at least 1
+    std::size_t entries_max = DynamicTreeInfo().history_entries; // entries besides the first one, at least 1
     std::uint64_t bytes_max = DynamicTreeInfo().history_bytes;   // of the entries' regions
 };
 
-/// One entry of a RootHistory: an octree or a DAG that can be traced.
+/// An entry of a RootHistory: an octree or a DAG that can be traced.
 struct RootEntry
 {
-    std::uint64_t id = 0;                // grows from push to push; 0: the first one
+    std::uint64_t id = 0;                // grows from push to push; 0: the first entry
     std::optional<OverlayRegion> region; // of its overlay; nothing: the static tree
     std::span<const LayerState> layers;  // as pushed; valid until the history changes
-    bool pending = false;                // nobody has said yet whether its update succeeded
+    bool pending = false;                // it is not known yet whether the entry's update succeeded
 };
 
-/// The trees that were shown and can be shown again: a line of entries with a cursor, the current entry. The first
-/// entry is the static octree or DAG; it is always there. Entries own their overlays' regions. Host logic only: showing
-/// an entry is the caller's copy of the entry's root into the tree's root slot.
+/// The trees that were shown and can be shown again: a line of entries with a cursor at the current one. The first
+/// entry is the static octree or DAG, and is always there. Entries own the regions of their overlays. Host logic only:
+/// to show an entry, the caller copies the entry's root into the tree's root slot.
 ///
 ///     static ── entry ── entry ── entry ── entry
 ///                          ▲        └────────┴─ redo, dropped by the next push()
 ///                       current
 ///
 /// *Updates* run on the device, and whether one had enough memory is known only frames later. Until then its entry is
-/// pending, and the entry that it followed is kept, even where it fell off. An update that fails must leave in the root
-/// slot, and in what undo() and redo() would copy there for its entry, the root before it; so whatever the device shows
-/// is a region that is kept. complete() or fail() must be called for every entry that was pushed with a region, once,
-/// in the order of pushes, whether or not the entry is still in the line.
+/// pending, and the entry that it followed is kept as its fallback, even if that is no longer in the line. A failed
+/// update must leave the fallback's root in the root slot, and in the place from which undo() and redo() would copy its
+/// root. So the device always shows a region that is kept. For every entry that was pushed with a region, complete() or
+/// fail() must be called once, in the order of pushes, whether or not the entry is still in the line.
 ///
-/// *Frames* in flight: the device may use a region as long as a frame is not done that began before the history dropped
-/// it. Such regions wait. Without beginFrame(), they do not: the caller then waits for the device himself. What
-/// happened to the line in a frame can be taken back until the next one begins (frameLost()); until then its entries
-/// are kept.
+/// *Frames* in flight may use a region until all frames are done that began before the history dropped the region;
+/// until then the region waits. If beginFrame() is never called, regions do not wait, and the caller has to wait for
+/// the device. Changes of the line in a frame can be taken back by frameLost() until the next frame begins; until then
+/// the entries from before the frame are kept.
 ///
-/// *Bounds*: after push() there are at most entries_max entries beside the first one, and their regions have at most
-/// bytes_max bytes, or there is only the pushed one. The oldest fall off for that. Regions that wait, or are kept for a
-/// pending entry, are held beyond that: waitingBytes().
+/// *Bounds*: after push() there are at most entries_max entries besides the first one, and their regions have at most
+/// bytes_max bytes, unless the pushed entry alone has more. The oldest entries are dropped for that. Regions that wait,
+/// or are kept for pending entries, do not count towards bytes_max; waitingBytes() tells their size.
 ///
 /// undo(), redo() and current() take constant time, everything else at most n log n for n entries.
 class RootHistory final : public vk::FrameParticipant
 {
 public:
-    /// arena must outlive the history. Pushed regions come from it and go back to it.
+    /// arena: pushed regions come from it and are given back to it. It must outlive the history.
     RootHistory(OverlayArena& arena, const HistoryBounds& bounds);
 
-    /// Gives everything back at once: the device must be done with all frames.
+    /// Gives all regions back at once. The device must be done with all frames.
     ~RootHistory();
     RootHistory(const RootHistory&) = delete;
     RootHistory& operator=(const RootHistory&) = delete;
 
-    /// A region for the next entry. Where the arena has none, drops as many entries as it takes and no more, first from
-    /// the end of redo, then the oldest; never the first and the current one, and none at all where that would not
-    /// help. Nothing when there is no room, or not yet: see fitsLater().
+    /// Returns a region for the next entry. Where the arena has none, the fewest entries that make room are dropped:
+    /// first the last ones to redo, then the oldest, but never the first and the current one. Returns nothing, and
+    /// drops nothing, where that does not help either; fitsLater() tells whether waiting will.
     std::optional<OverlayRegion> allocate(std::uint64_t nodes, std::uint64_t voxels);
 
-    /// Whether there is room for such a region once all frames that have begun are done and all updates succeeded, with
-    /// the entries that there are now. After allocate() returned nothing: whether to try again then; if not, the arena
-    /// is too small.
+    /// Whether such a region will fit once all frames that have begun are done and all updates have succeeded, with the
+    /// present entries. After allocate() has returned nothing: true means that it is worth another try then, false that
+    /// the arena is too small.
     [[nodiscard]] bool fitsLater(std::uint64_t nodes, std::uint64_t voxels) const;
 
-    /// Gives back, once the device is done with it, a region of allocate() that is not going to be pushed.
+    /// Gives back a region of allocate() that is not going to be pushed, once the device is done with it.
     void giveBack(const OverlayRegion& region);
 
-    /// Puts an entry in the place of those of redo and makes it the current one. Call it in the frame that changes the
-    /// root slot. Without a region the entry shows the static tree, and is complete. Returns its id.
+    /// Adds an entry behind the current one, in place of the entries to redo, and makes it the current one. Call it in
+    /// the frame that changes the root slot. An entry without a region shows the static tree, and is never pending.
+    /// Returns the entry's id.
     std::uint64_t push(const std::optional<OverlayRegion>& region, std::vector<LayerState> layers);
 
-    /// The update of an entry succeeded and needed this many nodes and voxels, at most what its region has: the rest of
-    /// the region is free at once.
+    /// Tells that the update of an entry succeeded and needed so many nodes and voxels, at most what its region has.
+    /// The rest of the region becomes free at once.
     void complete(std::uint64_t id, std::uint32_t nodes, std::uint32_t voxels);
 
-    /// The update of an entry failed: where it stands now stands the entry that it followed. So if that is still in the
-    /// line, the failed entry is just gone, and if it had fallen off, it is back.
+    /// Tells that the update of an entry failed. The entry is replaced by its fallback, the entry that it followed:
+    /// where that is still in the line, the failed entry is just removed; where it had been dropped, it comes back.
     void fail(std::uint64_t id);
 
     [[nodiscard]] RootEntry current() const { return describe(m_current); }
 
-    /// The entry before or behind the current one, which becomes the current one; nothing at the ends.
+    /// Make the previous or next entry the current one and return it; nothing at the ends.
     std::optional<RootEntry> undo();
     std::optional<RootEntry> redo();
     [[nodiscard]] std::size_t undoCount() const { return m_current; }
     [[nodiscard]] std::size_t redoCount() const { return m_entries.size() - 1 - m_current; }
 
-    /// The first entry becomes the current one and the only one: what others show has become something else.
+    /// Drops all entries but the first and makes it the current one. For changes of the tree that entries were merged
+    /// with.
     void forget();
 
     void frameSubmitted() override;
     void beginFrame(std::uint64_t frame) override { m_frame = frame; }
     void frameDone(std::uint64_t frame) override;
 
-    /// The entries are those there were when the frame began, but for updates of earlier frames that have ended since.
-    /// Its updates must not be ended; their regions wait for a frame. The caller sees to it that the root slot shows
-    /// current() before those are used again.
+    /// Restores the entries from before the frame, except that updates of earlier frames that have ended since then
+    /// stay ended. complete() and fail() must not be called for the frame's updates; their regions wait for the frame.
+    /// The caller sees to it that the root slot shows current() before such a region is used again.
     void frameLost() override;
 
-    /// Calls see with every layer state that current(), undo() and redo() may still return, in any order, some of them
-    /// twice: those of the entries, and of entries that are kept for a pending one or for frameLost().
+    /// Calls see for every layer state that current(), undo() and redo() may still return, in any order, for some of
+    /// them twice: the states of all entries, of fallbacks of pending entries, and of entries that are kept for
+    /// frameLost().
     template <typename See> void forEachLayer(const See& see) const
     {
         for (const auto& entry : m_entries)
@@ -144,7 +147,7 @@ public:
     [[nodiscard]] std::uint64_t waitingBytes() const; // of other regions that are held
 
 private:
-    // Has a region until it is destroyed, which leaves the region to the frames in flight.
+    // Owns a region. Its destructor gives the region back, which then waits for the frames in flight.
     struct Lease
     {
         Lease(RootHistory& h, const OverlayRegion& r) : history(h), region(r) {}
@@ -155,11 +158,11 @@ private:
         RootHistory& history;
         OverlayRegion region;
     };
-    // Shared by the line, the update that makes the entry and those that fall back to it.
+    // Shared by the line, by the update that makes the entry, and by updates whose fallback it is.
     struct Entry
     {
         std::uint64_t id = 0;
-        std::optional<Lease> lease; // nothing: the static tree
+        std::optional<Lease> lease; // empty: the static tree
         std::vector<LayerState> layers;
         bool pending = false;
     };
@@ -167,7 +170,7 @@ private:
     struct Update
     {
         std::shared_ptr<Entry> entry;
-        std::shared_ptr<Entry> fallback; // what it followed
+        std::shared_ptr<Entry> fallback; // the entry that it followed
         std::uint64_t frame;
     };
     struct Waiting
@@ -185,15 +188,15 @@ private:
 
     OverlayArena& m_arena;
     HistoryBounds m_bounds;
-    std::uint64_t m_frame = 0; // the last one that has begun
+    std::uint64_t m_frame = 0; // the last frame that has begun
     std::uint64_t m_frame_done = 0;
     std::uint64_t m_last_id = 0;
     std::deque<Waiting> m_waiting; // in order of frames
     Entries m_entries;             // the line; [0]: the static tree
     std::size_t m_current = 0;     // index in m_entries
     std::deque<Update> m_updates;  // of pending entries, in order of pushes
-    // When the last frame began: the line, if it has changed since, or nothing, and the index of what was current in
-    // it.
+    // The line when the last frame began, if it has changed since, else empty; and the index of the entry that was
+    // current then.
     Entries m_entries_before;
     std::size_t m_current_before = 0;
 };
