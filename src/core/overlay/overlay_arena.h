@@ -28,12 +28,11 @@ struct OverlayRegion
 /// What an OverlayArena divides: buffers that begin with the static octree or DAG and end with room for overlays.
 struct OverlaySpace
 {
-    std::uint32_t static_nodes = 0;  // never handed out
-    std::uint32_t node_capacity = 0; // of the whole buffers, at least static_nodes
-    std::uint32_t static_voxels = 0; // never handed out, up to the next multiple of kVoxelBlock
-    std::uint32_t voxel_capacity =
-        0;                        // of the whole buffers, at least static_voxels; an incomplete last block is not used
-    std::uint32_t node_bytes = 0; // of all buffers together, for each node
+    std::uint32_t static_nodes = 0;      // never handed out
+    std::uint32_t node_capacity = 0;     // of the whole buffers, at least static_nodes
+    std::uint32_t static_voxels = 0;     // never handed out, up to the next multiple of kVoxelBlock
+    std::uint32_t voxel_capacity = 0;    // of the whole buffers, at least static_voxels; a partial last block is unused
+    std::uint32_t node_bytes = 0;        // of all buffers together, for each node
     std::uint32_t voxel_block_bytes = 0; // of all buffers together, for each block of kVoxelBlock voxels
 };
 

@@ -24,27 +24,27 @@
 namespace zvo
 {
 
-/// The texel format that a picture needs to be copied into images of a format: R8G8B8A8 and B8G8R8A8, UNORM and SRGB,
-/// A2B10G10R10_UNORM_PACK32, R16G16B16A16_SFLOAT. Those in UNORM and SRGB alike get the bytes of sRGB codes: what
-/// samples an SRGB image gets linear values. Throws Error{Usage} for other formats, listing these.
+/// The texel format that a picture needs to be copied into images of a format: R8G8B8A8 and B8G8R8A8, each UNORM or
+/// SRGB, A2B10G10R10_UNORM_PACK32, or R16G16B16A16_SFLOAT. UNORM and SRGB images get the same bytes, those of sRGB
+/// codes; so sampling an SRGB image gives linear values. Throws Error{Usage} for other formats, listing these.
 TexelFormat texelFormat(VkFormat format);
 
-/// Records the copy of buffers.image, all of it, to target. Its only access to the image is the one above. Throws
-/// Error{Usage} when target's format does not take the format of buffers' texels, or its layout, offset or extent will
-/// not do; then nothing is recorded. Cost: pixels.
+/// Records the copy of all of buffers.image to target. This copy is the only access to the image. Throws Error{Usage}
+/// when the format of buffers' texels is not the one that target's format needs, or when target's layout, offset or
+/// extent is not valid; then nothing is recorded. Cost: pixels.
 void copyToImage(vk::FrameGraph& graph, const TraceBuffers& buffers, const ImageTarget& target);
 
-/// Throws what copyToImage() throws, before there is anything to copy.
+/// Throws what copyToImage() would throw, without recording anything.
 void requireCopyable(const TraceBuffers& buffers, const ImageTarget& target);
 
-/// The same for depth[size.width * size.height] of traceDepth(): into the depth aspect of an image in D32_SFLOAT or
-/// D32_SFLOAT_S8_UINT, whose stencil stays, or into one in R32_SFLOAT. Throws Error{Usage} for others, and for the
-/// first two when the host's queue family cannot draw, without which Vulkan forbids the copy; Error{Other} when depth
-/// has fewer elements.
+/// Records the copy of depth [size.width * size.height], made by traceDepth(), to target: into the depth aspect of an
+/// image in D32_SFLOAT or D32_SFLOAT_S8_UINT, whose stencil stays as it is, or into an image in R32_SFLOAT. Throws
+/// Error{Usage} for other formats, and for the two depth formats when the host's queue family cannot draw, as Vulkan
+/// forbids the copy there; Error{Other} when depth has fewer elements.
 void copyDepthToImage(vk::FrameGraph& graph, const vk::BufferOf<float>& depth, PictureSize size,
                       const ImageTarget& target);
 
-/// Throws what copyDepthToImage() throws of target.
+/// Throws the errors of copyDepthToImage() that concern target, without recording anything.
 void requireDepthCopyable(const vk::Device& device, PictureSize size, const ImageTarget& target);
 
 } // namespace zvo

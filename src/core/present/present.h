@@ -18,8 +18,8 @@ struct PictureSize
     bool operator==(const PictureSize&) const = default;
 };
 
-/// Records the pass that makes a picture of to_size of one of from_size, each pixel the one in which its centre lies.
-/// Both are stored row by row, a word a pixel. Cost: pixels of the result.
+/// Records the pass that scales a picture from from_size to to_size. Each pixel of the result takes the pixel in which
+/// its centre lies. Both pictures are stored row by row, a word for each pixel. Cost: pixels of the result.
 void scalePicture(vk::FrameGraph& graph, const vk::BufferOf<gpu::uint>& from, PictureSize from_size,
                   vk::BufferOf<gpu::uint>& to, PictureSize to_size);
 

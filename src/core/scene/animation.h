@@ -17,7 +17,7 @@
 namespace zvo
 {
 
-/// Where the instances of a scene are, and into which shape they are pulled, at one time.
+/// The positions of a scene's instances, and their deformation, at one time.
 struct Pose
 {
     std::vector<glm::mat4> transforms; // [instances] object to world, affine; the identity for those with a skin
@@ -26,11 +26,11 @@ struct Pose
     std::vector<std::vector<float>> morph_weights;      // [instances][morph targets of its primitive]
 };
 
-/// Which animation of a file plays: the first of that name, or the one of that number (Animation::number).
+/// The animation of a file that is to play: the first one of that name, or the one with that Animation::number.
 using AnimationChoice = std::variant<std::string, std::uint32_t>;
 
-/// Takes all animations from the scene of one file but the one that plays: the chosen one or else the first. Whether
-/// the chosen one is there; if not, nothing changes.
+/// Removes all animations of a file's scene but the one that is to play: the chosen one or, without a choice, the
+/// first. Returns whether the chosen animation exists; if it does not, nothing changes.
 bool keepAnimation(Scene& scene, const std::optional<AnimationChoice>& choice = std::nullopt);
 
 /// The pose at a time from 0 on or before it, with every animation of the scene repeated over its own length; before
@@ -41,18 +41,18 @@ bool keepAnimation(Scene& scene, const std::optional<AnimationChoice>& choice = 
 /// comes after everything else.
 Pose poseAt(const Scene& scene, double seconds, const glm::dmat4& to_world = glm::dmat4(1.0));
 
-/// Whether the instance may change with time: a channel moves its node, one above it, or a joint of its skin or one
-/// above that, or the weights of its morph targets.
+/// Whether an instance may change with time: because a channel moves its node or a node above it, a joint of its skin
+/// or a node above the joint, or the weights of its morph targets.
 bool isAnimated(const Scene& scene, std::size_t instance);
 
-/// isAnimated() of all instances, in time proportional to the scene.
+/// isAnimated() of all instances, in time proportional to the size of the scene.
 std::vector<bool> animatedInstances(const Scene& scene);
 
-/// The scene as it stands in a pose, without nodes, skins, animations and morph targets: each instance that deforms
-/// (isDeformed()) has a primitive of its own, with the positions and normals that the device makes of it
-/// (core/scene/deform.h), bit for bit; such normals have any length. Instances and cameras keep their order, cameras
-/// their place. pose: of this scene. Throws Error{Memory} where these primitives take more than half of this machine's
-/// memory.
+/// The scene as it stands in a pose, without nodes, skins, animations and morph targets. Each instance that deforms
+/// (isDeformed()) has a primitive of its own, with the same positions and normals, bit for bit, as the device makes
+/// (core/scene/deform.h); such normals may have any length. Instances and cameras keep their order, and cameras their
+/// transforms. pose: a pose of this scene. Throws Error{Memory} where the new primitives take more than half of this
+/// machine's memory.
 Scene posedScene(const Scene& scene, const Pose& pose);
 
 } // namespace zvo

@@ -21,15 +21,16 @@ struct ViewCamera
     double vertical_fov = 0.7; // radians; perspective
     double half_height = 1.0;  // world units; orthographic
 
-    /// A scene's camera. Scale and shear of its transform are dropped. Throws Error{Input} if nothing is left.
+    /// The view of a scene's camera. Scale and shear of its transform are dropped. Throws Error{Input} if nothing is
+    /// left.
     static ViewCamera of(const Camera& camera);
 
-    /// From eye towards target with y up (z for a view straight up or down). Throws Error{Usage} if they are the same
-    /// point or not finite, or if the field of view (radians) is not inside (0, pi).
+    /// The view from eye towards target, with y up (z for a view straight up or down). vertical_fov: radians. Throws
+    /// Error{Usage} if eye and target are the same point or not finite, or if vertical_fov is not inside (0, pi).
     static ViewCamera lookAt(const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov);
 
-    /// A three-quarter view from the front, right and above in which the scene's vertices fill a picture whose width is
-    /// aspect times its height, as near as that goes.
+    /// A three-quarter view from the front, right and above, so near that the scene's vertices just fit into a picture
+    /// whose width is aspect times its height.
     static ViewCamera framing(const Scene& scene, double aspect);
 
     /// The same for the corners of a box.
@@ -39,7 +40,7 @@ struct ViewCamera
     [[nodiscard]] ViewCamera turnedAround(const glm::dvec3& center, double radians) const;
 };
 
-/// A camera as the kernels take it.
+/// A camera in the form that the kernels take.
 struct TraceCamera
 {
     gpu::CameraRays rays;

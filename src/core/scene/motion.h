@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How an object moves as a whole: functions of time that come after its own transform, in double precision.
+// Motions of whole objects: functions of time, in double precision, that are applied after the object's own transform.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 namespace zvo
 {
 
-/// Turns steadily about an axis through a centre. An object that circles but does not spin keeps its orientation; one
-/// that spins but does not circle stays where it is.
+/// A steady turn about an axis through a centre. An object that circles but does not spin keeps its orientation. One
+/// that spins but does not circle turns about its home, which stays where it is.
 struct OrbitMotion
 {
     glm::dvec3 center{0.0};         // world units
@@ -23,38 +23,40 @@ struct OrbitMotion
     bool spins = true;              // the object turns about its home
 };
 
-/// Goes steadily along a line: an object whose origin is at the world's goes from one point to the other.
+/// A steady move along a line. It takes an object from `from` to `to`, if the object's origin was at the world's
+/// origin.
 struct LineMotion
 {
     glm::dvec3 from{0.0}; // world units
     glm::dvec3 to{0.0};
-    double seconds = 1.0; // above 0; after it the motion begins anew
-    bool returns = false; // goes back again in the second half of that time; else it is at its start at once
+    double seconds = 1.0; // above 0; after that time the motion begins anew
+    bool returns = false; // true: moves back in the second half of that time; false: jumps back at its end
 };
 
-/// Key frames: between two of them a translation and a scale go straight, a rotation along the shorter arc (slerp);
-/// before the first and after the last the object stands still.
+/// Key frames. Between two keys, translation and scale are interpolated linearly, the rotation along the shorter arc
+/// (slerp). Before the first key and after the last one the object stands still.
 struct KeyMotion
 {
-    std::vector<double> times;            // [keys] seconds, ascending, at least one
-    std::vector<glm::dvec3> translations; // [keys] or empty: none
-    std::vector<glm::dquat> rotations;    // [keys] or empty: none; length 1
-    std::vector<glm::dvec3> scales;       // [keys] or empty: none
+    std::vector<double> times;            // [keys] seconds, ascending, at least one key
+    std::vector<glm::dvec3> translations; // [keys] or empty: no translation
+    std::vector<glm::dquat> rotations;    // [keys] or empty: no rotation; length 1
+    std::vector<glm::dvec3> scales;       // [keys] or empty: no scale
 };
 
-/// std::monostate: stands still.
+/// The motion of an object; std::monostate: the object stands still.
 using Motion = std::variant<std::monostate, OrbitMotion, LineMotion, KeyMotion>;
 
-/// What the motion does at a time (seconds) to an object that has its own transform: world to world, affine, the last
-/// row exactly (0, 0, 0, 1). For keys, translation * rotation * scale.
+/// The transform of a motion at a time in seconds, to be applied after the object's own transform: world to world,
+/// affine, with (0, 0, 0, 1) as the exact last row. For keys it is translation * rotation * scale.
 glm::dmat4 motionAt(const Motion& motion, double seconds);
 
 /// The rotation about an axis of length 1 by turns, counterclockwise as seen from where it points. Quarter turns about
 /// x, y or z are exact.
 glm::dmat3 rotationAbout(const glm::dvec3& axis, double turns);
 
-/// Where a motion leads: between neighbours of its transforms no point strays farther from the straight line than
-/// stray + stray_per_distance * (the point's distance from pivot before the motion).
+/// Where a motion leads: a row of its transforms, close enough together that between two neighbours no point strays
+/// farther from the straight line than stray + stray_per_distance * (the point's distance from pivot before the
+/// motion).
 struct MotionSweep
 {
     std::vector<glm::dmat4> transforms; // at least one
@@ -63,7 +65,7 @@ struct MotionSweep
     double stray = 0.0; // world units
 };
 
-/// The sweep of a motion from 0 to seconds. A motion that bends has step_count steps at least.
+/// The sweep of a motion from time 0 to `seconds`. A motion along a curve is divided into at least step_count parts.
 MotionSweep sweepOf(const Motion& motion, double seconds, std::size_t step_count);
 
 } // namespace zvo

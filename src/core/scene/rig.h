@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What moves a scene: nodes, skins and key frames, as glTF has them; core/scene/animation.h evaluates them.
+// What can move in a scene, as glTF has it: nodes, skins and key frames. core/scene/animation.h evaluates them.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ namespace zvo
 /// An index that names nothing.
 inline constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// What a morph target of weight 1 adds to each vertex, before skinning.
+/// The displacement that a morph target of weight 1 adds to each vertex, before skinning.
 struct MorphTarget
 {
     std::vector<glm::vec3> positions; // [vertices] or empty: nothing is added
     std::vector<glm::vec3> normals;   // [vertices] or empty; empty where the primitive has no normals
 };
 
-/// A transform in the hierarchy, relative to its parent: translation * rotation * scale, or a matrix where one is
-/// given.
+/// A node of the hierarchy. Its transform, relative to its parent, is translation * rotation * scale, or `matrix` where
+/// that is given.
 struct Node
 {
     std::uint32_t parent = kNone; // index into Scene::nodes, below the node's own: parents stand before their children
@@ -35,7 +35,7 @@ struct Node
     std::string name;
 };
 
-/// Joints that a mesh hangs on: a vertex is taken to the world by the weighted sum of world(joint) * inverse_bind.
+/// The joints of a mesh. A vertex is taken to the world by the weighted sum of world(joint) * inverse_bind.
 struct Skin
 {
     std::vector<std::uint32_t> joints;   // [joints] indices into Scene::nodes
@@ -63,7 +63,7 @@ struct Channel
     std::uint32_t node = 0; // index into Scene::nodes
     ChannelPath path = ChannelPath::Translation;
     Interpolation interpolation = Interpolation::Linear;
-    std::vector<float> times;  // [keys] at least one; seconds from 0 on, finite, none below the one before
+    std::vector<float> times;  // [keys] at least one; finite seconds from 0 on, not descending
     std::vector<float> values; // [keys * numbers of the path], three times as many for CubicSpline; finite
 };
 
@@ -71,17 +71,17 @@ struct Animation
 {
     std::string name;
     std::vector<Channel> channels;
-    double seconds = 0.0;     // the last time of all channels; the animation repeats after it
-    std::uint32_t number = 0; // among the animations of its file, those that move nothing included
+    double seconds = 0.0;     // the last time in any channel; the animation repeats after it
+    std::uint32_t number = 0; // of the animation in its file; animations that move nothing are counted, too
 };
 
-/// translation * rotation * scale. rotation: of any length, a zero one does not rotate.
+/// translation * rotation * scale. rotation may have any length; one of length 0 does not rotate.
 glm::dmat4 composeTransform(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale);
 
-/// Whether the last row of a matrix is (0, 0, 0, 1), but for what exporters round.
+/// Whether the last row of a matrix is (0, 0, 0, 1), up to the rounding of exporters.
 bool isAffine(const glm::dmat4& matrix);
 
-/// matrix with exactly that last row.
+/// The matrix with (0, 0, 0, 1) as its exact last row.
 glm::dmat4 withAffineRow(glm::dmat4 matrix);
 
 } // namespace zvo

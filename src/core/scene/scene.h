@@ -23,7 +23,7 @@ struct Image
     std::vector<std::uint8_t> rgba;
 };
 
-/// An image and how coordinates outside of it are taken.
+/// An image, and how texture coordinates outside of it are treated.
 struct Texture
 {
     std::uint32_t image = 0; // index into Scene::images
@@ -42,7 +42,7 @@ struct Material
     float alpha_cutoff = 0.5F; // AlphaMode::Mask
 };
 
-/// A triangle list with one material. All vertex arrays are either empty or as long as positions.
+/// A triangle list with one material. Each vertex array is either empty or as long as positions.
 struct Primitive
 {
     std::vector<glm::vec3> positions;
@@ -53,31 +53,31 @@ struct Primitive
     std::vector<glm::uvec3> triangles; // vertex indices, all < positions.size()
     std::uint32_t material = 0;        // index into Scene::materials
 
-    // What deforms it; at rest it stands as the arrays above say.
-    std::vector<glm::u16vec4> joints; // indices into Skin::joints of each skin that an instance of it names
-    std::vector<glm::vec4> weights;   // of joints: from 0 to 1, their sum is 1; as long as joints
+    // What can deform the primitive. At rest its vertices are those above.
+    std::vector<glm::u16vec4> joints; // indices into Skin::joints of any skin that an instance of the primitive names
+    std::vector<glm::vec4> weights;   // [as joints] weights of the joints: from 0 to 1, their sum is 1
     std::vector<MorphTarget> morph_targets;
 };
 
-/// One appearance of a primitive in the world.
+/// One occurrence of a primitive in the world.
 struct Instance
 {
     std::uint32_t primitive = 0; // index into Scene::primitives
     glm::mat4 transform{1.0F};   // object to world at rest, affine: the last row is (0, 0, 0, 1)
-    std::uint32_t node = kNone;  // index into Scene::nodes: what the transform follows, and whose morph weights count
+    std::uint32_t node = kNone;  // index into Scene::nodes: the instance moves with it and takes its morph weights
     std::uint32_t skin = kNone;  // index into Scene::skins; only where the primitive has joints
 };
 
 struct Camera
 {
     std::string name;
-    glm::mat4 transform{1.0F}; // camera to world: looks along -z, y up
+    glm::mat4 transform{1.0F}; // camera to world; the camera looks along -z, with y up
     bool orthographic = false;
     float vertical_fov = 0.8F; // radians; perspective
     float half_height = 1.0F;  // world units; orthographic
 };
 
-/// Triangles with materials, placed in the world: what a glTF file comes down to.
+/// Triangles with materials, placed in the world: the form into which all formats of files are brought.
 struct Scene
 {
     std::vector<Image> images;
@@ -90,21 +90,21 @@ struct Scene
     std::vector<Skin> skins;
     std::vector<Animation> animations;
     std::vector<std::string> warnings;      // what was left out while loading, one line each
-    std::vector<std::string> rest_warnings; // what else is missing where the scene is used at rest, without a pose
+    std::vector<std::string> rest_warnings; // what else is missing if the scene is used at rest, without a pose
 
-    /// Triangles with instances counted each time.
+    /// Number of triangles; those of a primitive count once for each instance.
     [[nodiscard]] std::uint64_t triangleCount() const;
 
-    /// Box around all finite transformed vertices that a triangle uses, in the single precision that the voxelizer
-    /// uses.
+    /// The box around all transformed vertices that a triangle uses and that are finite, computed in single precision
+    /// as in the voxelizer.
     [[nodiscard]] Bounds bounds() const;
 
-    /// Adds everything of other, with indices shifted.
+    /// Appends everything in other, with its indices shifted.
     void append(Scene&& other);
 };
 
-/// point through transform in the order of operations that the voxelizer uses:
-/// ((m00 * x + m01 * y) + m02 * z) + m03 per component, each operation rounded to single precision.
+/// Transforms a point with the voxelizer's order of operations, each rounded to single precision: every component is
+/// ((m00 * x + m01 * y) + m02 * z) + m03.
 glm::vec3 transformPoint(const glm::mat4& transform, const glm::vec3& point);
 
 } // namespace zvo

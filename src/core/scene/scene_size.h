@@ -7,14 +7,14 @@
 namespace zvo
 {
 
-/// The most instances (a primitive with a transform) of a file; each is a draw on the device.
+/// The most instances that a file may have. Each instance becomes a draw on the device.
 inline constexpr std::uint64_t kInstancesMax = std::uint64_t{1} << 24U;
 
-/// Bytes that all the arrays of a scene, and all its pictures, may take: half of this machine's memory, as the other
-/// half holds them once more on their way to the device.
+/// The bytes that all arrays and pictures of a scene may take: half of this machine's memory, because a second copy is
+/// needed on the way to the device.
 std::uint64_t sceneBytesMax();
 
-/// What a file comes down to. Floating point, as a file may announce any 64-bit number.
+/// The size of a file's scene. Floating point, as a file may announce any 64-bit number.
 struct SceneSize
 {
     double instance_count = 0;
@@ -27,13 +27,13 @@ struct SceneSize
 /// arrays of more than sceneBytesMax().
 void checkSceneSize(const std::filesystem::path& path, const SceneSize& size);
 
-/// What is left of sceneBytesMax() while a file is read whose size shows only then.
+/// The rest of sceneBytesMax(), for files whose size becomes known only while they are read.
 class SceneBytesLeft
 {
 public:
     explicit SceneBytesLeft(const std::filesystem::path& path) : m_path(path) {}
 
-    /// Counts bytes that are about to be held. Throws Error{Input} where they are too many.
+    /// Subtracts the bytes of something that is about to be allocated. Throws Error{Input} where too few are left.
     void take(std::uint64_t bytes);
 
 private:
