@@ -33,12 +33,11 @@ using AnimationChoice = std::variant<std::string, std::uint32_t>;
 /// first. Returns whether the chosen animation exists; if it does not, nothing changes.
 bool keepAnimation(Scene& scene, const std::optional<AnimationChoice>& choice = std::nullopt);
 
-/// The pose at a time from 0 on or before it, with every animation of the scene repeated over its own length; before
-/// its first key a channel holds the first one. Of channels of several animations that move the same property the last
-/// one counts. Instances that nothing moves keep their transform, bit for bit; others follow their node. Nodes are
-/// evaluated in double precision. A time that is not finite counts as 0. A transform that overflows single precision
-/// is not finite; the voxelizer drops such triangles and counts them. to_world: the transform of the scene, affine; it
-/// comes after everything else.
+/// The pose at a time, which may be negative. Every animation of the scene repeats over its own length; before its
+/// first key a channel has the value of that key. Where channels of several animations move the same property, the last
+/// one counts. Instances that nothing moves keep their transform, bit for bit; others follow their node, evaluated in
+/// double precision. A time that is not finite counts as 0. A transform that overflows single precision is not finite;
+/// the voxelizer drops and counts its triangles. to_world: an affine transform of the whole scene, applied last.
 Pose poseAt(const Scene& scene, double seconds, const glm::dmat4& to_world = glm::dmat4(1.0));
 
 /// Whether an instance may change with time: because a channel moves its node or a node above it, a joint of its skin

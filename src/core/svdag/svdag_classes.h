@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which nodes of a tree are equal, subtrees included: the first half of compression. Programs use
+// The first half of compression: finds which nodes of a tree are equal, subtrees included. Programs use
 // core/svdag/svdag_builder.h.
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-/// The nodes that are compressed. tree has levels; its nodes may be a DAG's pool.
+/// The nodes that are compressed. tree must have levels; its nodes may be the pool of a DAG.
 struct Candidates
 {
     const DeviceTree& tree;
@@ -25,31 +25,33 @@ struct Candidates
     [[nodiscard]] std::uint32_t innerCount() const { return tree.levels.back().first_node; }
 };
 
-/// Slots of the table of classes for each level: powers of two. at_first: for all of them; 0: as many as are likely to
-/// suffice.
+/// The number of slots in the table of classes for each level: powers of two. at_first: the number for every level; 0:
+/// an estimate for each.
 std::vector<std::uint64_t> classSlots(const Candidates& candidates, std::uint64_t at_first);
 
-/// What finding and numbering classes takes. slot_counts: [levels].
+/// The buffers for finding and numbering classes.
 struct ClassBuffers
 {
     ClassBuffers(vk::Device& device, const Candidates& candidates, std::span<const std::uint64_t> slot_counts);
 
-    /// Of all of them.
+    /// Bytes of all these buffers.
     static std::uint64_t bytes(const Candidates& candidates, std::span<const std::uint64_t> slot_counts);
 
-    vk::BufferOf<gpu::uint> table;          // [slots of all levels] the root's first. Then: unique nodes, by number
+    /// [slots of all levels] the root's first; in the end, the candidates of the unique nodes, by number
+    vk::BufferOf<gpu::uint> table;
     vk::BufferOf<gpu::uint> classes;        // [candidates]
-    vk::BufferOf<gpu::uint> numbers;        // [candidates] unique nodes before
-    vk::BufferOf<gpu::uint> first_entries;  // [inner candidates] entries before
+    vk::BufferOf<gpu::uint> numbers;        // [candidates] unique nodes before the candidate
+    vk::BufferOf<gpu::uint> first_entries;  // [inner candidates] entries of lists before those of the candidate
     vk::BufferOf<gpu::uvec2> hashes;        // [inner candidates of the largest level]
     vk::BufferOf<gpu::uint> node_partials;  // [ceil(candidates / kScanBlock)]
-    vk::BufferOf<gpu::uint> entry_partials; // likewise
+    vk::BufferOf<gpu::uint> entry_partials; // as node_partials
     vk::BufferOf<gpu::ClassSizes> sizes;    // [1]
 };
 
-/// Records the passes that fill buffers: classes level by level, the leaves first, then numbers. Of sizes, overflows
-/// tells which levels had too few slots; unless all are 0, the rest is worthless, though in bounds. Cost: candidates,
-/// and slots. Numbers come from prefix sums over the candidates: they do not depend on the order of threads.
+/// Records the passes that fill buffers: the classes level by level, the leaves first, then the numbers. Afterwards
+/// sizes.overflow_counts tells which levels had too few slots. If any has, the other results are meaningless, but
+/// within bounds. Numbers come from prefix sums over the candidates, so they do not depend on the order of threads.
+/// Cost: candidates and slots.
 void findClasses(vk::FrameGraph& graph, const Candidates& candidates, std::span<const std::uint64_t> slot_counts,
                  ClassBuffers& buffers);
 

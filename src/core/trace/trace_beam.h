@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The beam grid, by which primary rays skip what is empty.
+// The beam grid, with which primary rays skip empty space.
 #pragma once
 
 #include "core/trace/trace.h"
@@ -7,10 +7,10 @@
 namespace zvo
 {
 
-/// Whether all nodes that paths (shaders/trace/trace.h) name have children which are nodes.
+/// Whether the children of all nodes that paths (shaders/trace/trace.h) name are nodes, not voxels.
 bool hasPaths(const DeviceTree& octree);
 
-/// Records the passes that find out where the rays of each tile start: fills buffers.starts, live and args, and clears
+/// Records the passes that find where the rays of each tile start: they fill buffers.starts, live and args, and clear
 /// status. Cost: tiles.
 void traceBeam(vk::FrameGraph& graph, const DeviceTree& octree, const BeamGrid& beam, const TraceCamera& camera,
                const TraceOptions& options, TraceBuffers& buffers);

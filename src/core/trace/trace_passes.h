@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the files that record the tracer's passes share.
+// Functions that all files that record passes of the tracer share.
 #pragma once
 
 #include "core/base/divide_up.h"
@@ -12,7 +12,7 @@
 namespace zvo
 {
 
-/// The tiles of a picture, and the blocks of tiles that workgroups of trace/beam take.
+/// The numbers of tiles of a picture along x and y, and of the blocks of tiles, one for each workgroup of trace/beam.
 struct PictureTiles
 {
     std::uint32_t x;
@@ -32,13 +32,13 @@ bool isEmpty(const DeviceTree& octree);
 /// Whether there are attributes for every hit that can occur.
 bool usesAttributes(const DeviceTree& octree, const TraceOptions& options);
 
-/// Whether a picture shows anything of the attributes of hits.
+/// Whether a view shows any attributes of hits.
 bool showsAttributes(const TraceOptions& options);
 
-/// The format in which kernels read attributes; None: they need not.
+/// The format in which kernels read attributes; None where they read none.
 AttributeFormat formatToRead(const DeviceTree& octree, const TraceOptions& options);
 
-/// Declares that pass reads attributes, whatever their format.
+/// Declares that pass reads the attributes, in whatever format they are, and sets their addresses in params.
 template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTree& octree, Params& params)
 {
     if (isPacked(octree.attributeFormat()))
@@ -51,13 +51,14 @@ template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTr
     params.node_attributes = pass.read(octree.node_attributes);
 }
 
-/// The stack of rays on a device of this DeviceReport::type: what was asked for, but Private on CPUs alone.
+/// The stack of rays on a device of this DeviceReport::type: the one asked for, but not Private on devices other than
+/// CPUs.
 TraceStack stackOn(std::string_view device_type, TraceStack asked);
 
-/// The value of kStack (lib/traverse.glsl) on this device.
+/// The value of the constant kStack (lib/traverse.glsl) on this device.
 TraceStack stackConstant(const vk::Device& device, const TraceOptions& options);
 
-/// kernel, which has lib/traverse.glsl, for tree and options.
+/// Sets the constants of a kernel that includes lib/traverse.glsl for a tree and options.
 template <typename Kernel>
 Kernel traversing(Kernel kernel, const vk::Device& device, const DeviceTree& tree, const TraceOptions& options)
 {
@@ -69,16 +70,16 @@ Kernel traversing(Kernel kernel, const vk::Device& device, const DeviceTree& tre
     return kernel;
 }
 
-/// How many rounds answer every ray: for a grid of n voxels per edge it crosses at most 3 n planes and goes down into
-/// at most n nodes, and once from the root in each round.
+/// The number of rounds after which every ray has its answer. In a grid of n voxels per edge a ray crosses at most 3 n
+/// planes and goes down into at most n nodes; each round begins again at the root.
 std::uint32_t roundsFor(const DeviceTree& octree, const TraceOptions& options);
 
-/// Whether traceLight has something to do.
+/// Whether traceLight() has anything to do.
 bool needsLight(const TraceOptions& options);
 
-/// Records a pass of kernel for each round that rays may need: declare() returns what it takes. The first goes as
-/// dispatch_first says, the others over as many workgroups as the round before asks for (max_groups at most): none,
-/// once all rays are answered.
+/// Records a pass of kernel for each round that rays may need. declare(pass) declares its accesses and returns its
+/// parameters. dispatch_first(pass, params) dispatches the first round. Every other round is dispatched indirectly,
+/// over as many workgroups as the round before asks for, at most max_groups; none once all rays are answered.
 template <typename Kernel, typename Declare, typename Dispatch>
 void addRounds(vk::FrameGraph& graph, Kernel kernel, std::uint32_t round_count, vk::BufferOf<gpu::DispatchArgs>& rounds,
                std::uint64_t max_groups, const Declare& declare, const Dispatch& dispatch_first)
@@ -107,10 +108,10 @@ void addRounds(vk::FrameGraph& graph, Kernel kernel, std::uint32_t round_count, 
     }
 }
 
-/// Nodes whose edge is at most max(x * t, y) stop a ray.
+/// The level of detail, as traverse() takes it: a ray stops at a node whose edge is at most max(x * t, y).
 gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera);
 
-/// Dispatches the first round of the rays of live tiles.
+/// Returns a function that dispatches the first round of the rays of live tiles (for addRounds).
 inline auto dispatchLive(const TraceBuffers& buffers)
 {
     return [&](auto& pass, const auto& params)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From hits in a DAG to the indices of their attributes.
+// From hits in a DAG to the indices of their attributes. In every function tree is a DAG with attributes, which may
+// have overlays.
 #pragma once
 
 #include "core/trace/trace.h"
@@ -8,16 +9,15 @@
 namespace zvo
 {
 
-/// Whether beam has a table (shaders/trace/trace.h) from which trace/primary_ranks can sum up ranks in tree, a DAG with
-/// attributes, maybe with overlays.
+/// Whether beam has a table (shaders/trace/trace.h) from which trace/primary_ranks can sum up ranks in tree.
 bool hasRankTable(const DeviceTree& tree, const BeamGrid& beam);
 
-/// Records the pass that fills this table, where there is one. Cost: constant.
+/// Records the pass that fills this table, if beam has one. Cost: constant.
 void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam);
 
-/// Records the pass that turns Hit::index, as a traversal of tree leaves it, into the attribute index of the voxel or
-/// node: of all hits in live tiles, or of the first count hits of a list. tree is a DAG with attributes, maybe with
-/// overlays. Cost: levels of nodes for each hit.
+/// Record the pass that turns Hit::index, as a traversal of tree leaves it, into the index of the voxel's or node's
+/// attributes. rankTiles() does it for the hits of all live tiles, rankHits() for the first count hits of a list. Cost:
+/// levels of nodes for each hit.
 void rankTiles(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, TraceBuffers& buffers);
 void rankHits(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
               std::uint64_t count);

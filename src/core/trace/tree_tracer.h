@@ -10,39 +10,40 @@
 namespace zvo
 {
 
-/// Traces pictures of one tree or another. Owns what a picture takes, and the beam grid, which is made anew where the
-/// tree's version (DeviceTree::version) is not the one that it was made of.
+/// Traces pictures of one tree or several. Owns the buffers of a picture and a beam grid, which is made anew when the
+/// tree's version (DeviceTree::version) is not the one for which it was made.
 class TreeTracer
 {
 public:
-    /// retired gets what frames in flight may use, and outlives this; null: there are none when something is replaced.
+    /// deletion_queue receives the buffers that are replaced while frames in flight may use them, and must outlive the
+    /// tracer. Null: no frames are in flight whenever a buffer is replaced.
     explicit TreeTracer(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr,
                         TexelFormat texels = TexelFormat::Rgba8)
         : m_device(device), m_deletion_queue(deletion_queue), m_texels(texels)
     {
     }
 
-    /// The size of the next pictures; nothing is traced before it is known. Throws Error{Memory} for pictures that the
-    /// device's budget does not allow: the size stays.
+    /// Sets the size of the next pictures. Must be called before the first one. Throws Error{Memory} when the device's
+    /// budget does not suffice; then the size stays as it was.
     void resize(std::uint32_t width, std::uint32_t height);
 
-    /// Makes the buffers of the beam grid that tree takes, unless they are there. Throws Error{Memory}: then nothing
-    /// changes. prepare() begins with this.
+    /// Makes the buffers of the beam grid for tree, unless they exist. prepare() begins with this. Throws
+    /// Error{Memory}; then nothing changes.
     void reserve(const DeviceTree& tree);
 
-    /// Records the passes that make the beam grid of tree, where they are needed (buildBeam()). Both calls below begin
-    /// with this one.
+    /// Records the passes that make the beam grid of tree, if it is out of date (buildBeam()). Both functions below
+    /// begin with this one.
     void prepare(vk::FrameGraph& graph, const DeviceTree& tree);
 
-    /// See zvo::tracePrimary() and zvo::trace().
+    /// Record what zvo::tracePrimary() and zvo::trace() record.
     void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
                       const TraceOptions& options);
     void trace(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options);
 
-    /// The next picture has its beam grid made anew: the last frame was lost, or the kernels may have changed.
+    /// Has the beam grid made anew for the next picture: because the last frame was lost, or kernels may have changed.
     void forget() { m_beam_version = 0; }
 
-    /// What the last picture left.
+    /// The buffers of the last picture.
     [[nodiscard]] const TraceBuffers& buffers() const { return *m_buffers; }
 
 private:
@@ -54,7 +55,7 @@ private:
     std::unique_ptr<TraceBuffers> m_buffers;
     std::unique_ptr<BeamGrid> m_beam;
     bool m_beam_is_for_dags = false;
-    std::uint64_t m_beam_version = 0; // of the tree that it was made of; 0: none
+    std::uint64_t m_beam_version = 0; // of the tree that m_beam was made of; 0: out of date
 };
 
 } // namespace zvo
