@@ -10,7 +10,7 @@ namespace zvo
 {
 
 /// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have
-/// equal sums whatever made them.
+/// equal digests, however they were made.
 std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& octree);
 
 } // namespace zvo

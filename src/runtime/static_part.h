@@ -19,34 +19,35 @@
 namespace zvo
 {
 
-/// Is told what is done next, and shown the octree before it is compressed.
+/// Functions that are called while a static part is made: before each operation with its name, and with the octree
+/// before it is compressed.
 struct StaticListener
 {
     std::function<void(std::string_view)> step = [](std::string_view) {};
     std::function<void(const BuildResult&)> built = [](const BuildResult&) {};
 };
 
-/// What a static part came to.
+/// Counts and sizes of a static part.
 struct StaticInfo
 {
     std::uint64_t triangle_count = 0;
     std::uint64_t voxel_count = 0;
     std::uint64_t node_count = 0;
-    std::uint64_t geometry_bytes = 0; // nodes; of a DAG lists, too
+    std::uint64_t geometry_bytes = 0; // of nodes; for a DAG, also of lists
     std::uint64_t attribute_bytes = 0;
     std::map<std::string, std::uint64_t> dropped = {}; // triangles left out, by reason
-    std::vector<vk::PassTime> passes = {};             // of voxelization and construction; none: it came out of a file
-    std::vector<vk::PassTime> compress_passes = {};    // of a DAG
+    std::vector<vk::PassTime> passes = {};             // of voxelization and construction; empty for a tree from a file
+    std::vector<vk::PassTime> compress_passes = {};    // of compression; empty for an octree
 };
 
-/// What stands still, in device memory.
+/// The part of a scene that never moves, in device memory.
 struct StaticPart
 {
     DeviceTree tree;
     StaticInfo info;
 };
 
-/// Uploads scene, voxelizes it and, for a DAG, compresses what comes of it. Waits. emission_scale: as of uploadScene().
+/// Uploads scene, voxelizes it and, for a DAG, compresses the octree. Waits. emission_scale: as of uploadScene().
 /// Throws Error{Memory}.
 StaticPart makeStaticPart(vk::HeadlessDevice& device, Scene scene, const Grid& grid, const BuildOptions& options,
                           TreeStructure structure, const StaticListener& listener = {},

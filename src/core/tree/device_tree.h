@@ -18,44 +18,45 @@
 namespace zvo
 {
 
-/// What a DAG has beside nodes; shaders/shared/svdag.h documents it.
+/// What a DAG has besides nodes; shaders/shared/svdag.h documents the layout.
 struct ChildLists
 {
-    std::uint32_t octree_node_count = 0; // before equal subtrees became one
+    std::uint32_t octree_node_count = 0; // nodes of the octree that the DAG stands for
     std::uint64_t entry_count = 0;
-    std::uint32_t entries_per_word = 2;         // of 64 bits; as many as ListPacking::tightest for what compress makes
-    std::uint64_t long_entry_count = 0;         // of nodes above the parents of leaves
+    std::uint32_t entries_per_word = 2;         // a word has 64 bits; compress() packs as ListPacking::tightest
+    std::uint64_t long_entry_count = 0;         // entries of nodes above the parents of leaves
     vk::BufferOf<gpu::BeforeChild> before;      // [long_entry_count], or empty without attributes
     vk::BufferOf<gpu::uint> voxels_before_leaf; // [ceil((entry_count - long_entry_count) / 2)], likewise
 
-    /// Bytes of what stands beside the lists, so that voxels find their attributes.
+    /// Bytes of the arrays beside the lists, from which the ranks of voxels are summed up.
     [[nodiscard]] std::uint64_t rankBytes() const { return before.bytes() + voxels_before_leaf.bytes(); }
 };
 
-/// Room for overlays of dynamic update behind a tree (shaders/update/update.h; core/overlay/overlay_buffers.h).
+/// The room behind a tree for the overlays of dynamic updates (shaders/update/update.h;
+/// core/overlay/overlay_buffers.h).
 struct OverlayRoom
 {
     std::uint32_t static_root = 0; // number of the node behind the static nodes and lists; 0: there is no room
 
-    /// Of the nodes behind static_root: the rank of the static octree's node at the same position, 0 where it has none.
-    /// Only of a DAG with attributes.
+    /// For each node behind static_root, the rank of the static octree's node at the same position, or 0 where there is
+    /// none. Only a DAG with attributes has these.
     vk::BufferOf<gpu::BeforeChild> ranks;
 
     [[nodiscard]] bool hasRanks() const { return ranks.count() != 0; }
 
-    /// Where ranks would begin if it had elements for all nodes.
+    /// Bytes of the elements that ranks would have for the nodes up to static_root, if it had elements for all nodes.
     [[nodiscard]] std::uint64_t ranksSkipped() const
     {
         return (std::uint64_t{static_root} + 1) * sizeof(gpu::BeforeChild);
     }
 };
 
-/// The sums that the attributes of voxels were made of.
+/// The sums of which the attributes of voxels were made.
 struct FragmentSums
 {
     vk::BufferOf<gpu::VoxelSums> sums;             // [voxel_count], or empty
     vk::BufferOf<gpu::EmissionSums> emission_sums; // [emissive voxels], or empty
-    std::uint32_t sum_shift = 0;                   // value bits dropped
+    std::uint32_t sum_shift = 0;                   // value bits that were dropped
 
     [[nodiscard]] std::uint64_t bytes() const { return sums.bytes() + emission_sums.bytes(); }
 };
@@ -78,26 +79,28 @@ struct DeviceTree
         std::uint32_t node_count = 0;
     };
 
-    std::uint64_t version = newTreeVersion(); // of the contents: who changes them makes it anew
+    std::uint64_t version = newTreeVersion(); // of the contents: whoever changes these sets a new version
     TreeStructure structure = TreeStructure::Svo;
     Grid grid;
     std::uint32_t node_count = 0;  // without overlays
     std::uint32_t voxel_count = 0; // likewise
-    std::vector<Level> levels;     // grid.nodeLevels() of them; empty without voxels, or where nodes stand elsewhere
+    std::vector<Level> levels; // grid.nodeLevels() of them; empty without voxels, or if nodes do not stand by levels
 
-    /// [node_count]; of a DAG the pool, as many elements as nodes and lists take. With room for overlays: a slot for
-    /// the root that is traced, the other static nodes and lists, the static root, then overlays.
+    /// [node_count] nodes of an octree. Of a DAG the pool: as many elements as nodes and lists take. With room for
+    /// overlays: a slot for the root that is traced, the other static nodes and the lists, the static root, then
+    /// overlays.
     vk::BufferOf<gpu::Node> nodes;
     vk::BufferOf<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, then those of overlays; or empty
-    /// [octreeNodeCount()], averages of what is below, or empty. Of a DAG depth first: a node before its children,
-    /// those in Morton order. With room for overlays: the slot's, those of the other nodes, the static root's, then
-    /// those of overlays.
+    /// [octreeNodeCount()] averages of the attributes below each node, or empty. Those of a DAG stand depth first: a
+    /// node before its children, children in Morton order. With room for overlays: that of the slot, those of the other
+    /// nodes, that of the static root, then those of overlays.
     vk::BufferOf<gpu::Attribute> node_attributes;
-    PackedAttributes packed;                 // the same in another format, in place of both
-    vk::BufferOf<gpu::uvec2> emission_words; // [ceil(voxel_count / 32)] bits of emissive voxels, rank of the first one
-    vk::BufferOf<gpu::uint> emission;        // [emissive voxels] radiance / emission_scale as RGB9E5
+    PackedAttributes packed; // attributes in another format, in place of both arrays above
+    /// [ceil(voxel_count / 32)] x: bits of emissive voxels; y: index of the first one's emission
+    vk::BufferOf<gpu::uvec2> emission_words;
+    vk::BufferOf<gpu::uint> emission; // [emissive voxels] radiance / emission_scale as RGB9E5
     float emission_scale = 1.0F;
-    FragmentSums sums; // where they were kept (BuildOptions::keep_sums)
+    FragmentSums sums; // filled if BuildOptions::keep_sums asked for it
 
     ChildLists lists;     // of a DAG
     OverlayRoom overlays; // where there is room
@@ -112,16 +115,17 @@ struct DeviceTree
     [[nodiscard]] bool hasAttributes() const { return attributeFormat() != AttributeFormat::None; }
     [[nodiscard]] bool hasNodeAttributes() const { return node_attributes.count() + packed.nodes.count() != 0; }
 
-    /// Of a DAG's lists.
+    /// How the lists of a DAG are packed.
     [[nodiscard]] ListPacking packing() const { return {node_count, lists.entry_count, lists.entries_per_word}; }
 
-    /// Nodes of the octree, which a DAG stands for.
+    /// Number of nodes of the octree; for a DAG, of the octree that it stands for.
     [[nodiscard]] std::uint32_t octreeNodeCount() const { return isDag() ? lists.octree_node_count : node_count; }
 
-    /// As kernels take it: entries of a word of lists; 0: an octree, whose nodes have none.
+    /// The value that kernels take: entries of a word of lists, or 0 for an octree, which has no lists.
     [[nodiscard]] std::uint32_t entriesPerWord() const { return isDag() ? lists.entries_per_word : 0; }
 
-    /// From the number of the static root, or of a node behind it, to the index of its attributes, modulo 2^32.
+    /// The number that, added to the number of the static root or of a node behind it, gives the index of the node's
+    /// attributes; modulo 2^32.
     [[nodiscard]] std::uint32_t attributeOffset() const { return octreeNodeCount() - overlays.static_root; }
 
     /// Bytes of nodes and lists, without overlays.
@@ -130,7 +134,7 @@ struct DeviceTree
         return std::uint64_t{node_count} * sizeof(gpu::Node) + (isDag() ? packing().bytes() : 0);
     }
 
-    /// Bytes of what voxels and nodes look like, overlays included; without what stands beside lists.
+    /// Bytes of all attributes and emission, overlays included; without ChildLists::rankBytes().
     [[nodiscard]] std::uint64_t attributeBytes() const
     {
         return voxel_attributes.bytes() + node_attributes.bytes() + packed.bytes() + emission_words.bytes() +
@@ -138,10 +142,10 @@ struct DeviceTree
     }
 };
 
-/// What ranks in dag, which has attributes, are summed up from; pass reads it.
+/// The arrays of a DAG with attributes from which ranks are summed up. Declares that pass reads them.
 gpu::RankSource rankSource(vk::AnyPass& pass, const DeviceTree& dag);
 
-/// The same, without declaring that anything reads it.
+/// The same, without declaring any access.
 gpu::RankSource rankSource(const DeviceTree& dag);
 
 } // namespace zvo

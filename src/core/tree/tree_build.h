@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Trees from lists of voxels, on the host.
+// Builds trees from lists of voxels, on the host.
 #pragma once
 
 #include "core/tree/tree_data.h"
@@ -10,18 +10,18 @@
 namespace zvo
 {
 
-/// Whether tree has the voxel; cell: any coordinates, those outside of the grid have none.
+/// Whether tree has a voxel in this cell. cell may lie outside of the grid, where there are none.
 bool hasVoxel(const TreeData& tree, const glm::ivec3& cell);
 
-/// The octree of codes, ascending and each once, below 8^grid.depth; without attributes. Throws Error{Memory} for 2^32
-/// voxels or nodes and more.
+/// The octree of the voxels with these Morton codes, without attributes. codes: ascending, without duplicates, below
+/// 8^grid.depth. Throws Error{Memory} for 2^32 voxels or nodes and more.
 TreeData octreeOfVoxels(const Grid& grid, std::span<const std::uint64_t> codes);
 
-/// Gives the voxels of an octree colours and normals: those point from where there are most of the 26 neighbours to
-/// where there are fewest. colors: [voxel_count] sRGB red | green << 8 | blue << 16. Nodes get no attributes.
+/// Gives the voxels of an octree colours, and normals that point from the side where most of a voxel's 26 neighbours
+/// are to the opposite side. colors: [voxel_count] sRGB red | green << 8 | blue << 16. Nodes get no attributes.
 void addColors(TreeData& octree, std::span<const std::uint32_t> colors);
 
-/// Octahedral code of v's direction, as shaders/lib/attribute.glsl makes it; components below 2^15.
+/// Octahedral code of v's direction, as shaders/lib/attribute.glsl makes it. v: components of less than 2^15 in size.
 std::uint32_t octahedralCode(const glm::ivec3& v);
 
 } // namespace zvo

@@ -13,30 +13,30 @@
 namespace zvo
 {
 
-/// "svo" or "svdag".
+/// The name of a structure in options and messages: "svo" or "svdag".
 const char* structureName(TreeStructure structure);
 
-/// The colour that voxels without attributes are shown in: sRGB red | green << 8 | blue << 16.
+/// The colour in which voxels without attributes are shown: sRGB red | green << 8 | blue << 16.
 inline constexpr std::uint32_t kPlainColor = 203 * 0x10101U;
 
-/// A whole octree or DAG in the host's memory: what files hold. Arrays are those of a DeviceTree; nodes and lists of a
-/// DAG's pool are apart.
+/// A whole octree or DAG in the host's memory, as files hold it. The arrays are those of a DeviceTree, except that the
+/// nodes and the lists of a DAG's pool are separate.
 struct TreeData
 {
     TreeStructure structure = TreeStructure::Svo;
     Grid grid;
     std::uint32_t voxel_count = 0;
-    std::uint32_t octree_node_count = 0; // of the octree: nodes.size(), unless equal subtrees are one
+    std::uint32_t octree_node_count = 0; // nodes of the octree; for an octree, nodes.size()
     std::uint64_t long_entry_count = 0;  // entries of lists above the parents of leaves
 
     std::vector<DeviceTree::Level> levels;        // grid.nodeLevels() of them, or none without voxels
     std::vector<gpu::Node> nodes;                 // the root first
-    std::vector<gpu::uint> lists;                 // [entries] node numbers; a DAG's
-    std::vector<gpu::BeforeChild> before;         // [long_entry_count] a DAG's with attributes
+    std::vector<gpu::uint> lists;                 // [entries] node numbers; only in a DAG
+    std::vector<gpu::BeforeChild> before;         // [long_entry_count] only in a DAG with attributes
     std::vector<gpu::uint> voxels_before_leaf;    // [ceil((entries - long_entry_count) / 2)] likewise
     std::vector<gpu::Attribute> voxel_attributes; // [voxel_count] in Morton order, or empty
     std::vector<gpu::Attribute> node_attributes;  // [octree_node_count] in the structure's order, or empty
-    PackedWords packed;                           // the same in another format, in place of both
+    PackedWords packed;                           // attributes in another format, in place of both arrays above
     std::vector<gpu::uvec2> emission_words;       // [ceil(voxel_count / 32)], or empty where nothing emits
     std::vector<gpu::uint> emission;              // [emissive voxels]
     float emission_scale = 1.0F;
@@ -47,20 +47,20 @@ struct TreeData
     }
     [[nodiscard]] bool hasAttributes() const { return attributeFormat() != AttributeFormat::None; }
 
-    /// What a voxel looks like, in a tree with attributes that checkTree accepts. Flags are there in Bytes8 alone.
+    /// The attribute of a voxel. For a tree with attributes that checkTree accepts. Only the format Bytes8 has flags.
     [[nodiscard]] gpu::Attribute voxelAttribute(std::uint64_t voxel) const
     {
         return voxel_attributes.empty() ? unpackAttribute(packed.format, packed.voxels, voxel)
                                         : voxel_attributes[voxel];
     }
 
-    /// Bytes, as in device memory and in files: of nodes and lists; of what stands beside the lists, so that voxels
-    /// find their attributes; of everything that tells how voxels look, the latter included.
+    /// Bytes, as in device memory and in files: of nodes and lists; of the arrays beside the lists from which ranks are
+    /// summed up; of all attributes and emission, including those arrays.
     [[nodiscard]] std::uint64_t geometryBytes() const;
     [[nodiscard]] std::uint64_t rankBytes() const;
     [[nodiscard]] std::uint64_t attributeBytes() const;
 
-    /// The rank-th child of an inner node, in a tree that checkTree accepts.
+    /// The rank-th child of an inner node. For a tree that checkTree accepts.
     [[nodiscard]] std::uint32_t child(const gpu::Node& node, std::uint32_t rank) const
     {
         return structure == TreeStructure::Svo
@@ -68,11 +68,11 @@ struct TreeData
                    : lists[(node.base_lo & ~gpu::kChildList) - packing().firstEntry() + rank];
     }
 
-    /// Of the lists, in a pool and in files.
+    /// How the lists are packed in a pool and in files.
     [[nodiscard]] ListPacking packing() const { return ListPacking::tightest(nodes.size(), lists.size()); }
 };
 
-/// Which cells of a node are occupied, bit by bit.
+/// The occupied cells of a node, a bit for each.
 inline std::uint64_t cellMask(const gpu::Node& node)
 {
     return node.mask_lo | std::uint64_t{node.mask_hi} << 32;
@@ -82,11 +82,11 @@ inline std::uint64_t cellMask(const gpu::Node& node)
 /// suffice.
 DeviceTree uploadTree(vk::Uploader& device, const TreeData& tree);
 
-/// Calls what with the Morton code of every voxel, ascending: the i-th call is about voxel i.
+/// Calls `what` with the Morton code of every voxel, in ascending order: the i-th call is for voxel i.
 void forEachVoxel(const TreeData& tree, const std::function<void(std::uint64_t code)>& what);
 
-/// Corners of the smallest box of voxels that encloses all of them: the lowest cell, and the one past the highest.
-/// Nothing without voxels. Cost: nodes.
+/// The smallest box of cells that encloses all voxels: its lowest cell, and the cell one past the highest along each
+/// axis.
 struct CellBox
 {
     glm::uvec3 min{UINT32_MAX};

@@ -6,13 +6,15 @@
 namespace zvo
 {
 
-/// Where kernels index a buffer, drivers may take the index for a signed 32-bit number (SPIR-V says so of access
-/// chains; RADV does). Traversals index the halves of nodes.
+/// The most elements of a buffer that kernels index. Drivers may take such an index for a signed 32-bit number (SPIR-V
+/// treats indices of access chains as signed; RADV relies on it). Traversals index the halves of nodes, hence
+/// kNodesMax.
 inline constexpr std::uint64_t kIndicesMax = std::uint64_t{1} << 31;
 inline constexpr std::uint64_t kNodesMax = kIndicesMax / 2;
 
-/// Throws Error{Memory} for a tree in device memory of which kernels would not reach all. nodes: the words of a DAG's
-/// lists included, two to a node; attributes: of voxels or of nodes, whichever are more, 0 for a tree without.
+/// Throws Error{Memory} for a tree in device memory that is too large for the indices of kernels. nodes: number of
+/// nodes, to which the words of a DAG's lists are added, two to a node. attributes: of voxels or of nodes, whichever
+/// are more; 0 for a tree without attributes.
 void requireIndexable(std::uint64_t nodes, std::uint64_t attributes);
 
 } // namespace zvo

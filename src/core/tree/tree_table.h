@@ -7,9 +7,9 @@
 namespace zvo
 {
 
-/// What shaders of a host need to know of tree (docs/host-glsl.md). Out of date once one of the tree's buffers is
-/// another one, as updates of a DynamicOctree may make it. Declares no access: the host sees to it that the device is
-/// done with what writes the tree.
+/// What shaders of a host need to know of tree (docs/host-glsl.md). Out of date as soon as one of the tree's buffers is
+/// replaced, which updates of a DynamicOctree may do. Declares no access: the host has to make sure that the device is
+/// done with whatever writes the tree.
 gpu::TreeTable treeTable(const DeviceTree& tree);
 
 } // namespace zvo

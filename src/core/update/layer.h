@@ -15,27 +15,27 @@
 namespace zvo
 {
 
-/// How much a layer has room for.
+/// The capacities of a layer's buffers.
 struct LayerCapacities
 {
     VoxelizeCapacities voxelize;
     std::uint64_t leaves = 0;
     std::uint64_t voxels = 0;
 
-    /// A guess from the mesh's surface area and the grid that mostly suffices.
+    /// A guess from the mesh's surface area and the grid; it suffices in most cases.
     static LayerCapacities estimate(const GpuScene& scene, const Grid& grid);
 
     bool operator==(const LayerCapacities&) const = default;
 };
 
-/// What layers are asked for beside their voxels.
+/// What a layer holds besides the positions of its voxels.
 struct LayerContents
 {
     bool attributes = true;
     bool emission = false; // only with attributes
 };
 
-/// The voxels of one dynamic object; shaders/update/update.h has the picture.
+/// The voxels of one dynamic object; shaders/update/update.h describes layers.
 struct LayerBuffers
 {
     LayerBuffers(vk::Device& device, const LayerCapacities& capacities, const GpuScene& scene, LayerContents contents);
@@ -52,7 +52,7 @@ struct LayerBuffers
     vk::BufferOf<gpu::EmissionSums> emission_sums; // [capacities.voxels], or empty without emission
 };
 
-/// A dynamic object, as it is voxelized into a layer.
+/// A dynamic object and the layer into which it is voxelized.
 struct LayerJob
 {
     PosedGpuScene scene;
@@ -64,9 +64,10 @@ struct LayerJob
     std::uint32_t report = 0;                  // element of reports that becomes a copy of the layer's counters
 };
 
-/// Adds the stages that voxelize a dynamic object into a layer: coverage, then sums of what its fragments look like.
-/// Nothing is read back; what does not fit is counted, and the layer then says that it failed. What job refers to must
-/// outlive the stages. Cost: triangles plus fragments, and the layer's capacities, once, for clearing them.
+/// Adds the stages that voxelize a dynamic object into a layer: first coverage, then the sums of its fragments'
+/// attributes. Nothing is read back; what does not fit is counted, and the layer is marked as failed. Everything that
+/// job refers to must outlive the stages. Cost: triangles plus fragments, and the layer's capacities once, for clearing
+/// them.
 void addLayerStages(const LayerJob& job, RecordedStages& stages);
 
 } // namespace zvo

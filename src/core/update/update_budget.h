@@ -13,20 +13,21 @@
 namespace zvo
 {
 
-/// A part of an update, which is recorded at once, or in pieces where it is divisible.
+/// A stage of an update. It is recorded at once, or in several slices if it is divisible.
 struct UpdateStage
 {
-    /// Not measured yet: a workgroup of 64 threads in 10 us. A stage's author may know better.
+    /// The guess for work that was not measured: a workgroup of 64 threads takes 10 us. A stage may bring a better
+    /// guess.
     static constexpr double kGuessMsPerUnit = 1e-2 / 64;
 
-    std::string name;        // kind of work: stages of one name cost the same per unit
-    std::uint64_t units = 1; // of what the cost is proportional to, such as triangles; 0: nothing to do
-    bool divisible = false;  // between any two units
+    std::string name;        // kind of work: stages of one name are assumed to cost the same per unit
+    std::uint64_t units = 1; // what the cost is proportional to, such as triangles; 0: nothing to do
+    bool divisible = false;  // may be cut between any two units
     double guess_ms_per_unit = kGuessMsPerUnit;
 };
 
-/// How far an update has come: the stage that is next, and the first of its units that is left. At its end, the number
-/// of stages and 0.
+/// How far an update has come: the next stage, and the first of its units that is not recorded yet. At the end of an
+/// update: the number of stages, and 0.
 struct UpdateProgress
 {
     std::size_t stage = 0;
@@ -35,14 +36,14 @@ struct UpdateProgress
     bool operator==(const UpdateProgress&) const = default;
 };
 
-/// Units of a stage that one frame records.
+/// The units of a stage that one frame records.
 struct UpdateSlice
 {
     std::string name; // of the stage
     std::size_t stage = 0;
     std::uint64_t first_unit = 0;
     std::uint64_t unit_count = 0;
-    // Set by who records it: the slice's passes are those of the frame from first_pass on and before pass_end
+    // Set by whoever records the slice: its passes are those of the frame from first_pass up to, but without, pass_end
     // (FrameGraph::passCount() before and after).
     std::size_t first_pass = 0;
     std::size_t pass_end = 0;
@@ -50,19 +51,20 @@ struct UpdateSlice
     bool operator==(const UpdateSlice&) const = default;
 };
 
-/// Spreads updates over frames: decides how much of one goes into a frame under a budget of GPU time, from what earlier
-/// frames took. Host logic only, and deterministic: plans depend on the arguments of the calls so far and on nothing
-/// else. How an update is cut does not change its result; that is up to its stages.
+/// Spreads updates over frames: decides, from the times of earlier frames, how much of an update goes into a frame
+/// under a budget of GPU time. Host logic only, and deterministic: plans depend only on the arguments of the calls so
+/// far. How an update is cut must not change its result; its stages guarantee that.
 ///
-/// A stage's predicted time is its units times the time a unit of its kind took. That rises at once with what is
-/// measured, so that a frame that took too long is followed by shorter ones, and falls by kFall of the difference, so
-/// that one lucky frame does not make the next one too long. A stage that was never measured counts with its guess.
+/// The predicted time of a stage is its number of units times the time of a unit of its kind. When a measured time is
+/// higher than the prediction, the prediction rises to it at once, so that a frame that took too long is followed by
+/// shorter ones. When it is lower, the prediction falls by kFall of the difference, so that one lucky frame does not
+/// make the next one too long. A stage that was never measured counts with its guess.
 ///
-/// A frame takes stages in order as long as the sum of their predicted times is within the budget, and always at least
-/// one stage, or the kParts-th part of a divisible one. Of a divisible stage it takes what fits, but never less than
-/// that part of all its units, so that an update takes at most kParts frames a stage however slow the device is. Before
-/// its kind was measured, what it takes beyond that part is guessed to cost at most the kCaution-th part of the budget.
-/// Steps of 0 units cost nothing.
+/// A frame takes stages in order as long as the sum of their predicted times is within the budget. It takes at least
+/// one stage or, of a divisible stage, at least the kParts-th part of all its units; so an update takes at most kParts
+/// frames for each stage, however slow the device is. If a divisible stage's kind was never measured, what the frame
+/// takes beyond that part is guessed to cost at most the kCaution-th part of the budget. Stages of 0 units cost
+/// nothing.
 class UpdateBudget
 {
 public:
@@ -70,16 +72,16 @@ public:
     static constexpr std::uint64_t kParts = 256;
     static constexpr double kCaution = 8;
 
-    /// What the next frame records of an update that has come as far as progress, which moves on. budget_ms: 0 or less
-    /// (or NaN) means no bound: everything at once. No slice has 0 units, and there is none when nothing is left.
+    /// Returns what the next frame records of an update, and moves progress on. budget_ms: 0, less or NaN means no
+    /// bound, and everything is recorded at once. No slice has 0 units; there are no slices when nothing is left.
     std::vector<UpdateSlice> plan(std::span<const UpdateStage> stages, UpdateProgress& progress,
                                   double budget_ms) const;
 
-    /// Learns from a frame that is done: the slices it recorded, and its passes' times. Slices whose passes were not
-    /// timed, or not to a finite time of at least 0, are left out.
+    /// Learns from a frame that is done. slices: what the frame recorded. passes: the times of all its passes. Slices
+    /// whose passes were not timed, or have times that are negative or not finite, are ignored.
     void learn(std::span<const UpdateSlice> slices, std::span<const vk::PassTime> passes);
 
-    /// Predicted time of units of stage's kind.
+    /// Predicted time of so many units of stage's kind.
     [[nodiscard]] double predictMs(const UpdateStage& stage, std::uint64_t units) const;
 
     [[nodiscard]] bool measured(const std::string& name) const { return m_ms_per_unit.count(name) != 0; }

@@ -9,26 +9,26 @@
 namespace zvo
 {
 
-/// How much room the next update is given: what updates of late have needed, or a guess for dynamic objects that none
-/// has measured. Host logic only.
+/// Decides how much room the next update gets: as much as recent updates have needed, or a guess for dynamic objects
+/// that were not measured yet. Host logic only.
 class UpdateSizes
 {
 public:
-    /// minimal: everything starts with room for one.
+    /// minimal: every capacity starts at one.
     explicit UpdateSizes(bool minimal) : m_is_minimal(minimal) {}
 
-    /// An update begins, of layers that have room for that many leaves together.
+    /// Begins an update of layers whose leaf capacities have this sum.
     void begin(std::uint64_t leaves);
 
-    /// Of the next overlay, as far as is known.
+    /// The expected size of the next overlay.
     [[nodiscard]] std::uint64_t likelyNodes() const { return m_likely_nodes; }
     [[nodiscard]] std::uint64_t likelyVoxels() const { return m_likely_voxels; }
 
-    /// What buffers should have that have these capacities: the same where it suffices. Less where it has been several
-    /// times too much for hundreds of updates.
+    /// The capacities that buffers should have which have `current` now: the same if they suffice, and smaller ones if
+    /// they have been several times too large for hundreds of updates.
     [[nodiscard]] UpdateCapacities fitting(const UpdateCapacities& current) const;
 
-    /// What an update came to, that had this region and a table of so many entries.
+    /// Learns from an update that has ended. table_entries: the capacity of its table of touched nodes.
     void learn(const gpu::UpdateStatus& status, const OverlayRegion& region, std::uint64_t table_entries);
 
 private:
@@ -37,7 +37,7 @@ private:
     std::uint64_t m_table_min = 0;
     std::uint64_t m_likely_nodes = 0;
     std::uint64_t m_likely_voxels = 0;
-    std::uint64_t m_most_leaves = 0; // of updates of late, as the next two
+    std::uint64_t m_most_leaves = 0; // the most of recent updates; likewise the next two
     std::uint64_t m_most_nodes = 0;
     std::uint64_t m_most_voxels = 0;
 };

@@ -12,7 +12,7 @@
 namespace zvo
 {
 
-/// A stage of an update that can be recorded on its own.
+/// A stage of an update, and the function that records some of its units into a frame.
 struct RecordedStage
 {
     UpdateStage stage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The instances of a scene as the device sees them (shaders/shared/scene.h), on the host.
+// The instances of a scene, made on the host in the form that the device reads (shaders/shared/scene.h).
 #pragma once
 
 #include "core/scene/scene.h"
@@ -13,10 +13,11 @@
 namespace zvo
 {
 
-/// count, if numbers below gpu::kAbsent suffice for so many. Throws Error{Input} that names what there is too much of.
+/// Returns count, if it is below gpu::kAbsent. Otherwise throws Error{Input}; what: the name of the elements in its
+/// message.
 std::uint32_t checkedCount(std::size_t count, const char* what);
 
-/// Where a primitive's arrays start in the buffers of a GpuScene, in elements.
+/// The first elements of a primitive's arrays in the buffers of a GpuScene.
 struct PrimitiveOffsets
 {
     std::uint32_t first_triangle;
@@ -26,16 +27,16 @@ struct PrimitiveOffsets
     std::uint32_t first_color;
 };
 
-/// The offsets of all primitives of scene. Throws Error{Input} for more than 2^32 - 1 of anything.
+/// The offsets of all primitives of scene. Throws Error{Input} for more than 2^32 - 1 elements of any kind.
 std::vector<PrimitiveOffsets> primitiveOffsets(const Scene& scene);
 
-/// The draws of scene's instances ([instances]), at rest, or with these transforms ([instances], object to world) in
+/// The draws of scene's instances, [instances]: at rest, or with the given transforms [instances], object to world, in
 /// place of their own. Throws as primitiveOffsets().
 std::vector<gpu::Draw> makeDraws(const Scene& scene);
 std::vector<gpu::Draw> makeDraws(const Scene& scene, std::span<const glm::mat4> transforms);
 
-/// Gives each draw the transform of the same number. A transform that is not finite is kept: the voxelizer counts the
-/// triangles.
+/// Gives the i-th draw the i-th transform. Transforms that are not finite are kept; the voxelizer drops and counts
+/// their triangles.
 void setTransforms(std::span<gpu::Draw> draws, std::span<const glm::mat4> transforms);
 
 } // namespace zvo

@@ -34,23 +34,24 @@ struct GpuScene
     /// Chunks of the draws of each material class (kClassPlain and so on).
     std::array<vk::BufferOf<gpu::Chunk>, gpu::kClassCount> chunks;
 
-    bool has_attributes = false;      // textures for colour and emission are there
-    std::uint64_t triangle_count = 0; // instances counted each time
+    bool has_attributes = false;      // the textures for colour and emission were uploaded
+    std::uint64_t triangle_count = 0; // those of a primitive count once for each instance
     double surface_area = 0;          // world units squared
-    float emission_scale = 0;         // of which emission is a fraction; 0: nothing emits light
+    float emission_scale = 0;         // the emission that the fraction 1 stands for; 0: nothing emits light
 };
 
-/// The largest emission of any material of scene, 0 where nothing emits light.
+/// The largest emission of any material of scene; 0 if nothing emits light.
 float brightestEmission(const Scene& scene);
 
-/// Uploads scene by way of device: done when that says (vk/uploader.h). Without attributes, only the textures that
-/// alpha needs are kept. What is voxelized into one octree needs one emission_scale: that of the scene with the largest
-/// brightestEmission(); by default, the scene's own. Emission beyond the scale is cut off. Throws Error{Memory} when
-/// the device's budget does not suffice and Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
+/// Uploads scene through `device`, whose uploads take effect as vk/uploader.h says. attributes: false uploads only the
+/// textures that alpha needs. emission_scale: by default the scene's own brightestEmission(). Scenes that are voxelized
+/// into one octree need the same scale, the largest brightestEmission() of them all; emission beyond the scale is cut
+/// off. Throws Error{Memory} when the device's budget does not suffice, and Error{Input} for more than 2^32 - 1 of
+/// anything that has a 32-bit number.
 GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes,
                      std::optional<float> emission_scale = std::nullopt);
 
-/// The table of scene's buffers.
+/// The table of the addresses of scene's buffers.
 gpu::SceneView sceneView(const GpuScene& scene);
 
 } // namespace zvo

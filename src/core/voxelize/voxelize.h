@@ -15,43 +15,43 @@
 namespace zvo
 {
 
-/// Whether keys of grid's brick table take two words (shaders/shared/bricks.h): from depth 13 on.
+/// Whether the keys of the brick table for this grid take two words (shaders/shared/bricks.h): from depth 13 on.
 inline bool hasWideKeys(const Grid& grid)
 {
     return grid.nodeLevels() > gpu::kNarrowLevelsMax;
 }
 
-/// What voxelizing a scene is likely to come to, from its surface area: nothing is rounded or bounded.
+/// The expected numbers for voxelizing a scene, from its surface area. They are neither rounded nor bounded.
 struct VoxelizeEstimate
 {
     static VoxelizeEstimate of(const GpuScene& scene, const Grid& grid);
 
     double leaves = 0;        // of the octree, at most as many as the grid has
-    double big_triangles = 0; // bands of them
+    double big_triangles = 0; // bands of big triangles
     double row_blocks = 0;
 };
 
-/// How much a voxelization has room for.
+/// The capacities of a voxelization's buffers.
 struct VoxelizeCapacities
 {
     std::uint64_t bricks = 0;        // entries of the brick table, a power of two
-    std::uint64_t big_triangles = 0; // bands of them, of each material class
-    std::uint64_t row_blocks = 0;    // of each material class
+    std::uint64_t big_triangles = 0; // bands of big triangles, for each material class
+    std::uint64_t row_blocks = 0;    // for each material class
 
-    /// More entries than this do not fit the 32-bit numbers of the brick table.
+    /// The most entries that the 32-bit numbers of the brick table allow.
     static constexpr std::uint64_t kBricksMax = 1ULL << 31;
 
-    /// A guess from the scene's surface area and the grid that mostly suffices.
+    /// A guess from the scene's surface area and the grid; it suffices in most cases.
     static VoxelizeCapacities estimate(const GpuScene& scene, const Grid& grid);
 
     bool operator==(const VoxelizeCapacities&) const = default;
 };
 
-/// What the passes of a voxelization write, sized once. The brick table ends up holding the leaves of the octree, and
-/// octree construction adds the inner nodes.
+/// The buffers that a voxelization writes. In the end the brick table holds the leaves of the octree; octree
+/// construction adds the inner nodes to it.
 struct VoxelizeBuffers
 {
-    /// Triangles that are rasterized by rows, of one material class.
+    /// The triangles of one material class that are rasterized by rows.
     struct RowWork
     {
         vk::BufferOf<gpu::BigTriangle> big_triangles; // [capacities.big_triangles]
@@ -67,7 +67,7 @@ struct VoxelizeBuffers
     std::array<RowWork, gpu::kClassCount> rows; // empty for classes that the scene does not have
 };
 
-/// Sums over the fragments of each voxel, and what becomes of emission.
+/// The buffers for averaging attributes: sums over the fragments of each voxel, and the numbering of emissive voxels.
 struct AttributeBuffers
 {
     AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission);
@@ -80,7 +80,7 @@ struct AttributeBuffers
     std::uint32_t sum_shift = 0; // value bits dropped, so that sums of max_fragments >> sum_shift fragments fit
 };
 
-/// Where the second and third walk over the triangles add up what fragments look like.
+/// The buffers to which the second and third walk over the triangles add the attributes of fragments.
 struct AttributeSums
 {
     const vk::BufferOf<gpu::Node>& leaves; // of the octree, or of a layer
@@ -90,35 +90,38 @@ struct AttributeSums
     std::uint32_t sum_shift = 0;
 };
 
-/// A walk over all triangles of a scene: what it does with the voxels that they cover.
+/// A walk over all triangles of a scene, and what it does with the voxels that they cover.
 struct RasterWalk
 {
     PosedGpuScene scene;
     GridTile tile;
     Coverage coverage;
     VoxelizeBuffers& buffers;
-    std::uint32_t mode = gpu::kModeCoverage;
-    const AttributeSums* sums = nullptr; // in the other modes
+    std::uint32_t mode = gpu::kModeCoverage; // gpu::kModeCoverage, kModeAttributes or kModeEmission
+    const AttributeSums* sums = nullptr;     // null in coverage mode
 };
 
-/// Records the pass over chunk_count chunks of a material class from first_chunk on. In coverage mode, it sets the bits
-/// of the voxels that small triangles cover and lists big ones (buffers cleared before). Then it adds up what fragments
-/// of small triangles look like: colours and normals to sums->sums, with the bits of emissive voxels in
-/// sums->emission_words (kModeAttributes), or emission to sums->emission_sums at the indices that emission_words tells
-/// (kModeEmission); the brick table must hold the first voxel of each leaf, or index it in sums->leaves.
+/// Records the pass over chunk_count chunks of a material class from first_chunk on.
+///
+/// In coverage mode (kModeCoverage) it sets the bits of the voxels that small triangles cover, and lists big triangles.
+/// The buffers must have been cleared.
+///
+/// In the other modes it adds the attributes of the fragments of small triangles: kModeAttributes adds colours and
+/// normals to sums->sums and sets the bits of emissive voxels in sums->emission_words; kModeEmission adds emission to
+/// sums->emission_sums, at the indices that emission_words tells. The brick table must hold the first voxel of each
+/// leaf or, with wide keys, the leaf's index in sums->leaves.
 void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class,
                    std::uint64_t first_chunk, std::uint64_t chunk_count);
 
-/// Records the passes that do the same for the big triangles of a material class, after all its chunks.
+/// Records the passes that do the same for the big triangles of a material class. To be recorded after all its chunks.
 void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class);
 
-/// Records the passes that clear everything in buffers, before a walk in coverage mode.
+/// Records the passes that clear all buffers, before a walk in coverage mode.
 void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
 
-/// Records the coverage passes: clears the buffers, then sets the bit of every covered voxel in the brick table. Reads
-/// the scene; writes everything in buffers. What did not fit is counted, never written. Of a tile, voxels are those of
-/// the whole grid that lie in it.
-/// Cost: triangles plus covered voxels (and the capacity of the table, once, for clearing it).
+/// Records the passes of coverage: they clear the buffers, then set the bit of every covered voxel in the brick table.
+/// What does not fit is counted, never written. For a tile of the grid, the voxels are those of the whole grid that lie
+/// in it. Cost: triangles plus covered voxels, and the capacity of the table once, for clearing it.
 void voxelizeCoverage(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
                       VoxelizeBuffers& buffers);
 
