@@ -17,25 +17,25 @@
 namespace zvo
 {
 
-/// What a host hands over. zvo creates none of these handles and destroys none of them; they outlive the Context.
+/// What a host hands over. zvo creates none of these handles and destroys none of them; they must outlive the Context.
 struct ContextInfo
 {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
     VkInstance instance = VK_NULL_HANDLE; // created for Vulkan 1.3 or later
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
-    std::uint32_t queue_family = 0; // of the queues that recordings are submitted to: it computes
+    std::uint32_t queue_family = 0; // of the queues to which recordings are submitted; it must support compute
 
-    // What was enabled, which Vulkan cannot be asked: as it was given to vkCreateInstance and vkCreateDevice, the chain
-    // as patchFeatures() left it. Looked at by the constructor only.
+    // What was enabled when instance and device were created; Vulkan cannot be asked for it. Give what vkCreateInstance
+    // and vkCreateDevice got, with the chain as patchFeatures() has left it. Only the constructor reads this.
     std::uint32_t instance_api_version = 0;                          // VkApplicationInfo::apiVersion
-    std::span<const char* const> instance_extensions = {};           // VK_EXT_debug_utils: objects get names
-    std::span<const char* const> device_extensions = {};             // none makes a difference as yet
+    std::span<const char* const> instance_extensions = {};           // with VK_EXT_debug_utils objects get names
+    std::span<const char* const> device_extensions = {};             // none makes a difference so far
     const void* enabled_features = nullptr;                          // VkDeviceCreateInfo::pNext
     const VkPhysicalDeviceFeatures* enabled_core_features = nullptr; // VkDeviceCreateInfo::pEnabledFeatures
 
-    // What is the host's choice.
-    const VkAllocationCallbacks* allocation_callbacks = nullptr; // of every Vulkan object; outlive the Context
+    // Choices of the host.
+    const VkAllocationCallbacks* allocation_callbacks = nullptr; // for every Vulkan object; must outlive the Context
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;             // used when kernels are made
     MemoryCallbacks memory = {};                                 // in place of vkAllocateMemory
     std::uint64_t memory_budget_bytes = UINT64_MAX;              // of device memory that zvo holds
@@ -49,89 +49,92 @@ struct ContextInfo
 /// Device memory of a context, in bytes.
 struct MemoryUse
 {
-    std::uint64_t used = 0; // by what there is
-    std::uint64_t held = 0; // of the driver or the host: unused parts of blocks included; at most the budget
+    std::uint64_t used = 0; // by existing objects
+    std::uint64_t held = 0; // taken from the driver or the host, unused parts of blocks included; at most the budget
     std::uint64_t peak_held = 0;
 };
 
-/// zvo on a host's Vulkan device: its function table, memory and kernels. Several contexts do not know of each other.
+/// zvo on a host's Vulkan device: its function table, memory and kernels. Several contexts are independent of each
+/// other.
 ///
-/// A context never submits, waits or presents, and calls no function of the loader but those that it got through
-/// get_instance_proc_addr. Work is recorded by a Recorder into the host's command buffers, frame by frame; what a frame
-/// may still use when it goes is kept until the host says that the device is done with that frame.
+/// A context never submits, waits or presents, and calls no function of the Vulkan loader but those that it got through
+/// get_instance_proc_addr. A Recorder records work into the host's command buffers, frame by frame. When an object is
+/// destroyed, whatever frames may still use of it is kept until the host says that the device is done with them.
 ///
-/// Not thread safe: a context and everything that was made of it is used by one thread at a time. Everything that was
-/// made of it goes before it does, and the device is done with all frames by then.
+/// Not thread safe: a context and everything that was made with it is used by one thread at a time. Everything that was
+/// made with it must be destroyed before it, and the device must be done with all frames by then.
 class ZVO_API Context
 {
 public:
-    /// Throws Error{Device} with every reason when the device will not do or lacks something that was not enabled,
-    /// Error{Usage} for null handles and more timed passes than there can be, Error{Memory}.
+    /// Throws Error{Device}, with every reason, when zvo cannot use the device or a required feature was not enabled;
+    /// Error{Usage} for null handles and for more timed passes than the maximum; Error{Memory}.
     explicit Context(const ContextInfo& info);
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// The device is done with a frame and all before it: a frame number of the host's, or the value that a timeline
-    /// semaphore has reached. Gives memory back that only those used. Numbers that are not higher than before change
-    /// nothing. A frame whose passes were not all carried out has no times. Throws Error{Usage} for the frame of a
-    /// Recorder that is still there: nothing changes. What reading times throws, as on a lost device, it throws when
-    /// all else is done.
+    /// Tells that the device is done with a frame and all frames before it. frame: the host's number of the frame, or
+    /// the value that a timeline semaphore has reached. Memory that only these frames used is freed. A number that is
+    /// not higher than the last one changes nothing. If some passes of a frame were not carried out, passTimes() has no
+    /// times of it. Throws Error{Usage} for a frame whose Recorder still exists; then nothing changes. Throws what
+    /// reading times throws, as on a lost device, after everything else is done.
     void frameDone(std::uint64_t frame);
 
-    /// A frame, the one that was begun last, did not reach the device: its command buffers were thrown away, and none
-    /// was submitted. Models, trees, dynamic trees and dynamic objects that were made in it are lost: using them throws
-    /// Error{Usage}. Dynamic trees are as they were before it, steps of TreeBuild and TreeCompression are recorded
-    /// again, unless what they are made of was lost. The number can be used again. Nothing happens for one that never
-    /// began, as where its Recorder could not be made; throws Error{Usage} for those before the last, which must reach
-    /// the device.
+    /// Tells that a frame, the one that was begun last, did not reach the device: its command buffers were thrown away,
+    /// and none of them was submitted. Models, trees, dynamic trees and dynamic objects that were made in the frame are
+    /// lost: using them throws Error{Usage}. Dynamic trees are as they were before the frame. Steps of TreeBuild and
+    /// TreeCompression are recorded again, unless their source was lost. The number can be used again. Nothing happens
+    /// for a frame that never began, such as one whose Recorder could not be made. Throws Error{Usage} for frames
+    /// before the last one, which must reach the device.
     ///
-    /// A frame of which the device got a part is not lost: memory that it may be using would be freed, and what it has
-    /// changed not be as before. Submit its other command buffers as well. Where that cannot be, wait until the device
-    /// is idle; then the Context goes, with everything that was made of it.
+    /// A frame that has reached the device in part is not lost: memory that the device may be using would be freed, and
+    /// what the device has changed would not be restored. Submit the frame's other command buffers as well. Where that
+    /// is impossible, wait until the device is idle; then destroy everything that was made with the Context, and the
+    /// Context.
     void frameLost(std::uint64_t frame);
 
-    /// Of the newest frame that is done and has any: the device's time of each pass, in the order of recording.
+    /// The device's time of each pass, in the order of recording, in the newest frame that is done and has times.
     [[nodiscard]] const std::vector<PassTime>& passTimes() const;
 
     [[nodiscard]] const DeviceReport& report() const;
     [[nodiscard]] MemoryUse memory() const;
 
     struct Impl;
-    [[nodiscard]] Impl& impl() { return *m_impl; } // of the library
+    [[nodiscard]] Impl& impl() { return *m_impl; } // only for the library
 
 private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// Records zvo's work into a host's command buffer. Whatever records takes one.
+/// Records zvo's work into a host's command buffer. Every function that records takes one.
 ///
-/// The command buffer is in the recording state, outside a render pass, and stays so; of its state, zvo changes the
-/// compute pipeline, its push constants and nothing else. Work is ordered: a recording begins behind all of zvo's work
-/// that was submitted to the same queue before (or that a semaphore makes wait for), and behind readers; barriers among
-/// zvo's own resources are zvo's. Those of the host's images and of what the host's shaders read are the host's: each
-/// operation names its edges.
+/// The command buffer must be in the recording state, outside a render pass, and stays so. Of its state, zvo changes
+/// only the compute pipeline and its push constants. Work is ordered: a recording begins behind all work of zvo that
+/// was submitted to the same queue before it (or for which a semaphore makes it wait), and behind the readers. zvo
+/// records the barriers among its own resources. The barriers for the host's images, and for trees that the host's
+/// shaders read, are up to the host: each operation names the stages and accesses on its side.
 ///
-/// Where something throws, the command buffer is as valid as before: it can be submitted, or thrown away
+/// After an exception the command buffer is as valid as before: it can be submitted, or thrown away
 /// (Context::frameLost()).
 class ZVO_API Recorder
 {
 public:
-    /// frame: a number of the host's, or the value that a timeline semaphore gets with it: never lower than the one
-    /// before. Several recordings may have one frame. readers: stages in which the host's own shaders read trees.
-    /// Throws Error{Usage} for null, for such numbers and for a second Recorder at a time.
+    /// frame: a number of the host's, or the value that a timeline semaphore will get when the frame is done; never
+    /// lower than that of the frame before. Several recordings may have the same frame. readers: stages in which the
+    /// host's own shaders read trees. Throws Error{Usage} for null, for a lower number, and while another Recorder
+    /// exists.
     Recorder(Context& context, VkCommandBuffer commands, std::uint64_t frame, VkPipelineStageFlags2 readers = 0);
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// Records the barrier after which the host's own shaders, in these stages, see all trees as they were recorded so
-    /// far: through a tree's address. Edge: VK_ACCESS_2_SHADER_STORAGE_READ_BIT. 0: nothing. Throws Error{Usage} for
-    /// stages of which none runs shaders.
+    /// Records the barrier after which the host's own shaders, in these stages, see all trees as they have been
+    /// recorded so far, through the trees' addresses. Access: VK_ACCESS_2_SHADER_STORAGE_READ_BIT. stages: 0 records
+    /// nothing. Throws Error{Usage} if none of the stages runs shaders.
     void makeVisible(VkPipelineStageFlags2 stages);
 
     struct Impl;
-    [[nodiscard]] Impl& impl() { return *m_impl; } // of the library
+    [[nodiscard]] Impl& impl() { return *m_impl; } // only for the library
 
 private:
     std::unique_ptr<Impl> m_impl;

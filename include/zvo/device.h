@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What zvo asks of a Vulkan device that a host creates: before it exists, and when it is created.
+// What zvo requires of a Vulkan device that a host creates: questions before it is created, and features to enable.
 #pragma once
 
 #include "zvo/export.h"
@@ -13,7 +13,7 @@
 namespace zvo
 {
 
-/// What zvo needs to know of a physical device, and why it would refuse it.
+/// The properties of a physical device that matter to zvo, and the reasons why zvo would refuse it.
 struct DeviceReport
 {
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
@@ -24,34 +24,34 @@ struct DeviceReport
     std::uint32_t subgroup_size = 0;
     std::uint64_t memory_bytes = 0;      // largest device-local heap
     std::uint64_t max_buffer_bytes = 0;  // largest buffer, and largest allocation of memory
-    std::uint32_t min_subgroup_size = 0; // of those that a kernel can ask for; 0: none
+    std::uint32_t min_subgroup_size = 0; // the smallest subgroup size that a kernel can ask for; 0: none
     std::uint32_t max_subgroup_size = 0;
     std::uint32_t queue_family = 0;         // the compute queue family that zvo would use
     float timestamp_period_ns = 0;          // 0: no timestamps on that queue family
     std::uint32_t timestamp_valid_bits = 0; // of a timestamp on that queue family
     std::vector<std::string> present;       // required and optional features that the device has
     std::vector<std::string> missing;       // required and optional features that it lacks
-    std::vector<std::string> reasons;       // why zvo cannot use it; empty: it will do
+    std::vector<std::string> reasons;       // why zvo cannot use it; empty: zvo can use it
 
     [[nodiscard]] bool usable() const { return reasons.empty(); }
 };
 
-/// Whether zvo can use a physical device, and if not, every reason. Creates nothing, and throws for no device that will
-/// not do. The instance must have been created for Vulkan 1.3 (VkApplicationInfo::apiVersion). Throws
-/// Error{Usage} for null.
+/// Reports whether zvo can use a physical device, and if not, every reason. Creates nothing, and does not throw for a
+/// device that zvo cannot use. The instance must have been created for Vulkan 1.3 (VkApplicationInfo::apiVersion).
+/// Throws Error{Usage} for null.
 ZVO_API DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance,
                            VkPhysicalDevice physical_device);
 
-/// Features that zvo does without, and uses where they are enabled. No result depends on them. Ask only for those that
-/// are among DeviceReport::present.
+/// Features that zvo does not require, but uses where they are enabled. No result depends on them. Ask only for those
+/// that are listed in DeviceReport::present.
 struct OptionalFeatures
 {
     bool pass_times = false;     // hostQueryReset: the device's time of each pass
     bool subgroup_sizes = false; // subgroupSizeControl: kernels in subgroups of a size that the host chooses
 };
 
-/// The structs that patchFeatures() may put into a VkDeviceCreateInfo. They must live where they are for as long as
-/// that is used; a storage serves one VkDeviceCreateInfo at a time.
+/// Storage for the structs that patchFeatures() puts into a VkDeviceCreateInfo. It must stay where it is for as long as
+/// the VkDeviceCreateInfo is used, and serves one VkDeviceCreateInfo at a time.
 struct FeatureStorage
 {
     FeatureStorage() = default;
@@ -68,18 +68,19 @@ struct FeatureStorage
     VkPhysicalDeviceSubgroupSizeControlFeatures subgroup_size_control{};
 };
 
-/// Adds the features that zvo requires, and those of optional, to what a host is about to give to vkCreateDevice.
+/// Adds the features that zvo requires, and the optional ones asked for, to what a host is about to give to
+/// vkCreateDevice.
 ///
-/// Where the pNext chain has a struct with a feature's member, that is set (so the chain must be writable); of
-/// pEnabledFeatures, a copy in storage takes its place. For the rest, structs of storage are put in front of the chain:
-/// never VkPhysicalDeviceVulkan12Features and the like, which would also decide about features that the host enables by
-/// extensions. So no mix arises that Vulkan forbids. Structs that zvo does not know are left alone, extensions are
-/// never added, and a second call changes nothing.
+/// Where the pNext chain has a struct with a feature's member, the member is set, so the chain must be writable.
+/// pEnabledFeatures is replaced by a changed copy in storage. For the other features, structs of storage are put in
+/// front of the chain: never VkPhysicalDeviceVulkan12Features and its like, which would also decide about features that
+/// the host enables through extensions. So zvo never causes a combination that Vulkan forbids. Structs that zvo does
+/// not know are left alone, extensions are never added, and a second call changes nothing.
 ///
-/// Returns what keeps the host's own structs from becoming a legal chain: mixes that Vulkan forbids, such as
+/// Returns what keeps the host's own structs from becoming a legal chain: combinations that Vulkan forbids, such as
 /// VkPhysicalDeviceVulkan12Features beside a struct of one of its features, and VK_EXT_buffer_device_address. Then
-/// nothing is changed. Empty: done; info.pNext and info.pEnabledFeatures are what to declare to zvo. Whether the device
-/// supports the features is not looked at: query() says it.
+/// nothing is changed. An empty result means success; declare info.pNext and info.pEnabledFeatures to zvo. Whether the
+/// device supports the features is not checked here: query() tells.
 [[nodiscard]] ZVO_API std::vector<std::string> patchFeatures(VkDeviceCreateInfo& info, FeatureStorage& storage,
                                                              const OptionalFeatures& optional = {});
 

@@ -47,14 +47,14 @@ struct MeshInfo
     std::uint32_t material = 0;
 };
 
-/// One appearance of a mesh.
+/// One occurrence of a mesh.
 struct InstanceInfo
 {
     std::uint32_t mesh = 0;
     Mat4 transform = kIdentity; // to the model's space
 };
 
-/// What a model is made of; nothing of it is needed afterwards.
+/// What a model is made of. Everything is copied: the arrays are not needed after the call.
 struct ModelInfo
 {
     std::span<const MeshInfo> meshes;
@@ -62,38 +62,37 @@ struct ModelInfo
     std::span<const MaterialInfo> materials; // none: a white one
     std::span<const TextureInfo> textures;
 
-    bool attributes = true; // else only what alpha needs is uploaded, and trees of it have no attributes
-    /// Of which emission is a fraction: what is voxelized into one tree needs one. Emission beyond it is cut off. None:
-    /// that of the brightest material.
+    bool attributes = true; // false: only what alpha needs is uploaded, and its trees have no attributes
+    /// The emission that is stored as the fraction 1. Models that are voxelized into one tree need the same scale;
+    /// emission beyond it is cut off. None: the emission of the brightest material.
     std::optional<float> emission_scale = std::nullopt;
 };
 
-/// Triangles with materials in device memory: what trees are built of, and what moves in dynamic trees. Copies refer to
-/// the same model.
+/// Triangles with materials in device memory: the source of trees, and what moves in dynamic trees. Copies of a Model
+/// refer to the same data.
 class ZVO_API Model
 {
 public:
-    /// Records the upload. Takes as much memory again for staging until the frame is done. Throws Error{Usage} for
+    /// Records the upload. Until the frame is done, staging buffers take as much memory again. Throws Error{Usage} for
     /// indices and enumerations out of range, arrays of unequal length, transforms that are not finite and affine, and
-    /// an emission scale that is negative or not finite, Error{Memory}, and Error{Input} for more than 2^32 - 1 of
-    /// anything that has a 32-bit number.
-    /// First and last stage: ALL_TRANSFER; what zvo does with it afterwards is ordered.
+    /// an emission scale that is negative or not finite; Error{Memory}; and Error{Input} for more than 2^32 - 1 of
+    /// anything that has a 32-bit number. First and last stage: ALL_TRANSFER; zvo orders its own later uses.
     Model(Recorder& recorder, const ModelInfo& info);
     ~Model();
     Model(const Model&);
     Model& operator=(const Model&);
 
-    /// With instances counted each time.
+    /// Number of triangles; those of a mesh count once for each instance.
     [[nodiscard]] std::uint64_t triangleCount() const;
 
-    /// The emission scale that it has; 0: nothing emits light.
+    /// The model's emission scale; 0: nothing emits light.
     [[nodiscard]] float emissionScale() const;
 
     /// The smallest grid around the model, centred on it.
     [[nodiscard]] GridInfo gridAround(std::uint32_t depth) const;
 
     struct Impl;
-    [[nodiscard]] const std::shared_ptr<Impl>& impl() const { return m_impl; } // of the library
+    [[nodiscard]] const std::shared_ptr<Impl>& impl() const { return m_impl; } // only for the library
 
 private:
     std::shared_ptr<Impl> m_impl;

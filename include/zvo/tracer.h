@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-/// Where a picture is taken from, in world space. Pixels are square.
+/// The position and direction of a picture's view, in world space. Pixels are square.
 struct CameraInfo
 {
     DVec3 position = {0, 0, 0};
@@ -24,12 +24,12 @@ struct CameraInfo
     double vertical_fov = 0.7; // radians, inside (0, pi); perspective
     double half_height = 1.0;  // world units; orthographic
 
-    /// From eye towards target, with y up (z for a view straight up or down): as `zvo render --camera`,
-    /// where the field of view is in degrees.
+    /// The view from eye towards target, with y up (z for a view straight up or down), as `zvo render --camera` takes
+    /// it, where the field of view is in degrees.
     [[nodiscard]] static ZVO_API CameraInfo lookAt(const DVec3& eye, const DVec3& target, double vertical_fov);
 };
 
-/// What a picture shows, and how.
+/// Options of a picture.
 struct TraceInfo
 {
     View view = View::Color;
@@ -37,46 +37,48 @@ struct TraceInfo
     DVec3 to_sun = {-0.6, 0.75, 0.45}; // direction, any length
     float sun = 2.2F;                  // strength
     float exposure = 1.0F;
-    std::uint32_t occlusion_rays = 0; // View::Color: for each hit, to find how much of the sky it sees; at most 64
-    float occlusion_reach = 0.1F;     // of these rays, as a part of the grid's edge
+    std::uint32_t occlusion_rays = 0; // View::Color: rays for each hit that find how much sky it sees; at most 64
+    float occlusion_reach = 0.1F;     // length of these rays, as a fraction of the grid's edge
     float detail_pixels = 0.0F;       // stop at nodes that are at most this many pixels wide; 0: go on to voxels
 };
 
-/// Depth beside a picture, as a host's projection has it, so that what the host draws is composited with voxels.
+/// A depth image beside a picture, in the host's own projection, so that the host can composite voxels with what it
+/// draws.
 struct DepthTarget
 {
     ImageTarget image; // D32_SFLOAT, D32_SFLOAT_S8_UINT or R32_SFLOAT
-    /// From world to clip space, finite, the last row not 0: columns as Mat4's, depth in [0, 1] after the division: of
-    /// the same camera.
+    /// The matrix from world to clip space of the same camera, in columns as Mat4. Finite, the last row not 0, depth in
+    /// [0, 1] after the division.
     DMat4 view_projection{};
-    float miss = 1.0F; // where rays hit nothing: the far end's depth, 0 where depth is reversed
+    float miss = 1.0F; // depth where rays hit nothing: 0 where depth is reversed
 };
 
-/// Buffers in which pictures of one size and one kind of format are traced, one after the other: as many pictures
-/// of a frame as there are, of all frames in flight. Another size or kind of format takes another Tracer.
+/// Buffers in which pictures of one size and format are traced, one after the other. One Tracer serves any number of
+/// pictures in a frame, and all frames in flight. Another size or kind of format needs another Tracer.
 class ZVO_API Tracer
 {
 public:
-    /// format: of the images that pictures go to: R8G8B8A8 and B8G8R8A8, UNORM or SRGB (sRGB codes),
-    /// A2B10G10R10_UNORM_PACK32 (sRGB codes), R16G16B16A16_SFLOAT (exposed radiance, linear, not tone-mapped). Memory:
-    /// 28 bytes a pixel, 32 for half floats, 4 more where depth is asked for, and 18 MB. Throws Error{Usage} for other
-    /// formats and for edges of 0 or more than 16384 pixels, Error{Memory}.
+    /// format: that of the images which receive the pictures: R8G8B8A8 or B8G8R8A8, UNORM or SRGB (sRGB codes),
+    /// A2B10G10R10_UNORM_PACK32 (sRGB codes), or R16G16B16A16_SFLOAT (exposed radiance, linear, not tone-mapped).
+    /// Memory: 28 bytes a pixel, 32 for half floats, 4 more where depth is asked for, and 18 MB. Throws Error{Usage}
+    /// for other formats and for edges of 0 or more than 16384 pixels, and Error{Memory}.
     Tracer(Context& context, std::uint32_t width, std::uint32_t height, VkFormat format);
     ~Tracer();
     Tracer(Tracer&&) noexcept;
     Tracer& operator=(Tracer&&) noexcept;
 
-    /// Records what traces a picture of a tree and copies it to the host's image, and its depth to another one. The
-    /// picture is the bytes that `zvo render` writes, with the same options, on every device.
+    /// Records the passes that trace a picture of a tree, and the copies of the picture to the host's image and of its
+    /// depth to another one. On every device the picture has the same bytes as that of `zvo render` with the same
+    /// options.
     ///
-    /// First stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT, on resources of zvo; last stage: COPY. Edges of
-    /// the images, which are the host's: before and after VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-    /// in ImageTarget::layout; images need VK_IMAGE_USAGE_TRANSFER_DST_BIT. Cost: pixels that are near something, and
-    /// the copies.
+    /// First stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT, on resources of zvo; last stage: COPY. Barriers
+    /// for the images are the host's: before and after VK_PIPELINE_STAGE_2_COPY_BIT with
+    /// VK_ACCESS_2_TRANSFER_WRITE_BIT, in ImageTarget::layout. Images need VK_IMAGE_USAGE_TRANSFER_DST_BIT. Cost:
+    /// pixels that are near something, and the copies.
     ///
-    /// Throws Error{Usage} for images that are null, formats, layouts, offsets, extents, cameras, depth and numbers of
-    /// TraceInfo that will not do (negative, not finite, no direction of the sun): then nothing is recorded. Throws
-    /// what making a kernel throws: then no image is written.
+    /// Throws Error{Usage} for images that are null; for formats, layouts, offsets, extents, cameras and depth targets
+    /// that are not valid; and for numbers of TraceInfo that are negative or not finite, or a direction to the sun of
+    /// length 0. Then nothing is recorded. Throws what making a kernel throws; then no image is written.
     void trace(Recorder& recorder, const Tree& tree, const CameraInfo& camera, const TraceInfo& info,
                const ImageTarget& color, const DepthTarget* depth = nullptr);
     void trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,

@@ -17,26 +17,27 @@
 namespace zvo
 {
 
-/// What a tree is like.
+/// The properties of a tree.
 struct TreeInfo
 {
     TreeStructure structure = TreeStructure::Svo;
     AttributeFormat format = AttributeFormat::None;
     GridInfo grid;
     std::uint64_t voxel_count = 0;
-    std::uint64_t node_count = 0; // that are stored
+    std::uint64_t node_count = 0; // stored nodes
     std::uint64_t bytes = 0;      // of device memory: nodes, lists, attributes, emission, kept sums
     float emission_scale = 0;     // 0: nothing emits light
 };
 
-/// An octree or a DAG in device memory, which does not change. Move-only. Using one that was taken over or moved from,
-/// or lost with its frame (Context::frameLost()), throws Error{Usage}, as with all that is made of a Context.
+/// An octree or a DAG in device memory, which does not change. Move-only. Like all objects that are made with a
+/// Context, it throws Error{Usage} when it is used after it was taken over, moved from, or lost with its frame
+/// (Context::frameLost()).
 class ZVO_API Tree
 {
 public:
-    /// Records the upload of a .zvo file (docs/file-format.md) that is in memory, or of one on disk. Takes as much
-    /// memory again for staging until the frame is done. Throws Error{Input}, one line, for a file that is not right,
-    /// and Error{Memory}. First and last stage: ALL_TRANSFER.
+    /// Records the upload of a .zvo file (docs/file-format.md), in memory or on disk. Until the frame is done, staging
+    /// buffers take as much memory again. Throws Error{Input}, one line, for a file that is not valid, and
+    /// Error{Memory}. First and last stage: ALL_TRANSFER.
     Tree(Recorder& recorder, std::span<const std::byte> file);
     Tree(Recorder& recorder, const std::filesystem::path& path);
     ~Tree();
@@ -45,20 +46,23 @@ public:
 
     [[nodiscard]] const TreeInfo& info() const;
 
-    /// Device address of the table by which the host's shaders trace the tree (zvo/trace.glsl). It lives as long as the
-    /// tree. The host's shaders read it, and what it names, behind Recorder::makeVisible().
+    /// Device address of the table through which the host's shaders trace the tree (zvo/trace.glsl). The table lives as
+    /// long as the tree. The host's shaders may read it, and the buffers that it names, after Recorder::makeVisible().
     [[nodiscard]] std::uint64_t address() const;
 
     struct Impl;
-    ZVO_LOCAL explicit Tree(std::unique_ptr<Impl> impl);      // of the library
-    [[nodiscard]] Impl* impl() const { return m_impl.get(); } // of the library; null where another one took it over
-    ZVO_LOCAL std::unique_ptr<Impl> release();                // of the library
+    ZVO_LOCAL explicit Tree(std::unique_ptr<Impl> impl); // only for the library
+    [[nodiscard]] Impl* impl() const
+    {
+        return m_impl.get();
+    }                                          // only for the library; null after the tree was taken over
+    ZVO_LOCAL std::unique_ptr<Impl> release(); // only for the library
 
 private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// What is made of a model.
+/// Options of a build.
 struct TreeBuildInfo
 {
     GridInfo grid;
@@ -67,39 +71,40 @@ struct TreeBuildInfo
     bool keep_sums = false; // for a DynamicTree with MergeRule::Average: 28 bytes a voxel more. Only with Bytes8
 };
 
-/// Voxelizes a model and builds its octree, in steps: sizes that only the device knows are learnt between them, and
-/// exactly what is needed is allocated. Nothing waits: a step is recorded into a frame, the next one into a frame that
-/// begins after Context::frameDone() of it. About five steps, and two more for each size that was guessed too low.
+/// Voxelizes a model and builds its octree in steps. Between steps zvo reads sizes that only the device knows, and
+/// allocates exactly what is needed. Nothing waits: a step is recorded into a frame, and the next step into a frame
+/// that begins after Context::frameDone() of the first. There are about five steps, and two more for each size that was
+/// guessed too low.
 ///
 ///     while (build.record(recorder)) { submit; begin the next frame }
 ///     Tree tree = build.take();
 ///
-/// The result is the same bytes on every device, as `zvo build` writes them. First stages: ALL_TRANSFER,
-/// COMPUTE_SHADER and DRAW_INDIRECT. Last stages: COMPUTE_SHADER and ALL_TRANSFER. It touches resources of its own and
-/// the model.
+/// The result has the same bytes on every device, those that `zvo build` writes. First stages: ALL_TRANSFER,
+/// COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on resources of the build and of the
+/// model.
 class ZVO_API TreeBuild
 {
 public:
-    /// Throws Error{Usage} for a depth out of range, a grid whose corners are not finite, voxels of no finite size
-    /// above 0, for attributes of a model that was uploaded without, and for one that was lost.
+    /// Throws Error{Usage} for a depth out of range, a grid whose corners are not finite, a voxel size that is not
+    /// finite and above 0, attributes of a model that was uploaded without them, and a model that was lost.
     TreeBuild(Context& context, const Model& model, const TreeBuildInfo& info);
     ~TreeBuild();
     TreeBuild(TreeBuild&&) noexcept;
     TreeBuild& operator=(TreeBuild&&) noexcept;
 
-    /// Records the next step, unless the device is still at work on the last one. False: there is none, the tree is
-    /// there. Throws Error{Memory}: the budget, or the device's memory, does not suffice; the same step can be tried
-    /// again unless the error came from what the last step found out (isBroken()). Throws Error{Usage} where the model
-    /// was lost with its frame: nothing will come of it.
+    /// Records the next step, unless the device has not finished the last one. Returns false when there is no next
+    /// step: the tree is complete. Throws Error{Memory} when the budget or the device's memory does not suffice; the
+    /// same step can be tried again, unless the error came from the results of the last step (isBroken()). Throws
+    /// Error{Usage} when the model was lost with its frame; then the build has failed.
     bool record(Recorder& recorder);
 
-    /// Whether the tree is there. Like record(), learns what the last step came to, and throws.
+    /// Whether the tree is complete. Like record(), this reads the results of the last step, and throws as record().
     [[nodiscard]] bool isDone();
 
-    /// Nothing will come of it.
+    /// Whether the build has failed for good.
     [[nodiscard]] bool isBroken() const;
 
-    /// The tree, once; isDone().
+    /// Hands out the tree. Call it once, when isDone() returns true.
     [[nodiscard]] Tree take();
 
     /// Triangles that were left out, by reason: "nonfinite", "out_of_range", "outside", "zero_area".
@@ -110,12 +115,13 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/// Makes a DAG of an octree, in steps like TreeBuild's: about three, and one more for each table that was too small.
-/// The result is the same bytes on every device.
+/// Makes a DAG of an octree, in steps like those of TreeBuild: about three, and one more for each table that was too
+/// small. The result has the same bytes on every device.
 class ZVO_API TreeCompression
 {
 public:
-    /// Takes the octree over: its nodes go when the DAG is there. Throws Error{Usage} for a tree that is a DAG already.
+    /// Takes the octree over. Its nodes are freed when the DAG is complete. Throws Error{Usage} for a tree that is a
+    /// DAG already.
     TreeCompression(Context& context, Tree&& octree);
     ~TreeCompression();
     TreeCompression(TreeCompression&&) noexcept;

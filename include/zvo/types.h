@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Small types that all of zvo shares. Vectors and matrices are plain arrays, so that any maths library's fit.
+// Small types that all of zvo shares. Vectors and matrices are plain arrays, so that those of any maths library can be
+// copied.
 #pragma once
 
 #include <array>
@@ -28,28 +29,29 @@ enum class Coverage
     Thin          ///< 6-separating: no path along the voxels' faces leads through the surface
 };
 
-/// How the nodes of a tree hang together. The values are those of files (docs/file-format.md).
+/// How the nodes of a tree are connected. The values are those in files (docs/file-format.md).
 enum class TreeStructure : std::uint32_t
 {
-    Svo = 1,  ///< each node has its own children, one behind the other
-    Svdag = 2 ///< equal subtrees are one, children stand in lists
+    Svo = 1,  ///< each node has children of its own, which stand together
+    Svdag = 2 ///< equal subtrees are stored once; children are named in lists
 };
 
-/// How trees store what their voxels and nodes look like (docs/attributes.md). The values are those of shaders.
+/// The format in which trees store the attributes of voxels and nodes (docs/attributes.md). The values are those of
+/// shaders.
 enum class AttributeFormat : std::uint32_t
 {
-    None = 0,   ///< voxels look all alike
+    None = 0,   ///< no attributes: all voxels look alike
     Bytes4 = 1, ///< colours of 16 bits, normals of 16
-    Bytes8 = 2, ///< colours of 24 bits, normals of 30: as they are made
-    Blocks = 3, ///< of voxels: 16 in 24 bytes; of nodes: Bytes4
+    Bytes8 = 2, ///< colours of 24 bits, normals of 30: the format in which attributes are made
+    Blocks = 3, ///< 16 voxels in 24 bytes; nodes as Bytes4
 };
 
-/// What a voxel shows where a dynamic object meets the static tree.
+/// The attributes of a voxel that both a dynamic object and the static tree have.
 enum class MergeRule : std::uint32_t
 {
-    Average = 0,     ///< the mean over the fragments of both: as if they were one scene
-    DynamicWins = 1, ///< the dynamic objects, the mean over their fragments
-    StaticWins = 2,  ///< the static tree
+    Average = 0,     ///< the mean over the fragments of both, as if they were one scene
+    DynamicWins = 1, ///< the mean over the fragments of the dynamic objects
+    StaticWins = 2,  ///< those of the static tree
 };
 
 /// What a picture shows.
@@ -63,7 +65,7 @@ enum class View : std::uint32_t
     Iterations = 5, ///< heat map of the traversal's loop
     Voxel = 6,      ///< a colour for each voxel
     Bricks = 7,     ///< base colour with the borders of nodes: leaves white, larger ones yellow and red
-    Origin = 8,     ///< orange: in a leaf that a dynamic update made; without attributes nothing is
+    Origin = 8,     ///< orange: leaves that a dynamic update has made; only in trees with attributes
 };
 
 enum class BrushShape : std::uint32_t
@@ -79,7 +81,7 @@ enum class BrushAction : std::uint32_t
     Paint = 2, ///< gives voxels another colour, and takes their emission away; nothing without attributes
 };
 
-/// How coordinates of a texture outside of it are taken.
+/// How texture coordinates outside of an image are treated.
 enum class WrapMode : std::uint32_t
 {
     Repeat,
@@ -94,7 +96,8 @@ enum class AlphaMode : std::uint32_t
     Blend   ///< a fragment exists in proportion to its alpha, by ordered dither on the voxel's coordinates
 };
 
-/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on.
+/// A cube of (1 << depth)^3 voxels. Voxel (x, y, z) is the box of edge voxel_size whose minimum corner is origin +
+/// voxel_size * (x, y, z).
 struct GridInfo
 {
     Vec3 origin{};           // world position of the minimum corner

@@ -75,9 +75,9 @@ public:
     /// attributes cannot be edited. Throws Error{Memory}.
     LiveScene(vk::HeadlessDevice& device, const TreeData& tree, const LiveOptions& options);
 
-    /// Uploads an animated scene and builds its static part; the dynamic objects are uploaded and voxelized later.
-    /// Waits. Of the static part of `animated`, only the cameras are kept. Throws Error{Memory} when the device's
-    /// budget does not suffice.
+    /// Uploads an animated scene and builds its static part; the dynamic objects are voxelized by the first
+    /// update(). Waits. Of the static part of `animated`, only the cameras are kept. Throws Error{Memory} when the
+    /// device's budget does not suffice.
     LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const Grid& grid, const LiveOptions& options,
               const StaticListener& listener = {});
 
