@@ -51,12 +51,9 @@ public:
     [[nodiscard]] std::uint64_t address() const;
 
     struct Impl;
-    ZVO_LOCAL explicit Tree(std::unique_ptr<Impl> impl); // only for the library
-    [[nodiscard]] Impl* impl() const
-    {
-        return m_impl.get();
-    }                                          // only for the library; null after the tree was taken over
-    ZVO_LOCAL std::unique_ptr<Impl> release(); // only for the library
+    ZVO_LOCAL explicit Tree(std::unique_ptr<Impl> impl);      // only for the library
+    [[nodiscard]] Impl* impl() const { return m_impl.get(); } // only for the library; null once taken over
+    ZVO_LOCAL std::unique_ptr<Impl> release();                // only for the library
 
 private:
     std::unique_ptr<Impl> m_impl;

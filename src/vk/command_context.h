@@ -8,15 +8,15 @@ namespace zvo::vk
 
 class Device;
 
-/// What a submission waits for on the device, and what it tells when it is done: semaphores, or null.
+/// The semaphores that a submission waits for and signals on the device; each may be null.
 struct SubmitSync
 {
     VkSemaphore wait = VK_NULL_HANDLE;
-    VkPipelineStageFlags2 wait_stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT; // of this submission: they wait
+    VkPipelineStageFlags2 wait_stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT; // stages of this submission that wait
     VkSemaphore signal = VK_NULL_HANDLE;
 };
 
-/// A command buffer and the fence that says when the device is done with it. It is recorded again only then.
+/// A command buffer, and a fence that tells when the device is done with it. Only then it can be recorded again.
 class CommandContext
 {
 public:
@@ -25,18 +25,18 @@ public:
     CommandContext(const CommandContext&) = delete;
     CommandContext& operator=(const CommandContext&) = delete;
 
-    /// Starts recording. What is recorded runs after, and sees, all that was submitted to the queue before. Nothing may
-    /// be under way.
+    /// Starts recording. The commands will run after all that was submitted to the queue before, and see what that has
+    /// written. The last submission must be finished.
     VkCommandBuffer begin();
 
     /// Ends recording and submits.
     void submit(const SubmitSync& sync = {});
 
-    /// Whether wait() would return, or throw, at once.
+    /// Whether wait() would return, or throw, without waiting.
     [[nodiscard]] bool done() const;
 
-    /// Waits for what was submitted. Throws Error when the device was lost or memory ran out; nothing is under way
-    /// then, either.
+    /// Waits for the submission. Throws Error when the device was lost or memory ran out; the submission counts as
+    /// finished then, too.
     void wait();
 
 private:

@@ -12,17 +12,17 @@
 namespace zvo::vk
 {
 
-/// Things that frames in flight may still use: kept until the device is done with the frame in which they were put
-/// away. Frames are numbered by the caller, upwards.
+/// Objects that frames in flight may still use. Each is kept until the device is done with the frame in which it was
+/// put into the queue. The caller numbers the frames in ascending order.
 class DeletionQueue final : public FrameParticipant
 {
 public:
-    /// What is kept from now on may be used by that frame and those before it.
+    /// Sets the current frame: objects that are kept from now on may be used by this frame and by earlier ones.
     void beginFrame(std::uint64_t frame) override { m_frame = frame; }
 
     [[nodiscard]] std::uint64_t frame() const { return m_frame; }
 
-    /// Where thing stands from now on, until the device is done with the frame.
+    /// Puts an object into the queue. Returns a reference to it, valid until the device is done with the current frame.
     template <typename T> std::decay_t<T>& keep(T&& thing)
     {
         auto kept = std::make_shared<std::decay_t<T>>(std::forward<T>(thing));
@@ -30,7 +30,7 @@ public:
         return *kept;
     }
 
-    /// The device is done with that frame and all before it.
+    /// Tells that the device is done with a frame and all frames before it: destroys what only these may use.
     void frameDone(std::uint64_t frame) override
     {
         while (!m_things.empty() && m_things.front().frame <= frame)

@@ -24,11 +24,11 @@ namespace zvo::vk
 using zvo::DeviceReport;
 using zvo::query;
 
-/// Lowers what report says and limits allow. What overrides take away and zvo needs becomes a reason.
+/// Lowers what report says, and limits, to what overrides allow. Whatever zvo then lacks is added to report's reasons.
 void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPhysicalDeviceLimits& limits);
 
-/// Everything a host hands over: zvo creates none of these and destroys none of them. What the host has enabled, it
-/// must declare: Vulkan cannot be asked.
+/// What a host hands over. zvo creates none of these handles and destroys none of them. Vulkan cannot be asked what is
+/// enabled, so the host declares it here.
 struct DeviceHandles
 {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
@@ -44,11 +44,11 @@ struct DeviceHandles
     const VkAllocationCallbacks* allocation_callbacks = nullptr;     // may be null; must outlive the Device
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;                 // may be null
     std::uint64_t memory_budget_bytes = UINT64_MAX;                  // what zvo may allocate on this device
-    std::string memory_budget_name = "the limit";                    // as whoever can raise it knows it, for messages
-    MemoryCallbacks memory{};                                        // of blocks and big buffers; may be empty
-    LogCallback log{};                                               // may be empty
-    DeviceOverrides overrides{};                                     // for tests
-    const Functions* functions = nullptr; // already loaded ones, of an owner; null: Device loads those that zvo calls
+    std::string memory_budget_name = "the limit"; // the limit's name in messages, as known to whoever can raise it
+    MemoryCallbacks memory{};                     // for blocks and big buffers; may be empty
+    LogCallback log{};                            // may be empty
+    DeviceOverrides overrides{};                  // for tests
+    const Functions* functions = nullptr; // functions that an owner has loaded; null: Device loads what zvo calls
 };
 
 /// A Vulkan device that somebody else owns, with zvo's function table, memory and kernels on it. Not thread safe.
@@ -56,8 +56,8 @@ struct DeviceHandles
 class Device
 {
 public:
-    /// What the declared features point to is read here and not kept. Throws Error{Usage} for handles that are null,
-    /// Error{Device} with every reason when the physical device will not do or was created without a required feature.
+    /// Reads what the declared features point to, and does not keep it. Throws Error{Usage} for null handles, and
+    /// Error{Device} with every reason when zvo cannot use the physical device or a required feature was not enabled.
     Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> kernels);
     ~Device();
     Device(const Device&) = delete;
@@ -65,12 +65,12 @@ public:
 
     [[nodiscard]] const Functions& fn() const { return m_functions; }
     [[nodiscard]] VkDevice handle() const { return m_handles.device; }
-    /// What the host handed over; the features in structs of the device's own, as far as zvo knows them.
+    /// What the host handed over. Its feature structs are copies of this Device's own, as far as zvo knows the structs.
     [[nodiscard]] const DeviceHandles& handles() const { return m_handles; }
     [[nodiscard]] const VkAllocationCallbacks* allocationCallbacks() const { return m_handles.allocation_callbacks; }
     [[nodiscard]] const DeviceReport& report() const { return m_report; }
 
-    /// Whether the host has enabled the feature that report().present calls so.
+    /// Whether the host has enabled the feature; name: as in report().present.
     [[nodiscard]] bool isEnabled(std::string_view feature) const;
 
     /// Whether the instance has VK_EXT_debug_utils: objects and passes get names.
@@ -78,7 +78,7 @@ public:
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return m_limits; }
 
-    /// What queues of DeviceHandles::queue_family can do.
+    /// The capabilities of the queues of DeviceHandles::queue_family.
     [[nodiscard]] VkQueueFlags queueFlags() const { return m_queue_flags; }
 
     [[nodiscard]] MemoryAllocator& memory() { return *m_memory; }
@@ -89,7 +89,7 @@ public:
     /// the driver cannot.
     void setName(VkObjectType type, std::uint64_t object, const std::string& name) const noexcept;
 
-    /// Tells the host, if it listens.
+    /// Sends a message to the host's log, if it has one.
     template <typename... Arguments>
     void log(LogSeverity severity, fmt::format_string<Arguments...> format, Arguments&&... arguments) const noexcept
     {
@@ -107,7 +107,7 @@ private:
     DeviceHandles m_handles;
     Functions m_functions;
     DeviceReport m_report;
-    FeatureChain m_features; // that the host has enabled
+    FeatureChain m_features; // features that the host has enabled
     std::vector<std::string> m_enabled;
     bool m_has_debug_utils = false;
     VkPhysicalDeviceLimits m_limits{};

@@ -13,15 +13,15 @@
 namespace zvo::vk
 {
 
-/// What a feature of Vulkan is to zvo.
+/// How zvo uses a Vulkan feature.
 enum class FeatureUse
 {
     Required,
     Optional, ///< used where it is enabled; see OptionalFeatures
-    Noted     ///< told of, for what may use it one day
+    Noted     ///< only reported; not used so far
 };
 
-/// A feature, and where its VkBool32 stands.
+/// A feature, and where its VkBool32 stands in Vulkan's structs.
 struct Feature
 {
     std::string_view name;

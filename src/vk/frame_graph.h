@@ -24,13 +24,13 @@ namespace zvo::vk
 
 class FrameGraph;
 
-/// Numbers of workgroups along x and y that make at least groups in all, with at most max_x along x and as few too many
-/// as an even split allows.
+/// Numbers of workgroups along x and y whose product is at least `groups`, with at most max_x along x. The product
+/// exceeds `groups` by as little as rows of equal length allow.
 std::array<std::uint64_t, 2> foldGroups(std::uint64_t groups, std::uint32_t max_x);
 
-/// One pass while it is being declared, whatever its kernel. Declaring an access and getting the buffer's address are
-/// the same call, so that a kernel cannot reach a buffer that the graph does not know of. A pass ends with exactly one
-/// dispatch; the calls below throw Error{Other} when they are misused.
+/// A pass while it is being declared, whatever its kernel. Declaring an access and getting the buffer's address are the
+/// same call, so that a kernel cannot reach a buffer that the graph does not know. A pass ends with exactly one
+/// dispatch. The functions below throw Error{Other} when they are misused.
 class AnyPass
 {
 public:
@@ -77,20 +77,20 @@ private:
     bool m_dispatched = false;
 };
 
-/// A pass of the kernel for which K stands: it takes K's parameters and nothing else.
+/// A pass of the kernel for which the type K stands. Its dispatches take K's parameters and nothing else.
 template <DeclaredKernel K> class Pass : public AnyPass
 {
 public:
     using Params = typename K::Params;
     static_assert(std::is_trivially_copyable_v<Params>);
 
-    /// Runs the kernel on at least threads threads (the excess of the last workgroups included; the kernel returns
-    /// early there). Folds more workgroups than the device allows along x into y: kernels number themselves with
-    /// lib/dispatch.glsl. Does nothing for 0 threads.
+    /// Runs the kernel on at least `threads` threads; those of the last workgroups beyond that number return early.
+    /// Where there are more workgroups than the device allows along x, they are folded into y, and kernels number
+    /// themselves with lib/dispatch.glsl. Does nothing for 0 threads.
     void dispatch(std::uint64_t threads, const Params& params) { dispatchRaw(threads, &params, sizeof(Params)); }
 
-    /// Runs the kernel on args.data[index] workgroups, which an earlier pass wrote: no more than max_groups, by which a
-    /// slicer judges how long that may take (by default, it finds out).
+    /// Runs the kernel on args.data[index] workgroups, which an earlier pass has written. max_groups: an upper bound,
+    /// from which a slicer estimates the time; by default, the slicer reads the number.
     void dispatchIndirect(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const Params& params,
                           std::uint64_t max_groups = UINT64_MAX)
     {
@@ -117,7 +117,7 @@ private:
     using AnyPass::AnyPass;
 };
 
-/// A buffer that a pass of the caller's own commands copies from or to.
+/// A buffer that the caller's own commands (FrameGraph::record) read or write.
 struct CopyUse
 {
     static CopyUse read(const Buffer& buffer) { return {buffer.handle(), buffer.name(), Access::CopyRead}; }
@@ -129,12 +129,14 @@ struct CopyUse
 };
 
 /// Records passes into a command buffer in the order in which they are declared, with one global memory barrier before
-/// a pass that has a hazard. Records only: it never submits and never waits. The command buffer may be a host's. With a
-/// slicer, passes and pieces of passes go into as many command buffers as that asks for; the results are the same.
+/// each pass that has a hazard. Never submits and never waits. The command buffer may be a host's. With a slicer,
+/// passes and pieces of passes are spread over as many command buffers as the slicer asks for; the results are the
+/// same.
 class FrameGraph
 {
 public:
-    /// Records into commands (in the recording state, outside a render pass). With timers, every pass is timed.
+    /// Records into commands, in the recording state and outside a render pass. If timers are given, every pass is
+    /// timed.
     FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers = nullptr, Slicer* slicer = nullptr);
 
     /// Opens a pass. The kernel's name is the pass's debug label and timer name.
@@ -143,21 +145,21 @@ public:
         return Pass<K>(*this, findKernel(K::kName, specializationOf(kernel)));
     }
 
-    /// The same for kernels of hosts, and for what tests make of kernels.
+    /// The same for kernels of hosts, and for passes of tests with other parameters.
     UntypedPass addPass(std::string_view kernel, const Specialization& specialization = {})
     {
         return UntypedPass(*this, findKernel(kernel, specialization));
     }
 
-    /// Sets count 32-bit words from word first on to value (by default, all whole words to the end).
+    /// Sets `count` 32-bit words, from word `first` on, to `value`; by default all whole words to the end.
     void fill(Buffer& buffer, std::uint32_t value, std::uint64_t first = 0, std::uint64_t count = UINT64_MAX);
 
     /// Copies bytes between two buffers, or between two ranges of one buffer that do not overlap.
     void copy(const Buffer& from, std::uint64_t from_offset, Buffer& to, std::uint64_t to_offset, std::uint64_t bytes);
 
-    /// Writes data to buffer from byte offset on; both lengths are multiples of 4. The bytes travel inside the command
-    /// buffer: data may go on return, and nothing waits. For small things that change every frame: pieces of 64 KiB,
-    /// one command each.
+    /// Writes data to buffer from byte `offset` on; offset and length are multiples of 4. The bytes travel inside the
+    /// command buffer, so data is not needed after the call, and nothing waits. Meant for small data that change every
+    /// frame: each piece of 64 KiB is a command of its own.
     void update(Buffer& buffer, std::uint64_t offset, std::span<const std::byte> data);
 
     /// The same for whole elements, from element first on.
@@ -167,9 +169,9 @@ public:
         update(static_cast<Buffer&>(buffer), first * sizeof(T), std::as_bytes(values));
     }
 
-    /// Records a pass of the caller's own commands, which copy from and to buffers: what it reads and writes of them is
-    /// declared here. Other resources are the caller's affair: passes before it may still be running when it begins.
-    /// commands gets the command buffer, outside a render pass, and leaves it so.
+    /// Records a pass of the caller's own commands. The buffers that they copy from and to are declared here; other
+    /// resources are up to the caller, as passes before this one may still be running when it begins. commands: is
+    /// called with the command buffer, which is outside a render pass and must stay so.
     void record(const std::string& name, std::span<const CopyUse> uses,
                 const std::function<void(VkCommandBuffer)>& commands);
     void record(const std::string& name, std::initializer_list<CopyUse> uses,
@@ -181,19 +183,19 @@ public:
     /// Makes everything written so far visible to the host once the work is complete.
     void releaseToHost();
 
-    /// Passes, their resources and the barriers between them, as text: one line each.
+    /// The passes, their buffers and the barriers between them as text, one line each.
     [[nodiscard]] const std::string& dump() const { return m_dump; }
 
-    /// Passes recorded so far. Work that is recorded between two calls has the passes from the first number on and
-    /// before the second one; in that order the timers list them.
+    /// The number of passes recorded so far. Work that is recorded between two calls consists of the passes from the
+    /// first number up to, but without, the second, in the order in which the timers list them.
     [[nodiscard]] std::size_t passCount() const { return m_pass_count; }
 
-    /// Passes that were recorded before this graph, with the same timers.
+    /// The number of passes that were recorded with the same timers before this graph.
     void countFrom(std::size_t pass_count) { m_pass_count = pass_count; }
 
     [[nodiscard]] Device& device() { return m_device; }
 
-    /// The command buffer that is recorded to: with a slicer, the one of the moment.
+    /// The command buffer that is recorded to. With a slicer it changes.
     [[nodiscard]] VkCommandBuffer commands() const { return m_commands; }
 
 private:

@@ -8,20 +8,21 @@
 namespace zvo::vk
 {
 
-/// Who remembers what was recorded into frames until it is known what becomes of them.
+/// An object that has recorded something into frames, and must learn what becomes of them.
 class FrameParticipant
 {
 public:
-    /// The frame that began last reaches the device, which cannot be taken back any more. Comes once or twice.
+    /// The frame that began last will reach the device and can no longer be taken back. Called once or twice for a
+    /// frame.
     virtual void frameSubmitted() {}
 
-    /// A frame begins to be recorded. Its number is above those of the frames before it.
+    /// The recording of a frame begins. Its number is higher than those of earlier frames.
     virtual void beginFrame(std::uint64_t /*frame*/) {}
 
-    /// The device is done with that frame and all before it.
+    /// The device is done with a frame and all frames before it.
     virtual void frameDone(std::uint64_t /*frame*/) {}
 
-    /// The frame that began last does not reach the device, or not all of it: what it changed is taken back.
+    /// The frame that began last does not reach the device, or not all of it: its changes are to be taken back.
     virtual void frameLost() {}
 
 protected:
@@ -33,15 +34,15 @@ protected:
     FrameParticipant& operator=(FrameParticipant&&) = default;
 };
 
-/// Numbers frames and tells participants what becomes of them, all in one order: a participant that uses another one in
-/// these calls stands before it.
+/// Numbers frames and tells participants what becomes of them, always in the same order: a participant that uses
+/// another one in these functions must stand before it.
 class FrameList
 {
 public:
-    /// participants outlive the list's calls.
+    /// participants must outlive the last call.
     explicit FrameList(std::vector<FrameParticipant*> participants) : m_participants(std::move(participants)) {}
 
-    /// Returns the frame's number: 1, 2, 3...
+    /// Begins a frame and returns its number: 1, 2, 3...
     std::uint64_t begin()
     {
         tell(&FrameParticipant::frameSubmitted);

@@ -8,22 +8,22 @@
 namespace zvo::vk
 {
 
-/// The free parts of something that is handed out in ranges: of a memory block, of the nodes behind an octree. Knows
-/// only numbers. First fit keeps what is in use together at the low end; freed neighbours become one range, so that
-/// there are never more free ranges than ranges in use plus one. Costs: take() looks at the free ranges from the lowest
-/// on, give() finds its place in logarithmic time.
+/// The free parts of something that is handed out in ranges: of a memory block, or of the nodes behind an octree. Only
+/// numbers are managed. Allocation is first fit, which keeps ranges in use together at the low end. Neighbouring free
+/// ranges are merged, so that there is at most one free range more than ranges in use. Cost: take() searches the free
+/// ranges from the lowest on; give() takes logarithmic time.
 class FreeRanges
 {
 public:
-    /// size numbers from offset on are free now. None of them may be free already; size may be 0.
+    /// Makes `size` numbers from `offset` on free. None of them may be free already; size may be 0.
     void give(std::uint64_t offset, std::uint64_t size);
 
-    /// The lowest offset that is a multiple of alignment and from which on size (at least 1) are free; they no longer
-    /// are. What is free in front of them stays so. Nothing when there is no such offset.
+    /// Takes `size` (at least 1) free numbers and returns the first: the lowest possible multiple of `alignment`. Free
+    /// numbers in front of it stay free. Returns nothing where there is no such range.
     std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment = 1);
 
     [[nodiscard]] std::uint64_t total() const { return m_total; } // free numbers
-    [[nodiscard]] std::uint64_t largest() const;                  // of the free ranges; looks at all of them
+    [[nodiscard]] std::uint64_t largest() const;                  // size of the largest free range; reads all of them
     [[nodiscard]] std::size_t rangeCount() const { return m_ranges.size(); }
 
 private:

@@ -12,7 +12,7 @@ namespace zvo::vk
 {
 
 // clang-format off
-// What zvo calls on the devices of hosts.
+// The functions that zvo calls on the devices of hosts.
 #define ZVO_VK_INSTANCE_FUNCTIONS(X)       \
     X(vkGetDeviceProcAddr)                 \
     X(vkGetPhysicalDeviceFeatures2)        \
@@ -52,13 +52,13 @@ namespace zvo::vk
     X(vkMapMemory)                   \
     X(vkResetQueryPool)
 
-// Of VK_EXT_debug_utils: null where the instance does not have it.
+// Functions of VK_EXT_debug_utils: null if the instance does not have it.
 #define ZVO_VK_DEBUG_FUNCTIONS(X)   \
     X(vkCmdBeginDebugUtilsLabelEXT) \
     X(vkCmdEndDebugUtilsLabelEXT)   \
     X(vkSetDebugUtilsObjectNameEXT)
 
-// What only those call who own an instance and a device (vk/owner_functions.h): they submit and wait, zvo does not.
+// Functions only for owners of an instance and a device (vk/owner_functions.h): zvo itself neither submits nor waits.
 #define ZVO_VK_OWNER_INSTANCE_FUNCTIONS(X)  \
     X(vkCreateDevice)                       \
     X(vkDestroyInstance)                    \
@@ -90,12 +90,12 @@ namespace zvo::vk
     X(vkResetFences)                     \
     X(vkWaitForFences)
 
-// As ZVO_VK_DEBUG_FUNCTIONS.
+// Like ZVO_VK_DEBUG_FUNCTIONS.
 #define ZVO_VK_OWNER_DEBUG_FUNCTIONS(X) \
     X(vkCreateDebugUtilsMessengerEXT)   \
     X(vkDestroyDebugUtilsMessengerEXT)
 
-// Of windows, and of what is drawn in them: null where the instance has no surfaces or the device no swapchains.
+// Functions for windows and for drawing in them: null if the instance has no surfaces or the device no swapchains.
 #define ZVO_VK_WINDOW_INSTANCE_FUNCTIONS(X)      \
     X(vkDestroySurfaceKHR)                       \
     X(vkGetPhysicalDeviceFormatProperties)       \
@@ -128,10 +128,11 @@ namespace zvo::vk
 /// devices work in one process and calls go to the driver without the loader's trampoline.
 struct Functions
 {
-    /// Those of an instance that zvo calls; what it does not have stays null, as do all others.
+    /// Loads the instance functions that zvo calls. Those that the instance lacks stay null, as do all others.
     static Functions ofInstance(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance);
 
-    /// Those of an instance and a device that zvo calls. Throws Error{Device} naming those that are missing.
+    /// Loads the functions of an instance and a device that zvo calls. Throws Error{Device} naming those that are
+    /// missing.
     static Functions ofDevice(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkDevice device);
 
     PFN_vkGetInstanceProcAddr vkGetInstanceProcAddr = nullptr;
@@ -147,7 +148,7 @@ struct Functions
 #undef ZVO_VK_MEMBER
 };
 
-/// Throws Error{Device} where missing, names with a space before each, is not empty.
+/// Throws Error{Device} if `missing` is not empty. missing: names, each with a space before it.
 void requireFunctions(const std::string& missing);
 
 } // namespace zvo::vk

@@ -41,16 +41,16 @@ struct Barrier
     [[nodiscard]] bool needed() const { return destination_stages != 0; }
 };
 
-/// Decides which barrier must stand before a pass. Knows nothing of the device: buffers are numbers here.
+/// Decides which barrier must stand before a pass. Needs no device: buffers are only numbers here.
 ///
-/// What a barrier costs is its wait, not its bits. So a barrier waits for the stages that have a hazard and no others,
-/// but it takes all writes of those stages along and opens all accesses of the stages it leads to: later passes then
-/// need fewer barriers.
+/// The cost of a barrier is its wait, not its access bits. So a barrier waits only for stages that have a hazard, but
+/// it covers all writes of these stages and makes them visible to all accesses of the stages it leads to; later passes
+/// then need fewer barriers.
 class HazardTracker
 {
 public:
-    /// The barrier that the next pass needs before it (needed() is false if none), given all its accesses. Several
-    /// accesses of one pass to one buffer count as one use.
+    /// The barrier that the next pass needs before it, for all its accesses together; its needed() is false if there is
+    /// none. Several accesses of one pass to one buffer count as one use.
     Barrier next(std::span<const BufferAccess> accesses);
 
     /// The barrier after which the host sees everything that was written so far, once the work is complete.
@@ -60,7 +60,7 @@ private:
     using StageMask = std::uint8_t;
     static constexpr int kStageCount = 4;
 
-    // The uses of a buffer in one stage, and the stages that later barriers have put behind them.
+    // The uses of a buffer in one stage, and for each the stages that later barriers make wait for it.
     struct Uses
     {
         StageMask stages = 0;

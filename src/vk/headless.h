@@ -22,33 +22,35 @@
 namespace zvo::vk
 {
 
-/// How a HeadlessDevice is made.
+/// Options of a HeadlessDevice.
 struct HeadlessOptions
 {
     std::string device;                   // name part, index, "cpu"; empty: the best usable one
     bool validation = false;              // core and synchronization validation
     bool gpu_assisted_validation = false; // instruments the kernels; implies validation
     std::uint64_t memory_budget_bytes = UINT64_MAX;
-    std::string memory_budget_name = "the limit";               // for messages
-    SliceOptions slices;                                        // how long submissions of run() may take
-    std::uint32_t submissions_in_flight = 3;                    // of submit(): at most; at least 1
-    std::string pipeline_cache_path;                            // empty: pipelines are not kept on disk
-    std::uint32_t timer_capacity = 4096;                        // passes of one run that are timed; 0: none
-    std::optional<WindowSupport> window;                        // for work that a window shows: a Swapchain
-    std::atomic<std::uint32_t>* message_counter = nullptr;      // also counts validation messages, to the very end
+    std::string memory_budget_name = "the limit"; // for messages
+    SliceOptions slices;                          // bounds on the submissions of run()
+    std::uint32_t submissions_in_flight = 3;      // the most submissions of submit() under way; at least 1
+    std::string pipeline_cache_path;              // empty: pipelines are not kept on disk
+    std::uint32_t timer_capacity = 4096;          // passes of one run that are timed; 0: none
+    std::optional<WindowSupport> window;          // support for showing results in a window (Swapchain)
+    std::atomic<std::uint32_t>* message_counter =
+        nullptr; // counts validation messages as well, until the instance is gone
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: of the machine's loader. For tests
     DeviceOverrides overrides;                                  // likewise
 };
 
-/// Reports of all physical devices, usable or not, in the loader's order; the index is their number for `device`.
+/// Reports of all physical devices, usable or not, in the loader's order. HeadlessOptions::device takes the index in
+/// this list.
 std::vector<DeviceReport> queryAllDevices();
 
-/// The project's own Vulkan instance, device and queue: for work without a window, unless options ask for one. It plays
-/// the host of the embedding contract: it owns what DeviceHandles names, submits and waits.
+/// The project's own Vulkan instance, device and queue, for work without a window unless options ask for one. It plays
+/// the host of the embedding contract: it owns the objects that DeviceHandles names, it submits, and it waits.
 class HeadlessDevice : public Uploader
 {
 public:
-    /// Throws Error{Device} when no device will do; the message lists every device with every reason.
+    /// Throws Error{Device} when zvo can use no device; the message lists every device with every reason.
     HeadlessDevice(const HeadlessOptions& options, std::span<const EmbeddedKernel> kernels);
     ~HeadlessDevice() override;
     HeadlessDevice(const HeadlessDevice&) = delete;
@@ -56,38 +58,39 @@ public:
 
     [[nodiscard]] Device& device() override;
 
-    /// The queue that everything is submitted to. Not to be used while a call of this class is going on.
+    /// The queue to which everything is submitted. Must not be used during a call of this class.
     [[nodiscard]] VkQueue queue();
 
-    /// Records with record, submits and waits; in several submissions where one would take too long
-    /// (HeadlessOptions::slices), which the results do not depend on. Returns the GPU time of each pass, in order.
-    /// Throws Error{Other} on a lost device.
+    /// Records with `record`, submits and waits. Work that would take too long is split into several submissions
+    /// (HeadlessOptions::slices), without influence on the results. Returns the GPU time of each pass, in order. Throws
+    /// Error{Other} on a lost device.
     std::vector<PassTime> run(const std::function<void(FrameGraph&)>& record);
 
-    /// Records with record and submits, without waiting for it: what runs is as long as what was recorded, never split.
-    /// Work runs, and sees what was written, in the order of submission, run() and transfers included. When
-    /// HeadlessOptions::submissions_in_flight are under way, waits for the oldest. What fails on the device is thrown
-    /// by Submission::wait(). The host may read mapped buffers then if record ends with FrameGraph::releaseToHost().
-    /// sync: semaphores that it waits for and signals. Throws what record throws, and Error{Other} on a lost device:
-    /// then it does neither.
+    /// Records with `record` and submits as a single submission, without waiting. All work runs in the order of
+    /// submission, and sees what earlier work has written; run() and transfers are no exception. If
+    /// HeadlessOptions::submissions_in_flight are under way already, waits for the oldest. Errors on the device are
+    /// thrown by Submission::wait(). If `record` ends with FrameGraph::releaseToHost(), the host may read mapped
+    /// buffers after wait(). sync: semaphores that the submission waits for and signals. Throws what `record` throws,
+    /// and Error{Other} on a lost device; then the semaphores are not used.
     [[nodiscard]] Submission submit(const std::function<void(FrameGraph&)>& record, const SubmitSync& sync = {});
 
-    /// Calls work, in which run(), uploads and downloads call pause between their submissions; those of run() aim at
-    /// submission_ms meanwhile. So a window stays alive while something long is made: pause may submit() and run(). It
-    /// must not touch what work is making, nor replace kernels, and ends it by throwing. Throws what work throws.
+    /// Calls `work`. While it runs, run(), uploads and downloads call `pause` between their submissions, and the
+    /// submissions of run() aim at submission_ms. So a window stays responsive while something long is made: `pause`
+    /// may call submit() and run(). It must not touch what `work` is making, nor replace kernels. It can end the work
+    /// by throwing. Throws what `work` throws.
     void withPauses(const std::function<void()>& pause, double submission_ms, const std::function<void()>& work);
 
-    /// Submissions of the last run().
+    /// The number of submissions of the last run().
     [[nodiscard]] std::uint32_t submissionCount() const;
 
-    /// Runs record's passes, as run().
+    /// Runs the passes of `record`, as run().
     void perform(const std::function<void(FrameGraph&, DeletionQueue&)>& record) override;
 
-    /// Does nothing: who submits knows what is under way.
+    /// Does nothing: users of this class know which submissions are under way, and keep objects themselves.
     void keep(std::shared_ptr<void> /*thing*/) override {}
 
-    /// Copies count elements from element first on (all of them by default) to the host and waits. Throws Error{Other}
-    /// when the buffer does not have them.
+    /// Copies `count` elements from element `first` on (by default all) to the host and waits. Throws Error{Other} when
+    /// the buffer is not long enough.
     template <typename T>
     std::vector<T> download(const BufferOf<T>& buffer, std::uint64_t first = 0, std::uint64_t count = UINT64_MAX)
     {
@@ -97,7 +100,7 @@ public:
         return values;
     }
 
-    /// What the validation layers have said so far (0 without them). Messages go to stderr as they come.
+    /// The number of messages of the validation layers so far (0 without them). Messages are printed to stderr.
     [[nodiscard]] std::uint32_t validationMessageCount() const;
 
 private:

@@ -17,9 +17,9 @@ class Image
 public:
     Image() = default;
 
-    /// width x height pixels in format; the contents are undefined and the layout is VK_IMAGE_LAYOUT_UNDEFINED.
-    /// There is a view unless usage is copies only: in format, or in another one of the same size. Throws Error{Memory}
-    /// when the device's budget does not allow it.
+    /// Makes an image of width x height pixels in `format`. Its contents are undefined and its layout is
+    /// VK_IMAGE_LAYOUT_UNDEFINED. Unless usage is only copies it gets a view, in `format` or in another format of the
+    /// same size. Throws Error{Memory} when the device's budget does not suffice.
     Image(Device& device, std::string name, std::uint32_t width, std::uint32_t height, VkFormat format,
           VkImageUsageFlags usage, VkFormat view_format = VK_FORMAT_UNDEFINED);
     ~Image();

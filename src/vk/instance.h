@@ -16,13 +16,14 @@ namespace zvo::vk
 /// Error{Device} when there is none.
 PFN_vkGetInstanceProcAddr loadVulkan();
 
-/// What an instance is made for.
+/// Options of an instance.
 struct InstanceOptions
 {
     bool validation = false;
-    bool gpu_assisted_validation = false;                       // implies validation
-    std::vector<const char*> extensions;                        // such as those of a window
-    std::atomic<std::uint32_t>* message_counter = nullptr;      // also counts messages, to the very end; may be null
+    bool gpu_assisted_validation = false; // implies validation
+    std::vector<const char*> extensions;  // such as those of a window
+    std::atomic<std::uint32_t>* message_counter =
+        nullptr; // counts messages as well, until the instance is gone; may be null
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: the machine's loader
 };
 
@@ -63,9 +64,9 @@ private:
     std::atomic<std::uint32_t>* m_message_counter = nullptr;
 };
 
-/// The usable device that wanted names: its index, a part of its name in any case, "cpu" for the first software device,
-/// or empty for the best (discrete before integrated, virtual and cpu). Throws Error{Device} listing every device with
-/// every reason.
+/// The usable device that `wanted` names: by its index, by a part of its name in any case, or "cpu" for the first
+/// software device; if empty, the best one (in the order discrete, integrated, virtual, cpu). Throws Error{Device}
+/// listing every device with every reason.
 const DeviceReport& chooseDevice(std::span<const DeviceReport> reports, const std::string& wanted);
 
 } // namespace zvo::vk

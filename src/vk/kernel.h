@@ -38,9 +38,10 @@ enum class ConstantType
 struct ModuleConstant
 {
     std::uint32_t id = 0; // constant_id
-    std::string name; // in the shader's source; of a local size kLocalSizeX, Y or Z; empty in a module without names
+    /// As in the shader's source; kLocalSizeX, Y or Z for a local size; empty in a module without names.
+    std::string name;
     ConstantType type = ConstantType::Other;
-    std::uint32_t value = 0; // without specialization
+    std::uint32_t value = 0; // default value
 
     bool operator==(const ModuleConstant&) const = default;
 };
@@ -61,7 +62,7 @@ struct KernelInterface
 /// has specialization constants that are not 32 bits wide.
 KernelInterface reflectKernel(std::span<const std::uint32_t> words);
 
-/// Values of specialization constants, by their index from 0: booleans as 0 and 1.
+/// Values of specialization constants, in the order of constant ids from 0 on; booleans as 0 and 1.
 using Specialization = std::vector<std::uint32_t>;
 
 /// A type that stands for a kernel (GPU_KERNEL in shared/gpu.h), with values for its specialization constants.
@@ -73,7 +74,7 @@ concept DeclaredKernel = requires
     K::kName;
 };
 
-/// All constants of a declared kernel.
+/// The values of all constants of a declared kernel.
 template <DeclaredKernel K> Specialization specializationOf(const K& kernel)
 {
     if constexpr (std::is_empty_v<K>)
@@ -96,7 +97,7 @@ struct Kernel
     VkPipeline pipeline = VK_NULL_HANDLE;
 };
 
-/// Creates pipelines on demand and keeps them for the life of a device, or until their kernel is replaced. Not thread
+/// Makes pipelines on demand and keeps them for the life of a device, or until their kernel is replaced. Not thread
 /// safe.
 class KernelCache
 {
@@ -106,18 +107,18 @@ public:
     KernelCache(const KernelCache&) = delete;
     KernelCache& operator=(const KernelCache&) = delete;
 
-    /// The kernel of that name with these constants; the reference stays valid. Constants that are not given keep their
-    /// default values. Throws Error{Other} for a name that was not embedded, for constants that the kernel does not
-    /// declare and for a workgroup that the device cannot run.
+    /// The pipeline of the kernel of that name with these constants; the reference stays valid. Constants that are not
+    /// given keep their default values. Throws Error{Other} for a name that was not embedded, for constants that the
+    /// kernel does not declare, and for a workgroup that the device cannot run.
     const Kernel& get(std::string_view name, const Specialization& specialization = {});
     template <DeclaredKernel K> const Kernel& get(const K& kernel) { return get(K::kName, specializationOf(kernel)); }
 
-    /// The kernel of that name is this module from now on, also where get() has returned it before; work that was
-    /// recorded before goes on with the old one until releaseReplaced(). Throws Error{Other}, and changes nothing, for
-    /// a name that was not embedded and for a module that does not take the same parameters, in the same workgroups.
+    /// Replaces the module of the kernel of that name, also in pipelines that get() has returned. Work that was
+    /// recorded before uses the old pipelines, which are kept until releaseReplaced(). Throws Error{Other}, and changes
+    /// nothing, for a name that was not embedded and for a module with other parameters or workgroups of another size.
     void replace(std::string_view name, std::vector<std::uint32_t> words);
 
-    /// The device is done with all work that was recorded before replace().
+    /// Frees replaced pipelines. The device must be done with all work that was recorded before replace().
     void releaseReplaced() noexcept;
 
     /// The names of all kernels.

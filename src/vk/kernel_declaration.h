@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What headers that C++ and GLSL share declare of kernels (GPU_KERNEL in shared/gpu.h), next to what modules say.
+// Compares what shared headers declare of kernels (GPU_KERNEL in shared/gpu.h) with what the modules say.
 #pragma once
 
 #include "shared/gpu.h"
@@ -18,7 +18,7 @@
 namespace zvo::vk
 {
 
-/// A kernel as a header declares it.
+/// A kernel as its header declares it.
 struct KernelDeclaration
 {
     std::string_view name;
@@ -27,7 +27,7 @@ struct KernelDeclaration
     std::vector<gpu::ConstantDescription> constants; // in order: the first has constant_id 0
 };
 
-/// What the header says of kernel K.
+/// The declaration of kernel K.
 template <DeclaredKernel K> KernelDeclaration declarationOf()
 {
     KernelDeclaration result;
@@ -47,9 +47,9 @@ template <DeclaredKernel K> KernelDeclaration declarationOf()
     return result;
 }
 
-/// Where declarations and modules differ, one line each: kernels that only one of them has, numbers, names, types and
-/// default values of specialization constants, names and sizes of parameters. The constant that C++ calls wide_keys is
-/// kWideKeys in GLSL.
+/// The differences between declarations and modules, one line each: kernels that only one side has; numbers, names,
+/// types and default values of specialization constants; names and sizes of parameters. The constant that C++ calls
+/// wide_keys is kWideKeys in GLSL.
 std::vector<std::string> differences(std::span<const KernelDeclaration> declarations,
                                      std::span<const EmbeddedKernel> kernels);
 

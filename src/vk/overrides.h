@@ -9,15 +9,15 @@
 namespace zvo::vk
 {
 
-/// Makes a device look smaller than it is, so that tests meet the limits of others. Never raises a limit.
+/// Makes a device look less capable than it is, so that tests meet the limits of other devices. Never raises a limit.
 struct DeviceOverrides
 {
     std::uint64_t max_buffer_bytes = UINT64_MAX;                                       // maxBufferSize
     std::uint64_t max_allocation_bytes = UINT64_MAX;                                   // maxMemoryAllocationSize
     std::array<std::uint32_t, 3> max_group_counts{UINT32_MAX, UINT32_MAX, UINT32_MAX}; // maxComputeWorkGroupCount
-    std::uint32_t subgroup_size = 0;   // of all kernels, where the device can choose; 0: the driver's choice
+    std::uint32_t subgroup_size = 0;   // for all kernels, where the device can choose; 0: the driver's choice
     std::vector<std::string> features; // treated as missing, by their names in DeviceReport
-    std::uint64_t buffer_slack = 0;    // bytes that every VkBuffer has behind what was asked for
+    std::uint64_t buffer_slack = 0;    // extra bytes at the end of every VkBuffer
 };
 
 } // namespace zvo::vk

@@ -6,10 +6,11 @@
 namespace zvo::vk
 {
 
-/// Functions::ofInstance(), and what owners of instances and windows call besides.
+/// Functions::ofInstance(), and also the functions that owners of instances and windows call.
 Functions ownerFunctions(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance);
 
-/// Functions::ofDevice(), and what owners of devices and windows call besides. Throws Error{Device} as that does.
+/// Functions::ofDevice(), and also the functions that owners of devices and windows call. Throws as
+/// Functions::ofDevice().
 Functions ownerFunctions(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkDevice device);
 
 } // namespace zvo::vk

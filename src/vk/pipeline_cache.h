@@ -8,12 +8,12 @@
 namespace zvo::vk
 {
 
-/// A pipeline cache that is read from a file and written back to it on destruction. A file that is missing, damaged or
-/// another device's gives an empty cache, and a file that cannot be written is left alone: neither is an error.
+/// A pipeline cache that is read from a file and written back on destruction. A file that is missing, damaged or of
+/// another device gives an empty cache, and a file that cannot be written is left alone; neither is an error.
 class PipelineCacheFile
 {
 public:
-    /// An empty path: a cache without a file. functions must outlive the cache.
+    /// path: empty for a cache without a file. functions must outlive the cache.
     PipelineCacheFile(const Functions& functions, VkPhysicalDevice physical_device, VkDevice device, std::string path);
     ~PipelineCacheFile();
     PipelineCacheFile(const PipelineCacheFile&) = delete;
@@ -21,7 +21,7 @@ public:
 
     [[nodiscard]] VkPipelineCache handle() const { return m_handle; }
 
-    /// Whether the file gave the cache its first contents.
+    /// Whether the cache was filled from the file.
     [[nodiscard]] bool loaded() const { return m_loaded; }
 
 private:

@@ -11,19 +11,20 @@
 namespace zvo::vk
 {
 
-/// A few values of several buffers, which the host reads once the device is done with the frame that copied them.
+/// Collects a few values of several buffers for the host, which reads them when the device is done with the frame's
+/// copies.
 class Readback
 {
 public:
     Readback() = default;
 
-    /// Room for bytes; copies take whole multiples of 8. Throws Error{Memory}.
+    /// bytes: the capacity; each copy takes a multiple of 8. Throws Error{Memory}.
     Readback(Device& device, std::uint64_t bytes) : m_bytes(device, "readback", bytes, MemoryKind::Readback) {}
 
-    /// Begins anew: what was copied before is overwritten.
+    /// Starts again at the beginning: earlier copies are overwritten.
     void clear() { m_end = 0; }
 
-    /// Records the copy of count elements from first on. Returns the offset to read them at, in bytes.
+    /// Records the copy of `count` elements from element `first` on. Returns the offset in bytes at which to read them.
     template <typename T>
     std::uint64_t copy(FrameGraph& graph, const BufferOf<T>& from, std::uint64_t first, std::uint64_t count)
     {
@@ -33,7 +34,7 @@ public:
         return offset;
     }
 
-    /// What was copied to that offset.
+    /// The values that were copied to that offset.
     template <typename T> [[nodiscard]] std::span<const T> at(std::uint64_t offset, std::uint64_t count) const
     {
         return {reinterpret_cast<const T*>(m_bytes.mappedData() + offset), count};

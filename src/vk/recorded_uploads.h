@@ -11,23 +11,24 @@
 namespace zvo::vk
 {
 
-/// Uploads that a frame carries out. They wait in staging buffers until flush(), or perform(), records their copies, so
-/// that what fails half way can be taken back: discard() before the buffers go. Not thread safe.
+/// Uploads that become part of a frame. They wait in staging buffers until flush(), or perform(), records the copies.
+/// So an object that could not be made completely can take its uploads back, by discard() before its buffers are
+/// destroyed. Not thread safe.
 class RecordedUploads final : public Uploader
 {
 public:
-    /// Staging buffers go to deletion_queue, which outlives this.
+    /// deletion_queue receives the staging buffers, and must outlive this object.
     RecordedUploads(Device& device, DeletionQueue& deletion_queue) : m_device(device), m_deletion_queue(deletion_queue)
     {
     }
 
-    /// What is recorded from now on goes to graph; null: nothing can be.
+    /// Sets the graph that records the copies; null: nothing can be recorded.
     void attach(FrameGraph* graph) { m_graph = graph; }
 
-    /// Records the copies that wait.
+    /// Records the copies of all waiting uploads.
     void flush();
 
-    /// Forgets them.
+    /// Drops all waiting uploads.
     void discard() noexcept { m_copies.clear(); }
 
     [[nodiscard]] Device& device() override { return m_device; }

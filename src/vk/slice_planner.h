@@ -10,45 +10,45 @@
 namespace zvo::vk
 {
 
-/// How long a submission may take.
+/// Bounds on the length of a submission.
 struct SliceOptions
 {
     double submission_ms = 400;   // aimed at; desktop systems stop a GPU after about 2,000; 0: never split anything
-    std::uint64_t most_units = 0; // of one submission, whatever they cost; 0: no such bound. For tests
+    std::uint64_t most_units = 0; // for tests: the most units of one submission; 0: no such bound
 };
 
-/// Decides how much work goes into one submission from what earlier work has cost. A unit is a workgroup of a kernel,
-/// or some bytes of a fill. Knows nothing of Vulkan, and its decisions never change results.
+/// Decides how much work goes into one submission, from the cost of earlier work. A unit is a workgroup of a kernel, or
+/// a number of bytes of a fill. Knows nothing of Vulkan. Its decisions never change results.
 ///
-/// Work whose cost is not known starts with kFirstUnits. In every run, the first piece of some work should cost at most
-/// 1 / kCaution of the target, because the same kernel may cost more on other data; after a measurement, the next piece
-/// may have kCaution times as many units.
+/// Work of unknown cost starts with kFirstUnits. In every run, the first piece of any work should cost at most 1 /
+/// kCaution of the target, because the same kernel may cost more on other data. After a measurement, the next piece may
+/// have kCaution times as many units.
 class SlicePlanner
 {
 public:
     static constexpr std::uint64_t kFirstUnits = 256;
     static constexpr std::uint64_t kCaution = 8;
 
-    /// What kind of work it is: any number, such as a kernel's address.
+    /// The kind of work: any number, such as a kernel's address.
     using Key = std::uint64_t;
 
     explicit SlicePlanner(const SliceOptions& options) : m_options(options) {}
 
     void beginRun();
 
-    /// From the next run on, submissions aim at so many milliseconds. Returns what they aimed at before.
+    /// Sets the target in milliseconds of submissions from the next run on. Returns the last target.
     double aimAt(double submission_ms) { return std::exchange(m_options.submission_ms, submission_ms); }
 
-    /// How many of units may go into the current submission; 0: submit first. Never 0 in an empty submission.
+    /// How many of `units` may go into the current submission; 0: submit first. Never 0 for an empty submission.
     std::uint64_t admit(Key key, std::uint64_t units);
 
-    /// Whether work of at most bound units, whose number only the device knows, may go into the current submission
-    /// without looking. When it may not, the caller learns the number and tells it by learnCount().
+    /// Whether work of at most `bound` units, whose number only the device knows, may go into the current submission
+    /// without reading the number. If not, the caller reads it and passes it to learnCount().
     bool admitUnseen(Key key, std::uint64_t bound);
     void learnCount(Key key, std::uint64_t bound, std::uint64_t units);
 
-    /// The submission is complete. pass_ms: of each admitted piece in order, or empty where nobody measured them: then
-    /// all of them together took total_ms.
+    /// Learns from the submission, which is complete. pass_ms: the time of each admitted piece in order; if empty,
+    /// total_ms is the time of all of them together.
     void endSubmission(std::span<const double> pass_ms, double total_ms);
 
     [[nodiscard]] bool submissionEmpty() const { return m_pieces.empty(); }

@@ -12,8 +12,9 @@ namespace zvo::vk
 
 class Flight;
 
-/// Work that HeadlessDevice::submit() gave to the device, and that may still be under way. What it uses must live until
-/// it is done. Destroying it waits, and so does destroying the device, after which it can still be asked. Move-only.
+/// Work that HeadlessDevice::submit() gave to the device and that may still be under way. Objects that it uses must
+/// live until it is done. The destructor waits, and so does that of the device, after which the Submission may still be
+/// asked. Move-only.
 class Submission
 {
 public:
@@ -23,11 +24,11 @@ public:
     Submission(Submission&& other) noexcept = default;
     Submission& operator=(Submission&& other) noexcept; ///< waits for the work that it replaces
 
-    /// Whether wait() would return, or throw, at once. Does not wait.
+    /// Whether wait() would return, or throw, without waiting.
     [[nodiscard]] bool done() const;
 
-    /// Waits, and returns the GPU time of each pass in order: the same however often it is called. Throws Error{Other}
-    /// when the device was lost.
+    /// Waits, and returns the GPU time of each pass, in order. Every call returns the same. Throws Error{Other} when
+    /// the device was lost.
     std::vector<PassTime> wait();
 
 private:
@@ -35,7 +36,7 @@ private:
 
     struct State
     {
-        Flight* flight = nullptr; // that the work is under way in
+        Flight* flight = nullptr; // the Flight in which the work is under way
         std::vector<PassTime> times;
         std::exception_ptr failure;
     };

@@ -16,7 +16,7 @@ class Device;
 
 using zvo::PassTime;
 
-/// Timestamps around passes, in one query pool. A pool without timestamps (the device has none) stays empty.
+/// Timestamps around passes, in one query pool. On a device without timestamps the pool stays empty.
 class TimerPool
 {
 public:
@@ -25,16 +25,16 @@ public:
     TimerPool(const TimerPool&) = delete;
     TimerPool& operator=(const TimerPool&) = delete;
 
-    /// Forgets all passes; the pool may be recorded to again. The device must be done with it.
+    /// Forgets all passes, so that the pool can be recorded to again. The device must be done with it.
     void reset();
     void begin(VkCommandBuffer commands, const std::string& name);
     void end(VkCommandBuffer commands);
 
-    /// The times of the recorded passes in order, after the device is done with them. Passes past the capacity are left
-    /// out and counted in droppedCount().
+    /// The times of the recorded passes, in order. The device must be done with them. Passes beyond the capacity are
+    /// left out and counted by droppedCount().
     [[nodiscard]] std::vector<PassTime> collect() const;
 
-    /// The same; none where the device did not carry out all of them.
+    /// The same; nothing if the device has not carried out all passes.
     [[nodiscard]] std::optional<std::vector<PassTime>> collectIfReady() const;
     [[nodiscard]] std::uint32_t droppedCount() const { return m_dropped_count; }
 
@@ -42,7 +42,7 @@ private:
     Device& m_device;
     VkQueryPool m_pool = VK_NULL_HANDLE;
     std::uint32_t m_pass_capacity;
-    std::uint32_t m_stamp_count; // of a pass: begin, end and, on software devices, one more
+    std::uint32_t m_stamp_count; // stamps for each pass: begin, end and, on software devices, one more
     std::uint32_t m_dropped_count = 0;
     bool m_open = false;
     std::vector<std::string> m_names;

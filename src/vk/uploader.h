@@ -17,8 +17,8 @@ class Device;
 class FrameGraph;
 class DeletionQueue;
 
-/// Fills buffers from the host's memory. Who implements it decides when: HeadlessDevice copies at once and waits,
-/// RecordedUploads puts the copies into a frame.
+/// Fills buffers from the host's memory. The implementation decides when: HeadlessDevice copies at once and waits,
+/// RecordedUploads records the copies into a frame.
 class Uploader
 {
 public:
@@ -26,11 +26,11 @@ public:
 
     [[nodiscard]] virtual Device& device() = 0;
 
-    /// Has record's passes run behind all uploads before, and before whatever uses their results. What they need no
-    /// longer then goes to the DeletionQueue. Throws what record throws.
+    /// Runs the passes of `record` after all earlier uploads, and before whatever uses their results. Objects that are
+    /// not needed after the passes go into the DeletionQueue that `record` gets. Throws what `record` throws.
     virtual void perform(const std::function<void(FrameGraph&, DeletionQueue&)>& record) = 0;
 
-    /// Keeps thing for as long as work that was handed over earlier may use it.
+    /// Keeps an object for as long as work that was handed over earlier may use it.
     virtual void keep(std::shared_ptr<void> thing) = 0;
 
     /// Copies values to buffer from element first on. Throws Error{Other} when they do not fit, Error{Memory}.
@@ -39,7 +39,7 @@ public:
         uploadBytes(buffer, first * sizeof(T), values.data(), values.size_bytes());
     }
 
-    /// A new buffer holding values.
+    /// Makes a new buffer with these values.
     template <typename T> BufferOf<T> makeBuffer(std::string name, std::span<const T> values)
     {
         BufferOf<T> buffer(device(), std::move(name), values.size());

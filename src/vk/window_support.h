@@ -22,8 +22,8 @@ struct WindowSupport
     std::function<bool(VkInstance, VkPhysicalDevice, std::uint32_t queue_family)> can_present;
 };
 
-/// Puts the first queue family that computes, draws and presents to the window into report; what the device lacks for
-/// that becomes a reason against it.
+/// Sets report.queue_family to the first queue family that computes, draws and presents to the window. If something is
+/// missing for that, the reason is added to report.reasons.
 void requireWindow(const WindowSupport& window, const Instance& instance, DeviceReport& report);
 
 } // namespace zvo::vk
