@@ -20,14 +20,14 @@ const uint kNormalExponentMax = 227u;
 
 const uint kCanonicalNan = 2143289344u; // the bits of what is written for a number that is not finite
 
-// Bits of a variant: what the vertices of an instance have. Each is a specialization constant. Skinned vertices always
-// have normals, of which all may be 0: what comes of those tells which side of a triangle is outside.
+// Bits of a variant: what the vertices of an instance have. Each bit is a specialization constant. Skinned vertices
+// always have normals, which may all be 0: the result of such a normal tells which side of the triangle is outside.
 const uint kDeformMorphed = 1u; // constant 0
 const uint kDeformSkinned = 2u; // constant 1
 const uint kDeformNormals = 4u; // constant 2
 const uint kDeformVariants = 8u;
 
-/// What a vertex hangs on.
+/// The joints and weights of a vertex.
 struct JointBinding
 {
     uvec2 joints; // of the skin: the first two, the last two, 16 bits each; 0 where the weight is 0
@@ -37,7 +37,7 @@ GPU_BUFFER(JointBinding, 4);
 
 GPU_BUFFER(mat4x3, 4);
 
-/// Adds to each vertex a target's delta times weight.
+/// A morph target in a pose: its delta times weight is added to each vertex.
 struct MorphTerm
 {
     uint first_delta; // in DeformParams::deltas, of the primitive's first vertex
@@ -45,7 +45,7 @@ struct MorphTerm
 };
 GPU_BUFFER(MorphTerm, 4);
 
-/// How many terms count for an instance at present.
+/// The numbers of terms of an instance in the present pose.
 struct MorphCounts
 {
     uint positions;

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What changed nodes of a level look like from afar.
+// Computes the attributes of the changed nodes of a level.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 #include "lib/average.glsl"

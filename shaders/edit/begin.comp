@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Makes slot 0 the static tree.
+// Makes slot 0 the unedited static tree.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the kernels that compact edits (edit/edit.h) share with the host.
 //
-// What slots that are kept are made of moves to another region, the rest is forgotten. Nodes and voxels
-// keep their order, so that children stay together and states stay in the order of dabs.
+// The nodes and voxels of the slots that are kept move to another region; the rest is forgotten. Nodes and voxels keep
+// their order, so that children stay together and the states of slots stay in the order of dabs.
 #ifndef ZVO_SHADERS_EDIT_COMPACT_H
 #define ZVO_SHADERS_EDIT_COMPACT_H
 
@@ -10,18 +10,18 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kMarkSlot = ~0u; // root of a slot that is not used: kept where it is, whatever it is
+const uint kMarkSlot = ~0u; // root of a slot that is not used: stays where it is, whatever it holds
 
 struct EditMarkParams // push constants of edit/mark: one thread a node of the region
 {
     GPU_CONST_PTR(Node) nodes;
-    GPU_PTR(uint) marks;      // [node_count] of the region: 1 + the node's level, kMarkSlot, or 0
-    GPU_PTR(uint) voxel_bits; // [ceil(voxel_count / 32)] of the region: kept
+    GPU_PTR(uint) marks;      // [node_count] kept nodes of the region: 1 + the node's level, or kMarkSlot; 0: not kept
+    GPU_PTR(uint) voxel_bits; // [ceil(voxel_count / 32)] bits of the region's voxels that are kept
     uint first_node;          // of the region
     uint node_count;
     uint first_voxel;
     uint voxel_count;
-    uint level; // the nodes that mark their children, or voxels
+    uint level; // level of the nodes that mark their children, or voxels
 };
 GPU_KERNEL_BEGIN(edit, mark, Mark, EditMarkParams)
     GPU_CONSTANT(bool, leaves, false)

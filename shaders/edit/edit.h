@@ -14,9 +14,9 @@
 //                                                             ▲ tops of the slot that is shown
 //
 // A *slot* has a root and an EditState, which says how far up the copies reach that it is made of. A dab begins at the
-// state of the slot that it changes, so what stood above that is forgotten: undo is another slot, and a dab after it
-// takes the room of those that it undoes. But a frame may be lost, whether the device has run it or not: what was shown
-// before it keeps its room until its end.
+// state of the slot that it changes, and may overwrite whatever stands above that: undo shows an earlier slot, and a
+// dab after it takes the room of the dabs that were undone. But a frame may be lost, whether or not the device has run
+// it. So until the end of a frame, the room of the slot that was shown before it is not overwritten.
 //
 // The cells of a dab are the nodes, of all levels, that its box touches: the root first, each level x first. Their
 // number depends on the brush alone, not on the tree.
@@ -53,7 +53,7 @@ struct Brush
     uint color; // of voxels that are made or painted: sRGB red | green << 8 | blue << 16
 };
 
-/// The voxels of the grid that a brush can reach, not empty, and the cells there.
+/// The voxels of the grid that a brush can reach, at least one, and the cells that they lie in.
 struct EditBox
 {
     uvec3 lo;
@@ -61,7 +61,7 @@ struct EditBox
     uint level_count;
 };
 
-/// A node under the brush, or the cell of one that is missing.
+/// A node of the base tree under the brush, or the empty place of a node that does not exist.
 struct EditCell
 {
     uint base;    // node of the base tree, or kNoEditNode
@@ -77,7 +77,7 @@ GPU_BUFFER(EditCell, 4);
 
 const uint kNoEditNode = ~0u;
 
-/// How far up the copies of a slot reach.
+/// The ends of the nodes and voxels that a slot is made of.
 struct EditState
 {
     uint node_top;    // the first free node
@@ -87,7 +87,7 @@ struct EditState
 };
 GPU_BUFFER(EditState, 4);
 
-/// Where a dab comes from and goes to.
+/// The slots that a dab reads and writes.
 struct EditSlots
 {
     uint region_node; // the root of slot 0
@@ -147,7 +147,7 @@ struct EditAllocateParams // push constants of edit/allocate: one workgroup
     uint inner_count; // cells that are no leaves
     uint from;
     uint to;
-    uint kept;     // a slot that keeps its room, too
+    uint kept;     // another slot whose room is not overwritten
     uint node_end; // of the region
     uint voxel_end;
 };

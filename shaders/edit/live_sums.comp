@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// How much of each block is kept.
+// Counts the elements of each block that are kept.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/kept.glsl"
 

@@ -1,7 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Marks what the kept nodes of a level are made of: their children, or the voxels of leaves, as far as these stand in
-// the region.
+// Marks the children, or the voxels of leaves, of the kept nodes of a level, as far as they stand in the region.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
 #include "lib/dispatch.glsl"

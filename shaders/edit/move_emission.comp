@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Copies what the kept voxels emit to the new region.
+// Copies the emission of the kept voxels to the new region.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
 #include "lib/dispatch.glsl"

@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform Push
     EditMoveParams params;
 };
 
-// Where a run of children, or of a leaf's voxels, stands afterwards: all of it is kept.
+// The new position of a run of children, or of a leaf's voxels; all of the run is kept.
 uint movedNode(uint base)
 {
     uint i = base - params.first_node;

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// How far up the copies of slots reach in the new region.
+// Sets the states of the slots in the new region: how far up their copies reach.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
 #include "lib/dispatch.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Which children the cells of a level have after the dab: a node that has lost all of its own is none.
+// Finds which children the cells of a level have after the dab. A node that has lost all children is removed.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 #include "edit/cells.glsl"

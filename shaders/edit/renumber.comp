@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What is kept before each element.
+// Counts the kept elements before each element.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/kept.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What the voxels of changed leaves look like: as before, or as the brush says.
+// Writes the attributes of the voxels of changed leaves: as before the dab, or as the brush asks.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/voxels.glsl"
 #include "lib/attribute.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes out of any format, in integers: src/core/tree/attribute_format.cpp is the same for the host.
+// Unpacks attributes of all formats, in integers; src/core/tree/attribute_format.cpp does the same on the host.
 #include "lib/normal_code.glsl"
 #include "shared/attribute_formats.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a node looks like from afar.
+// The attribute of an inner node: the mean of its children's.
 #include "lib/attribute.glsl"
 
-// The mean of a node's children, which stand one behind the other, all weighted alike.
+// The mean of the attributes of a node's children, which stand together and have equal weights.
 Attribute averageChildren(SceneView_ConstPtr scene, Node node, Attribute_ConstPtr children)
 {
     uint count = bitCount(node.mask_lo) + bitCount(node.mask_hi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What kind of number a float is, from its bits: devices may assume that there is neither NaN nor infinity.
+// Classifies floats by their bits, as devices may assume that there is neither NaN nor infinity.
 
 bool isFinite(float x)
 {

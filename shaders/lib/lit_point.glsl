@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where rays start that gather light for a hit. The includer includes trace/trace.h, lib/attribute_formats.glsl,
+// The origin of rays that gather light for a hit. The includer includes trace/trace.h, lib/attribute_formats.glsl,
 // lib/hit.glsl, lib/surface_normal.glsl and lib/traverse.glsl before.
 
 struct LitPoint

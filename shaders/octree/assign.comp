@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Gives every node of a level its child bases from the prefix sum of child counts, and tells a leaf's table entry,
-// where it has room for it, where its voxels start.
+// Sets the child bases of every node of a level from the prefix sum of child counts. Where a leaf's entry in the brick
+// table has room for it, the entry gets the number of the leaf's first voxel.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/dispatch.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What a node looks like from afar: the mean of its occupied children, all weighted alike.
+// Computes the attribute of each node of a level: the mean of its children's, with equal weights.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/average.glsl"

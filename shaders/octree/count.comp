@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Children of each block of kScanBlock nodes.
+// Counts the children of each block of kScanBlock nodes.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/dispatch.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Notes which work items the level that was just listed has, and how many workgroups take them.
+// Sets the range of work items of the level that was just listed, and the number of workgroups for it.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/dispatch_args.glsl"

@@ -10,13 +10,13 @@
 GPU_NAMESPACE_BEGIN
 
 const uint kCollectGroup = 64u; // threads of a workgroup of octree/collect
-const uint kCollectItems = 16u; // table entries a thread of it looks at, at most 32
+const uint kCollectItems = 16u; // table entries that a thread of it reads, at most 32
 const uint kNodesGroup = 64u;   // threads of a workgroup where one thread takes one node
-const uint kScanGroup = 64u;    // threads of a workgroup that scans: barriers are dear on CPUs
+const uint kScanGroup = 64u;    // threads of a workgroup that scans: few, as barriers are expensive on CPUs
 const uint kScanItems = 16u;    // elements a thread of such a workgroup takes
 const uint kScanBlock = 1024u;  // elements a workgroup takes: kScanGroup * kScanItems
 
-/// A node under construction: its entry in the brick table and its parent's.
+/// A node under construction: the numbers of its own and its parent's entry in the brick table.
 struct WorkItem
 {
     uint entry;

@@ -7,10 +7,10 @@
 
 GPU_NAMESPACE_BEGIN
 
-const uint kScaleRows = 8u;   // pixels that a thread of present/scale takes: the division for its column is dear
+const uint kScaleRows = 8u;   // pixels that a thread of present/scale takes: one division finds their column
 const uint kScaleGroup = 64u; // threads of a workgroup of present/scale
 
-/// Rows of pixels from the top left, red | green << 8 | blue << 16 | alpha << 24, both.
+/// Both pictures are rows of pixels from the top left, each red | green << 8 | blue << 16 | alpha << 24.
 struct ScaleParams // push constants of present/scale: one thread kScaleRows pixels of a column
 {
     GPU_CONST_PTR(uint) from; // [from_size.x * from_size.y]

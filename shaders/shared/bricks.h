@@ -16,10 +16,10 @@ GPU_NAMESPACE_BEGIN
 ///          | key    | mask_lo| mask_hi| base   |
 ///          | key_lo | mask_lo| mask_hi| key_hi |   wide
 ///
-/// 0 as the first word: the entry is free. Both words of a wide key are there when the dispatch that set them has
-/// ended. The masks are those of Node. base is the node's index while the octree is built; of a leaf, afterwards: its
-/// first voxel. With wide keys the index takes the place of mask_lo once the node has it, as the masks are in the node
-/// then.
+/// A first word of 0 means that the entry is free. Both words of a wide key are set by the end of the dispatch that
+/// sets them. The masks are those of Node. base is the node's index while the octree is built, and in a leaf,
+/// afterwards, its first voxel. With wide keys base is not available: once a node has its index, that takes the place
+/// of mask_lo, as the masks are then in the node.
 struct BrickEntry
 {
     uint key;
@@ -36,7 +36,7 @@ const uint kBrickKeyTag = 1u << 31; // in both words of a wide key
 const uint kBrickProbesMax = 256u; // entries looked at before the table counts as full
 const uint kBrickRunLog2 = 3u;     // neighbours in Morton order share a run of 1 << kBrickRunLog2 entries
 
-/// What happened to the table.
+/// Counts of what happened to the table.
 struct BrickCounters
 {
     uint node_count;     // nodes listed so far

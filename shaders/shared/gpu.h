@@ -175,8 +175,8 @@ struct DispatchArgs
 };
 GPU_BUFFER(DispatchArgs, 4);
 
-/// Invocations of a workgroup of which one writes DispatchArgs. On lavapipe, the validation layers look addresses up
-/// wrongly in a workgroup of one.
+/// Invocations of a workgroup of which only one writes DispatchArgs. One invocation would do, but in a workgroup of one
+/// the validation layers check addresses wrongly on lavapipe.
 const uint kArgsGroup = 8u;
 
 GPU_NAMESPACE_END

@@ -30,7 +30,7 @@ struct Node
 };
 GPU_BUFFER(Node, 16);
 
-/// What a voxel, or an inner node for level of detail, looks like: 8 bytes.
+/// The attributes of a voxel, or of an inner node for level of detail: 8 bytes.
 struct Attribute
 {
     uint color;  // sRGB red | green << 8 | blue << 16 | flags << 24

@@ -21,8 +21,9 @@ const uint kUvOne = 65536u;       // a texture coordinate of 1
 const uint kUvLimit = 8192u;      // texture coordinates beyond +-kUvLimit are clamped
 const uint kFractionOne = 65535u; // 1 as a 16-bit fraction: colours, factors, alpha
 
-// A normal is a direction where its largest component has a biased exponent in this range, 2^-99 to 2^100. A vertex
-// with any other has none and takes its triangle's, turned round where x has the bits of -2^-120.
+// A normal is a direction if the biased exponent of its largest component is in this range, 2^-99 to 2^100. A vertex
+// with any other normal has none and takes that of its triangle; turned round if the normal's x has the bits of
+// -2^-120.
 const uint kDirectionExponentMin = 28u;
 const uint kDirectionExponentMax = 226u;
 const uint kTurnedRoundBits = 2206203904u;
@@ -71,7 +72,7 @@ struct TextureLevel
 };
 GPU_BUFFER(TextureLevel, 4);
 
-/// Where everything is. Kernels get the address of this table.
+/// The addresses of all buffers of a scene. Kernels get the address of this table.
 struct SceneView
 {
     GPU_CONST_PTR(Draw) draws;

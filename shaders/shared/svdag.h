@@ -31,8 +31,8 @@ GPU_NAMESPACE_BEGIN
 const uint kChildList = 0x80000000u; // flag in Node::base_lo and base_hi
 const uint kListWordBits = 64u;      // of a word of entries
 
-/// Of a long entry: what the octree has below the node's children before this one. (For entries of parents of leaves
-/// there are 16 bits each, two to a word, the lower half first: voxels before the leaf.)
+/// Of a long entry: how many voxels and nodes the octree has below the node's children before this one. For the entries
+/// of parents of leaves there are only 16 bits each, two to a word, the lower half first: voxels before the leaf.
 struct BeforeChild
 {
     uint voxels;
@@ -40,7 +40,7 @@ struct BeforeChild
 };
 GPU_BUFFER(BeforeChild, 8);
 
-/// What the ranks of voxels, and of the octree's nodes depth first, are summed up from.
+/// The arrays from which the ranks of voxels, and of the octree's nodes depth first, are summed up.
 struct RankSource
 {
     GPU_CONST_PTR(Node) pool;

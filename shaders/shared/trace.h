@@ -10,7 +10,7 @@
 
 GPU_NAMESPACE_BEGIN
 
-/// A ray as the traversal takes it: the direction only through its inverse.
+/// A ray as the traversal takes it; the direction is only needed as its inverse.
 struct Ray
 {
     vec3 origin;            // unit space
@@ -31,7 +31,7 @@ struct CameraRays
     vec3 step_y; // half a pixel down
 };
 
-/// What a ray met first. 16 bytes, as lib/hit.glsl packs them:
+/// What a ray meets first. 16 bytes, as lib/hit.glsl packs them:
 ///
 ///     where: x 18 bits | y 18 | z 18 | level 4 | face 2, from the lowest bit of where.x on
 struct Hit

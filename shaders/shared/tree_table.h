@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All that rays through a tree, and reading what they hit, need to know of it: an octree, a DAG, or one of them with
-// overlays. Shaders of hosts get it by its address (host/trace.glsl).
+// What shaders need to know of a tree to trace rays through it and to read attributes of hits. The tree is an octree or
+// a DAG, either with or without overlays. Shaders of hosts get the table by its address (host/trace.glsl).
 #ifndef ZVO_SHADERS_SHARED_TREE_TABLE_H
 #define ZVO_SHADERS_SHARED_TREE_TABLE_H
 

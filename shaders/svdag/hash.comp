@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A hash of 64 bits of each inner node of a level: of its mask and the classes of its children.
+// Computes a hash of 64 bits of each inner node of a level, from its mask and the classes of its children.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #define LISTS_CONSTANT_ID 0

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From the slot of each node of a level to its class.
+// Replaces the slot of each node of a level by its class.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #include "lib/dispatch.glsl"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the kernels that compress an octree share with the host (docs/svdag.md). Candidates are the nodes of what is
-// compressed, an octree, or a DAG in which equal nodes may stand several times. The class of a candidate is the first
-// candidate of its level with equal subtrees below.
+// What the kernels that compress an octree share with the host (docs/svdag.md). Candidates are the nodes that are
+// compressed: those of an octree, or of a DAG in which equal nodes may stand several times. The class of a candidate is
+// the first candidate of its level that has the same subtree below it.
 #ifndef ZVO_SHADERS_SVDAG_SVDAG_H
 #define ZVO_SHADERS_SVDAG_SVDAG_H
 
@@ -12,9 +12,9 @@ GPU_NAMESPACE_BEGIN
 
 const uint kSvdagGroup = 64u;      // threads of a workgroup where one thread takes one node
 const uint kClassProbesMax = 256u; // slots an insert looks at before the table counts as full
-const uint kEmptySlot = ~0u; // of the table of classes: otherwise the first candidate of a class, as far as is known
+const uint kEmptySlot = ~0u; // a free slot; a taken one holds the first candidate of a class that has been found so far
 
-/// What the host learns.
+/// Sizes and failures that the host reads.
 struct ClassSizes
 {
     uint node_count;                      // unique nodes

@@ -1,10 +1,10 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Which tiles can hit anything, and from where on. One ray through the middle of the tile goes through the beam grid:
-// while the tile is no wider than a cell, and the middle is in a cell that is not set, no ray of the tile is in an
-// occupied part of the octree; nor, at a level of detail, in a node with one, if the tile and the node together are no
-// wider than a cell (after S. Laine, T. Karras, Efficient Sparse Voxel Octrees, 2010, who trace a coarse
-// picture instead and may miss what falls between its rays).
+// Finds which tiles can hit anything, and where their rays start. One ray through the middle of the tile goes through
+// the beam grid. While the tile is no wider than a cell, and the middle is in a cell that is not set, no ray of the
+// tile is in an occupied part of the octree. With a level of detail, no ray of the tile is then in an occupied node
+// either, if the tile and the node together are no wider than a cell. (After S. Laine, T. Karras, Efficient Sparse
+// Voxel Octrees, 2010, who trace a coarse picture instead and may miss what falls between its rays.)
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "trace/trace.h"

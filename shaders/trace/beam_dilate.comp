@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Second pass of the beam grid: from occupied cells to the cells of the beam grid that they or a neighbour touch.
+// Second pass of the beam grid: sets the cells that touch an occupied cell, or have a neighbour that does.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"

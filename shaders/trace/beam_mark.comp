@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// First pass of the beam grid: the occupied cells of a coarse grid, from the upper levels of the octree.
+// First pass of the beam grid: finds the occupied cells of a coarse grid, from the upper levels of the octree.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"

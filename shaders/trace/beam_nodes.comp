@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Third pass of the beam grid: the nodes of one level, and the masks of the level above.
+// Third pass of the beam grid: writes the nodes of one level, and the masks of the level above.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"

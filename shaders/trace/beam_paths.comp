@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Where rays may begin their descent: for each cell of a grid over the root cube, the nodes that contain it.
+// Writes where rays may begin: for each cell of a grid over the root cube, the nodes that contain it (trace/trace.h).
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Where the ranks of hits in a DAG begin (trace/trace.h), behind the nodes that trace/beam_paths has written.
+// Writes where the ranks of hits in a DAG begin (trace/trace.h), behind the nodes that trace/beam_paths has written.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Last pass of the beam grid, for octrees with at least four levels of nodes: the finest level. Cells a quarter as
-// large below each set cell, set if they or a neighbour of their own size touch an occupied cell of the octree's fourth
-// level.
+// Last pass of the beam grid, for octrees with at least four levels of nodes: writes its finest level. The cells of
+// that level are a quarter as large. Below each set cell, those cells are set that touch an occupied cell of the
+// octree's fourth level, or have a neighbour of their own size that does.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/dispatch.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From hits to a host's depth buffer, one workgroup a live tile: the depth at which a rasterizer would draw the point
-// where the pixel's ray enters its voxel.
+// Converts hits to a host's depth, one workgroup for each live tile. The depth of a pixel is that which a rasterizer
+// would give to the point where the pixel's ray enters its voxel.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/camera.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// All that there is to know of what one pixel's ray meets: traced once more, without anything that begins below the root,
-// so that its iterations are those of the ray alone.
+// Reports everything about what one pixel's ray meets. The ray is traced once more from the root, so that the number of
+// iterations is that of the ray alone.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute_formats.glsl"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Traces the rays of all pixels in live tiles, one workgroup a tile. Rays that use up their iterations resume in
-// another round. The includer defines PRIMARY_RANKS, or does not: then hits in a DAG get the ranks that are the indices
-// of their attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface
-// Geometry, 2017, who sum up during the traversal; here only the path of the hit is summed up).
+// Traces the rays of all pixels in live tiles, one workgroup for each tile. Rays that use up their iterations resume in
+// another round. If the includer defines PRIMARY_RANKS, hits in a DAG get the ranks that are the indices of their
+// attributes (D. Dolonius, E. Sintorn, V. Kaempe, U. Assarsson, Compressing Color Data for Voxelized Surface Geometry,
+// 2017, who sum up during the traversal; here only the path of the hit is summed up).
 #include "trace/trace.h"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
@@ -49,8 +49,8 @@ uvec2 loadPath(uint cell)
 #include "lib/node.glsl"
 #include "lib/ranks.glsl"
 
-// Of what was hit; of a miss, any number. All loads but those on the way down are made for misses, too
-// (lib/traverse.glsl).
+// The rank of what was hit; for a miss, any number. All loads but those on the way down are made for misses, too;
+// lib/traverse.glsl tells why.
 uint rankOf(Traversal hit)
 {
     RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_entry);

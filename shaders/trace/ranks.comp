@@ -1,8 +1,9 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From what a traversal of a DAG knows of a hit, the number of a voxel in its leaf, to the index of its attributes: the
-// rank of the voxel, or of the node where a level of detail stopped. For lists of rays, a thread a hit, and for
-// pictures where trace/primary_ranks does not do it, one workgroup a live tile.
+// Replaces the index that a traversal of a DAG gives a hit, the number of a voxel in its leaf, by the index of the
+// hit's attributes: the rank of the voxel, or of the node where a level of detail has stopped the ray. Runs over lists
+// of rays, a thread for each hit, and over pictures for which trace/primary_ranks cannot be used, a workgroup for each
+// live tile.
 //
 // Overlays (update/update.h) may stand above the DAG. Their nodes have attributes of their own, and so have the voxels
 // in their leaves, whose numbers the traversal has found already. What hangs below a list begins with the rank of the

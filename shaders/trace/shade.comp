@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From hits to the pixels of a lit picture, one workgroup a live tile: sun with shadow, sky light, emission. Misses keep
-// what is there (trace/sky).
+// Computes the pixels of a lit picture from hits, one workgroup for each live tile: sun with shadow, sky light,
+// emission. Pixels without a hit keep what trace/sky has written.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute_formats.glsl"

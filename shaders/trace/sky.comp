@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A picture of the sky alone, or a black one.
+// Fills a picture with the sky alone, or with black.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/camera.glsl"

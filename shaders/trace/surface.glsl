@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hit looks like, without its emission. The includer includes trace/trace.h, lib/attribute_formats.glsl,
+// The surface at a hit, without its emission. The includer includes trace/trace.h, lib/attribute_formats.glsl,
 // lib/color.glsl, lib/hit.glsl and lib/surface_normal.glsl before, and declares kNodeLevels and kFormat.
 
 const vec3 kPlainAlbedo = vec3(0.6); // without attributes

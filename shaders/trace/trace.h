@@ -17,7 +17,7 @@ GPU_NAMESPACE_BEGIN
 GPU_BUFFER(float, 4);
 
 const uint kRaysGroup = 64u; // threads of a workgroup of trace/rays
-const uint kSkyRows = 8u;    // pixels that a thread of trace/sky takes: the division for its position is dear
+const uint kSkyRows = 8u;    // pixels that a thread of trace/sky takes: one division finds their column
 const uint kSkyGroup = 64u;  // threads of a workgroup of trace/sky
 
 // Pictures are traced in square tiles, one workgroup each.
@@ -44,16 +44,16 @@ const uint kBeamRows = 4096u;    // of cells along x
 const uint kBeamMasks = 4160u;   // of level 2, then of level 1
 const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that build it
 
-// Where rays begin: kPathCells^3 cells over the root cube, x in the lowest bits of their number, each with the nodes of
-// levels 1 to 3 that contain it, 0 where there is none:
+// Where rays may begin. The root cube is divided into kPathCells^3 cells, x in the lowest bits of their number. Each
+// holds the nodes of levels 1 to 3 that contain it, 0 where there is none:
 //
 //     level 1: 8 bits | level 2: 16 | level 2 is relative: 1 | unused 7 | level 3: 32, from the lowest bit on
 //
-// Nodes of level 1, and of level 2 where it says so, are relative: counted from the node before the root's first child,
-// or from the root if that has a list. Every tree that zvo makes fits. Where all nodes stand by levels, that node is
-// the root, level 1 is at most 64 and level 2 at most 4160, and is not relative. Where an update has merged a root,
-// level 1 is at most 64 relative to it, level 2 either at most 4160 relative to it or a node of the tree that it
-// changed. A node that does not fit, and those below, are left out: rays begin above it.
+// Nodes of level 1, and of level 2 where its bit says so, are relative: counted from the node before the root's first
+// child, or from the root if that has a list. Where all nodes stand level by level, that node is the root; level 1 is
+// then at most 64, and level 2 at most 4160 and not relative. Where an update has merged a root, level 1 is at most 64,
+// relative; level 2 is either at most 4160, relative, or a node of the base tree. So the nodes of every tree that zvo
+// makes fit. A node that does not fit is left out with those below it, and rays begin above it.
 const uint kPathLevels = 3u;
 const uint kPathCellBits = 6u;
 const uint kPathCells = 64u;
@@ -62,21 +62,22 @@ const uint kPathLevel2Bits = 16u;
 const uint kPathLevel2Shift = 8u;
 const uint kPathRelativeShift = 24u;
 
-// Where the ranks of hits in a DAG begin, behind the nodes of all cells: for each cell, the node of level kPathLevels
-// that contains it, and the number of voxels before those below it:
+// Where the ranks of hits in a DAG begin. Behind the nodes of all cells stand, for each cell, the node of level
+// kPathLevels that contains it, and the number of voxels before those below that node:
 //
 //     node: 31 bits | it is an overlay's: 1 | voxels: 32, from the lowest bit on; 0 where there is no such node
 //
-// Of an overlay's node, voxels is its rank. Behind all that stands the address of those ranks, by nodes.
+// For a node of an overlay, voxels is its rank. The last element is the address of the overlays' ranks, by node.
 const uint kRankTableFirst = kPathCells * kPathCells * kPathCells;
 const uint kRankTableOverlays = 2u * kRankTableFirst;
 
-// Light that arrives at a hit, for the parts of it: 0 none, 255 all.
+// The light that arrives at a hit. Each part: 0 is none, 255 is all.
 const uint kLightSun = 255u; // mask
 const uint kLightSkyShift = 8u;
 const uint kLightAll = 65535u;
 
-// What a picture shows: the first is trace/shade's, the others are values of a specialization constant of trace/views.
+// What a picture shows. The first is made by trace/shade; the others are values of a specialization constant of
+// trace/views.
 const uint kViewColor = 0u;      // lit
 const uint kViewAlbedo = 1u;     // base colour alone
 const uint kViewNormal = 2u;     // 0.5 + 0.5 * shading normal
@@ -87,7 +88,7 @@ const uint kViewVoxel = 6u;      // a colour for each voxel, by its coordinates
 const uint kViewBricks = 7u;     // base colour, with the borders of nodes
 const uint kViewOrigin = 8u;     // grey: static; orange: in a leaf that a dynamic update made
 
-// How a picture stores a pixel: specialization constant of trace/shade, views and sky. All but the last hold sRGB
+// How a picture stores a pixel: a specialization constant of trace/shade, views and sky. All but the last hold sRGB
 // codes.
 const uint kTexelRgba8 = 0u; // red | green << 8 | blue << 16 | alpha << 24
 const uint kTexelBgra8 = 1u; // blue | green << 8 | red << 16 | alpha << 24
@@ -96,7 +97,7 @@ const uint kTexelHalf = 3u;  // two words of half floats, red | green << 16 and 
 
 const float kHalfMax = 65504.0f; // largest half float
 
-// Of every kernel with lib/traverse.glsl.
+// The constants of every kernel with lib/traverse.glsl.
 #define TRAVERSE_CONSTANTS                                                                                             \
     GPU_CONSTANT(uint, node_levels, 5u)                                                                                \
     GPU_CONSTANT(TraceStack, stack, kStackRegisters)                                                                   \
@@ -344,8 +345,8 @@ struct DepthParams // push constants of trace/depth
     GPU_CONST_PTR(uvec2) live;
     GPU_CONST_PTR(Hit) hits;
     GPU_PTR(float) depth; // [width * height] row by row; misses and dead tiles keep what is there
-    // The host's clip z and w along a ray: at the camera's origin, what they gain per unit of t along forward, and per
-    // half pixel to the right and down (CameraRays).
+    // The host's clip z and w along a ray: their values at the camera's origin, and how much they gain per unit of t
+    // along forward, per half pixel to the right, and per half pixel down (CameraRays).
     vec4 clip_z;
     vec4 clip_w;
     uint width;

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From hits to the pixels of what is no lit picture (kView*), one workgroup a live tile. Misses keep what is there, but
-// for the heat map of iterations.
+// Computes the pixels of the views that are not lit (kView*) from hits, one workgroup for each live tile. Pixels
+// without a hit keep what is there, except in the heat map of iterations.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute_formats.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Gives every touched node of a level its child bases from the prefix sum of child counts.
+// Sets the child bases of every touched node of a level from the prefix sum of child counts.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/dispatch.glsl"

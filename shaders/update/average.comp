@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What touched nodes of a level look like from afar.
+// Computes the attributes of the touched nodes of a level.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/average.glsl"

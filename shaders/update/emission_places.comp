@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// The index of the first emission of each word of 32 voxels: every voxel has one, so that nothing needs to be counted.
+// Sets the index of the first emission value of each word of 32 voxels. Every voxel has a value, so nothing needs to be
+// counted.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/dispatch.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Shows the overlay's root, or the one before if something had no room, and tells what the update came to.
+// Shows the overlay's root, or the last root if something had no room, and writes the result of the update.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 

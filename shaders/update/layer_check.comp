@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Finds out whether everything that a layer's coverage listed had room.
+// Checks whether there was room for everything that a layer's coverage has listed.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What the voxels of each touched leaf look like: as in the base tree where no layer has them, else by kMerge.
+// Writes the attributes of the voxels of each touched leaf: those of the base tree where no layer has the voxel, else
+// by kMerge.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/dispatch.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What the emissive voxels of each touched leaf emit, by the same rule as their colour.
+// Writes the emission of the emissive voxels of each touched leaf, by the same rule as their colour.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #include "lib/dispatch.glsl"

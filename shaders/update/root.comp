@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Begins the overlay: merges the roots, and sizes the work on the next level. If no layer has anything, the overlay is
-// a copy of the base tree's root; if the touched nodes found no room, it is nothing.
+// Begins the overlay: merges the roots, and sets the size of the work on the next level. If no layer has any voxels,
+// the overlay is a copy of the base tree's root. If the touched nodes found no room, there is no overlay.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 

@@ -38,19 +38,19 @@ const uint kNoNode = ~0u;       // in a base tree
 const uint kUpdateGroup = 64u;  // threads of most workgroups: for a node's children, one each
 const uint kMergeThreads = 16u; // of a workgroup that take one leaf: mostly one for each of its voxels
 
-// Specialization constant of update/merge: what a voxel looks like that the base octree and layers have.
+// Specialization constant of update/merge: the attributes of a voxel that both the base tree and layers have.
 const uint kMergeAverage = 0u; // the mean over the fragments of both
 const uint kMergeDynamic = 1u; // the layers
 const uint kMergeStatic = 2u;  // the base tree
 
-// Why an update came to nothing: bits of UpdateStatus::failed.
+// Why an update has failed: bits of UpdateStatus::failed.
 const uint kFailedLayer = 1u;      // a layer had not enough room: LayerCounters tell which
 const uint kFailedTable = 2u;      // the table of touched nodes
 const uint kFailedNodes = 4u;      // the overlay's region
 const uint kFailedVoxels = 8u;     // likewise
 const uint kFailedFragments = 16u; // more fragments in a voxel than sums hold
 
-/// What a layer holds. Counting goes on past capacities.
+/// The counts of a layer. Counting continues past the capacities.
 struct LayerCounters
 {
     uint leaf_count;
@@ -67,7 +67,7 @@ struct LayerCounters
 };
 GPU_BUFFER(LayerCounters, 4);
 
-/// Where a layer is.
+/// The buffers of a layer.
 struct Layer
 {
     GPU_CONST_PTR(LayerCounters) counters; // [1]
@@ -83,7 +83,7 @@ struct Layer
 };
 GPU_BUFFER(Layer, 8);
 
-/// A layer's leaf in the chain of those with the same key.
+/// A leaf of a layer in the chain of those with the same key.
 struct LayerLink
 {
     uint next;  // record + 1 of the next one, 0 at the end
@@ -91,7 +91,7 @@ struct LayerLink
 };
 GPU_BUFFER(LayerLink, 4);
 
-/// A touched node: what stands for its entry of the table.
+/// The nodes that belong to an entry of the table of touched nodes.
 struct TouchedNode
 {
     uint node; // its index
@@ -99,7 +99,7 @@ struct TouchedNode
 };
 GPU_BUFFER(TouchedNode, 4);
 
-/// Nodes of one level of the overlay.
+/// The nodes of one level of the overlay.
 struct OverlayLevel
 {
     uint first_node;
@@ -107,7 +107,7 @@ struct OverlayLevel
 };
 GPU_BUFFER(OverlayLevel, 4);
 
-/// What an update came to; the host reads it when it likes. Counting goes on past capacities.
+/// The result of an update, which the host reads. Counting continues past the capacities.
 struct UpdateStatus
 {
     uint failed;        // bits kFailed*; not 0: the root is the one that was shown before
@@ -265,7 +265,7 @@ struct OverlayAssignParams // push constants of update/assign
 };
 GPU_KERNEL(update, assign, Assign, OverlayAssignParams)
 
-/// What merging looks up and never changes.
+/// The tables and sums that merging reads.
 struct MergeView
 {
     GPU_CONST_PTR(SceneView) scene;            // for the tables of sRGB codes
@@ -276,7 +276,7 @@ struct MergeView
 };
 GPU_BUFFER(MergeView, 8);
 
-// Of every kernel with lib/merge.glsl.
+// The constants of every kernel with lib/merge.glsl.
 #define MERGE_CONSTANTS                                                                                                \
     GPU_CONSTANT(MergeRule, merge, kMergeAverage)                                                                      \
     GPU_CONSTANT(bool, emits, false)                                                                                   \

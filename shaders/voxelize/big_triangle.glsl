@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels over big triangles share.
+// Functions that the kernels over big triangles share.
 
 // RowBlock::position of a block in a column and a row of blocks: row | column << 16.
 uint packBlock(uvec2 block)

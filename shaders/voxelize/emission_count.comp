@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Emissive voxels of each block of kScanBlock words of 32 voxels.
+// Counts the emissive voxels of each block of kScanBlock words of 32 voxels.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "voxelize/voxelize.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What becomes of a fragment, by kMode: a bit in the brick table, or sums in the voxel's record.
+// What is done with a fragment, by kMode: it sets a bit in the brick table, or is added to the voxel's sums.
 
 // The leaf that the last fragment of this thread fell into: neighbours mostly share it.
 struct BrickCursor

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From a voxel's sums to its attribute: the mean of its fragments.
+// Computes the attribute of each voxel from its sums: the mean of its fragments.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 #include "lib/dispatch.glsl"

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// From an emissive voxel's sums to its radiance: the mean over all its fragments, as shared-exponent RGB9E5.
+// Computes the radiance of each emissive voxel from its sums: the mean over all its fragments, as shared-exponent
+// RGB9E5.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 #include "lib/dispatch.glsl"

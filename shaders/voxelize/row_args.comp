@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// How many workgroups the bands and row blocks need that have been listed so far.
+// Computes how many workgroups the bands and row blocks need that have been listed so far.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
 #include "lib/dispatch_args.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a fragment looks like, in integers (docs/voxelization.md).
+// The attributes of a fragment, in integers (docs/voxelization.md).
 
 #include "lib/divide.glsl"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fetches what a triangle's fragments need.
+// Fetches the data of a triangle that its fragments need.
 
 // vertices: indices within the draw. normal: of the lattice points, by winding; corner_area: |n_w|.
 Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)

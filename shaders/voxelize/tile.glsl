@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Thin coverage by tiles: the 4x4 columns that stand on one leaf. A plane crosses at most kTileLeaves leaves above a
-// tile (its height changes by at most one layer a column), so that the brick table is asked that often for up to 16
-// voxels, and their bits go there together. All else is arithmetic on a thread's own registers.
+// tile (its height changes by at most one layer from column to column). So for up to 16 voxels the brick table is
+// searched only that often, and their bits are set together. The rest is arithmetic in a thread's own registers.
 
 const uint kTileLeaves = 3u; // 7 layers
 

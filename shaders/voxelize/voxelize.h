@@ -32,11 +32,11 @@ const int kLatticeLimit = 1 << 29; // vertices beyond are dropped
 const int kVoxelLattice = 256;     // lattice units a voxel
 const int kVoxelLatticeLog2 = 8;
 
-// Specialization constant coverage: which voxels.
+// Specialization constant coverage: which voxels a triangle covers.
 const uint kCoverageConservative = 0u;
 const uint kCoverageThin = 1u;
 
-// Specialization constant mode: what a fragment does.
+// Specialization constant mode: what is done with a fragment.
 const uint kModeCoverage = 0u;   // sets the voxel's bit
 const uint kModeAttributes = 1u; // adds its colour and normal to the voxel's sums
 const uint kModeEmission = 2u;   // adds its emission to the emissive voxel's sums

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The part of the grid that is voxelized: a cube of it, or all.
+// The part of the grid that is voxelized: a cube of it, or the whole grid.
 
 int gridDepth()
 {
@@ -11,7 +11,7 @@ int gridResolution()
     return 1 << gridDepth();
 }
 
-// Keeps to the window what a triangle touches; low > high where it touches nothing of it.
+// Clips the voxels low to high that a triangle touches to the window; low > high where it touches none of it.
 void clipToWindow(inout ivec3 low, inout ivec3 high)
 {
     int depth = int(bitfieldExtract(params.window, int(kWindowDepthBits), int(kWindowDepthBits)));
