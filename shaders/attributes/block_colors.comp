@@ -30,7 +30,7 @@ Pair pairAround(uvec3 color)
         uvec3 first = (i & 1u) == 0u ? low : high;
         uvec3 second = (i & 2u) == 0u ? low : high;
         uvec3 met =
-            (2u * unpackColor565(packColor565(first)) + unpackColor565(packColor565(second)) + 1u) / kColorSteps;
+            (2u * unpackColor565(packColor565(first)) + unpackColor565(packColor565(second)) + 1u) / kColorIndexMax;
         uvec3 error = uvec3(abs(ivec3(met) - ivec3(color)));
         bvec3 better = lessThan(error, best_error);
         best_first = mix(best_first, first, better);

@@ -31,8 +31,8 @@ void choose(inout Pair pair)
 {
     uvec3 first = unpackColor565(pair.ends);
     uvec3 second = unpackColor565(pair.ends >> 16);
-    uvec3 near_first = (2u * first + second + 1u) / kColorSteps;
-    uvec3 near_second = (first + 2u * second + 1u) / kColorSteps;
+    uvec3 near_first = (2u * first + second + 1u) / kColorIndexMax;
+    uvec3 near_second = (first + 2u * second + 1u) / kColorIndexMax;
     pair.indices = 0u;
     pair.error = 0u;
     for (uint i = 0u; i < kBlockVoxels; ++i)
@@ -46,11 +46,11 @@ void choose(inout Pair pair)
     }
 }
 
-// An end by least squares: channel * max / 255 with channel = kColorSteps * numerator / denominator.
+// An end by least squares: channel * max / 255 with channel = kColorIndexMax * numerator / denominator.
 uvec3 endOf(ivec3 numerator, uint denominator)
 {
     uint whole = 255u * denominator;
-    uvec3 scaled = uvec3(max(numerator, ivec3(0))) * kColorSteps * kChannelMax;
+    uvec3 scaled = uvec3(max(numerator, ivec3(0))) * kColorIndexMax * kChannelMax;
     return min((2u * scaled + whole) / (2u * whole), kChannelMax);
 }
 
@@ -64,8 +64,8 @@ Pair leastSquares(Pair pair)
     ivec3 bc = ivec3(0);
     for (uint i = 0u; i < kBlockVoxels; ++i)
     {
-        uint b = (pair.indices >> (2u * i)) & kColorSteps;
-        uint a = kColorSteps - b;
+        uint b = (pair.indices >> (2u * i)) & kColorIndexMax;
+        uint a = kColorIndexMax - b;
         aa += a * a;
         ab += a * b;
         bb += b * b;

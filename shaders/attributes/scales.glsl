@@ -4,7 +4,7 @@
 
 const uint kStep = 65u;                      // from one end to the next
 const int kOne = kNormalEnd * int(kStep);    // 1 in coordinates and vectors
-const uint kInverseBits = 18u;               // of kNormalSteps / length of a scale
+const uint kInverseBits = 18u;               // of kNormalIndexMax / length of a scale
 const uint kCoordinateMax = kEndMax * kStep; // coordinates are counted from -1
 
 uvec2 points[kBlockVoxels]; // what the scales are for
@@ -21,8 +21,8 @@ struct Scales
 // The coordinates at a step of both scales, rounded.
 uvec2 pointAt(Scales scales, uvec2 steps)
 {
-    uvec2 sum = scales.first * (kNormalSteps - steps) + scales.second * steps;
-    return (sum * kStep + kNormalSteps / 2u) / kNormalSteps;
+    uvec2 sum = scales.first * (kNormalIndexMax - steps) + scales.second * steps;
+    return (sum * kStep + kNormalIndexMax / 2u) / kNormalIndexMax;
 }
 
 // What blockIndices finds for that voxel.
@@ -36,13 +36,13 @@ uvec3 planesOf(uvec2 steps, uint voxel)
 void choose(inout Scales scales)
 {
     uvec2 reach = (scales.second - scales.first) * kStep;
-    uvec2 inverse = mix((kNormalSteps << kInverseBits) / max(reach, uvec2(1u)), uvec2(0u), equal(reach, uvec2(0u)));
+    uvec2 inverse = mix((kNormalIndexMax << kInverseBits) / max(reach, uvec2(1u)), uvec2(0u), equal(reach, uvec2(0u)));
     scales.planes = uvec3(0u);
     scales.error = uvec2(0u);
     for (uint i = 0u; i < kBlockVoxels; ++i)
     {
         ivec2 along = (ivec2(points[i]) - ivec2(scales.first * kStep)) * ivec2(inverse);
-        uvec2 steps = uvec2(clamp((along + (1 << (kInverseBits - 1u))) >> int(kInverseBits), 0, int(kNormalSteps)));
+        uvec2 steps = uvec2(clamp((along + (1 << (kInverseBits - 1u))) >> int(kInverseBits), 0, int(kNormalIndexMax)));
         scales.planes |= planesOf(steps, i);
         ivec2 d = ivec2(pointAt(scales, steps)) - ivec2(points[i]);
         scales.error += uvec2(d * d);
@@ -66,12 +66,12 @@ Scales fullScales()
     return scales;
 }
 
-// An end by least squares: kNormalSteps * numerator / denominator in steps of ends.
+// An end by least squares: kNormalIndexMax * numerator / denominator in steps of ends.
 uvec2 endOf(ivec2 numerator, uvec2 denominator)
 {
-    uvec2 n = min(uvec2(max(numerator, ivec2(0))), denominator * (kCoordinateMax / kNormalSteps + 1u));
+    uvec2 n = min(uvec2(max(numerator, ivec2(0))), denominator * (kCoordinateMax / kNormalIndexMax + 1u));
     uvec2 quotient = n / denominator;
-    uvec2 coordinate = kNormalSteps * quotient + kNormalSteps * (n - quotient * denominator) / denominator;
+    uvec2 coordinate = kNormalIndexMax * quotient + kNormalIndexMax * (n - quotient * denominator) / denominator;
     return min((coordinate + kStep / 2u) / kStep, uvec2(kEndMax));
 }
 
@@ -86,7 +86,7 @@ Scales leastSquares(Scales scales)
     for (uint i = 0u; i < kBlockVoxels; ++i)
     {
         uvec2 b = blockIndices(scales.planes, i);
-        uvec2 a = kNormalSteps - b;
+        uvec2 a = kNormalIndexMax - b;
         aa += a * a;
         ab += a * b;
         bb += b * b;

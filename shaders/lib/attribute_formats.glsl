@@ -50,9 +50,9 @@ uvec2 blockIndices(uvec3 planes, uint voxel)
 
 uint unpackBlockColor(uint ends, uint indices, uint voxel)
 {
-    uint index = (indices >> (2u * voxel)) & kColorSteps;
-    uvec3 sum = unpackColor565(ends) * (kColorSteps - index) + unpackColor565(ends >> 16) * index;
-    uvec3 color = (sum + kColorSteps / 2u) / kColorSteps;
+    uint index = (indices >> (2u * voxel)) & kColorIndexMax;
+    uvec3 sum = unpackColor565(ends) * (kColorIndexMax - index) + unpackColor565(ends >> 16) * index;
+    uvec3 color = (sum + kColorIndexMax / 2u) / kColorIndexMax;
     return color.r | (color.g << 8) | (color.b << 16);
 }
 
@@ -61,8 +61,8 @@ uint unpackBlockNormal(uint ends, uvec3 planes, uint voxel)
     uvec2 index = blockIndices(planes, voxel);
     ivec2 first = ivec2(uvec2(ends, ends >> (2u * kEndBits)) & ((1u << kEndBits) - 1u)) - kNormalEnd;
     ivec2 second = ivec2(uvec2(ends >> kEndBits, ends >> (3u * kEndBits)) & ((1u << kEndBits) - 1u)) - kNormalEnd;
-    ivec2 sum = first * ivec2(kNormalSteps - index) + second * ivec2(index);
-    const int sum_one = kNormalEnd * int(kNormalSteps);
+    ivec2 sum = first * ivec2(kNormalIndexMax - index) + second * ivec2(index);
+    const int sum_one = kNormalEnd * int(kNormalIndexMax);
     ivec2 p = sign(sum) * ((abs(sum) * kNormalOne + sum_one / 2) / sum_one);
     uint frame = ends >> kFrameShift;
     ivec3 v = unturned(blockVector(p, frame, kNormalOne), frame);

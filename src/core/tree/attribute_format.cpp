@@ -77,20 +77,20 @@ std::uint32_t unpackBlockColor(std::uint32_t ends, std::uint32_t index)
     for (std::uint32_t shift = 0; shift < 3 * kChannelBits; shift += kChannelBits)
     {
         const std::uint32_t sum =
-            (first >> shift & 255U) * (gpu::kColorSteps - index) + (second >> shift & 255U) * index;
-        color |= (sum + gpu::kColorSteps / 2) / gpu::kColorSteps << shift;
+            (first >> shift & 255U) * (gpu::kColorIndexMax - index) + (second >> shift & 255U) * index;
+        color |= (sum + gpu::kColorIndexMax / 2) / gpu::kColorIndexMax << shift;
     }
     return color;
 }
 
-// The coordinate at a step of a scale; ends: two of 7 bits.
-int unpackCoordinate(std::uint32_t ends, std::uint32_t step)
+// The coordinate that an index of a scale stands for. ends: the scale's two ends, 7 bits each.
+int unpackCoordinate(std::uint32_t ends, std::uint32_t index)
 {
+    constexpr int kMax = gpu::kNormalIndexMax;
     const int first = static_cast<int>(take(ends, gpu::kEndBits)) - gpu::kNormalEnd;
     const int second = static_cast<int>(take(ends, gpu::kEndBits)) - gpu::kNormalEnd;
-    const int steps = gpu::kNormalSteps;
-    const int sum = first * (steps - static_cast<int>(step)) + second * static_cast<int>(step);
-    const int sum_one = gpu::kNormalEnd * steps;
+    const int sum = first * (kMax - static_cast<int>(index)) + second * static_cast<int>(index);
+    const int sum_one = gpu::kNormalEnd * kMax;
     const int size = (std::abs(sum) * kOne16 + sum_one / 2) / sum_one;
     return sum < 0 ? -size : size;
 }
@@ -109,17 +109,17 @@ std::uint32_t unpackBlockNormal(glm::ivec2 p, std::uint32_t frame)
 
 gpu::Attribute unpackBlock(std::span<const gpu::uint> block, std::uint32_t voxel)
 {
-    std::uint32_t x_step = 0;
-    std::uint32_t y_step = 0;
+    std::uint32_t x_index = 0;
+    std::uint32_t y_index = 0;
     for (std::uint32_t bit = 0; bit < 3; ++bit)
     {
         const std::uint32_t plane = block[gpu::kBlockNormalIndices + bit] >> voxel;
-        x_step |= (plane & 1U) << bit;
-        y_step |= (plane >> gpu::kBlockVoxels & 1U) << bit;
+        x_index |= (plane & 1U) << bit;
+        y_index |= (plane >> gpu::kBlockVoxels & 1U) << bit;
     }
     const std::uint32_t ends = block[gpu::kBlockNormals];
-    const glm::ivec2 p(unpackCoordinate(ends, x_step), unpackCoordinate(ends >> (2 * gpu::kEndBits), y_step));
-    const std::uint32_t color_index = block[gpu::kBlockColorIndices] >> (2 * voxel) & gpu::kColorSteps;
+    const glm::ivec2 p(unpackCoordinate(ends, x_index), unpackCoordinate(ends >> (2 * gpu::kEndBits), y_index));
+    const std::uint32_t color_index = block[gpu::kBlockColorIndices] >> (2 * voxel) & gpu::kColorIndexMax;
     return {unpackBlockColor(block[0], color_index), unpackBlockNormal(p, ends >> gpu::kFrameShift)};
 }
 
