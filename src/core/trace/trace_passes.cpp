@@ -56,9 +56,9 @@ AttributeFormat formatToRead(const DeviceTree& octree, const TraceOptions& optio
 
 std::uint32_t roundsFor(const DeviceTree& octree, const TraceOptions& options)
 {
-    const std::uint64_t steps = std::uint64_t{4} * octree.grid.resolution() + gpu::kTraceRoundsMax * 16;
+    const std::uint64_t iterations = std::uint64_t{4} * octree.grid.resolution() + gpu::kTraceRoundsMax * 16;
     return static_cast<std::uint32_t>(
-        std::min<std::uint64_t>(divideUp(steps, options.iterations_max), gpu::kTraceRoundsMax));
+        std::min<std::uint64_t>(divideUp(iterations, options.iterations_max), gpu::kTraceRoundsMax));
 }
 
 gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera)
