@@ -28,8 +28,8 @@ BuildRuns measureBuild(vk::HeadlessDevice& device, const GpuScene& scene, const 
     {
         runs.last = {}; // its memory goes before the next one's comes
         runs.last = buildOctree(device, scene, grid, options);
-        voxelize_ms.push_back(runs.last.stageMs("voxelize"));
-        build_ms.push_back(runs.last.stageMs("octree"));
+        voxelize_ms.push_back(runs.last.operationMs("voxelize"));
+        build_ms.push_back(runs.last.operationMs("octree"));
         total_ms.push_back(voxelize_ms.back() + build_ms.back());
         addPasses(runs.passes, runs.last.passes, run_count);
     }

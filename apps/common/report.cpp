@@ -59,8 +59,8 @@ Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const
     json["cold_run"] = true; // times include whatever a device does only the first time
     json["retries"] = result.retry_count;
     json["passes"] = passesJson(result.passes);
-    json["voxelize_ms"] = result.stageMs("voxelize");
-    json["build_ms"] = result.stageMs("octree");
+    json["voxelize_ms"] = result.operationMs("voxelize");
+    json["build_ms"] = result.operationMs("octree");
     json["trace_ms"] = nullptr;
     return json;
 }

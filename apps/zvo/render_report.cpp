@@ -27,7 +27,7 @@ void RenderReport::addOctree(const BuildResult& result, std::uint64_t triangle_c
 {
     m_built = fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms",
                           result.octree.voxel_count, result.octree.grid.resolution(), triangle_count,
-                          result.stageMs("voxelize"), result.stageMs("octree"));
+                          result.operationMs("voxelize"), result.operationMs("octree"));
     if (!m_options.output.json.empty())
     {
         m_json = octreeJson("zvo.render/1", m_device.device().report(), m_options.voxels, triangle_count, result,
@@ -110,8 +110,8 @@ Json RenderReport::rebuiltFrame(std::uint32_t number, double seconds, const Buil
             {"voxels", result.octree.voxel_count},
             {"nodes", result.octree.node_count},
             {"octree_sha256", is_wanted ? octreeSha256(m_device, result.octree) : ""},
-            {"voxelize_ms", result.stageMs("voxelize")},
-            {"build_ms", result.stageMs("octree")}};
+            {"voxelize_ms", result.operationMs("voxelize")},
+            {"build_ms", result.operationMs("octree")}};
 }
 
 Json RenderReport::json(std::uint32_t picture_count, std::uint64_t capped_rays) const

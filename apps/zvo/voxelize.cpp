@@ -86,8 +86,8 @@ void voxelize(const VoxelizeOptions& options)
         report->finish();
     }
     talk(fmt::format("{} voxels of {}^3 from {} triangles; voxelize {:.1f} ms, build {:.1f} ms on {}",
-                     result.octree.voxel_count, grid.resolution(), triangle_count, result.stageMs("voxelize"),
-                     result.stageMs("octree"), device.device().report().name));
+                     result.octree.voxel_count, grid.resolution(), triangle_count, result.operationMs("voxelize"),
+                     result.operationMs("octree"), device.device().report().name));
 }
 
 } // namespace zvo::cli

@@ -44,7 +44,7 @@ struct BuildResult
     std::uint32_t retry_count = 0;                // runs that were thrown away because something was too small
 
     /// operationMs() of the passes.
-    [[nodiscard]] double stageMs(std::string_view operation) const { return operationMs(passes, operation); }
+    [[nodiscard]] double operationMs(std::string_view operation) const { return zvo::operationMs(passes, operation); }
 };
 
 /// Makes an octree of a scene. Between steps the builder reads sizes and allocates exactly what is needed. When

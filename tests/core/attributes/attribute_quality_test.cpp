@@ -130,7 +130,7 @@ std::vector<Quality> measure(const std::filesystem::path& path, std::uint32_t de
         quality.picture_db = pictureDecibels(picture, pictureOf(octree, scene));
         quality.bytes_per_voxel = static_cast<double>(octree.attributeBytes()) / octree.voxel_count;
         quality.pack_ms = operationMs(passes, "attributes");
-        quality.build_ms = built.stageMs("voxelize") + built.stageMs("octree");
+        quality.build_ms = built.operationMs("voxelize") + built.operationMs("octree");
         fmt::print("| {} {} | {} | {} | {} | {:.1f} dB | {:.2f} | {:.0f} of {:.0f} ms |\n", path.stem().string(),
                    1U << depth, formatName(format), lossText(quality.voxels), lossText(quality.nodes),
                    quality.picture_db, quality.bytes_per_voxel, quality.pack_ms, quality.build_ms);
