@@ -33,8 +33,8 @@ struct VoxVoxels
 VoxVoxels readVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
 
 /// Hands the bytes of a .vox file to write, piece by piece: a model for each block of 256^3 voxels that has any, in
-/// Morton order, and 255 colours for those of the voxels (core/quantize.h). Normals and emission are left out. Throws
-/// Error{Usage} for more voxels than 2 GiB hold.
+/// Morton order, and 255 colours for those of the voxels (io/voxel/quantize.h). Normals and emission are left out.
+/// Throws Error{Usage} for more voxels than 2 GiB hold.
 void writeVox(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write);
 
 } // namespace zvo
