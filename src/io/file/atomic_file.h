@@ -14,9 +14,9 @@ enum class Overwrite
     Allow
 };
 
-/// A file that appears complete under its name or not at all: written beside the target under a temporary name, brought
-/// to disk, then renamed. A link is followed; a target that is no regular file, such as a pipe or /dev/stdout, is
-/// written directly. Every function throws Error{Output}.
+/// A file that appears complete under its name or not at all: it is written beside the target under a temporary name,
+/// brought to disk, then renamed. Links are followed. A target that is no regular file, such as a pipe or /dev/stdout,
+/// is written directly. Every function throws Error{Output}.
 class AtomicFile
 {
 public:
@@ -30,7 +30,8 @@ public:
 
     void write(std::span<const std::byte> bytes);
 
-    /// Puts the file in its place. With Overwrite::Refuse a file that came into being meanwhile stays.
+    /// Gives the file its name. With Overwrite::Refuse, a file of that name that has appeared in the meantime stays as
+    /// it is.
     void commit();
 
 private:
@@ -43,7 +44,7 @@ private:
     int m_pending_slot = -1; // in the list of removePendingFiles()
 };
 
-/// The bytes as one atomic file.
+/// Writes bytes as one atomic file.
 void writeFileAtomically(const std::filesystem::path& target, std::span<const std::byte> bytes, Overwrite overwrite);
 
 /// Removes the temporary files of all AtomicFiles that are not committed yet. Async-signal-safe: for a handler of

@@ -16,14 +16,15 @@
 namespace zvo
 {
 
-/// The largest number, in size, that a file may give: what single precision holds.
+/// The largest absolute value of a number in a file: the largest one of single precision.
 inline constexpr double kJsonNumberMax = 3.4e38;
 
-/// text as JSON. Throws Error{Input} where it is not, is nested more than 64 deep, or has a key twice in one object.
+/// Parses text as JSON. Throws Error{Input} if it is not JSON, is nested more than 64 deep, or has a key twice in an
+/// object.
 nlohmann::json parseJsonStrictly(std::string_view text, const std::filesystem::path& file);
 
-/// A value in a JSON document together with its path, so that whoever reads it can say what is wrong where. Every
-/// function that reads throws Error{Input}, one line with file, path, what is there and what is expected. Refers to
+/// A value in a JSON document together with its path, so that errors can say what is wrong where. Every function that
+/// reads throws Error{Input}, one line with the file, the path, what is there and what is expected. Keeps references to
 /// the document and to the file's path.
 class JsonCursor
 {
@@ -33,12 +34,12 @@ public:
     /// The path, such as objects[1].place.scale; empty for the document.
     [[nodiscard]] const std::string& where() const { return m_where; }
 
-    /// An error about this value: file, path, text.
+    /// Makes an error about this value: file, path, text.
     [[nodiscard]] Error error(std::string_view text) const;
-    /// That it is something else than expected.
+    /// Makes the error that the value is not what is expected.
     [[nodiscard]] Error mismatch(std::string_view expected) const;
 
-    /// Checks that it is an object that has only these keys.
+    /// Checks that the value is an object and has only these keys.
     void allowKeys(std::initializer_list<std::string_view> keys) const;
     /// A member of an object.
     [[nodiscard]] std::optional<JsonCursor> find(std::string_view key) const;
@@ -50,9 +51,9 @@ public:
     [[nodiscard]] bool isNumber() const;
     [[nodiscard]] bool flag() const;
     [[nodiscard]] std::string text() const;
-    /// The index of a text among names.
+    /// The index of the value, a text, among names.
     [[nodiscard]] std::size_t oneOf(std::initializer_list<std::string_view> names) const;
-    /// At most kJsonNumberMax in size.
+    /// A number of at most kJsonNumberMax in size.
     [[nodiscard]] double number() const;
     /// A number above 0 and at most high.
     [[nodiscard]] double positive(double high) const;

@@ -34,7 +34,7 @@ private:
     Context m_context;
 };
 
-/// The digest of one piece.
+/// The digest of bytes in one piece.
 std::string sha256Hex(std::span<const std::byte> bytes);
 
 } // namespace zvo

@@ -10,8 +10,8 @@
 namespace zvo
 {
 
-/// All of word as a number, rounded once to the type, with or without a plus sign; nothing where it is none. Numbers
-/// are written the same in every locale.
+/// All of word as a number, with or without a plus sign, rounded once to the type; nothing if word is not a number.
+/// Independent of the locale.
 template <typename T> std::optional<T> parseNumber(std::string_view word)
 {
     if (word.starts_with('+'))
@@ -24,8 +24,8 @@ template <typename T> std::optional<T> parseNumber(std::string_view word)
     return failure == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
 }
 
-/// All of word as a number in single precision: rounded once where that holds it, and otherwise what converting it from
-/// double makes of it (0, or infinity); nothing where it is none.
+/// All of word as a number in single precision, rounded once. A number beyond single precision becomes what conversion
+/// from double makes of it: 0 or infinity. Nothing if word is not a number.
 inline std::optional<float> parseSingle(std::string_view word)
 {
     if (const std::optional<float> value = parseNumber<float>(word))
@@ -36,7 +36,7 @@ inline std::optional<float> parseSingle(std::string_view word)
     return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
-/// Goes through a text line by line and word by word.
+/// Reads a text line by line and word by word.
 class TextCursor
 {
 public:

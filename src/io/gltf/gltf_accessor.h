@@ -28,21 +28,22 @@ struct GltfAccessor
     GltfAccessor& operator=(GltfAccessor&&) = default;
 };
 
-/// An accessor's types and count, without its data. Throws Error{Input} for a type that nothing in a scene has.
+/// Type and count of an accessor, without its data. Throws Error{Input} for a type that nothing in a scene has.
 GltfAccessor describeAccessor(const GltfDocument& document, int index, const std::string& use);
 
-/// The accessor with that index. use: what it is for. A sparse one has its changes applied, to zeros where it has no
-/// buffer view. Throws Error{Input} where it has no data, leaves its buffer view, or its sparse indices are not
-/// strictly increasing and below its count.
+/// The elements of the accessor with that index. use: its purpose, for messages. The changes of a sparse accessor are
+/// applied, to zeros if it has no buffer view. Throws Error{Input} if the accessor has no data, leaves its buffer view,
+/// or has sparse indices that are not strictly increasing and below its count.
 GltfAccessor openAccessor(const GltfDocument& document, int index, const std::string& use);
 
-/// Bytes of an element whose components lie one behind the other.
+/// Bytes of an element whose components are stored without gaps.
 std::size_t elementBytes(const GltfAccessor& accessor);
 
-/// Components as single precision numbers, integers as they are or normalized; component_count of the accessor is N.
+/// The elements as vectors of N single precision numbers; integers as they are, or normalized. N must be the accessor's
+/// component_count.
 template <int N> std::vector<glm::vec<N, float>> readVectors(const GltfAccessor& accessor);
 
-/// The same one behind the other, whatever their number in an element: [count * component_count].
+/// The same as one array of numbers, for any number of components: [count * component_count].
 std::vector<float> readNumbers(const GltfAccessor& accessor);
 
 /// Unsigned integers of 8, 16 or 32 bits.

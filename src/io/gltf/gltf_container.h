@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a .gltf or .glb file consists of, before anything is known of its contents.
+// The parts of a .gltf or .glb file, whose contents are not interpreted yet.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct GltfContainer
     std::span<const std::uint8_t> bin; // empty where there is none
 };
 
-/// The parts of a file, which they refer to; JSON alone and binary glTF are told apart by their content. path: for
-/// messages. Throws Error{Input}.
+/// The parts of a file, with references to its bytes. Plain JSON and binary glTF are told apart by their content. path:
+/// for messages. Throws Error{Input}.
 GltfContainer openGltfContainer(std::span<const std::uint8_t> file, const std::filesystem::path& path);
 
 /// Parses JSON text, unless it is nested too deeply. Throws Error{Input}.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the glTF loader's parts share; gltf_loader.h is its face.
+// What the parts of the glTF loader share. Other code uses gltf_loader.h.
 #pragma once
 
 #include "core/base/input_error.h"
@@ -45,21 +45,21 @@ struct GltfDocument
     /// The bytes of a buffer view, unpacked. Throws Error{Input} where it leaves its buffer.
     [[nodiscard]] std::span<const std::uint8_t> bufferView(int index) const;
 
-    /// The bytes behind a URI: data, or a file in the document's folder or below. where: the property, for the
-    /// Error{Input}.
+    /// The bytes that a URI names: its own data, or a file in the document's folder or below. where: the property with
+    /// the URI, for messages. Throws Error{Input}.
     [[nodiscard]] std::vector<std::uint8_t> readUri(const std::string& uri, const std::string& where) const;
 
-    /// Counts bytes that are made out of fewer in the file, on the way to the scene: what decoders allocate, unpacked
+    /// Counts bytes that are made of fewer bytes in the file, on the way to the scene: what decoders allocate, unpacked
     /// views, zeros that the file leaves out. checkGltfSize() bounds the scene by the counts that accessors announce;
-    /// these come on top, and packed data announces counts of its own. Throws Error{Input} where all of them together
-    /// are out of proportion to the file, or more than sceneBytesMax().
+    /// these bytes come on top, and packed data announces counts of its own. Throws Error{Input} if their sum is out of
+    /// proportion to the size of the file, or more than sceneBytesMax().
     void countUnpacked(std::uint64_t bytes, const std::string& where) const;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(path, text); }
     [[nodiscard]] bool uses(std::string_view extension) const;
 };
 
-/// What is left out of a scene, each kind once with the first place and the number of places.
+/// Collects what is left out of a scene: each kind once, with the number of places and the first of them.
 class GltfWarnings
 {
 public:
@@ -80,8 +80,8 @@ private:
     std::map<std::string, std::size_t> m_by_kind; // index into m_entries
 };
 
-/// Parses a .gltf or .glb file, told apart by their content, and reads all its buffers. content: that of path, beside
-/// which other files lie. Throws Error{Input}.
+/// Parses a .gltf or .glb file, which are told apart by their content, and reads all its buffers. content: the bytes of
+/// path; other files are looked for beside path. Throws Error{Input}.
 GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content);
 
 } // namespace zvo

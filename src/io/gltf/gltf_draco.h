@@ -22,8 +22,9 @@ namespace zvo
 class GltfDracoMesh
 {
 public:
-    /// Unpacks primitive; nothing where it is not packed. where: its place. Throws Error{Input} for data that does not
-    /// decode or is out of proportion. After: Google, Draco bitstream specification, version 2.2.
+    /// Unpacks primitive; returns nothing if it is not packed. where: the primitive, for messages. Throws Error{Input}
+    /// for data that does not decode or is out of proportion. After: Google, Draco bitstream specification, version
+    /// 2.2.
     static std::optional<GltfDracoMesh> unpack(const GltfDocument& document, const tinygltf::Primitive& primitive,
                                                const std::string& where);
 
@@ -31,14 +32,15 @@ public:
     GltfDracoMesh& operator=(GltfDracoMesh&&) noexcept;
     ~GltfDracoMesh();
 
-    /// Whether the attribute is packed; otherwise its accessor holds it.
+    /// Whether the attribute is packed; otherwise its values are those of its accessor.
     [[nodiscard]] bool has(const std::string& attribute) const;
 
-    /// A packed attribute as its accessor describes it. Throws Error{Input} where accessor and data do not go together.
+    /// A packed attribute in the form that its accessor describes. Throws Error{Input} if accessor and data contradict
+    /// each other.
     [[nodiscard]] GltfAccessor open(const GltfDocument& document, const std::string& attribute, int accessor,
                                     const std::string& use) const;
 
-    /// Vertices of the triangles, a list whatever the primitive's mode.
+    /// Vertex indices of the triangles: a triangle list, whatever the primitive's mode is.
     [[nodiscard]] std::vector<std::uint32_t> indices() const;
 
 private:

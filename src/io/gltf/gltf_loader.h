@@ -18,7 +18,7 @@ namespace zvo
 /// Group, glTF 2.0 Specification, version 2.0.1, 2021.
 Scene loadGltf(const std::filesystem::path& path);
 
-/// The same from content in memory; other files are looked for beside path.
+/// The same for content in memory. Other files are looked for beside path.
 Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content);
 
 } // namespace zvo

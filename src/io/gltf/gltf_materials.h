@@ -25,21 +25,21 @@ struct GltfUvSource
     bool operator==(const GltfUvSource&) const = default;
 };
 
-/// A material in the scene.
+/// A material that was put into the scene.
 struct GltfMaterial
 {
     std::uint32_t index = 0;         // into Scene::materials
     std::optional<GltfUvSource> uvs; // where it has a texture
 };
 
-/// Puts a document's materials into a scene when they are first asked for, with their textures and decoded images. All
-/// must outlive it.
+/// Puts a document's materials, with their textures and decoded images, into a scene when they are first asked for. All
+/// references must outlive it.
 class GltfMaterials
 {
 public:
     GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings);
 
-    /// The material of that index in the document; -1: the default one. Throws Error{Input}.
+    /// The material with that index in the document; -1: the default material. Throws Error{Input}.
     const GltfMaterial& get(int material);
 
 private:

@@ -11,7 +11,8 @@
 namespace zvo
 {
 
-/// A node of the default scene with its transform to the world, the product of its ancestors' in double precision.
+/// A node of the default scene with its transform to the world: the product of its own and its ancestors' transforms,
+/// in double precision.
 struct GltfPlacedNode
 {
     int node = 0;

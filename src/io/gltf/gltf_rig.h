@@ -14,11 +14,12 @@
 namespace zvo
 {
 
-/// Morph targets of a mesh: the most that one of its primitives has.
+/// The number of morph targets of a mesh: the largest number among its primitives.
 std::size_t gltfTargetCount(const tinygltf::Mesh& mesh);
 
-/// Puts the placed nodes of a document into a scene, Scene::nodes[i] being nodes[i], and what moves them: skins when
-/// they are first asked for, and animations. What cannot be used is left out with a warning. All must outlive it.
+/// Puts the placed nodes of a document into a scene, Scene::nodes[i] being nodes[i], with what moves them: skins when
+/// they are first asked for, and animations. Unusable parts are left out with a warning. All references must outlive
+/// it.
 class GltfRig
 {
 public:
@@ -27,7 +28,8 @@ public:
     /// Index into Scene::skins of the document's skin; kNone where it cannot be used. Throws Error{Input}.
     std::uint32_t skin(int skin);
 
-    /// All channels that move nodes of the scene. Throws Error{Input} for data that leaves its buffer.
+    /// Puts the animations into the scene, with all channels that move its nodes. Throws Error{Input} for data that
+    /// leaves its buffer.
     void addAnimations();
 
 private:

@@ -9,8 +9,8 @@
 namespace zvo
 {
 
-/// checkSceneSize() of what the nodes will show, before anything of it is read: a small file can name the same data any
-/// number of times. Data that is packed must hold no more than its accessors announce.
+/// Applies checkSceneSize() to everything that the nodes show, before any of it is read, because a small file can name
+/// the same data any number of times. Packed data must hold no more than its accessors announce.
 void checkGltfSize(const GltfDocument& document, std::span<const GltfPlacedNode> nodes);
 
 } // namespace zvo

@@ -16,7 +16,7 @@ std::string decodePercent(std::string_view text);
 /// Whether a URI holds its data itself (RFC 2397).
 bool isDataUri(std::string_view uri);
 
-/// Whether a URI names another place than a file relative to the document: "https://...", "file://...".
+/// Whether a URI names something else than a file relative to the document: "https://...", "file://...".
 bool isRemoteUri(std::string_view uri);
 
 /// The bytes of a data URI, base64 or percent-encoded; nothing where it is malformed.

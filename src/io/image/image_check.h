@@ -8,16 +8,17 @@
 namespace zvo
 {
 
-/// Why the decoder (stb_image) must not see an encoded image at all; empty: it may. Walks the segments of a JPEG for
-/// what the decoder trusts: Huffman tables no longer than the format allows, and no more scans, of which each costs as
-/// much as the picture, than an encoder writes. Takes time in proportion to the file.
+/// Says why the decoder (stb_image) must not read an encoded image at all; empty: it may. Reads the segments of a JPEG
+/// and checks what the decoder trusts: that Huffman tables are no longer than the format allows, and that there are no
+/// more scans than an encoder writes, as each scan costs as much as the picture. Takes time in proportion to the size
+/// of the file.
 std::string findImageFault(std::span<const std::uint8_t> encoded);
 
-/// What the size that a PNG or JPEG announces means for its decoding.
+/// The cost of decoding a PNG or JPEG, from the size that it announces.
 struct ImageCost
 {
-    bool plausible = false;      // so few bytes can hold so many pixels
-    std::uint64_t raw_bytes = 0; // what is to be held at least, whatever the pixels become afterwards
+    bool plausible = false;      // the file is long enough for so many pixels
+    std::uint64_t raw_bytes = 0; // bytes that decoding needs at least, whatever the pixels become afterwards
 };
 
 /// The cost of an image whose header announces width * height pixels, from its first bytes alone.

@@ -7,7 +7,7 @@
 namespace zvo
 {
 
-/// A linear fraction of an sRGB encoded one (IEC 61966-2-1), both in [0, 1]; what is no number is 0.
+/// The linear fraction of an sRGB encoded one (IEC 61966-2-1), both in [0, 1]. NaN becomes 0.
 inline double srgbToLinear(double encoded)
 {
     const double value = encoded > 0.0 ? std::min(encoded, 1.0) : 0.0;

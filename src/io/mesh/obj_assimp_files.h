@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The files that an OBJ file may name, and how assimp gets to see them; for obj_file.cpp.
+// The files that an OBJ file may name, in the form in which assimp reads them; for obj_file.cpp.
 #pragma once
 
 #include <assimp/IOSystem.hpp>
@@ -20,7 +20,7 @@ class IOStream;
 namespace zvo
 {
 
-/// The file that a name in another file means. Nothing where it leaves the folder.
+/// The path of the file that a name in another file refers to. Nothing if it lies outside of the folder.
 std::optional<std::filesystem::path> fileBeside(const std::filesystem::path& scene, std::string name);
 
 bool isFile(const std::filesystem::path& path);
@@ -37,10 +37,10 @@ public:
     Assimp::IOStream* Open(const char* file, const char* mode) override;
     void Close(Assimp::IOStream* file) override;
 
-    /// Names that leave the folder.
+    /// Names of files outside of the folder that were asked for.
     [[nodiscard]] const std::vector<std::string>& outside() const { return m_outside; }
 
-    /// The first material file that is not there, where none is.
+    /// The first material file that was asked for and not found; nothing if any material file was found.
     [[nodiscard]] std::optional<std::string> missing() const
     {
         return m_material_files.empty() && !m_missing.empty() ? std::optional(m_missing.front()) : std::nullopt;

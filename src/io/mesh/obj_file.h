@@ -10,8 +10,8 @@
 namespace zvo
 {
 
-/// The triangles of an OBJ file with the colours and textures of its material files, read by assimp: importMesh() says
-/// how. bytes: the content of path. Throws Error{Input}.
+/// The triangles of an OBJ file with the colours and textures of its material files, read by assimp as importMesh()
+/// describes. bytes: the content of path. Throws Error{Input}.
 Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
 
 } // namespace zvo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a PLY file says of its data, which ply_file.h reads.
+// The header of a PLY file, which describes its data; ply_file.h reads the data.
 #pragma once
 
 #include "io/file/text_cursor.h"
@@ -54,8 +54,8 @@ struct PlyHeader
     std::vector<PlyElement> elements;
 };
 
-/// Reads the header; cursor, at the start of the file, is then at the start of the data. path: for messages. Throws
-/// Error{Input}.
+/// Reads the header. cursor: at the start of the file, and afterwards at the start of the data. path: for messages.
+/// Throws Error{Input}.
 PlyHeader readPlyHeader(TextCursor& cursor, const std::filesystem::path& path);
 
 /// Error{Input}: why path is not a valid PLY file.

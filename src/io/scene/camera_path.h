@@ -16,7 +16,7 @@
 namespace zvo
 {
 
-/// Where the camera is at a time.
+/// The camera at one time.
 struct CameraKey
 {
     double seconds = 0;
@@ -33,14 +33,14 @@ struct CameraKey
 class CameraPath
 {
 public:
-    /// At least one key, at times that go up, from 0 on, each with an eye and a target apart and a field of view inside
-    /// (0, 180). Throws Error{Usage} for others.
+    /// keys: at least one, at ascending times from 0 on, each with a distance between eye and target and a field of
+    /// view inside (0, 180). Throws Error{Usage} for others.
     explicit CameraPath(std::vector<CameraKey> keys);
 
-    /// The camera at a time, with y up; with the direction of the key before where eye and target meet on the way.
+    /// The camera at a time, with y up. Where eye and target meet on the way, it has the direction of the key before.
     [[nodiscard]] ViewCamera at(double seconds) const;
 
-    /// Until the last key.
+    /// The time of the last key.
     [[nodiscard]] double seconds() const { return m_keys.back().seconds; }
 
     [[nodiscard]] const std::vector<CameraKey>& keys() const { return m_keys; }
@@ -49,11 +49,11 @@ private:
     std::vector<CameraKey> m_keys;
 };
 
-/// The path in a file. Throws Error{Input}, one line that begins with the file.
+/// Reads the path in a file. Throws Error{Input}, one line that begins with the file.
 CameraPath readCameraPath(const std::filesystem::path& file);
 CameraPath parseCameraPath(std::string_view text, const std::filesystem::path& file);
 
-/// A file with that path: read again, it has the same keys, bit for bit.
+/// The text of a file with that path. Reading it gives the same keys, bit for bit.
 std::string cameraPathText(const CameraPath& path);
 
 } // namespace zvo

@@ -10,7 +10,7 @@
 namespace zvo
 {
 
-/// The axis that points up in a file. It becomes y; the others turn with it, so that nothing is mirrored.
+/// The axis that points up in a file. It becomes y, and the others turn with it, so that nothing is mirrored.
 enum class UpAxis : std::uint32_t
 {
     X,
@@ -25,20 +25,21 @@ struct LoadOptions
 {
     UpAxis up = UpAxis::Y;
     float scale = 1.0F;           // world units of a unit of the file, above 0
-    bool every_animation = false; // of a file, for keepAnimation(); otherwise the first one alone, which plays
+    bool every_animation = false; // keeps all animations of a file, for keepAnimation(); otherwise only the first one
 };
 
-/// Several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content where
-/// it is clear, by their extension otherwise. Throws Error{Input}, one line with the path, and as place() does.
+/// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content
+/// where it is clear, otherwise by their extension. Throws Error{Input}, one line with the path, and what place()
+/// throws.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
 
-/// Whether a path names a scene file, NAME.scene.json (io/scene/scene_file.h): loadScene refuses those.
+/// Whether a path names a scene file, NAME.scene.json (io/scene/scene_file.h). loadScene() refuses scene files.
 bool isSceneFile(const std::filesystem::path& path);
 
-/// The rotation, exact, that takes an axis to y.
+/// The exact rotation that takes an axis to y.
 glm::mat3 rotationToY(UpAxis up);
 
-/// Turns and scales a scene with its cameras. Throws Error{Usage} if it becomes larger than single precision holds.
+/// Turns and scales a scene with its cameras. Throws Error{Usage} if it becomes larger than single precision can hold.
 void place(Scene& scene, const LoadOptions& options);
 
 } // namespace zvo

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene files (*.scene.json) as they are written: docs/input.md has their schema. io/scene/animated_scene.h loads what
-// they name.
+// The contents of scene files (*.scene.json), whose schema is in docs/input.md. io/scene/animated_scene.h loads the
+// files that they name.
 #pragma once
 
 #include "core/scene/animation.h"
@@ -20,20 +20,20 @@
 namespace zvo
 {
 
-/// What a scene file says of one object.
+/// An object in a scene file.
 struct SceneFileObject
 {
     std::string where; // its path in the JSON, for messages: objects[1]
     std::string name;  // by default the file's, without its extension
     std::string file;  // as written
     UpAxis up = UpAxis::Y;
-    glm::dmat4 transform{1.0}; // of the scene in the file, its up axis turned already; affine
+    glm::dmat4 transform{1.0}; // of the object's scene, whose up axis is y already; affine
     Motion motion;
-    std::optional<AnimationChoice> animation; // of the file; not said: the first
-    std::optional<bool> is_dynamic;           // not said: where it moves or is animated
+    std::optional<AnimationChoice> animation; // the file's animation that plays; not given: the first
+    std::optional<bool> is_dynamic;           // not given: dynamic if it moves or is animated
 };
 
-/// A camera: one of the static objects' by its name, auto, close, or numbers.
+/// The camera of a scene file: a camera of a static object by its name, "auto", "close", or numbers.
 using SceneFileCamera = std::variant<std::string, ViewCamera>;
 
 struct SceneFile

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a MagicaVoxel file says, before its models are placed; vox_file.h reads all of it.
+// The contents of a MagicaVoxel file, before its models are placed; vox_file.h reads whole files.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct VoxModel
     }
 };
 
-/// A rotation by quarter turns with mirroring, and then a move by whole voxels.
+/// A rotation by quarter turns, which may mirror, followed by a translation by whole voxels.
 struct VoxPlacement
 {
     glm::ivec3 axis{0, 1, 2}; // which coordinate becomes the i-th one
@@ -87,8 +87,8 @@ struct VoxScene
     std::set<std::int32_t> hidden_layers;
 };
 
-/// Reads all chunks; the scene refers to bytes. Voxels lie in their models; what nodes name may not be there, and they
-/// may go round in circles. name: for messages. Throws Error{Input}.
+/// Reads all chunks. The result refers to bytes. Voxels are known to lie in their models; but nodes may name others
+/// that do not exist, and may form cycles. name: for messages. Throws Error{Input}.
 VoxScene readVoxScene(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
 
 } // namespace zvo

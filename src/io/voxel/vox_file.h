@@ -18,18 +18,19 @@
 namespace zvo
 {
 
-/// What a .vox file shows, in the smallest grid from the origin on; where it reaches below, the origin moves.
+/// The voxels of a .vox file, in the smallest grid from the origin on. If voxels lie below the origin, the grid begins
+/// there.
 struct VoxVoxels
 {
     Grid grid;                         // voxels of size 1
     std::vector<std::uint64_t> codes;  // Morton codes, ascending, each once
     std::vector<std::uint32_t> colors; // [codes] sRGB red | green << 8 | blue << 16
-    std::vector<std::string> warnings; // of what was left out
+    std::vector<std::string> warnings; // about what was left out
 };
 
-/// Voxels of all models that the scene graph shows, in its order: where they overlap the last one stays. Hidden nodes
-/// and layers are left out, and all frames of an animation but the first. Without a scene graph, the first model alone.
-/// Throws Error{Input}: one line that begins with name.
+/// The voxels of all models that the scene graph shows. Models are placed in its order; where they overlap, the last
+/// one counts. Hidden nodes and layers are left out, and all frames of an animation but the first. Without a scene
+/// graph, only the first model is read. Throws Error{Input}: one line that begins with name.
 VoxVoxels readVox(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
 
 /// Hands the bytes of a .vox file to write, piece by piece: a model for each block of 256^3 voxels that has any, in
