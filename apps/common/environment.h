@@ -6,7 +6,7 @@
 namespace zvo::cli
 {
 
-/// An environment variable that is to name a folder; empty where it is not set, or not an absolute path.
+/// The folder that an environment variable names; empty if the variable is not set, or is not an absolute path.
 std::filesystem::path environmentPath(const char* variable);
 
 } // namespace zvo::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Options that several commands have; for options.cpp.
+// Options that several commands have, for the options.cpp of each program.
 #pragma once
 
 #include "common/scene_options.h"
@@ -14,7 +14,7 @@
 namespace zvo::cli
 {
 
-/// An option with one argument that read makes a value of.
+/// Adds an option with one argument, which `read` converts to a value.
 template <typename T, typename Read>
 CLI::Option* addValue(CLI::App& app, const char* name, T& target, Read read, const char* type, const std::string& what)
 {
@@ -27,7 +27,7 @@ CLI::Option* addText(CLI::App& app, const char* name, std::string& target, const
 
 void addFolder(CLI::App& app, const char* name, std::optional<std::filesystem::path>& folder, const std::string& what);
 
-/// text, which has to be one of names. Throws Error{Usage}.
+/// Returns text, which must be one of names. Throws Error{Usage}.
 std::string oneOf(std::string_view option, std::string_view text, std::initializer_list<std::string_view> names);
 
 void addDeviceOptions(CLI::App& app, DeviceOptions& options);
@@ -37,10 +37,10 @@ void addAttributesOption(CLI::App& app, AttributeFormat& attributes); // Bytes8 
 void addStructureOption(CLI::App& app, TreeStructure& structure);
 void addLoadOptions(CLI::App& app, LoadOptions& options);
 
-/// What becomes voxels, and how, but for attributes. also: more that SCENE may be.
+/// The options of what is voxelized and how, except attributes. also: what else SCENE may be.
 void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also = "");
 
-/// what: is written to the output.
+/// what: the name of what is written to the output.
 void addOutputOptions(CLI::App& app, OutputOptions& options, const char* what);
 
 void addCameraOption(CLI::App& app, std::string& camera);

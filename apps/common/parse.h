@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The words of the command line as values. Numbers are written the same in every locale; whatever is not exactly a
-// value of the kind asked for is an Error{Usage} that names the option.
+// The words of the command line as values. The format of numbers does not depend on the locale. A word that is not
+// exactly a value of the expected kind is an Error{Usage} that names the option.
 #pragma once
 
 #include "core/scene/scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is told on standard error while the work goes on.
+// Messages and progress on standard error.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 namespace zvo::cli
 {
 
-/// A line on standard error that begins with the program's name; control characters become spaces.
+/// Writes a line to standard error that begins with the program's name; control characters become spaces.
 void talk(std::string_view text);
 
-/// The program's name for talk(): "zvo" until it is told. name must outlive all talk.
+/// Sets the program's name for talk(): "zvo" until then. name must outlive all calls of talk().
 void nameProgram(const char* name);
 
-/// What is told from now on goes to listener, too; null: nowhere else.
+/// From now on, all lines go to listener as well; null: to standard error only.
 void listenToTalk(std::function<void(std::string_view)> listener);
 
-/// Takes the progress bar off the screen, if one is shown. Async-signal-safe.
+/// Removes the progress bar from the screen, if one is shown. Async-signal-safe.
 void clearProgressBar() noexcept;
 
 /// A progress bar on standard error, if that is a terminal. One at a time.
@@ -31,20 +31,20 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Tells how many steps there are in all, where that shows only on the way.
+    /// Sets the number of steps in all, where it becomes known only later.
     void expect(std::size_t step_count) { m_step_count = step_count; }
 
-    /// The next step begins; what: a few words on it.
+    /// Begins the next step. what: a few words about it.
     void step(std::string_view what);
 
-    /// How much of the step is done: 0 to 1.
+    /// Sets how much of the step is done: 0 to 1.
     void within(double done);
 
 private:
     void draw(double done) const;
 
     std::size_t m_step_count;
-    std::size_t m_step = 0; // that is going on, counted from 1
+    std::size_t m_step = 0; // the current step, counted from 1
     std::string m_what;
 };
 

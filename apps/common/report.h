@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The numbers of a run as JSON. The names of the fields are an interface: they stay.
+// The numbers of a run as JSON. The names of the fields are an interface and do not change.
 #pragma once
 
 #include "common/scene_options.h"
@@ -21,14 +21,14 @@ using Json = nlohmann::ordered_json;
 /// Name, driver, type and subgroup size.
 Json deviceJson(const vk::DeviceReport& device);
 
-/// Place and size of a grid: single precision in the fewest digits of double precision that give it back bit for bit.
+/// Origin and voxel size of a grid, in the fewest digits that give the single precision numbers back bit for bit.
 Json gridJson(const Grid& grid);
 
-/// How a report begins: schema, version, device, grid, and how it was voxelized.
+/// The beginning of every report: schema, version, device, grid, and how it was voxelized.
 Json headJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options, const Grid& grid);
 
-/// What `zvo render` and `zvo voxelize` report on the way from triangles to the octree; trace_ms is null.
-/// peak_bytes: device memory of the whole run.
+/// The part of the reports of `zvo render` and `zvo voxelize` about the way from triangles to the octree; trace_ms is
+/// null. peak_bytes: the most device memory of the whole run.
 Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options,
                 std::uint64_t triangle_count, const BuildResult& result, const std::string& octree_sha256,
                 std::uint64_t peak_bytes);
@@ -36,10 +36,10 @@ Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const
 /// Each pass with its time, in order.
 Json passesJson(const std::vector<vk::PassTime>& passes);
 
-/// The times of passes of the same name added up, in the order in which they first occur.
+/// The sums of the times of passes with the same name, in the order in which the names first occur.
 std::vector<vk::PassTime> sumByName(const std::vector<vk::PassTime>& passes);
 
-/// The times of all passes added up.
+/// The sum of the times of all passes.
 double sumMs(const std::vector<vk::PassTime>& passes);
 
 /// json as indented text with a line break at the end.

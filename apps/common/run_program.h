@@ -6,8 +6,8 @@
 namespace zvo::cli
 {
 
-/// The exit status of a program that does what `program` does: 0, or that of the error that it throws, which is told in
-/// one line.
+/// Runs `program` and returns the exit status: 0, or that of the error that it throws, which is written to standard
+/// error in one line.
 int runProgram(const std::function<void()>& program);
 
 } // namespace zvo::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the programs are asked for in the same way: devices, scenes, places of results.
+// Options that the programs share: devices, scenes, outputs.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -17,40 +17,40 @@
 namespace zvo::cli
 {
 
-/// Which device, and how much of it.
+/// The device, and how much of it may be used.
 struct DeviceOptions
 {
     std::string device; // name part, index or "cpu"; empty: the best one
     bool validation = false;
     bool gpu_validation = false;             // also instruments the kernels
     std::uint64_t memory_limit = UINT64_MAX; // bytes
-    std::uint32_t dispatch_ms = 400;         // aimed at for one submission of work; 0: never split
+    std::uint32_t dispatch_ms = 400;         // target for one submission of work; 0: never split
 };
 
-/// A grid's place as a report states it.
+/// Origin and voxel size of a grid, as a report states them.
 struct GridPosition
 {
     glm::vec3 origin{0.0F};
     float voxel_size = 1.0F;
 };
 
-/// What becomes voxels, and how.
+/// What is voxelized, and how.
 struct VoxelOptions
 {
     std::vector<std::filesystem::path> scenes; // files that make one scene, or one scene file
     LoadOptions load;
-    std::optional<std::filesystem::path> scenes_folder; // where else what a scene file names may lie
+    std::optional<std::filesystem::path> scenes_folder; // another folder for the files that a scene file names
     std::optional<double> time;                         // seconds, from 0 on
     std::optional<std::uint32_t> depth;                 // not given: the scene file's, or 9
     Coverage coverage = TreeBuildInfo().coverage;
-    AttributeFormat attributes = AttributeFormat::Bytes8; // of the voxels; packed ones are of build alone
+    AttributeFormat attributes = AttributeFormat::Bytes8; // of the voxels; packed formats only for build
     std::optional<Bounds> bounds;                         // the cube from this box's minimum corner on
     std::optional<GridPosition> grid_position;            // exactly this grid; neither: the cube around the scene
 
     [[nodiscard]] bool hasAttributes() const { return attributes != AttributeFormat::None; }
 };
 
-/// Where results go. "-" is standard output.
+/// The outputs of a command. "-" is standard output.
 struct OutputOptions
 {
     std::string path;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the commands have in common.
+// Functions that several commands share.
 #pragma once
 
 #include "common/scene_options.h"
@@ -18,32 +18,32 @@
 namespace zvo::cli
 {
 
-/// How a command makes its device; pipelines are kept below $XDG_CACHE_HOME/zvo, or ~/.cache/zvo.
+/// The options with which a command makes its device. Pipelines are kept below $XDG_CACHE_HOME/zvo, or ~/.cache/zvo.
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
 
-/// Loads files as one scene and tells what was left out of it. Throws Error{Input}.
+/// Loads files as one scene and reports what was left out of it. Throws Error{Input}.
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options);
 
-/// What options name: a scene file with all that it names, or other files as one scene. in_motion: whether times were
-/// asked for; without, other files stand at rest. Tells what was left out. Throws Error{Input}, and Error{Usage} for
-/// options that do not fit the files.
+/// Loads what options name: a scene file with everything that it names, or other files as one scene. in_motion: whether
+/// times were asked for; if not, other files stand at rest. Reports what was left out. Throws Error{Input}, and
+/// Error{Usage} for options that do not fit the files.
 AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in_motion);
 
-/// The grid that options or else the animated scene ask for, or the one around bounds, the animated scene's.
+/// The grid that options or the animated scene ask for, or else the grid around bounds, those of the animated scene.
 Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const Bounds& bounds);
 
-/// Tells of voxels that are not there, and of triangles that were left out because their numbers make no sense;
-/// dropped: triangles by reason. Whether there was something to tell.
+/// Reports if there are no voxels, and triangles that were left out because their numbers make no sense. dropped:
+/// triangles by reason. Returns whether anything was reported.
 bool warnOfDropped(std::uint64_t voxel_count, const std::map<std::string, std::uint64_t>& dropped);
 
-/// Tells of triangles of what moves that were left out at a time of the animated scene because their numbers make no
-/// sense. Whether there were any.
+/// Reports triangles of dynamic objects that were left out at a time of the animated scene because their numbers make
+/// no sense. Returns whether there were any.
 bool warnOfDroppedTriangles(double seconds, const std::map<std::string, std::uint64_t>& dropped);
 
-/// Tells where an animated scene's rule of merging has no effect because everything is voxelized together.
+/// Reports if an animated scene's merge rule has no effect because everything is voxelized together.
 void warnOfMergeRule(const AnimatedScene& animated);
 
-/// Throws Error{Other} where the validation layers have said something.
+/// Throws Error{Other} if the validation layers have reported anything.
 void checkValidation(const vk::HeadlessDevice& device);
 
 } // namespace zvo::cli

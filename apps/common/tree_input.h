@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that hold voxels already.
+// Reading files that hold voxels already.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -11,11 +11,11 @@
 namespace zvo::cli
 {
 
-/// Whether a file, by its name, is one of MagicaVoxel.
+/// Whether a file, by its name, is a .vox file of MagicaVoxel.
 bool isVoxFile(const std::filesystem::path& path);
 
-/// The octree of what a .vox file shows, with attributes of nodes, which the device makes. Tells what was left out.
-/// Throws Error{Input}, and Error{Memory} when the device's budget does not suffice.
+/// The octree of the voxels in a .vox file, with attributes of nodes, which the device computes. Reports what was left
+/// out. Throws Error{Input}, and Error{Memory} when the device's budget does not suffice.
 TreeData loadVox(const std::filesystem::path& path, vk::HeadlessDevice& device);
 
 /// The box around a tree's voxels in world space; empty where there are none.

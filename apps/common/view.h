@@ -13,22 +13,23 @@
 namespace zvo::cli
 {
 
-/// Part of a scene's bounds that lies in grid, or all of grid where there is none: what a picture is about.
+/// What a picture should show: the part of a scene's bounds that lies in grid, or all of grid where there is no such
+/// part.
 Bounds subjectOf(const Bounds& scene, const Grid& grid);
 
-/// The camera that wanted names: "ex,ey,ez,tx,ty,tz[,fov]", a camera of scene, "auto", which fits subject into the
-/// picture, or "close", which is less than half as far from its centre; empty: the scene's first camera, or as auto.
-/// Throws Error{Usage} where there is no such camera.
+/// The camera that `wanted` names: "ex,ey,ez,tx,ty,tz[,fov]", the name of a camera of scene, "auto", which fits subject
+/// into the picture, or "close", which is less than half as far from subject's centre. Empty: the scene's first camera,
+/// else as "auto". Throws Error{Usage} if there is no such camera.
 ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect);
 
-/// The same of an animated scene, whose own camera comes before the first one of what is fixed in it.
+/// The same for an animated scene, whose own camera is preferred to the first camera of its fixed part.
 ViewCamera chooseCamera(const std::string& wanted, const AnimatedScene& animated, const Bounds& subject, double aspect);
 
-/// A camera by eye, target and, if it is there, vertical field of view in degrees. Throws Error{Usage} where they are
-/// not six or seven numbers, or make no camera.
+/// A camera from eye, target and, if given, vertical field of view in degrees. Throws Error{Usage} for anything but six
+/// or seven numbers, and for numbers that make no camera.
 ViewCamera cameraOfNumbers(const std::vector<float>& numbers);
 
-/// The view of that name. Throws Error{Usage} that lists the names.
+/// The view of that name. Throws Error{Usage}, listing the names.
 View viewOf(std::string_view option, std::string_view name);
 
 /// All views with the names that viewOf() takes.
@@ -39,7 +40,7 @@ struct NamedView
 };
 std::span<const NamedView> allViews();
 
-/// What --help says of --view.
+/// The text of --help about --view.
 std::string viewHelp();
 
 } // namespace zvo::cli

@@ -6,8 +6,8 @@
 namespace zvo::cli
 {
 
-/// `zvo info`: tells on standard output what devices there are and which would be used. Throws Error{Device}, after
-/// having told that, when none would.
+/// `zvo info`: lists the devices on standard output, and the one that would be used. Throws Error{Device} afterwards if
+/// none would be.
 void info(const InfoOptions& options);
 
 } // namespace zvo::cli

@@ -35,8 +35,8 @@ struct RenderOptions
     float exposure = TraceOptions().exposure;
     float detail_pixels = TraceOptions().detail_pixels;            // rays stop at octree nodes up to this wide
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
-    std::optional<TreeStructure> structure; // of what stands still; not given: an octree, or the file's
-    bool rebuild = false; // what moves is not merged with what stands still: everything is voxelized for each picture
+    std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
+    bool rebuild = false;                   // voxelizes everything for each picture, instead of merging dynamic objects
 };
 
 struct VoxelizeOptions
@@ -81,7 +81,7 @@ struct InfoOptions
     bool json = false;
 };
 
-/// What the command line asks for: one command's options, or text to print and nothing more (help, version).
+/// The command line's request: the options of one command, or a text that is printed (help, version).
 using Command = std::variant<std::string, RenderOptions, VoxelizeOptions, BuildFileOptions, InspectOptions,
                              ValidateOptions, ConvertOptions, InfoOptions, BenchOptions>;
 

@@ -13,12 +13,12 @@
 namespace zvo::cli
 {
 
-/// The pictures' files: one, or one for each frame.
+/// The files of the pictures: one, or one for each frame.
 class Pictures
 {
 public:
-    /// Finds out now whether all of them can be written. Throws Error{Usage} for a name that will not do, Error{Output}
-    /// for a place that cannot be written to.
+    /// Checks at once whether all of them can be written. Throws Error{Usage} for a name that is not valid,
+    /// Error{Output} for a path that cannot be written to.
     explicit Pictures(const RenderOptions& options);
 
     [[nodiscard]] std::uint32_t count() const;
@@ -33,9 +33,9 @@ private:
     [[nodiscard]] std::string pathOf(std::uint32_t index) const;
 
     const RenderOptions& m_options;
-    std::size_t m_marker = 0; // where the frame's number goes
+    std::size_t m_marker = 0; // position of the frame's number in the name
     std::size_t m_digits = 0;
-    std::optional<Output> m_first; // opened already
+    std::optional<Output> m_first; // the first file, which is open already
 };
 
 } // namespace zvo::cli

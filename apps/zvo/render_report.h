@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `zvo render` tells of its pictures.
+// The report of `zvo render` about its pictures.
 #pragma once
 
 #include "common/report.h"
@@ -19,44 +19,44 @@
 namespace zvo::cli
 {
 
-/// A frame of an animated scene in which what moves is merged with what stands still.
+/// A frame of an animated scene whose dynamic objects are merged with its static part.
 Json updateFrame(std::uint32_t number, double seconds, const LiveUpdate& update);
 
-/// Gathers what there is to tell: first what was made, by exactly one of addOctree(), addFile() and addAnimatedScene(),
-/// then the pictures of it. What is given must outlive this.
+/// Collects the numbers of a run: first those of the tree, by exactly one of addOctree(), addFile() and
+/// addAnimatedScene(), then those of the pictures. All arguments must outlive this object.
 class RenderReport
 {
 public:
     RenderReport(const RenderOptions& options, vk::HeadlessDevice& device) : m_options(options), m_device(device) {}
 
-    /// The octree of the first picture, and how many triangles it was made of.
+    /// Adds the octree of the first picture, and the number of its triangles.
     void addOctree(const BuildResult& result, std::uint64_t triangle_count);
 
-    /// The DAG that was made of it; later ones are not told of.
+    /// Adds the DAG that was made of that octree. Later DAGs are not reported.
     void addDag(const StaticPart& part);
 
-    /// What a file holds.
+    /// Adds the tree of a file.
     void addFile(const TreeData& tree);
 
-    /// What stands still, and the first update.
+    /// Adds the static part of an animated scene, and its first update.
     void addAnimatedScene(const LiveScene& scene, const LiveUpdate& update);
 
-    /// The passes of the first beam grid.
+    /// Adds the passes of the first beam grid.
     void addBeam(std::vector<vk::PassTime> passes) { m_beam_passes = std::move(passes); }
 
     void addPicture(PictureTimes times) { m_times.push_back(std::move(times)); }
 
-    /// A frame, whose picture was added last.
+    /// Adds the frame of the picture that was added last.
     void addFrame(Json frame);
 
-    /// A frame of an animated scene in which everything is voxelized anew; before the octree is used up.
+    /// Adds a frame of an animated scene in which everything is voxelized anew. Call it before the octree is used up.
     [[nodiscard]] Json rebuiltFrame(std::uint32_t number, double seconds, const BuildResult& result,
                                     std::uint64_t triangle_count) const;
 
-    /// All of it, after all pictures.
+    /// The whole report, after all pictures.
     [[nodiscard]] Json json(std::uint32_t picture_count, std::uint64_t capped_rays) const;
 
-    /// On one line on standard error, after all pictures.
+    /// Writes one line to standard error, after all pictures.
     void tell(std::uint64_t capped_rays) const;
 
 private:

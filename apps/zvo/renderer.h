@@ -14,7 +14,7 @@
 namespace zvo::cli
 {
 
-/// Times of one picture.
+/// The times of one picture.
 struct PictureTimes
 {
     std::vector<vk::PassTime> passes;
@@ -22,21 +22,21 @@ struct PictureTimes
     double shade_ms = 0; // shadow and occlusion rays, and colour
 };
 
-/// Pictures of one size, of one octree or DAG after the other. Their buffers are made for the first one, so that a
-/// scene that fits does not fail for want of memory before there is something to show.
+/// Renders pictures of one size, of one or several octrees or DAGs. The buffers are made for the first picture, so that
+/// memory that only pictures need cannot keep a tree from being made.
 class Renderer
 {
 public:
     Renderer(vk::HeadlessDevice& device, const RenderOptions& options);
 
-    /// Shows tree, which must outlive that, from now on; to be called again whenever it has changed. Returns the passes
-    /// that this took. Throws Error{Memory} for a picture that is too large.
+    /// Sets the tree that is shown from now on; it must outlive that. Call it again whenever the tree has changed.
+    /// Returns the passes that were needed. Throws Error{Memory} for a picture that is too large.
     std::vector<vk::PassTime> show(const DeviceTree& tree);
 
     /// The picture as a PNG file.
     std::vector<std::uint8_t> render(const ViewCamera& view, PictureTimes& times);
 
-    /// Rays of all pictures that were given up.
+    /// The number of rays of all pictures that were given up.
     [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }
 
 private:
@@ -44,7 +44,7 @@ private:
     const RenderOptions& m_options;
     TraceOptions m_trace;
     TreeTracer m_tracer;
-    const DeviceTree* m_tree = nullptr; // that is shown
+    const DeviceTree* m_tree = nullptr; // the tree that is shown
     std::uint64_t m_capped_rays = 0;
 };
 

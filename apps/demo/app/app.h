@@ -39,27 +39,27 @@
 namespace zvo::demo
 {
 
-/// The program: a window, the world in it, and what happens in a frame.
+/// The program: a window, the world that it shows, and the work of a frame.
 class App
 {
 public:
-    /// start: when the program began. Throws Error where there is no display or no device, and when the scene that
-    /// options name cannot be shown.
+    /// start: when the program began. Throws Error if there is no display or no device, or if the scene that options
+    /// name cannot be shown.
     App(const DemoOptions& options, std::chrono::steady_clock::time_point start);
 
-    /// The device is done with all frames.
+    /// Waits until the device is done with all frames.
     ~App();
     App(const App&) = delete;
     App& operator=(const App&) = delete;
 
-    /// Frame by frame, until someone quits. Throws Error where a frame cannot be made, where results cannot be written,
-    /// and where the validation layers have said something.
+    /// Runs frame by frame until the user quits. Throws Error if a frame cannot be made, if results cannot be written,
+    /// or if the validation layers have reported anything.
     void run();
 
 private:
     using Clock = std::chrono::steady_clock;
 
-    // A frame that the device works on.
+    // A frame that is under way on the device.
     struct Flight
     {
         std::uint64_t frame = 0;       // this program's number
@@ -69,9 +69,10 @@ private:
         std::unique_ptr<Screenshot> screenshot;
         bool is_last_picture = false;        // the screenshot is the one that the command line asks for
         std::optional<glm::uvec2> inspected; // pixel of the window
-        std::uint64_t look = 0;              // number of that, for the editor
+        std::uint64_t look = 0;              // number of that request, for the editor
         std::unique_ptr<vk::BufferOf<gpu::PixelReport>> report;
-        vk::Submission submission; // goes first, and waits: the device writes to the others
+        /// Destroyed first: its destructor waits for the device, which writes to the other members.
+        vk::Submission submission;
     };
 
     void tick();

@@ -16,9 +16,8 @@
 namespace zvo::demo
 {
 
-/// The tools under the left mouse button: the brush, and the hand that drags what moves. What is under the pointer they
-/// learn some frames after it was there; strokes, and what is asked for between them, are in the order of events all
-/// the same.
+/// The tools under the left mouse button: the brush, and the hand that drags dynamic objects. What is under the pointer
+/// becomes known to them only some frames later; still, strokes and other edits happen in the order of the events.
 class Editor
 {
 public:
@@ -27,26 +26,26 @@ public:
     /// Whether the left button belongs to a tool.
     [[nodiscard]] bool hasButton() const { return state.tool != Tool::Camera; }
 
-    /// Takes an event of the mouse. camera, size: of the window, in its units.
+    /// Handles an event of the mouse. camera: of the frame. size: of the window, in its units.
     void handle(const InputEvent& event, const ViewCamera& camera, const glm::dvec2& size, World& world);
 
-    /// Does what a key of the tools asks for.
+    /// Performs the action of a key for tools.
     void perform(Action action);
 
-    /// Whether a tool waits for what is under the pointer; number of the look that the next frame takes for it.
+    /// Whether a tool needs to know what is under the pointer; and the number of that request, for the next frame.
     [[nodiscard]] bool wantsPixel() const { return m_stroke.isActive(); }
     [[nodiscard]] std::uint64_t look() const { return m_stroke.look(); }
 
-    /// What a look has found.
+    /// Takes the answer to the request with this number.
     void found(std::uint64_t look, const gpu::PixelReport& report, World& world);
 
-    /// Has an edit done behind the stroke that is under way.
+    /// Queues an edit behind the stroke that is under way.
     void request(const EditRequest& request, World& world);
 
-    /// Lets go of everything: the world is another one.
+    /// Ends everything that is under way, because the world was replaced.
     void release();
 
-    /// The colour of a pixel becomes the brush's.
+    /// Sets the brush's colour to that of a pixel.
     void takeColor(const gpu::PixelReport& report);
 
 private:

@@ -18,10 +18,10 @@
 namespace zvo::demo
 {
 
-/// What the command line asks for. What is not given is as the settings have it.
+/// The options of the command line. Those that are not given have the values of the settings.
 struct DemoOptions
 {
-    cli::VoxelOptions voxels; // scenes: none, or what is shown first
+    cli::VoxelOptions voxels; // scenes: what is shown first; may be none
     std::optional<TreeStructure> structure;
     cli::DeviceOptions device;
     std::optional<PictureSize> size; // of the window
@@ -37,7 +37,7 @@ struct DemoOptions
     std::optional<vk::PresentMode> present_mode;
     std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight;
 
-    std::optional<std::uint64_t> frame_count; // after which the program ends
+    std::optional<std::uint64_t> frame_count; // frames after which the program ends
     std::optional<FixedStep> fixed_step;
     bool hide_ui = false;
     std::optional<std::filesystem::path> shaders; // folder of the sources that F5 compiles
@@ -47,12 +47,12 @@ struct DemoOptions
     std::string json;       // statistics; empty: none
     bool overwrite = false;
 
-    /// A run of so many frames is to be the same for everyone: settings play no part.
+    /// Whether this is a run that must be the same for everyone: one of a fixed number of frames, without settings.
     [[nodiscard]] bool usesSettings() const { return !frame_count.has_value(); }
 };
 
-/// Reads the command line: options, or text to print and nothing more (help, version). Throws Error{Usage}, one line,
-/// for anything that is not understood.
+/// Reads the command line: options, or a text that is printed (help, version). Throws Error{Usage}, one line, for
+/// anything that is not understood.
 std::variant<std::string, DemoOptions> parseCommandLine(int argc, const char* const* argv);
 
 } // namespace zvo::demo

@@ -10,15 +10,15 @@
 namespace zvo::demo
 {
 
-/// What came of shaders that have changed.
+/// The result of reloading shaders.
 struct ReloadedShaders
 {
-    std::size_t count = 0; // that run from now on
-    std::string message;   // why others do not; empty: there are none
+    std::size_t count = 0; // kernels that were replaced
+    std::string message;   // why other kernels were not replaced; empty: all were
 };
 
-/// Compiles what has changed in sources and puts it in place of the kernels. Those that do not compile, or do not fit
-/// this program, stay as they were. The device is done with all work.
+/// Compiles the kernels in sources that have changed, and replaces them. Kernels that do not compile, or do not fit
+/// this program, stay as they were. The device must be done with all work.
 ReloadedShaders reloadShaders(vk::KernelCache& kernels, ShaderSources& sources);
 
 } // namespace zvo::demo

@@ -19,14 +19,15 @@ namespace zvo::demo
 class Screenshot
 {
 public:
-    /// Of size, into output, or where there is none into a new file zvo-NNNN.png in the working folder.
+    /// A screenshot of that size. It goes to output or, if that is null, to a new file zvo-NNNN.png in the working
+    /// folder.
     Screenshot(vk::Device& device, PictureSize size, std::unique_ptr<cli::Output> output, bool has_panels);
 
-    /// What the frame copies its pixels to.
+    /// The buffer to which the frame copies its pixels.
     [[nodiscard]] vk::BufferOf<gpu::uint>& pixels() { return m_pixels; }
     [[nodiscard]] bool hasPanels() const { return m_has_panels; }
 
-    /// Writes the file, once the device is done with the frame. Returns its name where that was not given. Throws
+    /// Writes the file, once the device is done with the frame. Returns the file's name if it was chosen here. Throws
     /// Error{Output}.
     std::string write();
 

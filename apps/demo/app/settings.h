@@ -12,7 +12,7 @@
 namespace zvo::demo
 {
 
-/// What the program remembers from one run to the next.
+/// What the program keeps from one run to the next.
 struct Settings
 {
     PictureSize window = {1280, 720}; // in its own units
@@ -23,21 +23,20 @@ struct Settings
     bool operator==(const Settings&) const = default;
 };
 
-/// $XDG_CONFIG_HOME/zvo/demo.json, or the same below ~/.config; nothing where there is no such place.
+/// The path $XDG_CONFIG_HOME/zvo/demo.json, or the same below ~/.config; nothing if there is no such folder.
 std::optional<std::filesystem::path> settingsFile();
 
-/// The settings in a file's text; what it does not name is as in a new program. Throws Error{Input} that begins with
-/// file, for a file that is damaged.
+/// The settings in a file's text; those that are missing have their defaults. Throws Error{Input}, beginning with
+/// `file`, for a damaged file.
 Settings parseSettings(std::string_view text, const std::filesystem::path& file);
 
 /// A file with these settings, which parseSettings() reads.
 std::string settingsText(const Settings& settings);
 
-/// The settings in a file. One that is not there gives those of a new program; so does one that is damaged, which is
-/// told.
+/// The settings in a file. A missing file gives the defaults; so does a damaged one, which is reported.
 Settings readSettings(const std::filesystem::path& file);
 
-/// Writes them, in a folder that is made if it is not there. What goes wrong is told.
+/// Writes the settings, and makes the folder if needed. Failures are reported, not thrown.
 void writeSettings(const std::filesystem::path& file, const Settings& settings);
 
 } // namespace zvo::demo

@@ -21,7 +21,7 @@ class Window;
 class Ui
 {
 public:
-    /// A mouse button as Dear ImGui is to see it: down for a frame at least, however short a click was.
+    /// The state of a mouse button as Dear ImGui sees it: down for at least one frame, however short a click was.
     class Button
     {
     public:
@@ -37,18 +37,18 @@ public:
         bool m_was_pressed = false; // since the last frame
     };
 
-    /// frames_in_flight: that are drawn before the device is done with the first. Waits for the device.
+    /// frames_in_flight: frames that are drawn before the device is done with the first of them. Waits for the device.
     Ui(vk::HeadlessDevice& device, const ComposePass& pass, Window& window, std::uint32_t frames_in_flight);
 
-    /// The device is done with all frames.
+    /// The device must be done with all frames.
     ~Ui();
     Ui(const Ui&) = delete;
     Ui& operator=(const Ui&) = delete;
 
-    /// Takes an event. Whether it was meant for the panels, and for nobody else.
+    /// Handles an event. Returns whether it was meant for the panels, so that nobody else handles it.
     bool handle(const InputEvent& event);
 
-    /// A frame of the panels that panels builds, in a window of this size. seconds: since the last one.
+    /// Builds a frame of the panels by calling `panels`, in a window of this size. seconds: since the last frame.
     void build(PictureSize window, PictureSize framebuffer, double seconds, const std::function<void()>& panels);
 
     /// Draws the frame that was built last.

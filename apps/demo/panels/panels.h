@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The panels over the picture, each in a file of its name. They are built within a frame of Dear ImGui, show what they
-// are given, and change what the user changes.
+// The panels over the picture, each in a file of its name. They are built within a frame of Dear ImGui. They show their
+// arguments, and change those that the user changes.
 #pragma once
 
 #include "demo/input/timeline.h"

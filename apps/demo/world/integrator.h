@@ -7,7 +7,7 @@
 namespace zvo::demo
 {
 
-/// How rays become light: the one place where that is chosen.
+/// The way in which the light of a pixel is computed. This is the only place where it is chosen.
 enum class Integrator
 {
     Primary, ///< primary rays, with rays to the sun and over the hemisphere (core/trace/trace.h)

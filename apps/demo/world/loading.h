@@ -17,26 +17,26 @@ namespace zvo::demo
 class Loading
 {
 public:
-    /// Begins to read. Threads may tell things (cli::talk) from then on.
+    /// Begins reading. From then on, cli::talk may be called by another thread.
     explicit Loading(WorldOptions options);
 
-    /// Waits for what is being read.
+    /// Waits until reading has ended.
     ~Loading() = default;
     Loading(const Loading&) = delete;
     Loading& operator=(const Loading&) = delete;
 
     [[nodiscard]] const WorldOptions& options() const { return m_options; }
 
-    /// Whether everything is read, so that finish() can go on; what is being read cannot be stopped.
+    /// Whether everything is read, so that finish() can be called. Reading cannot be interrupted.
     [[nodiscard]] bool isRead() const;
 
-    /// Makes the world; frame is called again and again meanwhile, about every interval_ms, and draws what was shown
-    /// before. Null where it was cancelled. Throws as World::make(), and what frame throws.
+    /// Makes the world. Meanwhile `frame` is called about every interval_ms, and draws what was shown before. Returns
+    /// null if loading was cancelled. Throws what World::make() and `frame` throw.
     std::unique_ptr<World> finish(vk::HeadlessDevice& device, double interval_ms, const std::function<void()>& frame);
 
     void cancel() { m_is_cancelled = true; }
 
-    /// What is being done, and how much of everything is done before that, more or less: 0 to 1.
+    /// What is being done, and about how much of everything was done before that: 0 to 1.
     [[nodiscard]] const std::string& step() const { return m_step; }
     [[nodiscard]] double done() const;
 

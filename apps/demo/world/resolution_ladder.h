@@ -9,23 +9,23 @@
 namespace zvo::demo
 {
 
-/// Keeps a slow device usable: lowers the resolution at which pictures are traced, step by step, where a frame takes
-/// too long, and raises it again where there is time. What it decides depends on the times that it is told alone.
+/// Keeps a slow device usable: lowers the resolution of traced pictures, rung by rung, while frames take too long, and
+/// raises it again when there is time. Its decisions depend only on the times that it is told.
 class ResolutionLadder
 {
 public:
     /// Of the window's edges.
     static constexpr std::array<double, 7> kScales = {1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
     static constexpr double kTooLongMs = 80;  // of device time in a frame: 10 frames a second, and some to spare
-    static constexpr double kShortMs = 50;    // that the next higher step may be expected to take
-    static constexpr int kFramesToLower = 2;  // that took too long, one after the other
-    static constexpr int kFramesToRaise = 10; // that left time
+    static constexpr double kShortMs = 50;    // the expected time at the next higher scale must be below this
+    static constexpr int kFramesToLower = 2;  // consecutive frames that took too long
+    static constexpr int kFramesToRaise = 10; // consecutive frames that left time
 
     explicit ResolutionLadder(std::size_t step) : m_step(step) {}
 
     [[nodiscard]] double scale() const { return kScales[m_step]; }
 
-    /// A frame at scale() took so long on the device. Frames that were on their way at another scale are not told.
+    /// Tells how long a frame at scale() took on the device. Frames that were recorded at another scale are not told.
     void add(double gpu_ms);
 
 private:

@@ -9,26 +9,27 @@ namespace zvo::demo
 {
 
 /// A stroke under the mouse button: decides which of the voxels that were found under the pointer become dabs. What is
-/// under the pointer is known some frames after it was asked for, so each look is numbered.
+/// under the pointer is known only some frames after it was asked for, so each such request, a look, has a number.
 class Stroke
 {
 public:
-    /// The button went down, or up. Presses go on with a stroke whose voxels are waited for.
+    /// The button was pressed, or released. A press continues a stroke that still waits for voxels.
     void press();
     void release() { m_is_down = false; }
 
     /// The pointer moved.
     void move();
 
-    /// Number of a look at what is under the pointer now.
+    /// The number of the request for what is under the pointer now.
     [[nodiscard]] std::uint64_t look() const { return m_look; }
 
     [[nodiscard]] bool isDown() const { return m_is_down; }
 
-    /// Whether voxels are waited for.
+    /// Whether the stroke waits for voxels.
     [[nodiscard]] bool isActive() const { return m_is_stroke; }
 
-    /// What a look has found: a voxel, or nothing. Whether it is to be a dab. Those of an older pointer are not.
+    /// Takes the result of a look: a voxel, or nothing. Returns whether it becomes a dab; results of older pointer
+    /// positions do not.
     bool found(std::uint64_t look, bool has_voxel);
 
     /// Whether the stroke has just ended; true once.

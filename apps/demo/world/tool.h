@@ -9,12 +9,12 @@
 namespace zvo::demo
 {
 
-/// What the left mouse button does.
+/// The tool of the left mouse button.
 enum class Tool
 {
     Camera, ///< orbits
     Brush,  ///< edits voxels
-    Move    ///< drags what moves
+    Move    ///< drags dynamic objects
 };
 
 /// What the tools panel shows and changes.
