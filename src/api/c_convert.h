@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From the structs of the C interface, which readStruct() has made whole, to those of the C++ one, and back. All throw
-// Error{Usage} for values that no enumeration has, and for arrays that are null and not empty.
+// Converts structs of the C interface, which readStruct() has completed, to those of the C++ interface, and back. All
+// functions throw Error{Usage} for values that an enumeration does not have, and for arrays that are null but not
+// empty.
 #pragma once
 
 #include "zvo/zvo.h"
@@ -33,7 +34,7 @@ private:
     ModelInfo m_info;
 };
 
-/// Without memory and log, which are functions of other types.
+/// Converts everything but memory and log, which are functions of other types.
 ContextInfo ofC(const ZvoContextInfo& info);
 OptionalFeatures ofC(const ZvoOptionalFeatures& features);
 TextureInfo ofC(const ZvoTextureInfo& info);

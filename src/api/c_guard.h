@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What keeps exceptions out of programs in C.
+// Keeps exceptions from leaving functions of the C interface.
 #pragma once
 
 #include "zvo/error.h"
@@ -12,7 +12,7 @@
 namespace zvo
 {
 
-/// Notes for zvoLastError() why a function of the C interface failed. Returns code.
+/// Stores why a function of the C interface failed, for zvoLastError(). Returns code.
 ZvoResult failed(const char* function, ErrorCode code, const char* message) noexcept;
 
 /// Calls what does the work of a function of the C interface. What it throws becomes a result.
@@ -41,7 +41,7 @@ template <typename Work> ZvoResult guarded(const char* function, Work&& work) no
     }
 }
 
-/// What a pointer refers to. Throws Error{Usage} for null.
+/// The object that a pointer refers to. Throws Error{Usage} for null.
 template <typename Object> Object& at(Object* object, const char* name)
 {
     if (object == nullptr)
@@ -51,8 +51,8 @@ template <typename Object> Object& at(Object* object, const char* name)
     return *object;
 }
 
-/// Gives back a new handle of what make() returns. Throws Error{Usage} for null, and for want of memory, before that is
-/// called: so nothing that it takes over is lost.
+/// Stores a new handle of the object that make() returns. Throws Error{Usage} for null, and throws when memory is
+/// short, before make() is called, so that nothing which make() takes over is lost.
 template <typename Handle, typename Make> void give(Handle** out, const char* name, const Make& make)
 {
     Handle*& handle = at(out, name);

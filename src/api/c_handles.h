@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the handles of the C interface refer to.
+// The objects behind the handles of the C interface.
 #pragma once
 
 #include "zvo/zvo.h"
@@ -17,7 +17,7 @@ struct ZvoFeatureStorage
     zvo::FeatureStorage object;
 };
 
-/// The host's functions in C stand before the Context, which calls them until it is gone.
+/// The host's C functions stand in front of the Context, so that they outlive it.
 struct ZvoContext
 {
     explicit ZvoContext(const ZvoContextInfo& info);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Structs of the C interface, whose sizes tell versions apart.
+// Reading and filling structs of the C interface, whose sizes tell their versions.
 #pragma once
 
 #include "api/c_guard.h"
@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-/// A struct as ZVO_..._INIT makes it.
+/// A struct with the values of its ZVO_..._INIT.
 template <typename Struct> Struct initial();
 
 // Members fill structs to the end: else members that are added would lie in what older hosts never wrote.
@@ -50,13 +50,14 @@ ZVO_C_STRUCT(ZvoDepthTarget, reserved, ZVO_DEPTH_TARGET_INIT);
 
 #undef ZVO_C_STRUCT
 
-/// No struct grows beyond. What a host forgot to set is larger, more often than not.
+/// No struct will ever be larger. A size that a host forgot to set is larger in most cases.
 inline constexpr std::size_t kStructBytesMax = 4096;
 
-/// Members end at multiples of it.
+/// Sizes of structs are multiples of this.
 inline constexpr std::size_t kMemberBytes = 4;
 
-/// The size that a host gave a struct. Throws Error{Usage} for null and for a size that no version of it can have.
+/// The size that a host gave a struct. Throws Error{Usage} for null and for a size that no version of the struct can
+/// have.
 template <typename Struct> std::size_t sizeOf(const Struct* given, const char* name)
 {
     std::size_t size = 0;
@@ -69,8 +70,9 @@ template <typename Struct> std::size_t sizeOf(const Struct* given, const char* n
     return size;
 }
 
-/// What a host gave, with the defaults of members that it does not know. Throws Error{Usage} for null, for a size that
-/// is none, and for members that are reserved, or beyond the struct, and not 0.
+/// A copy of a host's struct, with defaults for members that the host does not know. Throws Error{Usage} for null, for
+/// a size that is not valid, and for members that must be 0 and are not: reserved ones, and those that this version
+/// does not know.
 template <typename Struct> Struct readStruct(const Struct* given, const char* name)
 {
     const std::size_t size = sizeOf(given, name);

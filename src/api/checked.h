@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What hosts hand over, looked at before anything is recorded. All throw Error{Usage} for what will not do; the C
-// interface comes by here too.
+// Checks of what hosts hand over, before anything is recorded. All functions throw Error{Usage} for values that are not
+// valid. The C interface uses them as well.
 #pragma once
 
 #include "core/base/grid.h"
@@ -31,13 +31,13 @@ template <typename Enum> Enum checkedEnum(Enum value, Enum last, const char* nam
     return checkedEnum(static_cast<std::uint32_t>(value), last, name);
 }
 
-/// Of a depth that there is, with a finite far corner and voxels whose size has a finite inverse.
+/// Checks that the depth exists, the far corner is finite, and the voxel size has a finite inverse.
 Grid checkedGrid(const GridInfo& info);
 
-/// A transform that is finite and affine. what: whose it is.
+/// Checks that a transform is finite and affine. what: the transform's name in messages.
 const Mat4& checkedTransform(const Mat4& transform, const std::string& what);
 
-/// A number that is finite and not negative.
+/// Checks that a number is finite and not negative.
 float checkedAmount(float amount, const char* name);
 double checkedAmount(double amount, const char* name);
 
@@ -46,7 +46,7 @@ const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);
 
-/// All but its image: core/present/image_target.h.
+/// Checks everything but the image, which core/present/image_target.h checks.
 const DepthTarget& checked(const DepthTarget& target);
 
 } // namespace zvo

@@ -20,14 +20,14 @@
 namespace zvo
 {
 
-/// A frame of the host's, as what was recorded in it remembers it.
+/// The state of a host's frame. Objects that were recorded in the frame keep a reference to it.
 struct FrameState
 {
     std::uint64_t number = 0;
-    bool is_done = false; // the device is
-    bool is_lost = false; // it never reached the device
+    bool is_done = false; // the device is done with the frame
+    bool is_lost = false; // the frame never reached the device
     std::unique_ptr<vk::TimerPool> timers = nullptr;
-    std::vector<PassTime> times = {}; // once it is done
+    std::vector<PassTime> times = {}; // of its passes, once it is done
     std::size_t pass_count = 0;       // recorded by earlier Recorders
 };
 
@@ -38,10 +38,10 @@ struct ZVO_LOCAL Context::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// The frame with that number: the last one, or a new one. Throws Error{Usage} for one that is over.
+    /// The frame with that number: the last one, or a new one. Throws Error{Usage} for a frame that is over.
     std::shared_ptr<FrameState> beginFrame(std::uint64_t number);
 
-    /// The times of its passes, of a frame that is done, where they can be had.
+    /// The times of the passes of a frame that is done, if they are available.
     void takeTimes(FrameState& frame);
 
     /// Keeps thing until the device is done with all frames so far. It does not delete anything later when it goes.
@@ -57,12 +57,12 @@ struct ZVO_LOCAL Context::Impl
     vk::DeletionQueue deletion_queue;
     vk::RecordedUploads uploads;
     std::uint32_t timed_passes;
-    std::deque<std::shared_ptr<FrameState>> frames = {}; // that the device is not known to be done with
-    std::optional<std::uint64_t> done = std::nullopt;    // number of the newest frame that is
+    std::deque<std::shared_ptr<FrameState>> frames = {}; // frames that are not known to be done
+    std::optional<std::uint64_t> done = std::nullopt;    // number of the newest frame that is done
     std::vector<std::unique_ptr<vk::TimerPool>> free_timers = {};
     std::vector<PassTime> times = {};
     bool is_recording = false;
-    bool was_lost = false; // the frame that was begun last
+    bool was_lost = false; // whether the frame that was begun last was lost
 };
 
 struct ZVO_LOCAL Recorder::Impl
@@ -72,7 +72,7 @@ struct ZVO_LOCAL Recorder::Impl
     vk::FrameGraph graph;
 };
 
-/// Does what records. If it throws, uploads that wait for being recorded are forgotten.
+/// Calls `record`. If it throws, uploads that wait to be recorded are dropped.
 template <typename Work> auto recording(Recorder& recorder, const Work& work)
 {
     Recorder::Impl& impl = recorder.impl();
@@ -97,7 +97,7 @@ template <typename Work> auto recording(Recorder& recorder, const Work& work)
     }
 }
 
-/// Throws Error{Usage} for what was made in a frame that was lost.
+/// Throws Error{Usage} for an object that was made in a lost frame.
 inline void requireUsable(const FrameState& made_in, const char* what)
 {
     if (made_in.is_lost)
@@ -107,7 +107,7 @@ inline void requireUsable(const FrameState& made_in, const char* what)
     }
 }
 
-/// What an object consists of. Throws Error{Usage} for one that is empty.
+/// The implementation of an object. Throws Error{Usage} for an object that is empty.
 template <typename Impl> Impl& contentOf(Impl* impl, const char* what)
 {
     if (impl == nullptr)
@@ -117,7 +117,7 @@ template <typename Impl> Impl& contentOf(Impl* impl, const char* what)
     return *impl;
 }
 
-/// Throws Error{Usage} for objects of two contexts.
+/// Throws Error{Usage} if two objects belong to different contexts.
 inline void requireSame(const Context::Impl& a, const Context::Impl& b)
 {
     if (&a != &b)

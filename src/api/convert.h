@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From the types of public headers to those of the engine, and back.
+// Converts types of the public headers to those of the engine, and back.
 #pragma once
 
 #include "core/base/grid.h"

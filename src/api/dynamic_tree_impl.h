@@ -21,13 +21,13 @@ struct ZVO_LOCAL DynamicTree::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// Learns what became of frames; dynamic objects that were lost with one go.
+    /// Learns which frames are done or lost. Dynamic objects that were made in a lost frame are removed.
     void learn();
 
-    /// The octree records into this frame.
+    /// Has the octree record into this frame.
     void enter(Recorder::Impl& recorder);
 
-    /// Records a change of what is traced, and the table of it.
+    /// Records a change of the tree that is traced, and its new table.
     template <typename Change> bool change(Recorder& recorder, const Change& record)
     {
         enter(recorder.impl());
@@ -40,7 +40,7 @@ struct ZVO_LOCAL DynamicTree::Impl
                                  publish(impl.graph);
                                  return result;
                              }
-                             catch (...) // it may have grown all the same
+                             catch (...) // the buffers may have grown all the same
                              {
                                  publish(impl.graph);
                                  throw;
@@ -50,7 +50,7 @@ struct ZVO_LOCAL DynamicTree::Impl
 
     void publish(vk::FrameGraph& graph);
 
-    // A frame that the device is not known to be done with, and its number for the octree.
+    // A frame that is not known to be done, and the octree's number for it.
     struct Frame
     {
         std::shared_ptr<FrameState> host;
@@ -69,7 +69,7 @@ struct ZVO_LOCAL DynamicTree::Impl
     std::unique_ptr<DynamicOctree> octree;
     vk::BufferOf<gpu::TreeTable> table;
     std::deque<Frame> frames;
-    std::shared_ptr<FrameState> made_in; // of the tree; null: known to be done
+    std::shared_ptr<FrameState> made_in; // the frame in which the tree was made; null: known to be done
     std::vector<NewObject> new_objects;
     std::vector<UpdateStats> updates;
 };

@@ -11,17 +11,18 @@
 namespace zvo
 {
 
-/// Runs a job in frames of the host: a step a frame, the next one when the host says that the device is done with it.
+/// Runs a job in frames of the host, a step in each. The next step follows when the host says that the device is done
+/// with the last one.
 class JobRun
 {
 public:
-    /// made_in: the frame of what the job works on, a name of which is source; null: that is known to be done.
+    /// made_in: the frame in which the job's source was made; null: known to be done. source: what messages call it.
     JobRun(Context::Impl& context, StepJob& job, std::shared_ptr<FrameState> made_in, const char* source)
         : m_context(context), m_job(job), m_made_in(std::move(made_in)), m_source(source)
     {
     }
 
-    /// See TreeBuild.
+    /// As the functions of TreeBuild.
     bool record(Recorder& recorder)
     {
         requireSame(m_context, recorder.impl().context);
@@ -55,7 +56,7 @@ public:
         if (m_frame && m_frame->is_done)
         {
             const std::shared_ptr<FrameState> frame = std::exchange(m_frame, nullptr);
-            m_is_broken = true; // unless this succeeds
+            m_is_broken = true; // until the next line has succeeded
             m_job.resume(frame->times);
             m_is_broken = false;
         }
@@ -67,7 +68,7 @@ public:
 private:
     Context::Impl& m_context;
     StepJob& m_job;
-    std::shared_ptr<FrameState> m_made_in; // null: done
+    std::shared_ptr<FrameState> m_made_in; // null: known to be done
     const char* m_source;
     std::shared_ptr<FrameState> m_frame; // of the step that is under way
     bool m_is_broken = false;

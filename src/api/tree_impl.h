@@ -24,20 +24,20 @@ struct ZVO_LOCAL Tree::Impl
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// Records what writes the table.
+    /// Records the passes that write the table.
     void publish(vk::FrameGraph& graph);
 
     Context::Impl& context;
     DeviceTree fixed;
     TreeInfo tree_info;
     vk::BufferOf<gpu::TreeTable> table;
-    std::shared_ptr<FrameState> made_in = nullptr; // null: by a TreeBuild, when the device was done
+    std::shared_ptr<FrameState> made_in = nullptr; // null: known to be done, as in a TreeBuild
 };
 
-/// What a tree is like.
+/// The properties of a tree.
 TreeInfo infoOf(const DeviceTree& tree);
 
-/// Throws Error{Usage} for a tree that was lost with its frame, or taken away.
+/// Throws Error{Usage} for a tree that was lost with its frame, or taken over.
 Tree::Impl& usable(const Tree& tree);
 
 } // namespace zvo

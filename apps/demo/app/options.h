@@ -47,7 +47,8 @@ struct DemoOptions
     std::string json;       // statistics; empty: none
     bool overwrite = false;
 
-    /// Whether this is a run that must be the same for everyone: one of a fixed number of frames, without settings.
+    /// Whether the settings of earlier runs apply. A run of a fixed number of frames must be the same for everyone, so
+    /// it ignores them.
     [[nodiscard]] bool usesSettings() const { return !frame_count.has_value(); }
 };
 
