@@ -18,7 +18,7 @@ namespace
 
 constexpr std::uint32_t kAttemptsMax = 64; // everything doubles in two attempts at most
 
-// A pose moved by so much.
+// A pose that is moved by an offset in world space.
 Pose moved(Pose pose, const glm::dvec3& by)
 {
     const glm::dmat4 move = glm::translate(glm::dmat4(1.0), by);
@@ -89,7 +89,7 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
     }
 }
 
-// What moves, where it is at a time of the animated scene.
+// Records an update that shows the dynamic objects at a time of the animated scene.
 void LiveScene::updateObjects(vk::FrameGraph& graph, double seconds)
 {
     if (m_shown_seconds != seconds)
@@ -108,7 +108,7 @@ void LiveScene::updateObjects(vk::FrameGraph& graph, double seconds)
     m_trouble.clear();
 }
 
-// Whether the octree took it.
+// Records a request. Returns false if it has to be tried again in a later frame.
 bool LiveScene::record(vk::FrameGraph& graph, const EditRequest& request)
 {
     if (const auto* const brush = std::get_if<Brush>(&request))
@@ -130,7 +130,7 @@ bool LiveScene::record(vk::FrameGraph& graph, const EditRequest& request)
     return true;
 }
 
-// What brushes are to do, as far as it goes into a frame. A dab without memory is left out.
+// Records as many requests as a frame takes. A dab for which memory does not suffice is left out.
 void LiveScene::recordRequests(vk::FrameGraph& graph)
 {
     for (std::uint32_t i = 0; i < kDabsPerFrameMax && !m_requests.empty(); ++i)

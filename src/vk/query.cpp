@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which physical devices will do, and why the others will not.
+// Reports which physical devices zvo can use, and why it cannot use the others.
 #include "vk/device.h"
 #include "zvo/error.h"
 
@@ -84,7 +84,7 @@ void queryMemory(DeviceReport& report, const Functions& fn)
     }
 }
 
-// The first family that computes, if possible one with timestamps.
+// The first queue family that supports compute; one with timestamps is preferred.
 void queryQueueFamily(DeviceReport& report, const Functions& fn, float timestamp_period_ns)
 {
     std::uint32_t count = 0;

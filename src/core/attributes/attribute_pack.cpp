@@ -40,7 +40,7 @@ void packAttributes(vk::FrameGraph& graph, const vk::BufferOf<gpu::Attribute>& a
 namespace
 {
 
-// What the attributes of tree are packed into.
+// Makes the buffers into which the attributes of tree are packed.
 PackedAttributes makePackedAttributes(vk::Device& device, AttributeFormat format, const DeviceTree& tree)
 {
     const std::uint64_t voxel_words = packedWords(format, tree.voxel_attributes.count());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DynamicOctree: what becomes of frames, and what is learnt from them.
+// DynamicOctree: the end of frames, and what is learnt from them.
 #include "core/dynamic/dynamic_octree.h"
 
 #include <algorithm>

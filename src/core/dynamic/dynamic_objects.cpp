@@ -54,7 +54,7 @@ template <typename T> bool isSame(const std::vector<T>& a, const std::vector<T>&
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-// By their bits: what is not a number equals itself.
+// Compares bits, so that NaN equals itself.
 bool isSame(const Pose& a, const Pose& b)
 {
     const auto same = [](const auto& x, const auto& y) { return isSame(x, y); };
@@ -62,7 +62,7 @@ bool isSame(const Pose& a, const Pose& b)
            std::ranges::equal(a.morph_weights, b.morph_weights, same);
 }
 
-// Leaves of a scene what tells how it can be posed.
+// Drops everything of a scene that a pose does not need.
 void dropContents(Scene& scene)
 {
     scene.images.clear();
@@ -218,7 +218,7 @@ std::vector<DynamicObjects::Object*> DynamicObjects::presentObjects()
     return objects;
 }
 
-// The layer is made anew when it is needed again.
+// Drops the layer, which is made anew when it is needed again.
 void DynamicObjects::dropLayer(Object& object)
 {
     object.voxelized = 0;
@@ -339,7 +339,7 @@ void DynamicObjects::forgetLayers()
     }
 }
 
-// Gives a layer that failed more room. False if there is nothing to do.
+// Reads the report of a layer. A layer that failed is dropped, and its capacities grow. Returns whether that happened.
 bool DynamicObjects::learn(const PendingLayer& pending)
 {
     const auto found = m_objects.find(pending.object);

@@ -16,7 +16,7 @@ namespace
 constexpr std::uint32_t kUpdatesPerFrame = 4;
 constexpr std::uint64_t kRoomMin = 1024; // nodes, and voxels, that overlays have at first
 
-// A static tree, if it can be merged as options say. Throws Error{Usage} where not.
+// Returns the static tree if it can be merged as options say. Otherwise throws Error{Usage}.
 DeviceTree& checked(DeviceTree& fixed, const DynamicOptions& options)
 {
     if (options.frames_in_flight == 0 || options.history.entries_max == 0)
@@ -88,14 +88,14 @@ void DynamicOctree::remove(DynamicObjectId object)
     dropJob();
 }
 
-// The frame records what is shown from now on.
+// Begins a change, recorded in the current frame, of the tree that is shown.
 void DynamicOctree::beginChange()
 {
     m_has_recorded = true;
     m_overlays.renewVersion();
 }
 
-// Drops the poses, and the dynamic objects, that nothing shows and no entry brings back, every now and then.
+// Now and then, drops the poses and dynamic objects that are not shown and that no entry can bring back.
 void DynamicOctree::forgetPoses()
 {
     if (!m_objects.hasManyPoses())
@@ -144,7 +144,7 @@ void DynamicOctree::prepareBuffers()
     m_capacities = needed;
 }
 
-// Nothing while frames in flight hold what is needed.
+// Returns nothing while frames in flight hold the memory that is needed.
 std::optional<OverlayRegion> DynamicOctree::allocateRegion(vk::FrameGraph& graph)
 {
     const std::uint64_t nodes = m_sizes.likelyNodes();
@@ -217,7 +217,7 @@ bool DynamicOctree::updateOrWait(vk::FrameGraph& graph, double budget_ms)
     return m_job == nullptr;
 }
 
-// Records what fits the budget, and what ends the update if that is all.
+// Records the stages that fit the budget and, if these are all that is left, the end of the update.
 void DynamicOctree::recordJob(vk::FrameGraph& graph, double budget_ms)
 {
     std::vector<UpdateSlice> slices = m_budget.plan(m_job->plan, m_job->progress, budget_ms);
@@ -299,7 +299,7 @@ void DynamicOctree::finishJob(vk::FrameGraph& graph)
     m_job.reset();
 }
 
-// Gives an update up: what it has voxelized is made again.
+// Gives an update up. The dynamic objects that it has voxelized are voxelized again.
 void DynamicOctree::dropJob()
 {
     if (m_job == nullptr)
@@ -322,7 +322,7 @@ bool DynamicOctree::redo(vk::FrameGraph& graph)
     return show(graph, &RootHistory::redo, &RootHistory::undo);
 }
 
-// Shows the entry that move leads to; goes back where that fails.
+// Shows the entry to which `move` leads. If that fails, `back` restores the current entry.
 bool DynamicOctree::show(vk::FrameGraph& graph, HistoryMove move, HistoryMove back)
 {
     const std::optional<RootEntry> entry = (m_history.*move)();
@@ -385,7 +385,7 @@ bool DynamicOctree::redoEdit(vk::FrameGraph& graph)
     return true;
 }
 
-// Shows what strokes have left. What dynamic objects were merged with is another tree now, or stands elsewhere.
+// Shows the edited tree without dynamic objects. These were merged with another tree, or with one that has moved.
 void DynamicOctree::showEdited(vk::FrameGraph& graph)
 {
     beginChange();
@@ -398,7 +398,7 @@ void DynamicOctree::showEdited(vk::FrameGraph& graph)
     m_needs_update = !m_objects.isEmpty();
 }
 
-// Drops the job for reasons of its own: another update has to begin.
+// Gives up the update under way, if there is one; then another update is needed.
 void DynamicOctree::giveUpJob()
 {
     m_needs_update = m_needs_update || m_job != nullptr;

@@ -30,7 +30,8 @@ gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, DeviceTree& tree)
     return {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
 }
 
-// Where ranks in a DAG come from; nothing for an octree.
+// Declares the reads of the arrays from which ranks in a DAG are summed up, and sets them in params; null for an
+// octree.
 template <typename Params> void readRankSource(vk::AnyPass& pass, const DeviceTree& tree, Params& params)
 {
     if (tree.overlays.hasRanks())
@@ -110,7 +111,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     pass.dispatch(std::uint64_t{std::max(extent.inner_count, 1U)} * gpu::kEditGroup, params);
 }
 
-// Of edit/voxels or edit/emission.
+// Parameters of edit/voxels or edit/emission.
 template <typename Kernel>
 void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site, const gpu::Brush& brush,
                      const DabExtent& extent, std::uint32_t to, DabBuffers& buffers)
@@ -173,7 +174,7 @@ void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& b
     }
 }
 
-// Marks what kept slots are made of, level by level from their roots down.
+// Marks the nodes and voxels of the kept slots, level by level from their roots down.
 void recordMarks(vk::FrameGraph& graph, EditSite& site, const std::vector<bool>& kept, CompactBuffers& buffers)
 {
     std::vector<gpu::uint> roots(site.slotCount());

@@ -100,7 +100,8 @@ bool Edits::dab(vk::FrameGraph& graph, const Brush& brush, const vk::BufferOf<gp
     }
 }
 
-// What was shown when the frame began: the frame may be lost, whatever of it the device has run.
+// The slot that was shown when the frame began. Its room is kept, as the frame may be lost after the device has run
+// some of it.
 std::uint32_t Edits::keptSlot() const
 {
     const bool is_kept = m_before && m_before->state.region == m_now.region; // otherwise it stands elsewhere
@@ -153,14 +154,14 @@ OverlayRegion Edits::allocateRegion(vk::FrameGraph& graph, std::uint64_t nodes, 
     return arena.allocate(nodes, voxels).value();
 }
 
-// For frames in flight, they outlive those who have them.
+// The deletion queue keeps the states for frames in flight that outlive their owners here.
 std::shared_ptr<vk::BufferOf<gpu::EditState>> Edits::makeStates()
 {
     return m_deletion_queue.keep(
         std::make_shared<vk::BufferOf<gpu::EditState>>(m_device, "edit/states", m_now.history.slotCount()));
 }
 
-// Makes the first region, in which nothing is edited.
+// Makes the first region, whose slot 0 is the unedited tree.
 void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent)
 {
     vk::Device& d = m_device;
@@ -179,7 +180,7 @@ void Edits::begin(vk::FrameGraph& graph, const DabExtent& extent)
     beginEdits(graph, where);
 }
 
-// Makes room for what is needed, if that is known: otherwise the device has to tell first how much is left.
+// Makes room for what is needed. Returns false while the device has yet to report how much room is left.
 bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed)
 {
     const OverlayRegion& region = *m_now.region;
@@ -212,7 +213,7 @@ bool Edits::makeRoom(vk::FrameGraph& graph, const EditTop& needed)
     return false;
 }
 
-// Moves what entries show to a region of that capacity.
+// Moves the slots of all entries to a region of that capacity.
 void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity)
 {
     m_device.memory().require(CompactBuffers::bytes(*m_now.region), "making room for edits");
@@ -229,7 +230,7 @@ void Edits::compact(vk::FrameGraph& graph, const EditTop& capacity)
     report(graph, 0, m_now.history.slotCount());
 }
 
-// Has states copied to where the host can read them when the frame is done.
+// Records the copy of states to mapped memory, which the host reads when the frame is done.
 void Edits::report(vk::FrameGraph& graph, std::uint32_t first_slot, std::uint32_t slot_count)
 {
     constexpr std::uint64_t kBytes = sizeof(gpu::EditState);
@@ -282,7 +283,7 @@ void Edits::saveFrame()
     }
 }
 
-// Goes back to what was saved. Regions that were taken since then may be written by what was recorded.
+// Restores a saved state. Regions allocated since then are given back late, as recorded commands may write them.
 void Edits::restore(Saved saved)
 {
     const auto giveBack = [&](const OverlayRegion& region)

@@ -25,7 +25,7 @@ std::uint32_t cellCount(const gpu::Node& node)
     return static_cast<std::uint32_t>(std::popcount(node.mask_lo) + std::popcount(node.mask_hi));
 }
 
-// What a subtree comes to. Nine levels of 64 cells have fewer than 2^55 of either: sums cannot overflow.
+// The nodes and voxels of a subtree. Nine levels of 64 cells have fewer than 2^55 of either, so sums cannot overflow.
 struct Below
 {
     std::uint64_t voxels = 0;
@@ -198,7 +198,7 @@ Fault checkDagNodes(const TreeData& tree)
     return tree.levels.empty() ? std::nullopt : checkDagLeaves(tree);
 }
 
-// What stands beside an entry: counts of the children before it.
+// Checks the counts beside an entry: of what is below the children before it.
 Fault checkBefore(const TreeData& tree, std::uint64_t entry, const Below& before)
 {
     if (!tree.hasAttributes())
@@ -220,7 +220,7 @@ Fault checkBefore(const TreeData& tree, std::uint64_t entry, const Below& before
     return equal ? std::nullopt : Fault(fmt::format("the counts beside entry {} of the lists are wrong", entry));
 }
 
-// Totals, and the counts beside the lists: from the leaves up.
+// Checks totals, and the counts beside the lists, from the leaves up.
 Fault checkDagCounts(const TreeData& tree)
 {
     const std::uint64_t short_count = tree.lists.size() - tree.long_entry_count;

@@ -51,7 +51,7 @@ void AttributePacker::finish()
     }
 }
 
-// The first count attributes, in pieces.
+// Packs the first count attributes, in pieces.
 void AttributePacker::pack(std::uint64_t count)
 {
     const std::uint64_t room = m_device.device().memory().roomBytes() / kRoomPerAttribute;

@@ -35,7 +35,7 @@ struct Top
     std::vector<gpu::uint> lists;
 };
 
-// Codes of the nodes above nodes with these codes, both ascending.
+// The codes of the parents of the nodes with these codes, both ascending.
 std::vector<std::uint64_t> parentCodes(std::span<const std::uint64_t> codes)
 {
     std::vector<std::uint64_t> parents;
@@ -87,7 +87,7 @@ Top topOf(std::span<const std::uint64_t> codes, std::span<const std::uint32_t> r
     return top;
 }
 
-// Where a part stands in the pool of all.
+// The position of a part in the common pool.
 struct PartOffsets
 {
     std::vector<std::uint64_t> first_nodes; // of each level
@@ -170,7 +170,7 @@ std::uint64_t SvdagForest::topNodeCount() const
     return count;
 }
 
-// All parts in one pool, below common nodes; equal nodes stand as often as before.
+// Puts all parts into one pool, below common nodes. Equal nodes of different parts stay separate.
 SvdagForest::Part SvdagForest::joined()
 {
     const std::size_t level_count = m_grid.nodeLevels();
@@ -254,7 +254,7 @@ SvdagForest::Part SvdagForest::joined()
     return all;
 }
 
-// Finds the tiles' roots in a DAG in which equal ones have become one.
+// Finds the roots of the tiles in a DAG in which equal nodes have been merged.
 void SvdagForest::learnRoots(Part& part) const
 {
     const DeviceTree& tree = part.dag;

@@ -77,7 +77,7 @@ struct Part
     PartAttributes attributes;
 };
 
-// A part that was built whole.
+// A tile that was built as a whole.
 struct Tile
 {
     Part part;

@@ -9,7 +9,7 @@ namespace zvo
 namespace
 {
 
-// Child bases of one level, from a prefix sum over its nodes.
+// Sets the child bases of one level by a prefix sum over its nodes.
 void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree,
                     std::size_t level)
 {

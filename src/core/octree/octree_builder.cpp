@@ -30,7 +30,7 @@ constexpr std::uint32_t kRetriesMax = 32; // a table of one brick grows to the l
                             what));
 }
 
-// Bytes of everything that coverVoxels allocates.
+// Bytes of everything that the coverage step allocates.
 std::uint64_t coverageBytes(const VoxelizeCapacities& capacities, const GpuScene& scene)
 {
     std::uint64_t bytes = capacities.bricks * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) +
@@ -46,7 +46,7 @@ std::uint64_t coverageBytes(const VoxelizeCapacities& capacities, const GpuScene
     return bytes;
 }
 
-// Whatever was asked for, a table of a power of two.
+// Rounds the table's capacity up to a power of two, whatever was asked for.
 VoxelizeCapacities usable(VoxelizeCapacities capacities)
 {
     constexpr std::uint64_t kListMax = UINT32_MAX; // kernels count in 32 bits
@@ -56,7 +56,7 @@ VoxelizeCapacities usable(VoxelizeCapacities capacities)
     return capacities;
 }
 
-// Row blocks of all bands, if those that found no room have as many each as the others, and an eighth more.
+// The expected row blocks of all bands: those without room count like the others, and an eighth is added.
 std::uint64_t likelyRowBlocks(const gpu::RasterCounters& raster, std::uint64_t band_capacity)
 {
     const std::uint64_t blocks = raster.block_count;
@@ -68,7 +68,7 @@ std::uint64_t likelyRowBlocks(const gpu::RasterCounters& raster, std::uint64_t b
     return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(scaled * 1.125), blocks, gpu::kRowBlocksMax);
 }
 
-// Nothing when everything sufficed.
+// Returns the growth that a run needs; nothing if everything sufficed.
 std::optional<OctreeBuilder::Growth> growthOf(const VoxelizeCapacities& tried, const gpu::BrickCounters& bricks,
                                               const std::vector<gpu::RasterCounters>& rasters)
 {
@@ -178,7 +178,7 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
     }
 }
 
-// There may have been no room for everything.
+// Repeats the coverage step with larger buffers if something had no room.
 void OctreeBuilder::learnCoverage()
 {
     const gpu::BrickCounters counters = m_readback.at<gpu::BrickCounters>(m_offsets.counters, 1).front();
@@ -226,7 +226,7 @@ void OctreeBuilder::grow(const Growth& growth)
     m_result.capacities = fits ? growth.likely : growth.needed;
 }
 
-// Sizes the octree from the node list.
+// Allocates the nodes of the octree, whose number is that of the node list.
 void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
 {
     requireIndexable(counters.node_count, m_options.attributes ? counters.voxel_count : 0);
@@ -288,7 +288,7 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
     }
 }
 
-// Sums may have had no room for the fragments of a voxel.
+// Repeats the attributes with fewer value bits if the fragments of a voxel had no room in its sums.
 void OctreeBuilder::learnAttributes()
 {
     const gpu::uint fragments = m_readback.at<gpu::uint>(m_offsets.max_fragments, 1).front();

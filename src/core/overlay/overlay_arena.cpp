@@ -12,7 +12,7 @@ namespace zvo
 namespace
 {
 
-// Whole blocks behind the static part, [first, end).
+// The whole blocks behind the static part: [first, end).
 std::uint64_t firstBlock(const OverlaySpace& space)
 {
     return divideUp(space.static_voxels, kVoxelBlock);

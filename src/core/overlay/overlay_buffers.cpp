@@ -23,13 +23,13 @@ constexpr std::uint64_t roundUp(std::uint64_t value, std::uint64_t multiple)
     return divideUp(value, multiple) * multiple;
 }
 
-// Half as much room again, or what is asked for, if that is more.
+// The room with half as much added, or with what is asked for, if that is more.
 std::uint64_t grownRoom(std::uint64_t room, std::uint64_t asked)
 {
     return room + std::max(room / 2, asked);
 }
 
-// An empty tree is a root without children.
+// Makes an empty tree a root without children.
 DeviceTree adopted(DeviceTree&& tree)
 {
     tree.lists.octree_node_count = std::max(tree.lists.octree_node_count, 1U);
@@ -136,7 +136,7 @@ void OverlayBuffers::grow(vk::FrameGraph& graph, std::uint64_t nodes, std::uint6
     m_arena.grow(capacities.nodes, capacities.voxels);
 }
 
-// With room for one more region of that many.
+// Capacities with room for one more region of so many nodes and voxels.
 OverlayBuffers::Capacities OverlayBuffers::grownCapacities(std::uint64_t nodes, std::uint64_t voxels) const
 {
     const OverlaySpace& space = m_arena.space();

@@ -24,7 +24,7 @@ RootHistory::~RootHistory()
     frameDone(m_frame);
 }
 
-// Before the line changes: what frameLost() goes back to.
+// Keeps the line as it is before its first change in a frame, for frameLost().
 void RootHistory::keepEntries()
 {
     if (m_entries_before.empty() && m_frame != m_frame_done)
@@ -95,7 +95,7 @@ bool RootHistory::fitsLater(std::uint64_t nodes, std::uint64_t voxels) const
     return arenaLater().allocate(nodes, voxels).has_value();
 }
 
-// The arena when nothing is held but what the entries show.
+// The arena as it will be when only the regions of the entries are held.
 OverlayArena RootHistory::arenaLater() const
 {
     OverlayArena later = m_arena;
@@ -191,7 +191,7 @@ void RootHistory::fail(std::uint64_t id)
     m_current_before -= gone_before && m_current_before >= *gone_before ? 1 : 0;
 }
 
-// Returns which entry is gone, if none replaces it.
+// Removes a failed entry, or replaces it by its fallback. Returns the entry's index if it was removed.
 std::optional<std::size_t> RootHistory::removeFailed(Entries& entries, const Update& update)
 {
     const auto found = std::find(entries.begin(), entries.end(), update.entry);

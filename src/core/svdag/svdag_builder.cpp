@@ -40,7 +40,7 @@ void requireCountable(std::span<const std::uint64_t> slot_counts)
     }
 }
 
-// Grows the tables of levels that had too few slots. False: there were none.
+// Enlarges the tables of levels that had too few slots. Returns false if there were none.
 bool growSlots(const Candidates& candidates, const gpu::ClassSizes& sizes, std::vector<std::uint64_t>& slot_counts)
 {
     bool grown = false;
@@ -61,7 +61,7 @@ bool growSlots(const Candidates& candidates, const gpu::ClassSizes& sizes, std::
     return grown;
 }
 
-// Sizes dag from what the classes came to.
+// Allocates the pool of dag for the nodes and entries that were counted.
 void allocatePool(vk::Device& device, const Candidates& candidates, const gpu::ClassSizes& sizes, bool has_ranks,
                   std::uint32_t per_word_max, DeviceTree& dag)
 {
@@ -176,7 +176,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const DeviceTree& octree, ClassBuffe
     }
 }
 
-// What does not depend on equal nodes goes from one tree to the other.
+// Moves what does not depend on equal nodes from one tree to the other.
 void moveVoxels(DeviceTree& from, DeviceTree& to)
 {
     to.grid = from.grid;
@@ -246,7 +246,7 @@ void SvdagBuilder::classify(vk::FrameGraph& graph)
     m_sizes_offset = m_readback.copy(graph, m_classes->sizes, 0, 1);
 }
 
-// The tables may have had too few slots.
+// Repeats the step with larger tables if they had too few slots.
 void SvdagBuilder::learnClasses()
 {
     const gpu::ClassSizes sizes = m_readback.at<gpu::ClassSizes>(m_sizes_offset, 1).front();

@@ -23,7 +23,7 @@ static_assert(static_cast<gpu::uint>(View::Origin) == gpu::kViewOrigin);
 namespace
 {
 
-// Whether the nodes stand level by level, with nothing behind them: what no update has changed.
+// Whether the nodes stand level by level with nothing behind them, as in a tree that no update has changed.
 bool standsByLevels(const DeviceTree& tree)
 {
     if (tree.levels.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What one pixel's ray met.
+// Reports what one pixel's ray meets.
 #include "core/trace/trace_passes.h"
 
 namespace zvo

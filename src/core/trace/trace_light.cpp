@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From hits to colours.
+// Light at hits, and colours from hits and light.
 #include "core/trace/trace_passes.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ gpu::vec3 sunDirection(const TraceOptions& options)
     return length > 0.0 ? gpu::vec3(options.to_sun / length) : gpu::vec3(0.0F, 1.0F, 0.0F);
 }
 
-// Records what makes a picture of what rays see that hit nothing.
+// Records the pass that fills the picture with what rays see that hit nothing.
 void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const TraceOptions& options,
                     TraceBuffers& buffers)
 {
@@ -53,7 +53,7 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
     return {std::max(middle - reach, 0.0F), std::max(middle + reach, 1e-6F)};
 }
 
-// What the passes have in common that trace rays from hits.
+// The parameters that all passes share which trace rays from hits.
 template <typename Params>
 Params lightParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamera& camera, TraceBuffers& buffers)
 {
@@ -71,7 +71,7 @@ Params lightParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamer
     return params;
 }
 
-// What both kernels take that give hits their colours.
+// The parameters that both kernels share which give hits their colours.
 template <typename Params>
 Params shadeParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamera& camera, TraceBuffers& buffers)
 {

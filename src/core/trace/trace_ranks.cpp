@@ -7,7 +7,7 @@ namespace zvo
 namespace
 {
 
-// Declares that pass reads the ranks of overlays' nodes; null without overlays.
+// Declares that pass reads the ranks of overlays' nodes, and returns their address; null without overlays.
 gpu::ConstPtr<gpu::BeforeChild> overlayRanks(vk::AnyPass& pass, const DeviceTree& tree)
 {
     if (!tree.hasOverlays())

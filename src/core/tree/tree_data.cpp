@@ -27,7 +27,7 @@ template <typename T> vk::BufferOf<T> uploadVector(vk::Uploader& device, const c
     return values.empty() ? vk::BufferOf<T>() : device.makeBuffer(name, std::span(values));
 }
 
-// Of a DAG with the lists behind them.
+// The nodes as they are in a buffer: for a DAG, with the lists behind them.
 vk::BufferOf<gpu::Node> uploadNodes(vk::Uploader& device, const TreeData& tree)
 {
     if (tree.structure == TreeStructure::Svo || tree.nodes.empty())

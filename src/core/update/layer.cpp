@@ -84,7 +84,7 @@ void clearSums(vk::FrameGraph& graph, LayerBuffers& layer)
     }
 }
 
-// Lists the leaves and decides whether everything had room.
+// Lists the leaves, and checks whether there was room for everything.
 void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
 {
     LayerBuffers& layer = job.layer;
@@ -123,7 +123,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     pass.dispatch(1, params);
 }
 
-// A walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
+// Adds a walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
 void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, RecordedStages& stages)
 {
     for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)

@@ -31,7 +31,7 @@ gpu::ConstPtr<gpu::Layer> readLayers(vk::AnyPass& pass, const UpdateJob& job, co
     return pass.read(buffers.layers);
 }
 
-// Lists which leaves are touched, and all nodes above them. Returns the number of records.
+// Records the passes that list the touched leaves and all nodes above them. Returns the number of records.
 void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
     std::vector<gpu::Layer> layers;
@@ -168,7 +168,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     pass.dispatchIndirect(buffers.args, gpu::kArgsAssign, params, partialsPerLevel(buffers));
 }
 
-// Of update/merge or update/merge_emission.
+// Parameters of update/merge or update/merge_emission.
 template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
     const bool emits = job.tree.emission_words.count() != 0;

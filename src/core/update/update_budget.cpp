@@ -20,7 +20,7 @@ struct Sum
     double units = 0;
 };
 
-// Of the slice's passes, or nothing.
+// The time of the slice's passes; nothing if it was not measured.
 std::optional<double> measuredMs(const UpdateSlice& slice, std::span<const vk::PassTime> passes)
 {
     if (slice.first_pass > slice.pass_end || slice.pass_end > passes.size())

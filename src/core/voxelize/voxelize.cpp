@@ -76,7 +76,7 @@ gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, std::u
     return params;
 }
 
-// Workgroups for what has been listed so far.
+// Sets the number of workgroups for the bands and row blocks that have been listed so far.
 void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
 {
     vk::Pass pass = graph.addPass(gpu::voxelize::RowArgs{});
@@ -89,7 +89,7 @@ void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
     pass.dispatch(1, params);
 }
 
-// The variant of a kernel that rasterizes.
+// The variant of a raster kernel for a walk over a material class.
 template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, std::uint32_t material_class)
 {
     const bool emits = walk.mode != gpu::kModeCoverage && walk.sums->emission_words.count() != 0;
