@@ -144,7 +144,7 @@ template <typename Component> std::vector<std::uint32_t> readIndicesAs(const Glt
 }
 
 /// Elements in a buffer view as a document describes them.
-struct ElementPlace
+struct ElementRange
 {
     int buffer_view = -1;
     std::size_t offset_bytes = 0; // of the first element in the view
@@ -154,26 +154,26 @@ struct ElementPlace
 };
 
 /// The first element. Throws where not all of them lie in the view.
-const std::uint8_t* locate(const GltfDocument& document, const ElementPlace& place, const std::string& where)
+const std::uint8_t* locate(const GltfDocument& document, const ElementRange& range, const std::string& where)
 {
-    if (place.stride_bytes < place.element_bytes)
+    if (range.stride_bytes < range.element_bytes)
     {
-        throw document.error(fmt::format("{} has elements of {} bytes, {} apart; {}", where, place.element_bytes,
-                                         place.stride_bytes, kExportAgain));
+        throw document.error(fmt::format("{} has elements of {} bytes, {} apart; {}", where, range.element_bytes,
+                                         range.stride_bytes, kExportAgain));
     }
-    const std::span<const std::uint8_t> view = document.bufferView(place.buffer_view);
+    const std::span<const std::uint8_t> view = document.bufferView(range.buffer_view);
     // count elements fit when the last one does; written so that nothing overflows.
-    const std::size_t available = view.size() - std::min(place.offset_bytes, view.size());
-    const bool fits = place.count == 0 || (available >= place.element_bytes &&
-                                           place.count - 1 <= (available - place.element_bytes) / place.stride_bytes);
-    if (!fits || place.offset_bytes > view.size())
+    const std::size_t available = view.size() - std::min(range.offset_bytes, view.size());
+    const bool fits = range.count == 0 || (available >= range.element_bytes &&
+                                           range.count - 1 <= (available - range.element_bytes) / range.stride_bytes);
+    if (!fits || range.offset_bytes > view.size())
     {
         throw document.error(
             fmt::format("{} takes {} elements of {} bytes, {} apart, at {} of bufferViews[{}], which has {} bytes; {}",
-                        where, place.count, place.element_bytes, place.stride_bytes, place.offset_bytes,
-                        place.buffer_view, view.size(), kExportAgain));
+                        where, range.count, range.element_bytes, range.stride_bytes, range.offset_bytes,
+                        range.buffer_view, view.size(), kExportAgain));
     }
-    return view.data() + place.offset_bytes;
+    return view.data() + range.offset_bytes;
 }
 
 /// The accessor's elements one behind the other in its own storage, zeros where it has no buffer view.

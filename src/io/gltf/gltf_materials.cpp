@@ -240,7 +240,7 @@ std::uint32_t GltfMaterials::image(int index)
         return known->second;
     }
     const GltfImageSource& source = m_document.images[index];
-    const std::string place = fmt::format("images[{}]", index);
+    const std::string property = fmt::format("images[{}]", index);
     std::vector<std::uint8_t> storage; // of what does not lie in a buffer
     std::span<const std::uint8_t> encoded;
     if (source.buffer_view >= 0)
@@ -249,19 +249,19 @@ std::uint32_t GltfMaterials::image(int index)
     }
     else if (!source.uri.empty())
     {
-        storage = m_document.readUri(source.uri, place + ".uri");
+        storage = m_document.readUri(source.uri, property + ".uri");
         encoded = storage;
     }
     else
     {
-        throw m_document.error(fmt::format("{} has neither a URI nor a buffer view; {}", place, kExportAgain));
+        throw m_document.error(fmt::format("{} has neither a URI nor a buffer view; {}", property, kExportAgain));
     }
     const bool has_file = !source.uri.empty() && source.uri.find(':') == std::string::npos;
-    const std::string file = has_file ? source.uri : place;
+    const std::string file = has_file ? source.uri : property;
     try
     {
         m_scene.images.push_back(decodeImage(encoded, source.name.empty() ? file : source.name,
-                                             place + " (" + file + ")", m_image_bytes_left));
+                                             property + " (" + file + ")", m_image_bytes_left));
         m_image_bytes_left -= m_scene.images.back().rgba.size();
     }
     catch (const Error& failure)

@@ -91,20 +91,20 @@ Assimp::IOStream* SceneFiles::Open(const char* file, const char* /*mode*/)
     {
         return keep(std::make_unique<MemoryStream>(m_bytes));
     }
-    const std::optional<std::filesystem::path> place = fileBeside(m_path, file);
-    if (!place)
+    const std::optional<std::filesystem::path> beside = fileBeside(m_path, file);
+    if (!beside)
     {
         m_outside.push_back(file);
         return nullptr;
     }
-    if (!isFile(*place))
+    if (!isFile(*beside))
     {
         m_missing.push_back(file);
         return nullptr;
     }
     // A scene may name it any number of times; its materials are known after the first.
-    const bool is_new = m_material_files.insert(*place).second;
-    return keep(std::make_unique<MemoryStream>(padded(is_new ? readFile(*place) : std::vector<std::uint8_t>())));
+    const bool is_new = m_material_files.insert(*beside).second;
+    return keep(std::make_unique<MemoryStream>(padded(is_new ? readFile(*beside) : std::vector<std::uint8_t>())));
 }
 
 void SceneFiles::Close(Assimp::IOStream* file)

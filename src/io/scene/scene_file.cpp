@@ -64,17 +64,17 @@ struct ObjectTransform
     glm::dmat3 linear{1.0}; // rotation * scale
 };
 
-ObjectTransform readTransform(const JsonCursor& place)
+ObjectTransform readTransform(const JsonCursor& json)
 {
-    place.allowKeys({"translation", "rotation", "scale"});
+    json.allowKeys({"translation", "rotation", "scale"});
     ObjectTransform result;
-    result.translation = findVector(place, "translation").value_or(glm::dvec3(0.0));
-    if (const auto rotation = place.find("rotation"))
+    result.translation = findVector(json, "translation").value_or(glm::dvec3(0.0));
+    if (const auto rotation = json.find("rotation"))
     {
         const Rotation turn = readRotation(*rotation);
         result.linear = rotationAbout(turn.axis, turn.turns);
     }
-    const auto scale = place.find("scale");
+    const auto scale = json.find("scale");
     const glm::dvec3 factors = scale ? readScale(*scale) : glm::dvec3(1.0);
     for (int column = 0; column < 3; ++column)
     {

@@ -136,8 +136,8 @@ private:
         glm::ivec3 end(1);
         for (const Cell& cell : m_cells)
         {
-            corner = glm::min(corner, cell.place);
-            end = glm::max(end, cell.place + 1);
+            corner = glm::min(corner, cell.coordinates);
+            end = glm::max(end, cell.coordinates + 1);
         }
         const glm::uvec3 extent(end - corner);
         const std::uint32_t edge = std::max({extent.x, extent.y, extent.z, 2U});
@@ -150,14 +150,14 @@ private:
         voxels.reserve(m_cells.size());
         for (const Cell& cell : m_cells)
         {
-            voxels.emplace_back(codeOfCell(glm::uvec3(cell.place - corner)), cell.color);
+            voxels.emplace_back(codeOfCell(glm::uvec3(cell.coordinates - corner)), cell.color);
         }
         m_cells = {};
         const auto before = [](const auto& a, const auto& b) { return a.first < b.first; };
         std::stable_sort(voxels.begin(), voxels.end(), before);
         for (std::size_t i = 0; i < voxels.size(); ++i)
         {
-            if (i + 1 == voxels.size() || voxels[i + 1].first != voxels[i].first) // the last one of its place
+            if (i + 1 == voxels.size() || voxels[i + 1].first != voxels[i].first) // the last voxel of its cell
             {
                 m_result.codes.push_back(voxels[i].first);
                 m_result.colors.push_back(voxels[i].second);
@@ -168,7 +168,7 @@ private:
 
     struct Cell
     {
-        glm::ivec3 place;
+        glm::ivec3 coordinates;
         std::uint32_t color;
     };
 

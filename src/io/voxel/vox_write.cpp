@@ -82,7 +82,8 @@ private:
 };
 
 // A node that places another one.
-void addTransform(Writer& writer, std::int32_t id, std::int32_t child, std::int32_t layer, const std::string& place)
+void addTransform(Writer& writer, std::int32_t id, std::int32_t child, std::int32_t layer,
+                  const std::string& translation)
 {
     Writer content;
     content.number(id);
@@ -91,11 +92,11 @@ void addTransform(Writer& writer, std::int32_t id, std::int32_t child, std::int3
     content.number(-1); // reserved
     content.number(layer);
     content.number(1); // frames
-    content.number(place.empty() ? 0 : 1);
-    if (!place.empty())
+    content.number(translation.empty() ? 0 : 1);
+    if (!translation.empty())
     {
         content.text("_t");
-        content.text(place);
+        content.text(translation);
     }
     writer.chunk("nTRN", content);
 }
@@ -103,7 +104,7 @@ void addTransform(Writer& writer, std::int32_t id, std::int32_t child, std::int3
 // The root, a group, and for each model its place and its shape.
 Writer sceneGraph(const std::vector<Model>& models)
 {
-    constexpr std::int32_t kFirstPlace = 2;
+    constexpr std::int32_t kFirstTransform = 2;
     Writer writer;
     addTransform(writer, 0, 1, -1, "");
     Writer group;
@@ -112,16 +113,16 @@ Writer sceneGraph(const std::vector<Model>& models)
     group.number(static_cast<std::int64_t>(models.size()));
     for (std::size_t i = 0; i < models.size(); ++i)
     {
-        group.number(kFirstPlace + 2 * static_cast<std::int64_t>(i));
+        group.number(kFirstTransform + 2 * static_cast<std::int64_t>(i));
     }
     writer.chunk("nGRP", group);
     for (std::size_t i = 0; i < models.size(); ++i)
     {
-        const auto place = kFirstPlace + 2 * static_cast<std::int32_t>(i);
+        const auto transform = kFirstTransform + 2 * static_cast<std::int32_t>(i);
         const glm::ivec3 middle = models[i].min + models[i].size() / 2;
-        addTransform(writer, place, place + 1, 0, fmt::format("{} {} {}", middle.x, middle.y, middle.z));
+        addTransform(writer, transform, transform + 1, 0, fmt::format("{} {} {}", middle.x, middle.y, middle.z));
         Writer shape;
-        shape.number(place + 1);
+        shape.number(transform + 1);
         shape.number(0);
         shape.number(1);
         shape.number(static_cast<std::int64_t>(i));
@@ -161,10 +162,10 @@ void writeVox(const TreeData& tree, const std::function<void(std::span<const std
                          last_block = code >> (3 * kBlockBits);
                      }
                      Model& model = models.back();
-                     const glm::ivec3 place = turned(cellOfCode(code));
+                     const glm::ivec3 position = turned(cellOfCode(code));
                      ++model.voxel_count;
-                     model.min = glm::min(model.min, place);
-                     model.max = glm::max(model.max, place);
+                     model.min = glm::min(model.min, position);
+                     model.max = glm::max(model.max, position);
                      ++counts[colorOf(tree, voxel++)];
                  });
     const Palette palette = quantize(counts, kPaletteSize);
@@ -206,10 +207,11 @@ void writeVox(const TreeData& tree, const std::function<void(std::span<const std
                          writer.number(static_cast<std::int64_t>(rest));
                      }
                      --rest;
-                     const glm::ivec3 place = turned(cellOfCode(code)) - models[model - 1].min;
+                     const glm::ivec3 position = turned(cellOfCode(code)) - models[model - 1].min;
                      const std::uint32_t index = palette.indices[colorOf(tree, voxel++)] + 1U;
-                     writer.append(static_cast<std::uint32_t>(place.x) | static_cast<std::uint32_t>(place.y) << 8 |
-                                   static_cast<std::uint32_t>(place.z) << 16 | index << 24);
+                     writer.append(static_cast<std::uint32_t>(position.x) |
+                                   static_cast<std::uint32_t>(position.y) << 8 |
+                                   static_cast<std::uint32_t>(position.z) << 16 | index << 24);
                      if (writer.bytes().size() >= kPieceBytes)
                      {
                          write(writer.bytes());
