@@ -13,12 +13,12 @@ struct ImageTarget
 {
     VkImage image = VK_NULL_HANDLE; // of one sample a texel
     VkFormat format = VK_FORMAT_UNDEFINED;
-    // The image's when the copy runs: TRANSFER_DST_OPTIMAL or GENERAL.
+    // The layout that the image has when the copy runs: TRANSFER_DST_OPTIMAL or GENERAL.
     VkImageLayout layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
     VkOffset2D offset{0, 0}; // of the picture's top left pixel in the mip level, which has room for all of it
     std::uint32_t mip_level = 0;
     std::uint32_t array_layer = 0;
-    VkExtent2D extent{0, 0}; // of the mip level: the picture must fit. 0: zvo does not look
+    VkExtent2D extent{0, 0}; // of the mip level: the picture must fit; 0: zvo does not check that
 };
 
 } // namespace zvo
