@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <memory>
+
 namespace zvo
 {
 namespace
@@ -40,6 +43,22 @@ TEST(Control, DISABLED_KernelBranchesOnFreshMemory)
             pass.dispatch(kCount, params);
         });
     EXPECT_LE(test::device().download(steps, 0, 1).front(), 15U);
+}
+
+// For scripts/check-sanitizers. The volatile variables hide the fault from the compiler.
+TEST(Control, DISABLED_HostReadsFreedMemory)
+{
+    auto value = std::make_unique<int>(7);
+    const int* volatile freed = value.get();
+    value.reset();
+    EXPECT_EQ(*freed, 7);
+}
+
+// For scripts/check-sanitizers.
+TEST(Control, DISABLED_HostAddsPastTheLargestNumber)
+{
+    const volatile int largest = std::numeric_limits<int>::max();
+    EXPECT_LT(largest + 1, largest);
 }
 
 // For scripts/check-poison.
