@@ -1,9 +1,18 @@
 # SPDX-License-Identifier: MIT
-# Compiles every shaders/<operation>/<kernel>.comp to SPIR-V, checks it with spirv-val and embeds it as the kernel
-# "<operation>/<kernel>" in a generated source file.
+# Compiles every shaders/<operation>/<kernel>.comp to SPIR-V, simplifies it, checks it with spirv-val and embeds it as
+# the kernel "<operation>/<kernel>" in a generated source file.
 
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# What the compilers of drivers would do first, and for every pipeline anew: functions are inlined, variables become
+# values, and what nobody uses goes. None of these passes changes arithmetic, so results stay the same bits.
+set(ZVO_SPIRV_PASSES
+    --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+    --private-to-local --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive
+    --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store --ssa-rewrite
+    --eliminate-dead-inserts --vector-dce --eliminate-dead-code-aggressive --merge-blocks)
 
 # zvo_embed_kernels(TARGET ROOT FUNCTION [INCLUDE dir] [DEPENDS target]): adds a generated source to TARGET that defines
 # `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT. They include what is below dir, by
@@ -30,6 +39,8 @@ function(zvo_embed_kernels target root function_name)
             DEPFILE ${out_dir}/${name}.d
             COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${arg_INCLUDE} -S comp
                     --depfile ${out_dir}/${name}.d -o ${out_dir}/${name}.spv ${root}/${kernel}
+            COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-spec-constants
+                    ${ZVO_SPIRV_PASSES} ${out_dir}/${name}.spv -o ${out_dir}/${name}.spv
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${out_dir}/${name}.spv
             COMMAND ${CMAKE_COMMAND} -DINPUT=${out_dir}/${name}.spv -DOUTPUT=${out_dir}/${name}.cpp -DSYMBOL=${symbol}
                     -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
