@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Blocks of 16 attributes, a voxel at a time and a channel at a time.
+// Blocks of 16 attributes, packed by voxel and by channel.
 #include "oracle/attribute_formats.h"
 
 #include <algorithm>
@@ -98,7 +98,7 @@ Color sumOf(const std::array<Color, kVoxels>& colors)
     return sum;
 }
 
-// Of the pairs of codes around the mean colour, the first whose colour 1 is nearest, channel by channel.
+// Returns, of the pairs of codes around the mean colour, the first one whose colour 1 is nearest, channel by channel.
 ColorPair pairAroundMean(const std::array<Color, kVoxels>& colors)
 {
     ColorPair pair;
@@ -158,7 +158,7 @@ ColorPair pairOfBox(const std::array<Color, kVoxels>& colors)
     return pair;
 }
 
-/// Sums over voxels with weights a and b of the two ends, and of the values there.
+/// Sums over voxels of the weights a and b of the two ends, and of their products with values.
 struct Weights
 {
     std::int64_t aa = 0;
@@ -183,7 +183,10 @@ struct Weights
     }
 
     [[nodiscard]] std::int64_t determinant() const { return aa * bb - ab * ab; }
-    [[nodiscard]] std::int64_t first() const { return av * bb - bv * ab; } // over the determinant, of one step
+    [[nodiscard]] std::int64_t first() const
+    {
+        return av * bb - bv * ab;
+    } // numerator of the first end; the determinant is its denominator
     [[nodiscard]] std::int64_t second() const { return bv * aa - av * ab; }
 };
 
@@ -242,7 +245,7 @@ struct Frame
     bool diagonal = false;
 };
 
-// Coordinates of a vector on the octahedron |x| + |y| + |z| = one in a frame.
+// The coordinates, in a frame, of a vector on the octahedron |x| + |y| + |z| = one.
 Point pointOf(const Vector& v, const Frame& frame, std::int64_t one)
 {
     const std::int64_t x = v[(frame.axis + 1) % 3];
@@ -274,7 +277,7 @@ Vector vectorOf(Point p, const Frame& frame, std::int64_t one)
     return v;
 }
 
-constexpr std::int64_t kVectorOne = 4095; // of vectors while they are packed
+constexpr std::int64_t kVectorOne = 4095; // length of vectors in packing
 constexpr std::int64_t kStep = 65;        // between the ends 0 to 126 of scales, counted from -1
 
 /// A scale of one coordinate.
@@ -291,8 +294,8 @@ struct Scale
     }
 };
 
-// coordinates: from 0 to 2 * kVectorOne. The step is (coordinate - first) * (7 / length), the latter in 1/2^18, cut
-// off.
+// coordinates: from 0 to 2 * kVectorOne. A step is (coordinate - first) * (7 / length), with 7 / length truncated to
+// 1/2^18.
 void chooseSteps(const std::array<std::int64_t, kVoxels>& coordinates, Scale& scale)
 {
     const std::int64_t length = (scale.second - scale.first) * kStep;

@@ -25,7 +25,7 @@ std::int64_t rescaled(std::int64_t from, int from_max, int to_max)
     return std::lround(static_cast<double>(from) * to_max / from_max);
 }
 
-// The vector of an octahedral code in which 1 is `one`: on the octahedron |x| + |y| + |z| = one.
+// The vector of an octahedral code, on the octahedron |x| + |y| + |z| = one. x and y are in the same unit.
 Vector onOctahedron(std::int64_t x, std::int64_t y, std::int64_t one)
 {
     const std::int64_t z = one - std::abs(x) - std::abs(y);
@@ -41,8 +41,7 @@ std::int64_t dot(const Vector& a, const Vector& b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Whether the angle between v, of components up to 2^15, and a is smaller than that between v and b, which are both
-// acute; a and b have components up to 2^7.
+// Whether v is nearer in angle to a than to b. Both angles are acute; v has components up to 2^15, a and b up to 2^7.
 bool isNearer(const Vector& v, const Vector& a, const Vector& b)
 {
     const std::int64_t to_a = std::max<std::int64_t>(dot(v, a), 0);

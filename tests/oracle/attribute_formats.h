@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packed attributes as docs/attributes.md defines them, written the long way.
+// Packed attributes as docs/attributes.md defines them, computed step by step.
 #pragma once
 
 #include "shared/octree.h"
@@ -11,14 +11,14 @@
 namespace zvo::oracle
 {
 
-/// An attribute in 4 bytes, and what such a word stands for. Flags are lost.
+/// Packs an attribute into 4 bytes, and unpacks it. Flags are lost.
 std::uint32_t packAttribute4(const gpu::Attribute& attribute);
 gpu::Attribute unpackAttribute4(std::uint32_t word);
 
-/// A block of 16 attributes, and what it holds.
+/// A block of 16 attributes.
 using Block = std::array<std::uint32_t, 6>;
 
-/// attributes: 1 to 16; the last one stands for those that are missing.
+/// attributes: 1 to 16. The last one is repeated for missing ones.
 Block packBlock(std::span<const gpu::Attribute> attributes);
 gpu::Attribute unpackBlock(const Block& block, std::uint32_t voxel);
 

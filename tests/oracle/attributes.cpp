@@ -30,7 +30,7 @@ void sortAndSum(std::vector<VoxelColor>& voxels)
     voxels = std::move(sums);
 }
 
-/// One thread's sums, merged whenever they have doubled.
+/// One thread's sums, which are merged whenever their number has doubled.
 struct SumList
 {
     std::vector<VoxelColor> voxels;

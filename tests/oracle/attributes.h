@@ -11,7 +11,7 @@
 namespace zvo::oracle
 {
 
-/// What the fragments of one voxel add up to.
+/// The sums over the fragments of one voxel.
 struct VoxelColor
 {
     std::uint64_t code = 0;  // 64-bit Morton code, x in bit 0

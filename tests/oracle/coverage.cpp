@@ -41,7 +41,7 @@ bool separates(const Vec& axis, const Triangle& triangle, const Box& box)
 constexpr Int128 kOne = 1;
 constexpr std::array<Vec, 3> kUnit{Vec{kOne, 0, 0}, Vec{0, kOne, 0}, Vec{0, 0, kOne}};
 
-/// The plane, taken at the centre of the voxel's column along w, has its height in the voxel.
+/// Whether the height of the triangle's plane, at the centre of the voxel's column along w, lies in the voxel.
 bool planeInVoxel(const Triangle& triangle, const Vec& normal, const glm::uvec3& voxel, std::uint32_t resolution,
                   const ThinRule& rule)
 {
@@ -66,7 +66,7 @@ bool planeInVoxel(const Triangle& triangle, const Vec& normal, const glm::uvec3&
     return rule.border_below[w] ? low < numerator && numerator <= high : low <= numerator && numerator < high;
 }
 
-/// In the plane (a, b), the voxel's diamond reaches the inner side of all three edges.
+/// Whether the voxel's diamond in the plane (a, b) reaches the inner side of all three edges.
 bool diamondInsideEdges(const Triangle& triangle, const Vec& normal, const Vec& center, std::size_t a)
 {
     const std::size_t b = (a + 1) % 3;
@@ -85,15 +85,15 @@ bool diamondInsideEdges(const Triangle& triangle, const Vec& normal, const Vec& 
     return true;
 }
 
-/// A box of voxels and where it stands.
+/// A box of voxels.
 struct VoxelRange
 {
     glm::uvec3 first;
     glm::uvec3 last;
 };
 
-/// overlaps() for many boxes of voxels: what depends on the triangle alone is computed once. Int is 64 bits wide where
-/// that suffices; the boxes must touch the triangle's box.
+/// overlaps() for many boxes of voxels; what depends on the triangle alone is computed once. Int may have 64 bits if
+/// isModest(). The boxes must touch the triangle's box.
 template <typename Int> class OverlapTest
 {
 public:
@@ -111,7 +111,7 @@ public:
 
     [[nodiscard]] bool overlaps(const VoxelRange& box) const
     {
-        // The box's middle and half its size, both twice.
+        // Twice the box's middle, and its size.
         std::array<Int, 3> middle;
         std::array<Int, 3> size;
         for (std::size_t i = 0; i < 3; ++i)
@@ -136,7 +136,7 @@ private:
     {
         Int x, y, z;
         Int size_x, size_y, size_z; // absolute values
-        Int low, high;              // twice the triangle's interval, from its first corner
+        Int low, high;              // twice the triangle's interval, relative to its first corner
     };
 
     void add(const Vec& direction, const Triangle& triangle)
@@ -158,8 +158,8 @@ private:
     std::array<Int, 3> m_origin{};
 };
 
-/// Whether 64 bits hold what OverlapTest computes: the normal, below 2^38, times twice the distance of a voxel, below
-/// 2^20, in three terms; and the same for the box's size.
+/// Whether 64 bits hold all that OverlapTest computes: three terms of the normal, below 2^38, times twice the distance
+/// of a voxel, below 2^20; and the same with the box's size.
 bool isModest(const Triangle& triangle)
 {
     for (const Vec& unit : kUnit)
@@ -181,10 +181,10 @@ template <typename Int> struct Walk
     const std::function<void(const glm::uvec3&)>& visit;
 };
 
-/// Halves the box of voxels first to last until it is one voxel or the triangle does not touch it.
+/// Visits the covered voxels of a box, which is halved until the triangle misses it or it is one voxel.
 template <typename Int> void subdivide(const Walk<Int>& walk, const VoxelRange& box)
 {
-    if (!walk.test.overlaps(box)) // thin coverage is a subset, a test checks it
+    if (!walk.test.overlaps(box)) // thin coverage is a subset, as a test checks
         return;
     const auto& [first, last] = box;
     const glm::uvec3 extent = last - first;
@@ -269,7 +269,7 @@ void forEachCoveredVoxel(const Triangle& triangle, std::uint32_t resolution, Cov
     glm::uvec3 last{};
     for (std::size_t i = 0; i < 3; ++i)
     {
-        // Closed voxels: one that ends where the triangle begins is a candidate too.
+        // Voxels are closed: one that ends where the triangle begins is a candidate, too.
         const Interval range = project(triangle, kUnit[i]);
         const Int128 low = floorDivide(range.low - 1, kLatticeVoxel);
         const Int128 high = floorDivide(range.high, kLatticeVoxel);

@@ -28,14 +28,15 @@ std::uint32_t maskBelow(const gpu::Node& node, std::uint32_t cell)
     return (cell < 32 ? node.mask_lo : node.mask_hi) & ((1U << (cell & 31)) - 1);
 }
 
-/// base + popcount(mask & bits below cell): a child or, in a leaf, a voxel; for a list, the place of the entry.
+/// base + popcount(mask & bits below cell): the index of a child or, in a leaf, of a voxel; for a list, that of its
+/// entry.
 std::uint64_t placeOf(const gpu::Node& node, std::uint32_t cell)
 {
     const std::uint32_t base = (cell < 32 ? node.base_lo : node.base_hi) & ~gpu::kChildList;
     return std::uint64_t{base} + static_cast<std::uint32_t>(std::popcount(maskBelow(node, cell)));
 }
 
-/// The words of nodes as the device sees them.
+/// A word of the pool, as the device reads it.
 gpu::uint wordOf(std::span<const gpu::Node> nodes, std::uint64_t word)
 {
     const gpu::Node& node = nodes[word / kWordsPerNode];
@@ -58,7 +59,7 @@ std::uint32_t entriesPerWord(std::uint64_t node_count)
     return node_count <= 65536 ? 4 : node_count <= 2097152 ? 3 : 2;
 }
 
-/// Nodes for entries, bit by bit, zeros behind the last one.
+/// Appends entries bit by bit, padded with zeros to whole nodes.
 void appendEntries(std::vector<gpu::Node>& nodes, const std::vector<std::uint32_t>& entries, std::uint32_t per_word)
 {
     const std::uint32_t width = 64 / per_word;
@@ -80,11 +81,11 @@ void appendEntries(std::vector<gpu::Node>& nodes, const std::vector<std::uint32_
     }
 }
 
-/// How much of an octree is below a node.
+/// The counts of voxels and nodes below a node of an octree.
 struct Below
 {
     std::uint32_t voxels = 0;
-    std::uint32_t nodes = 0; // with the node itself
+    std::uint32_t nodes = 0; // including the node itself
 };
 
 std::vector<Below> countBelow(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels)
@@ -115,7 +116,7 @@ std::vector<Below> countBelow(std::span<const gpu::Node> nodes, std::span<const 
     return below;
 }
 
-/// Which nodes of an octree are the same, level by level.
+/// Classes of equal nodes of an octree, level by level.
 struct Classes
 {
     std::vector<std::uint32_t> class_of;                 // [nodes] number among the classes of their level
@@ -168,7 +169,7 @@ std::vector<std::uint32_t> depthFirst(std::span<const gpu::Node> nodes, std::siz
 
 } // namespace
 
-// Bit by bit.
+// Reads bit by bit.
 std::uint32_t entryAt(std::span<const gpu::Node> pool, std::uint64_t place, std::uint32_t entries_per_word)
 {
     const std::uint32_t width = 64 / entries_per_word;
@@ -305,7 +306,7 @@ private:
         return m_voxels_before_leaf[i / 2] >> (16 * (i % 2)) & 0xFFFF;
     }
 
-    // The node of a level at a Morton code: voxels and nodes stand before it.
+    // Visits a node of a level with its Morton code; `voxels` and `nodes` are the counts before it.
     void visit(std::uint64_t index, std::size_t level, std::uint64_t code, std::uint64_t voxels, std::uint64_t nodes)
     {
         const gpu::Node& node = m_pool[index];

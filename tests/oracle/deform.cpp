@@ -12,9 +12,9 @@ namespace
 {
 
 constexpr double kRounding = 0x1p-24;
-constexpr double kTiny = 1e-25; // what dropping small terms may cost, for matrices and vertices of ordinary size
+constexpr double kTiny = 1e-25; // error of dropped small terms, for matrices and vertices of ordinary size
 
-/// A vector, and the sum of the absolute values of what was added up to it.
+/// A sum of vectors, and the sum of their absolute values.
 struct Summed
 {
     glm::dvec3 value{0.0};
@@ -43,7 +43,7 @@ glm::dmat4 absolute(const glm::dmat4& m)
     return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2]), glm::abs(m[3])};
 }
 
-/// The sums of two products that make cofactors, with all terms positive.
+/// Cofactors with both products added, and all factors positive.
 glm::dmat3 cofactorSizes(const glm::dmat3& m)
 {
     const auto cross = [](const glm::dvec3& a, const glm::dvec3& b)
@@ -56,7 +56,7 @@ glm::dmat3 cofactorSizes(const glm::dmat3& m)
 DeformedVertex deformVertex(const Primitive& primitive, std::size_t vertex, std::span<const float> morph_weights,
                             std::span<const glm::mat4> joints)
 {
-    const double steps = static_cast<double>(morph_weights.size()) + 24.0; // roundings on the way of any term
+    const double steps = static_cast<double>(morph_weights.size()) + 24.0; // roundings that any term passes through
     DeformedVertex result;
     Summed position = morph(primitive.positions[vertex], primitive, vertex, morph_weights, &MorphTarget::positions);
     Summed normal;

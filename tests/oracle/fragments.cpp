@@ -14,7 +14,7 @@ namespace zvo::oracle
 namespace
 {
 
-/// What a triangle looks like, in the integers that its fragments interpolate.
+/// The colours and texture of a triangle, as integers that its fragments interpolate.
 struct Appearance
 {
     const Material* material = nullptr;
@@ -22,7 +22,7 @@ struct Appearance
     const Texture* texture = nullptr;
     std::uint32_t level = 0;
     std::array<std::array<std::int64_t, 2>, 3> uv{};
-    std::array<std::array<std::uint32_t, 4>, 3> colors{}; // per vertex; 65535 where the mesh has none
+    std::array<std::array<std::uint32_t, 4>, 3> colors{}; // per vertex; 65535 if the mesh has none
 };
 
 std::int64_t interpolated(const std::array<std::uint32_t, 3>& weights, std::int64_t a, std::int64_t b, std::int64_t c)
@@ -30,7 +30,7 @@ std::int64_t interpolated(const std::array<std::uint32_t, 3>& weights, std::int6
     return (weights[0] * a + weights[1] * b + weights[2] * c) >> 16;
 }
 
-/// texture * factor * vertex colour, alpha likewise.
+/// The product of texture, factor and vertex colour, for colour and alpha.
 Texel16 shade(const Appearance& look, const std::array<std::uint32_t, 3>& weights)
 {
     Texel16 result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The fragments of a scene, after docs/voxelization.md: one triangle's share of one voxel each.
+// The fragments of a scene, after docs/voxelization.md.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -26,7 +26,7 @@ struct Fragment
     std::array<std::uint32_t, 3> color; // linear, fractions of 65535
 };
 
-/// Barycentric weights, adding up to 65536, of the voxel's column along the triangle's major axis.
+/// Barycentric weights of a voxel: those of its column along the triangle's major axis. They add up to 65536.
 std::array<std::uint32_t, 3> fragmentWeights(const Triangle& triangle, const glm::uvec3& voxel);
 
 /// Rank in 0 .. 63 of a voxel in the 4x4x4 ordered dither.
@@ -41,10 +41,11 @@ class FragmentWalker
 public:
     FragmentWalker(const Scene& scene, const Grid& grid, Coverage coverage);
 
-    /// Triangles, with instances counted each time.
+    /// Number of triangles, once for each instance.
     [[nodiscard]] std::uint64_t triangleCount() const { return m_first_triangle.back(); }
 
-    /// Calls sink for each existing fragment of the triangles first to last - 1; counts dropped ones. Thread safe.
+    /// Calls sink for each existing fragment of the triangles first to last - 1, and counts dropped triangles. Thread
+    /// safe.
     void walk(std::uint64_t first, std::uint64_t last, const std::function<void(const Fragment&)>& sink,
               Dropped& dropped) const;
 
@@ -56,7 +57,7 @@ private:
     Grid m_grid;
     Coverage m_coverage;
     std::vector<std::uint64_t> m_first_triangle; // [instances + 1]
-    std::map<std::uint32_t, MipChain> m_mips;    // by image, for those that a base colour needs
+    std::map<std::uint32_t, MipChain> m_mips;    // by image; only of images that base colours use
 };
 
 /// Splits 0 .. count - 1 among threads: work(thread, first, last), with thread < threadCount().

@@ -40,7 +40,7 @@ private:
     OctreeContents& m_contents;
 };
 
-/// Whether the levels tile the nodes; false makes an expansion pointless.
+/// Whether the levels cover the nodes without gaps. If not, expanding is pointless.
 bool checkLevels(std::size_t node_count, std::span<const NodeRange> levels, std::uint32_t depth, Checker& checker)
 {
     if (node_count == 0 && levels.empty())
@@ -70,7 +70,7 @@ OctreeContents checkOctree(std::span<const gpu::Node> nodes, std::span<const Nod
     if (!checkLevels(nodes.size(), levels, depth, checker))
         return contents;
 
-    // The codes of one level's nodes, in their order; the children that they announce give the next level's.
+    // Codes of one level's nodes in order. Their masks give the codes of the next level.
     std::vector<std::uint64_t> codes;
     if (!levels.empty())
         codes.push_back(0);
@@ -82,7 +82,7 @@ OctreeContents checkOctree(std::span<const gpu::Node> nodes, std::span<const Nod
         if (levels[level].node_count != codes.size())
             return contents;
 
-        std::uint64_t next = leaf ? 0 : levels[level + 1].first_node; // what the next base must be
+        std::uint64_t next = leaf ? 0 : levels[level + 1].first_node; // expected value of the next base
         std::vector<std::uint64_t> children;
         for (std::uint32_t i = 0; i < levels[level].node_count; ++i)
         {
@@ -101,7 +101,7 @@ OctreeContents checkOctree(std::span<const gpu::Node> nodes, std::span<const Nod
         codes = std::move(children);
     }
 
-    // Bases that run in step with the masks make this order the Morton order; check it all the same.
+    // Correct bases already imply Morton order, which is checked all the same.
     const auto unsorted = std::adjacent_find(codes.begin(), codes.end(), std::greater_equal<>());
     checker.expect(unsorted == codes.end(), "voxels are not in Morton order");
     if (!codes.empty())

@@ -11,7 +11,7 @@
 namespace zvo::oracle
 {
 
-/// Where one level's nodes stand; level 0 is the root.
+/// The nodes of a level; level 0 is the root's.
 struct NodeRange
 {
     std::uint32_t first_node = 0;
@@ -20,18 +20,19 @@ struct NodeRange
 
 struct OctreeContents
 {
-    std::vector<std::uint64_t> codes;    // Morton codes of the voxels, in the order of their attribute indices
-    std::vector<std::string> violations; // empty: the octree is as shaders/shared/octree.h says. At most kViolationsMax
+    std::vector<std::uint64_t> codes; // Morton codes of the voxels, in the order of their attribute indices
+    std::vector<std::string>
+        violations; // empty: the octree is valid by shaders/shared/octree.h. At most kViolationsMax
 };
 
 constexpr std::size_t kViolationsMax = 20;
 
-/// Expands downloaded nodes to voxels and checks everything that makes the bytes unique for a set of voxels: levels
-/// contiguous and as many as depth (of the grid) asks for, no empty node, every base equal to the running count, voxels
-/// in Morton order and inside of the grid. An octree without voxels has neither nodes nor levels.
+/// Expands downloaded nodes to voxels and checks that the bytes are the only ones for this set of voxels: levels are
+/// contiguous, and as many as depth (of the grid) needs; no node is empty; every base equals the running count; voxels
+/// come in Morton order and lie inside of the grid. An octree without voxels has neither nodes nor levels.
 OctreeContents checkOctree(std::span<const gpu::Node> nodes, std::span<const NodeRange> levels, std::uint32_t depth);
 
-/// The octree of sorted, unique Morton codes: what checkOctree() accepts, made the direct way.
+/// The octree of sorted, unique Morton codes, made directly. checkOctree() accepts it.
 struct ReferenceOctree
 {
     std::vector<gpu::Node> nodes;

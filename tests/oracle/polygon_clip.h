@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A second exact way to decide whether a triangle meets a box, for the tests of the first: clip the triangle against
-// the box's six half-spaces (Sutherland and Hodgman, Reentrant Polygon Clipping, 1974) in rational numbers and see
-// whether anything is left. For small coordinates (below a few hundred).
+// A second exact test of whether a triangle meets a box, to test the first one. It clips the triangle against the box's
+// six half-spaces (Sutherland and Hodgman, Reentrant Polygon Clipping, 1974) in rational numbers; they meet if
+// something is left. For coordinates below a few hundred.
 #pragma once
 
 #include "oracle/coverage.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// In double precision, whose roundings are 2^-29 of those that are bounded: kSlack covers them.
+// Computes in double precision. Its own roundings are 2^-29 of those of single precision; kSlack covers them.
 #include "oracle/ray_bounds.h"
 
 #include "oracle/morton.h"
@@ -15,20 +15,20 @@ namespace
 
 constexpr double kRounding = 0x1p-24; // of single precision, relative
 constexpr double kSlack = 1.0 + 0x1p-18;
-constexpr double kOverflow = 1e38; // times in single precision may be infinite from here on
+constexpr double kOverflow = 1e38; // from here on, times in single precision may be infinite
 
-/// When a line is inside a box: empty if first > last.
+/// The times between which a line is inside a box; empty if first > last.
 struct Interval
 {
     double first;
     double last;
 };
 
-/// A ray in double precision with what rounding may do to the planes across each axis.
+/// A ray in double precision, with the distances by which rounding may move planes, for each axis.
 struct Line
 {
     glm::dvec3 origin;
-    glm::dvec3 direction; // as oracle::makeRay() clamps it: no zeros
+    glm::dvec3 direction; // as oracle::makeRay() clamps it, without zeros
     glm::dvec3 delta;
     double t_min;
 
@@ -42,7 +42,8 @@ struct Line
         }
     }
 
-    /// When the line is between low and low + edge on all axes, each plane moved outwards by grow (of delta).
+    /// The times between which the line lies between low and low + edge on all axes, with each plane moved outwards by
+    /// grow * delta.
     [[nodiscard]] Interval inside(const glm::dvec3& low, double edge, double grow) const
     {
         Interval interval{-INFINITY, INFINITY};
@@ -66,7 +67,7 @@ bool isFiniteRay(const Ray& ray)
     return std::isfinite(ray.t_min);
 }
 
-/// One classification.
+/// The state of one classification.
 struct Search
 {
     const BitPyramid& pyramid;
@@ -166,7 +167,7 @@ std::optional<std::string> BitPyramid::objection(const Ray& ray, double t_max, c
         return "the line does not touch the voxel";
     const double latest = std::max(line.inside(low, edge, -1.0).first, line.t_min);
     const double earliest = std::max(grown.first, line.t_min);
-    // Times below the smallest normal number count as that number.
+    // Times below the smallest normal number count as that one.
     if (time < earliest - kSlack * 0x1p-126 || time > latest + kSlack * 0x1p-126)
         return "the line enters the voxel at another time";
     return std::nullopt;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Which voxels the line of a ray must hit, may hit or must miss, whatever the rounding: a second reference beside
-// oracle/trace.h, which knows nothing of events and their order, and is fast enough for millions of rays.
+// Classifies voxels as those that the line of a ray must hit, may hit or must miss, whatever the rounding. A second
+// reference beside oracle/trace.h: it does not use events and their order, and is fast enough for millions of rays.
 //
-// The device computes when a ray crosses a plane with at most five roundings to single precision (3 - o, p - o',
-// 1 / d, their product), so it takes every plane for one that lies up to delta = 2^-24 (4 |p - o| + |3 - o|) elsewhere,
-// which is bounded here over the root cube, for each axis. A ray that passes through a voxel even if its planes move
-// inwards by delta visits it; a ray that does not touch it even if they move outwards does not.
+// The device computes the time at which a ray crosses a plane with at most five roundings to single precision (3 - o, p
+// - o', 1 / d, their product). So the plane that it effectively takes lies up to delta = 2^-24 (4 |p - o| + |3 - o|)
+// away; delta is bounded for each axis over the root cube. A ray visits a voxel if it passes through it even with its
+// planes moved inwards by delta. It does not visit a voxel that it misses even with its planes moved outwards.
 #pragma once
 
 #include "oracle/trace.h"
@@ -28,11 +28,11 @@ enum class RayClass : std::uint32_t
     MustMiss
 };
 
-/// What the line of a ray allows.
+/// The hits that are possible for a ray.
 struct RayBounds
 {
     RayClass kind = RayClass::MustMiss;
-    double latest = 0.0; // MustHit: when, at the latest, the hit voxel is entered
+    double latest = 0.0; // MustHit: the latest time at which the hit voxel is entered
 };
 
 /// The occupied cells of all levels of a small grid, as bits.
@@ -47,10 +47,10 @@ public:
     [[nodiscard]] bool isSet(std::uint32_t level, const glm::uvec3& cell) const;
     [[nodiscard]] std::uint32_t depth() const { return m_depth; }
 
-    /// What the ray can meet after its start and before t_max. A ray with NaN or infinite numbers misses.
+    /// Classifies the hits of a ray after its start and before t_max. A ray with NaN or infinite numbers misses.
     [[nodiscard]] RayBounds classify(const Ray& ray, double t_max) const;
 
-    /// Why the device may not report that the ray enters this voxel at t; nothing if it may.
+    /// Returns why the device may not report that the ray enters this voxel at t; nothing if it may.
     [[nodiscard]] std::optional<std::string> objection(const Ray& ray, double t_max, const glm::uvec3& voxel,
                                                        float t) const;
 

@@ -22,7 +22,7 @@ float transformedComponent(const glm::mat4& transform, const glm::vec3& point, i
     return xyz + transform[3][row];
 }
 
-/// In lattice units, not yet checked against the range.
+/// The coordinate in lattice units, not yet checked against the range.
 float latticeCoordinate(float world, float origin, float scale)
 {
     const float offset = world - origin;

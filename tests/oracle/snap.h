@@ -10,15 +10,15 @@
 namespace zvo::oracle
 {
 
-/// A triangle on the lattice, or why there is none.
+/// A triangle on the lattice, or the reason why there is none.
 struct SnappedTriangle
 {
     Triangle triangle{};
-    const char* dropped = nullptr; // reason as docs/voxelization.md names it; null when kept
+    const char* dropped = nullptr; // reason as docs/voxelization.md names it; null if the triangle is kept
 };
 
-/// Brings the corners (object space) through transform onto grid's lattice. Where several reasons to drop a triangle
-/// hold, the first of docs/voxelization.md's list counts.
+/// Transforms corners from object space and rounds them to grid's lattice. If there are several reasons to drop a
+/// triangle, the first in the list of docs/voxelization.md counts.
 SnappedTriangle snapTriangle(const std::array<glm::vec3, 3>& corners, const glm::mat4& transform, const Grid& grid,
                              Coverage coverage);
 

@@ -13,7 +13,7 @@ namespace zvo::oracle::test
 
 using Random = std::mt19937;
 
-/// Four unit voxels an edge.
+/// A grid of 4^3 voxels of size 1.
 inline const Grid kUnitGrid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 2};
 
 inline std::int64_t pick(Random& random, std::int64_t low, std::int64_t high)

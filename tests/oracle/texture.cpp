@@ -9,7 +9,7 @@ namespace zvo::oracle
 namespace
 {
 
-/// The two texels of one axis that a lookup lies between, and the second one's share in 1/256.
+/// The two texels of one axis between which a lookup lies, and the weight of the second one in 1/256.
 struct AxisTexels
 {
     std::array<std::int64_t, 2> texel;
@@ -88,7 +88,7 @@ Image halved(const Image& image)
     return result;
 }
 
-/// IEC 61966-2-1.
+/// The transfer function of IEC 61966-2-1.
 double decodedSrgb(double encoded)
 {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);

@@ -21,13 +21,13 @@ struct Texel16
 /// round(a b / 65535) for a, b <= 65535.
 std::uint32_t mul16(std::uint32_t a, std::uint32_t b);
 
-/// round(65535 * clamp(x, 0, 1)), of the exact product, halves up; 0 for NaN.
+/// round(65535 * clamp(x, 0, 1)) of the exact product, halves rounded up; 0 for NaN.
 std::uint32_t fraction16(float x);
 
 /// sRGB byte to linear fraction of 65535.
 std::uint32_t linear16(std::uint8_t srgb);
 
-/// Linear fraction of 65535 (at most that) to the nearest sRGB byte.
+/// Linear fraction of 65535 to the nearest sRGB byte.
 std::uint8_t srgb8(std::uint32_t linear);
 
 /// Texture coordinate in 1/65536 of the texture.
@@ -41,7 +41,7 @@ public:
 
     [[nodiscard]] const std::vector<Image>& levels() const { return m_levels; }
 
-    /// The smallest level whose texels are about as large as a voxel: area_uv is |dq1 x dq2|, area is |n_w|.
+    /// The first level whose texels are at least about as large as a voxel. area_uv is |dq1 x dq2|, area is |n_w|.
     [[nodiscard]] std::uint32_t levelFor(std::int64_t area_uv, std::int64_t area) const;
 
     /// Bilinear lookup at (u, v), in 1/65536 of the texture.

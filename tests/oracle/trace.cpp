@@ -115,13 +115,13 @@ std::optional<Hit> traceBruteForce(const std::vector<std::uint64_t>& codes, std:
     return first;
 }
 
-/// One ray's search: its numbers in double precision, not mirrored, and the best hit so far.
+/// The search of one ray: its numbers in double precision, not mirrored, and the best hit so far.
 struct VoxelTracer::Query
 {
     const Ray& ray;
     glm::dvec3 origin;
     glm::dvec3 inv;
-    std::uint64_t nearest_octant = 0; // 1 for each axis along which the ray goes down
+    std::uint64_t nearest_octant = 0; // bit set for each axis along which the ray goes down
     std::optional<Hit> best;
 
     explicit Query(const Ray& traced) : ray(traced), origin(traced.origin), inv(traced.inv)
@@ -131,7 +131,8 @@ struct VoxelTracer::Query
             if (!isMirrored(ray, axis))
                 continue;
             nearest_octant |= std::uint64_t{1} << axis;
-            origin[axis] = 3.0 - static_cast<double>(mirroredOrigin(ray, axis)); // with its rounding error
+            origin[axis] = 3.0 - static_cast<double>(
+                                     mirroredOrigin(ray, axis)); // includes the rounding error of the mirrored origin
         }
     }
 
@@ -146,7 +147,7 @@ struct VoxelTracer::Query
             const double b = (low[axis] + edge - origin[axis]) * inv[axis];
             if (std::max(std::fabs(a), std::fabs(b)) > 1e38)
                 continue; // single precision may overflow
-            // Two roundings to single precision move t by 2^-23 of it, denormal results by less than 1e-40.
+            // Two roundings to single precision change t by up to 2^-23 of it, denormal results by less than 1e-40.
             entry = std::max(entry, std::min(a - std::fabs(a) * 1e-6, b - std::fabs(b) * 1e-6) - 1e-40);
             exit = std::min(exit, std::max(a + std::fabs(a) * 1e-6, b + std::fabs(b) * 1e-6) + 1e-40);
         }

@@ -16,7 +16,7 @@ void sortUnique(std::vector<std::uint64_t>& codes)
     codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
 }
 
-/// One thread's codes, made unique whenever they have doubled.
+/// One thread's codes, which are made unique whenever their number has doubled.
 struct CodeList
 {
     std::vector<std::uint64_t> codes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The voxel set of a scene on the CPU, after docs/voxelization.md: plain rather than fast (a million triangles a
-// minute).
+// The voxel set of a scene on the CPU, after docs/voxelization.md. It is written to be simple, and handles a million
+// triangles a minute.
 #pragma once
 
 #include "core/base/grid.h"

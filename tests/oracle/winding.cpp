@@ -22,8 +22,8 @@ Edge edgeOf(const Vec& from, const Vec& to)
     return edge;
 }
 
-/// Whether the column through (x, y) along z meets the triangle, whose normal has the sign that is given. Of the two
-/// triangles beside an edge that the column meets, one has it.
+/// Whether the column through (x, y) along z meets the triangle, whose normal has the given sign. A column through an
+/// edge meets one of the two triangles beside it.
 bool meetsColumn(const Triangle& triangle, Int128 sign, Int128 x, Int128 y)
 {
     for (std::size_t i = 0; i < 3; ++i)
@@ -40,7 +40,7 @@ bool meetsColumn(const Triangle& triangle, Int128 sign, Int128 x, Int128 y)
     return true;
 }
 
-/// The columns, along one axis, whose centres lie between low and high.
+/// The range of columns, along one axis, whose centres lie between low and high.
 std::array<std::int64_t, 2> centersBetween(Int128 low, Int128 high, std::uint32_t resolution)
 {
     const Int128 first = floorDivide(low - 128 + kLatticeVoxel - 1, kLatticeVoxel);
@@ -53,7 +53,7 @@ std::array<std::int64_t, 2> centersBetween(Int128 low, Int128 high, std::uint32_
 
 bool isClosed(std::span<const Triangle> triangles)
 {
-    std::map<Edge, std::int64_t> balance; // by the direction that sorts first
+    std::map<Edge, std::int64_t> balance; // [edge, in the direction that sorts first]
     for (const Triangle& triangle : triangles)
     {
         for (std::size_t i = 0; i < 3; ++i)
@@ -91,7 +91,7 @@ std::vector<std::int16_t> windingNumbers(std::span<const Triangle> triangles, st
                 const Int128 y = Int128{row} * kLatticeVoxel + 128;
                 if (!meetsColumn(triangle, sign, x, y))
                     continue;
-                // The crossing's height is V0_z + rise / |n_z|; it lies below the centres from first on.
+                // The crossing's height is V0_z + rise / |n_z|. The centres from first on lie above it.
                 const Int128 rise = -sign * (normal[0] * (x - triangle[0][0]) + normal[1] * (y - triangle[0][1]));
                 const Int128 size = sign * normal[2];
                 const Int128 first = floorDivide((triangle[0][2] - 128) * size + rise, kLatticeVoxel * size) + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What lies inside a closed surface, counted exactly: it says nothing about voxels being covered.
+// Exact winding numbers around voxels' centres, which are independent of coverage.
 #pragma once
 
 #include "oracle/coverage.h"
@@ -11,13 +11,13 @@
 namespace zvo::oracle
 {
 
-/// Every directed edge, by the places of its ends, has as many partners in the other direction.
+/// Whether every directed edge, identified by the positions of its ends, has as many partners in the other direction.
 bool isClosed(std::span<const Triangle> triangles);
 
-/// Winding numbers of a closed surface around the voxels' centres of a grid of resolution^3, x fastest: 0 outside; 1
-/// inside of a simple surface whose triangles turn counterclockwise seen from outside. Counts the crossings below each
-/// centre (integers alone; a column that meets an edge or a vertex counts as moved by less than anything, the same way
-/// for all triangles). For centres on the surface the number means nothing.
+/// Winding numbers of a closed surface around the centres of the voxels of a grid of resolution^3, x fastest. 0 is
+/// outside; 1 is inside of a simple surface whose triangles turn counterclockwise seen from outside. They count the
+/// crossings below each centre, in integers; a column that meets an edge or a vertex counts as moved by an
+/// infinitesimal distance, the same for all triangles. For centres on the surface the number has no meaning.
 std::vector<std::int16_t> windingNumbers(std::span<const Triangle> triangles, std::uint32_t resolution);
 
 } // namespace zvo::oracle

@@ -40,7 +40,7 @@ std::vector<vk::Buffer> freeMemoryTaken(vk::HeadlessDevice& device)
             add(bytes);
         }
         pieces.pop_back();
-        add(kBlockBytes / 2); // of the block that has just been allocated
+        add(kBlockBytes / 2); // fills the block that has just been allocated
         add(kBlockBytes / 2);
     }
     return pieces;

@@ -11,14 +11,13 @@
 namespace zvo::test
 {
 
-constexpr std::uint64_t kBallastPieceBytes = 4096; // of the smallest pieces, the last ones
+constexpr std::uint64_t kBallastPieceBytes = 4096; // size of the smallest pieces, which are the last
 
-/// Takes what the limit of a device's memory leaves, whole blocks and what is free in them: nothing is left, but for
-/// the last pieces, which are not taken.
+/// Allocates all memory that a device's limit leaves: whole blocks, and free ranges in them. The last pieces_left
+/// pieces are given back.
 std::vector<vk::BufferOf<std::uint32_t>> ballast(vk::HeadlessDevice& device, std::size_t pieces_left);
 
-/// Takes what is free of the memory that is allocated, of a device with a limit: for anything more, more will have to
-/// be.
+/// Takes what is free in the allocated memory of a device with a limit. Any further allocation needs a new block.
 std::vector<vk::Buffer> freeMemoryTaken(vk::HeadlessDevice& device);
 
 } // namespace zvo::test

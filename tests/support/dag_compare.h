@@ -9,7 +9,7 @@
 namespace zvo::test
 {
 
-/// What tells two DAGs apart: the first difference in numbers or bytes, or "" for none.
+/// Returns the first difference in numbers or bytes of two DAGs, or "".
 std::string difference(vk::HeadlessDevice& device, const DeviceTree& actual, const DeviceTree& expected);
 
 } // namespace zvo::test

@@ -9,8 +9,8 @@
 namespace zvo::test
 {
 
-/// Options of the tests' devices: the software device, or the one that ZVO_TEST_DEVICE names; with validation when the
-/// environment variable ZVO_TEST_VALIDATION is 1, and also instrumented kernels when it is 2.
+/// Options of the tests' devices: the software device, or the one that ZVO_TEST_DEVICE names. With
+/// ZVO_TEST_VALIDATION=1 they ask for validation, with 2 for instrumented kernels, too.
 vk::HeadlessOptions deviceOptions();
 
 /// The device that the tests of a binary share, made on first use with kernels; later calls must name the same ones.

@@ -73,7 +73,7 @@ DynamicMachine::DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting&
     : m_device(device), m_setting(setting), m_scenery(scenery), m_beam(device.device(), setting.compressed),
       m_camera(setting.camera()), m_line(setting.entries_max)
 {
-    m_setting.shot.coarse = setting.shot.coarse && !isRuled(); // averages of such nodes are not known
+    m_setting.shot.coarse = setting.shot.coarse && !isRuled(); // the rule does not define averages of mixed nodes
     for (std::uint32_t i = 0; i < setting.frames_in_flight; ++i)
     {
         m_takers.emplace_back(device.device());
@@ -149,7 +149,7 @@ void DynamicMachine::setFailures(std::function<void()> arm, std::function<void()
     m_disarm = std::move(disarm);
 }
 
-// Whether call succeeded. fails: it is to fail even where nothing is armed.
+// Calls call(), and returns whether it succeeded. fails: call() throws even if nothing is armed.
 bool DynamicMachine::mayFail(const std::function<void()>& call, bool fails)
 {
     if (!m_arm && !fails)
@@ -172,8 +172,8 @@ bool DynamicMachine::mayFail(const std::function<void()>& call, bool fails)
     return succeeds;
 }
 
-// Gives the device a frame of the commands so far; waits where too many are under way.
-// loses: it fails. What the frame did to dynamic objects stays done; the line is that from before it.
+// Submits the commands so far as a frame. Waits for the oldest frame first if too many are under way.
+// loses: the frame fails. Commands to dynamic objects keep their effect then; the line becomes what it was before.
 void DynamicMachine::submit(bool loses)
 {
     if (m_commands.empty())
@@ -204,7 +204,8 @@ void DynamicMachine::submit(bool loses)
     m_update_count = 0;
 }
 
-// One whose pictures no frame in flight takes: numbers of frames do not tell, because some are lost.
+// A taker whose pictures are not those of a frame in flight. Frame numbers cannot select it, because some frames are
+// lost.
 ShotTaker& DynamicMachine::freeTaker()
 {
     const auto is_free = [&](const ShotTaker& taker)
@@ -251,7 +252,7 @@ void DynamicMachine::record(vk::FrameGraph& graph, const Command& command)
         {
             m_octree->remove(object->first);
             m_wanted.erase(object);
-            m_is_owed = false; // what was under way is given up
+            m_is_owed = false; // the update under way is given up
         }
         break;
     case Command::Action::Update:
@@ -277,7 +278,7 @@ void DynamicMachine::update(vk::FrameGraph& graph, double budget_ms)
     }
     m_has_recorded = true;
     const bool is_complete = m_octree->update(graph, budget_ms);
-    const bool waits = m_arm && !is_complete && !m_octree->isUpdating(); // for memory
+    const bool waits = m_arm && !is_complete && !m_octree->isUpdating(); // for memory that frames in flight still hold
     RC_ASSERT(!waits || m_octree->needsUpdate());
     RC_ASSERT(waits || is_complete == !m_octree->isUpdating());
     RC_ASSERT(waits || is_complete || budget_ms != 0);
@@ -311,7 +312,7 @@ void DynamicMachine::waitForOldest()
     const std::uint64_t entry = m_flights.front().entry;
     const ShotTaker* taker = m_flights.front().taker;
     std::vector<vk::PassTime> passes;
-    mayFail([&] { passes = m_flights.front().submission.wait(); }); // then it is done, too
+    mayFail([&] { passes = m_flights.front().submission.wait(); }); // the frame is done even if the wait fails
     for (const UpdateReport& report : m_octree->frameDone(frame, passes))
     {
         m_is_owed = m_is_owed || (report.failed != 0 && report.entry == m_line.current());
@@ -387,7 +388,7 @@ void DynamicMachine::compare()
     }
 }
 
-// The pictures of a frame: the first ones of an entry, or the same again.
+// Compares a frame's pictures with those that its entry had first, or keeps them as the first.
 void DynamicMachine::see(std::uint64_t entry, Pixels pixels)
 {
     const auto [first, is_new] = m_pictures.try_emplace(entry, std::move(pixels));
@@ -401,7 +402,7 @@ DynamicMachine::Pixels DynamicMachine::picturesOf(const DeviceTree& tree)
 {
     ShotTaker& taker = m_takers.front();
     Shot shot = m_setting.shot;
-    shot.beam = false; // it takes time, and the pictures are the same
+    shot.beam = false; // the beam takes time and does not change the pictures
     m_device.run(
         [&](vk::FrameGraph& graph)
         {
@@ -411,8 +412,8 @@ DynamicMachine::Pixels DynamicMachine::picturesOf(const DeviceTree& tree)
     return taker.pictures();
 }
 
-// Gives the cells of everything the attributes that they have in one of its two parts. Nodes that both have are left
-// out of the comparison: what is below them is in it.
+// Replaces the attributes of expected cells as the merge rule says: a cell of one part has that part's attributes.
+// Nodes of both parts are left out of the comparison, which still covers everything below them.
 void DynamicMachine::applyRule(std::vector<Cell>& expected, std::vector<Cell>& actual, const std::vector<Cell>& fixed,
                                const std::vector<Cell>& moving) const
 {
@@ -440,8 +441,8 @@ void DynamicMachine::applyRule(std::vector<Cell>& expected, std::vector<Cell>& a
     }
 }
 
-// What of a tree belongs to the static part, whose nodes and lists end at node_end, but for the slot of the root that
-// is shown.
+// The bytes of the static part, without the slot of the root that is shown. node_end: the end of the static part's
+// nodes and lists.
 std::vector<gpu::uint> DynamicMachine::staticBytes(const DeviceTree& tree, std::uint64_t node_end) const
 {
     std::vector<gpu::uint> words;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Commands to a DynamicOctree, and a model of what it has to show.
+// A machine that runs random commands on a DynamicOctree, with a model of what the octree should show.
 #pragma once
 
 #include "support/dynamic_scenery.h"
@@ -26,42 +26,43 @@ struct Command
         Bend,
         Remove,
         Update,
-        Slice, // an update under a budget that is far too small
+        Slice, // a slice of an update, under a budget that is far too small
         Undo,
         Redo,
-        Submit, // what was recorded so far, without waiting
-        Lose,   // the same, but it fails when all is recorded
-        Wait,   // for all frames; what is shown is compared
-        Settle  // updates until everything is shown, and compares
+        Submit, // submits the recorded commands as a frame, without waiting
+        Lose,   // records the frame like Submit, but then it fails and is lost
+        Wait,   // waits for all frames, then compares what is shown
+        Settle  // updates until everything is shown, then compares
     };
 
     Action action = Action::Settle;
-    std::uint32_t object = 0; // Place, Bend, Remove: which of those that are there
-    Item item;                // Add; Place: only the place and the bend; Bend: only the bend
+    std::uint32_t object = 0; // Move, Bend, Remove: number of the object among those present
+    Item item;                // Add; Move takes only its placement and bend, Bend only its bend
 };
 
 std::ostream& operator<<(std::ostream& out, const Command& command);
 
-/// Runs commands, and compares the octree with one that is made anew. Every frame ends with a picture: it has to be the
-/// one that its entry was first seen in and, where the octrees are compared, the one of the octree made anew.
-/// Properties fail where anything differs.
+/// Runs commands, and compares the octree with one that is made anew. Every frame ends with pictures. They have to
+/// equal those with which their entry was first seen; when the octrees are compared, also those of the octree made
+/// anew. The property fails at any difference.
 class DynamicMachine
 {
 public:
-    static constexpr std::size_t kObjectsMax = 4; // more are not added
+    static constexpr std::size_t kObjectsMax = 4; // further objects are not added
 
-    /// scenery: of the setting. Both must outlive the machine.
+    /// scenery must be made for the setting. Device and scenery must outlive the machine.
     DynamicMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, DynamicScenery& scenery);
 
     void run(const Command& command);
 
-    /// arm makes something fail until disarm is called: around whatever may fail. Frames that fail are lost.
+    /// arm() is called before everything that may fail, and makes something fail until disarm() is called. A frame that
+    /// fails is lost.
     void setFailures(std::function<void()> arm, std::function<void()> disarm);
 
-    /// Frames that were lost, and dynamic objects that were added only when nothing failed.
+    /// Lost frames, and failed attempts to add a dynamic object.
     [[nodiscard]] std::uint64_t failureCount() const { return m_failure_count; }
 
-    /// Settles, goes back to the first entry, and compares the static tree with what it was.
+    /// Settles, goes back to the first entry, and compares the static part with its first state.
     void finish();
 
 private:
@@ -71,7 +72,7 @@ private:
     struct Flight
     {
         std::uint64_t frame;
-        std::uint64_t entry; // that is shown in the end
+        std::uint64_t entry; // current when the frame ended
         ShotTaker* taker;
         vk::Submission submission;
     };
@@ -102,18 +103,18 @@ private:
     std::vector<gpu::uint> m_static;
     std::unique_ptr<DynamicOctree> m_octree;
     std::deque<Flight> m_flights;
-    std::vector<Command> m_commands; // of the frame that is submitted next
+    std::vector<Command> m_commands; // of the next frame
     std::uint32_t m_update_count = 0;
     BeamGrid m_beam;
     TraceCamera m_camera;
     std::vector<ShotTaker> m_takers;                  // one for each frame in flight
-    std::map<std::uint64_t, Pixels> m_pictures;       // of entries that were seen
-    std::map<std::multiset<Item>, Pixels> m_expected; // pictures of what was made anew
-    Shown m_wanted;                                   // where dynamic objects were put
-    Shown m_under_way;                                // what the update under way is going to show
-    bool m_is_owed = false;                           // an update was asked for, and is not shown
+    std::map<std::uint64_t, Pixels> m_pictures;       // by entry, as first seen
+    std::map<std::multiset<Item>, Pixels> m_expected; // by objects, of octrees made anew
+    Shown m_wanted;                                   // last requested states of the objects
+    Shown m_under_way;                                // states that the update under way is going to show
+    bool m_is_owed = false;                           // an update was asked for, and its result is not shown
     HistoryLine<Shown> m_line;
-    bool m_has_recorded = false; // in the last frame
+    bool m_has_recorded = false; // in the last frame, an update, undo or redo was recorded
     std::function<void()> m_arm;
     std::function<void()> m_disarm;
     std::uint64_t m_failure_count = 0;

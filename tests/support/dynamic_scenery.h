@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small scene with things to move in it, and what voxelizing all of it at once gives.
+// A small scene with dynamic objects, and the reference: all of it voxelized at once.
 #pragma once
 
 #include "core/dynamic/dynamic_octree.h"
@@ -20,7 +20,7 @@
 namespace zvo::test
 {
 
-/// Where a dynamic object is.
+/// The transform of a dynamic object.
 struct Placement
 {
     enum class Kind
@@ -45,17 +45,17 @@ struct Placement
 
 std::ostream& operator<<(std::ostream& out, const Placement& place);
 
-/// A mesh in its place.
+/// A dynamic object: mesh, placement and shape.
 struct Item
 {
     std::uint32_t mesh = 0; // less than DynamicScenery::kMeshCount
     Placement placement;
-    std::uint32_t bend = 0; // number of a shape that joints and morph weights pull it into; 0 for a rigid mesh
+    std::uint32_t bend = 0; // number of the shape that joints and morph weights give it; 0 for a rigid mesh
 
     auto operator<=>(const Item&) const = default;
 };
 
-/// What octrees of the scenery are like, and the dynamic objects in them.
+/// Properties of an octree of the scenery, and how it is updated and looked at.
 struct DynamicSetting
 {
     static constexpr std::uint32_t kWideDepth = 13; // keys of its leaves do not fit 32 bits
@@ -72,8 +72,8 @@ struct DynamicSetting
     std::uint32_t entries_max = 16;
     Shot shot = {};
 
-    /// The scene's extent takes 64 voxels at most; a deeper grid has it in its farthest corner, where all bits of codes
-    /// count.
+    /// The scene's extent takes 64 voxels at most. In a deeper grid it lies in the farthest corner, so that codes use
+    /// all bits.
     [[nodiscard]] Grid grid() const;
 
     [[nodiscard]] TraceCamera camera() const;
@@ -82,35 +82,35 @@ struct DynamicSetting
 
 std::ostream& operator<<(std::ostream& out, const DynamicSetting& setting);
 
-/// An octree that was made anew.
+/// An octree that was made anew, with its cells.
 struct Rebuilt
 {
     DeviceTree octree;
-    std::vector<Cell> cells; // of it
+    std::vector<Cell> cells;
 };
 
-/// Meshes of a few dozen triangles with textures, alpha and, if they are to, emission: two that are rigid, one with
-/// skins, one with morph targets, and one with both, on one primitive, too. Some instances of these are rigid. Must not
-/// outlive the device.
+/// Meshes of a few dozen triangles with textures, alpha and optional emission. Two are rigid, one has skins, one has
+/// morph targets, and one has both, also on a single primitive. Some instances of the deforming ones are rigid. The
+/// device must outlive the scenery.
 class DynamicScenery
 {
 public:
     static constexpr std::uint32_t kRigidCount = 2;
-    static constexpr std::uint32_t kMeshCount = 5; // the first ones are rigid
+    static constexpr std::uint32_t kMeshCount = 5; // rigid meshes come first
 
     DynamicScenery(vk::HeadlessDevice& device, bool emits);
 
     [[nodiscard]] float emissionScale() const { return m_scale; }
 
-    /// The static part, or without one the tree of nothing.
+    /// The static part; an empty tree if the setting has none.
     [[nodiscard]] DeviceTree buildStatic(const DynamicSetting& setting) const;
 
     [[nodiscard]] std::shared_ptr<const DynamicMesh> object(std::uint32_t mesh, bool attributes);
     [[nodiscard]] const Scene& mesh(std::uint32_t number) const { return m_meshes.at(number); }
     [[nodiscard]] Pose poseOf(const Item& item) const;
 
-    /// The octree that is made of items, deformed on the CPU, and, if that is asked for, the static part. The last few
-    /// are kept.
+    /// The octree of items, deformed on the CPU, and of the static part if with_static. The last few results are
+    /// cached.
     std::shared_ptr<const Rebuilt> rebuilt(const DynamicSetting& setting, bool with_static,
                                            const std::multiset<Item>& items);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Updates of dynamic octrees one at a time, each in a frame that is waited for.
+// Updates of dynamic octrees, each in a frame of its own that is waited for.
 #pragma once
 
 #include "core/dynamic/dynamic_octree.h"
@@ -8,10 +8,10 @@
 namespace zvo::test
 {
 
-/// Updates until everything is shown, and tells what the last update came to. Throws when it never is.
+/// Updates until everything is shown, and returns the last report. Throws if that takes too long.
 UpdateReport updateAll(vk::HeadlessDevice& device, DynamicOctree& octree);
 
-/// What DynamicOctree::undo() and redo() return.
+/// These return what DynamicOctree::undo() and redo() return.
 [[nodiscard]] bool undo(vk::HeadlessDevice& device, DynamicOctree& octree);
 [[nodiscard]] bool redo(vk::HeadlessDevice& device, DynamicOctree& octree);
 

@@ -107,13 +107,13 @@ void EditMachine::add(const Item& item)
     }
 }
 
-// Whether the octree took it.
+// Returns whether the octree has recorded the dab; if not, it must be tried again.
 bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
 {
     const std::uint64_t before = m_octree->edits().changeCount();
     const bool is_done = m_octree->edit(graph, brush);
     dropForgotten();
-    if (!is_done || m_octree->edits().changeCount() == before) // nothing of the grid is under the brush
+    if (!is_done || m_octree->edits().changeCount() == before) // the brush covers nothing of the grid
     {
         m_shown = m_octree->edits().changeCount() == before ? m_shown : Objects{};
         return is_done;
@@ -139,7 +139,7 @@ bool EditMachine::dab(vk::FrameGraph& graph, const Brush& brush)
     return true;
 }
 
-// Entries that were dropped to make room.
+// Drops the entries that the octree has dropped to make room.
 void EditMachine::dropForgotten()
 {
     const Edits& edits = m_octree->edits();
@@ -160,12 +160,12 @@ void EditMachine::record(vk::FrameGraph& graph)
     {
         if (!recordOne(graph, m_commands.front()))
         {
-            return; // the rest in a later frame
+            return; // the others are recorded in a later frame
         }
     }
 }
 
-// False where it has to be tried again.
+// Returns false if the command must be tried again.
 bool EditMachine::recordOne(vk::FrameGraph& graph, const EditCommand& command)
 {
     using Action = EditCommand::Action;
@@ -314,7 +314,7 @@ void EditMachine::compare()
     }
 }
 
-// Updates until dynamic objects are where they were put.
+// Updates until all dynamic objects show their last poses.
 void EditMachine::settle()
 {
     for (int attempt = 0; attempt < kAttemptsMax; ++attempt)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Strokes of a brush on a DynamicOctree, with dynamic objects above, and a model of what they have to leave.
+// A machine that runs strokes of a brush on a DynamicOctree with dynamic objects, and a model of the result.
 #pragma once
 
 #include "support/dynamic_scenery.h"
@@ -29,20 +29,20 @@ struct EditCommand
         Move,
         Remove,
         Update,
-        Slice,   // an update under a budget that is far too small
-        Submit,  // what was recorded so far, without waiting
-        Lose,    // the same, but it fails when all is recorded
-        LoseRun, // the same, and the device has run it
-        Compare  // waits for all frames, and updates until dynamic objects are where they were put
+        Slice,   // a slice of an update, under a budget that is far too small
+        Submit,  // submits the recorded commands as a frame, without waiting
+        Lose,    // records the frame like Submit, but then it fails and is lost
+        LoseRun, // the frame is lost after the device has run it
+        Compare  // waits for all frames, and updates until all dynamic objects show their last poses
     };
 
     Action action = Action::Compare;
     Brush brush = {};         // Dab
-    std::uint32_t object = 0; // Place, Remove: which of those that are there
-    Item item = {};           // Add; Place: only the place and the bend
+    std::uint32_t object = 0; // Move, Remove: number of the object among those present
+    Item item = {};           // Add; Move takes only its placement and bend
 };
 
-/// A dab, blue where it fills or paints.
+/// A dab that fills or paints in blue.
 inline EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32_t radius,
                        BrushShape shape = BrushShape::Sphere)
 {
@@ -52,28 +52,27 @@ inline EditCommand dab(BrushAction action, const gpu::ivec3& center, std::uint32
 
 std::ostream& operator<<(std::ostream& out, const EditCommand& command);
 
-/// Runs commands, and compares what is shown with a model that edits voxel by voxel, in which a voxel that a dynamic
-/// object has looks like the dynamic object, or as rebuilding the unedited scene makes it. Properties fail where they
-/// differ.
+/// Runs commands, and compares what is shown with a model that edits voxel by voxel. Where dynamic objects are, the
+/// model merges their voxels, or takes those of a rebuild of the unedited scene. The property fails at any difference.
 class EditMachine
 {
 public:
-    static constexpr std::size_t kObjectsMax = 3; // more are not added
+    static constexpr std::size_t kObjectsMax = 3; // further objects are not added
 
-    /// scenery: of the setting. Both must outlive the machine.
+    /// scenery must be made for the setting. Device and scenery must outlive the machine.
     EditMachine(vk::HeadlessDevice& device, const DynamicSetting& setting, const EditBounds& bounds,
                 DynamicScenery& scenery);
 
     void run(const EditCommand& command);
 
-    /// Compares, undoes everything that is kept, comparing each entry, and redoes it.
+    /// Compares; then undoes all entries, comparing each, and redoes them, comparing again.
     void finish();
 
     [[nodiscard]] DynamicOctree& octree() { return *m_octree; }
     [[nodiscard]] const EditModel& model() const { return m_line[m_at]; }
 
 private:
-    // What frameLost() brings back.
+    // The model's state before a frame, which is restored when the frame is lost.
     struct Line
     {
         std::vector<EditModel> line;
@@ -109,11 +108,10 @@ private:
     std::vector<EditModel> m_line;
     std::size_t m_at = 0;
     bool m_is_stroke = false;
-    Objects m_wanted;    // where dynamic objects were put
-    Objects m_under_way; // what the update under way is going to show
-    std::optional<Objects> m_shown =
-        Objects();                      // by the last frame; nothing where an update failed, or a frame was lost
-    std::deque<EditCommand> m_commands; // of the frame that is submitted next
+    Objects m_wanted;                           // last requested states of the objects
+    Objects m_under_way;                        // states that the update under way is going to show
+    std::optional<Objects> m_shown = Objects(); // after the last frame; nothing if an update failed or a frame was lost
+    std::deque<EditCommand> m_commands;         // of the next frame
     std::deque<std::pair<std::uint64_t, vk::Submission>> m_flights;
 };
 

@@ -16,7 +16,7 @@ namespace zvo::test
 namespace
 {
 
-// Octahedral, 1 is 32767: the absolute values add up to that; the lower half is folded outwards.
+// Decodes an octahedral direction, whose absolute values add up to 32767. The lower half is folded outwards.
 glm::ivec3 unfolded(std::uint32_t code)
 {
     const int x = static_cast<std::int16_t>(code & 0xFFFFU);
@@ -26,7 +26,7 @@ glm::ivec3 unfolded(std::uint32_t code)
                   : glm::ivec3((x < 0 ? -1 : 1) * (32767 - std::abs(y)), (y < 0 ? -1 : 1) * (32767 - std::abs(x)), z);
 }
 
-// The nearest code to a direction, whose components are cut to 15 bits first.
+// The code that is nearest to a direction, whose components are cut to 15 bits first.
 std::uint32_t normalCode(const glm::ivec3& n)
 {
     const glm::ivec3 size = glm::abs(n);
@@ -39,7 +39,7 @@ std::uint32_t normalCode(const glm::ivec3& n)
     return (static_cast<std::uint32_t>(p.x) & 0xFFFFU) | static_cast<std::uint32_t>(p.y) << 16;
 }
 
-// What some children look like from afar.
+// Mean attributes of a node's children.
 class Mean
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What brushes do to voxels, voxel by voxel, on the host.
+// A reference for brushes: edits on the host, voxel by voxel.
 #pragma once
 
 #include "core/base/grid.h"
@@ -15,7 +15,7 @@
 namespace zvo::test
 {
 
-/// The voxels of a tree, and what brushes do to them.
+/// The voxels of a tree, which brushes change.
 class EditModel
 {
 public:
@@ -24,22 +24,23 @@ public:
 
     void apply(const Brush& brush);
 
-    /// With dynamic objects. moving: the cells of what moves alone; all: of that and the tree from before all brushes.
-    /// A voxel of both is the mean, for MergeRule::Average, only in leaves that no brush has changed.
+    /// The edited tree with dynamic objects. moving: the cells of the objects alone; all: those of the objects and the
+    /// unedited tree. With MergeRule::Average, a voxel of both has mean attributes only in leaves that no brush has
+    /// changed.
     [[nodiscard]] EditModel merged(MergeRule rule, const std::vector<Cell>& moving, const std::vector<Cell>& all) const;
 
     [[nodiscard]] std::size_t voxelCount() const { return m_voxels.size(); }
     [[nodiscard]] const std::map<std::uint64_t, Cell>& voxels() const { return m_voxels; } // by code
     [[nodiscard]] bool has(std::uint64_t code) const { return m_voxels.contains(code); }
 
-    /// As cellsOf() lists them: voxels, and all nodes above with the mean of their children.
+    /// Lists voxels and all nodes above, as cellsOf() does; a node has the mean of its children.
     [[nodiscard]] std::vector<Cell> cells() const;
 
 private:
     Grid m_grid;
     bool m_attributes;
     std::map<std::uint64_t, Cell> m_voxels; // by code
-    std::set<std::uint64_t> m_changed;      // codes of leaves that brushes have changed
+    std::set<std::uint64_t> m_changed;      // codes of the leaves that brushes have changed
 };
 
 } // namespace zvo::test

@@ -13,7 +13,7 @@
 namespace zvo::test
 {
 
-/// What a host declares, as zvo::Context takes it. host must outlive it; handles keeps what it points to.
+/// A host's declaration for zvo::Context. host must outlive it; handles keeps the arrays it points to.
 struct Declaration
 {
     explicit Declaration(const HostDevice& host);
@@ -26,7 +26,7 @@ struct Declaration
     ContextInfo info;
 };
 
-/// An image of a host's in device memory, that pictures are copied to and that copies back.
+/// A host's image in device memory, into which pictures are copied and which can be read back.
 class TargetImage
 {
 public:
@@ -35,15 +35,16 @@ public:
     TargetImage(const TargetImage&) = delete;
     TargetImage& operator=(const TargetImage&) = delete;
 
-    /// The edge barrier before: what it held is lost.
+    /// Records the barrier before zvo's copies, which discards the image's contents.
     void beginCopies(VkCommandBuffer commands);
 
-    /// The edge barrier after it, and a copy to the host's memory. without_barrier: what a host must not do.
+    /// Records the barrier after zvo's copies, and a copy to the host's memory. without_barrier: leaves the barrier
+    /// out, which hosts must not do.
     void read(VkCommandBuffer commands, bool without_barrier = false);
 
     [[nodiscard]] ImageTarget target() const;
 
-    /// Words of what read() copied, once the device is done.
+    /// The words that read() copied, once the device is done.
     [[nodiscard]] std::vector<std::uint32_t> words() const;
 
 private:
@@ -66,17 +67,17 @@ private:
 class EmbeddingHost
 {
 public:
-    /// change: of what it declares.
+    /// change() edits the declaration before the Context is made from it.
     explicit EmbeddingHost(const HostOptions& options = {}, const std::function<void(ContextInfo&)>& change = {});
 
-    /// Records a frame, submits it, waits and says that it is done. Throws what record throws; the frame is lost then,
-    /// or with submits_failed, submitted all the same.
+    /// Records a frame, submits it, waits, and reports it as done. If record throws, the exception is passed on; the
+    /// frame is then lost or, with submits_failed, submitted all the same.
     void frame(const std::function<void(Recorder&, VkCommandBuffer)>& record);
 
     /// Records a frame that never reaches the device.
     void lostFrame(const std::function<void(Recorder&, VkCommandBuffer)>& record);
 
-    /// Frames until the job, a TreeBuild or a TreeCompression, is done. Returns how many.
+    /// Records frames until the job, a TreeBuild or a TreeCompression, is done. Returns their number.
     template <typename Job> std::uint32_t finish(Job& job)
     {
         std::uint32_t count = 0;
@@ -90,7 +91,7 @@ public:
     Model upload(const ModelInfo& info);
     Tree build(const Model& model, const TreeBuildInfo& info);
 
-    /// A picture of a tree: width * height words, for formats of 4 bytes.
+    /// Traces a picture of a tree: kWidth * kHeight words, for formats of 4 bytes.
     template <typename AnyTree>
     std::vector<std::uint32_t> picture(AnyTree& tree, const CameraInfo& camera, const TraceInfo& info = {})
     {
@@ -106,7 +107,7 @@ public:
         return image.words();
     }
 
-    static constexpr std::uint32_t kWidth = 101; // of pictures: no multiple of a tile
+    static constexpr std::uint32_t kWidth = 101; // picture size, no multiple of a tile
     static constexpr std::uint32_t kHeight = 67;
 
     HostDevice device;

@@ -10,10 +10,11 @@
 namespace zvo::test
 {
 
-/// What the Error says that action throws; the test fails unless it throws one of this kind, of one line.
+/// Returns the message of the Error that action throws. The test fails unless its code is expected and the message has
+/// one line.
 std::string messageOf(const std::function<void()>& action, ErrorCode expected);
 
-/// The test fails for each part that text does not hold.
+/// The test fails for each part that is missing from text.
 void expectParts(const std::string& text, std::initializer_list<const char*> parts);
 
 } // namespace zvo::test

@@ -14,13 +14,13 @@ namespace zvo::test
 namespace
 {
 
-// What a call may be that is no member of vk::Functions.
+// Functions with shims that are no members of vk::Functions.
 #define ZVO_TEST_GLOBAL_FUNCTIONS(X)                                                                                   \
     X(vkCreateInstance)                                                                                                \
     X(vkEnumerateInstanceExtensionProperties)                                                                          \
     X(vkEnumerateInstanceLayerProperties)
 
-// Other ways to submit and to wait, none of which vk::Functions has.
+// Further functions that submit or wait; vk::Functions has none of them.
 #define ZVO_TEST_WAITING_FUNCTIONS(X)                                                                                  \
     X(vkQueueSubmit)                                                                                                   \
     X(vkQueueWaitIdle)                                                                                                 \
@@ -29,14 +29,14 @@ namespace
 struct State
 {
     std::uint64_t fail_number = UINT64_MAX;
-    std::string fail_function; // empty: among all of them
-    bool fail_on = false;      // all later ones, too
+    std::string fail_function; // empty: any function
+    bool fail_on = false;      // all later calls fail, too
     bool counts_names = true;
     VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
     std::uint64_t call_count = 0;
     std::map<std::string, std::uint64_t> call_counts; // by function
     std::string failed;
-    std::map<std::uint64_t, std::string> live; // handle -> who made it
+    std::map<std::uint64_t, std::string> live; // handle -> function that made it
 };
 
 State g_state;
@@ -61,8 +61,8 @@ bool mustFail(const char* name)
     return false;
 }
 
-// Handles that are not dispatchable may be equal for objects of different kinds on some drivers, not on those of tests:
-// they are addresses or numbers that the layers make.
+// Numbers objects by their handles. On some drivers, handles that are not dispatchable may be equal for objects of
+// different kinds; on those of the tests they are addresses or numbers of the layers, and differ.
 template <typename Handle> std::uint64_t numberOf(Handle handle)
 {
     return reinterpret_cast<std::uint64_t>(handle);
@@ -79,7 +79,7 @@ template <typename Last> void noteCreated(const char* name, Last last)
     }
 }
 
-// The handle to be destroyed is the second argument, but for instances and devices.
+// The handle to destroy is the second argument, or the first one for instances and devices.
 template <typename First, typename Second, typename... Rest>
 std::uint64_t destroyedHandle(First first, Second second, Rest...)
 {
@@ -108,7 +108,7 @@ ZVO_VK_OWNER_DEVICE_FUNCTIONS(ZVO_TEST_TAG)
 ZVO_VK_OWNER_DEBUG_FUNCTIONS(ZVO_TEST_TAG)
 #undef ZVO_TEST_TAG
 
-// One class for each function: Tag tells them apart.
+// One class for each function; Tag makes them different.
 template <typename Tag, typename Function> struct Shim;
 
 template <typename Tag, typename Result, typename... Arguments> struct Shim<Tag, Result(VKAPI_PTR*)(Arguments...)>

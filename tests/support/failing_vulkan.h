@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Vulkan in which one chosen call fails, and which knows what was created and not destroyed.
+// A Vulkan in which a chosen call fails. It knows which objects were created and not destroyed.
 #pragma once
 
 #include "vk/functions.h"
@@ -11,39 +11,41 @@
 namespace zvo::test
 {
 
-/// vkGetInstanceProcAddr of the machine's Vulkan behind shims: give it to whatever loads functions. Every function of
-/// vk::Functions that returns a VkResult, and those that make an instance, submit or wait, is counted and can fail; the
-/// driver does not see a call that fails (but for vkDeviceWaitIdle). One state for the process; not thread safe.
+/// Returns vkGetInstanceProcAddr of the machine's Vulkan behind shims, for whatever loads functions. The shims count
+/// calls that can fail: of every function of vk::Functions that returns a VkResult, and of those that make an instance,
+/// submit or wait. The driver does not see a call that fails, except vkDeviceWaitIdle. The process has one state; it is
+/// not thread safe.
 PFN_vkGetInstanceProcAddr failingVulkan();
 
-/// Forgets all counts, and lets the call with this number (from 0 on) fail with result. UINT64_MAX: none of them.
-/// From then on everything else works again.
+/// Forgets all counts, and lets the call with this number (from 0 on) fail with result; UINT64_MAX: none. All later
+/// calls succeed again.
 void failCall(std::uint64_t number, VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY);
 
-/// The same for calls of the function with this name alone.
+/// Like failCall(), but numbers only the calls of the function with this name.
 void failCallOf(const std::string& function, std::uint64_t number);
 
-/// Lets all calls from the failing one on fail, as on a device that is lost.
+/// Lets the call with this number and all later ones fail, as on a lost device.
 void failAllFrom(std::uint64_t number, VkResult result);
 
-/// Whether names of objects count as calls that can fail, as they do at first: work goes on without them.
+/// Sets whether calls that name objects can fail and are counted, which is the default. The engine ignores their
+/// failures.
 void countNames(bool counts);
 
 /// Calls that could have failed since failCall().
 std::uint64_t fallibleCallCount();
 
-/// Calls of the function with this name among them.
+/// How many of these calls are of the function with this name.
 std::uint64_t callCount(const std::string& function);
 
-/// Calls among them that submit or wait (vkQueueSubmit, vkQueueSubmit2, vkQueueWaitIdle, vkDeviceWaitIdle,
-/// vkWaitForFences, vkWaitSemaphores): recording into a host's command buffer makes none.
+/// How many of these calls submit or wait (vkQueueSubmit, vkQueueSubmit2, vkQueueWaitIdle, vkDeviceWaitIdle,
+/// vkWaitForFences, vkWaitSemaphores). Recording into a host's command buffer makes none.
 std::uint64_t submitOrWaitCount();
 
-/// Name of the function that was made to fail; empty while none was.
+/// Name of the function whose call failed; empty if none has.
 std::string failedFunction();
 
-/// Objects that were created through the shims and not destroyed, as "vkCreateBuffer" and so on: one for each. Memory
-/// counts as an object.
+/// Objects that were created through the shims and not destroyed: for each, the function that made it, such as
+/// "vkCreateBuffer". Memory counts as an object.
 std::vector<std::string> liveObjects();
 
 } // namespace zvo::test

@@ -17,7 +17,7 @@ namespace
 FakeSurfaces g_fake;
 PFN_vkGetDeviceProcAddr g_device_proc_addr = nullptr; // the real one
 
-// A swapchain that is really a few images, which nobody gives memory.
+// A fake swapchain: a few images without memory.
 struct FakeSwapchain
 {
     std::vector<VkImage> images;
@@ -47,7 +47,7 @@ VkQueue queueOf(VkDevice device)
     return queue;
 }
 
-// Signals or waits for a semaphore by a submission of nothing.
+// Submits nothing but a signal or a wait of a semaphore.
 void submit(VkDevice device, VkQueue queue, VkSemaphore wait, VkSemaphore signal)
 {
     VkSemaphoreSubmitInfo semaphore{};
@@ -63,7 +63,7 @@ void submit(VkDevice device, VkQueue queue, VkSemaphore wait, VkSemaphore signal
     real<PFN_vkQueueSubmit2>(device, "vkQueueSubmit2")(queue, 1, &info, VK_NULL_HANDLE);
 }
 
-VkDevice g_swapchain_device = VK_NULL_HANDLE; // that made the last swapchain
+VkDevice g_swapchain_device = VK_NULL_HANDLE; // device of the last swapchain
 
 template <typename Value> VkResult enumerate(const std::vector<Value>& all, std::uint32_t* count, Value* values)
 {
@@ -183,11 +183,11 @@ VKAPI_ATTR VkResult VKAPI_CALL acquireNextImage(VkDevice device, VkSwapchainKHR 
 VKAPI_ATTR VkResult VKAPI_CALL queuePresent(VkQueue queue, const VkPresentInfoKHR* info)
 {
     ++g_fake.presented;
-    submit(g_swapchain_device, queue, info->pWaitSemaphores[0], VK_NULL_HANDLE); // whatever becomes of the image
+    submit(g_swapchain_device, queue, info->pWaitSemaphores[0], VK_NULL_HANDLE); // also when presenting fails
     return take(g_fake.present);
 }
 
-// Drivers would look into a swapchain that is none.
+// Does not pass the name on, as a driver would read the swapchain handle, which is fake.
 VKAPI_ATTR VkResult VKAPI_CALL setName(VkDevice, const VkDebugUtilsObjectNameInfoEXT*)
 {
     return VK_SUCCESS;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A Vulkan whose surfaces and swapchains do what a test says, so that windows are resized, lost and late when it wants.
+// A Vulkan in which a test controls surfaces and swapchains, so that it can resize, lose and delay windows.
 #pragma once
 
 #include "vk/window_support.h"
@@ -10,16 +10,16 @@
 namespace zvo::test
 {
 
-/// What fake surfaces do, and what was done with them. One state for the process; not thread safe.
+/// How fake surfaces behave, and what was called on them. The process has one state; it is not thread safe.
 struct FakeSurfaces
 {
-    // The results of the next calls, success once they are used up.
+    // Results of the next calls. Once they are used up, calls succeed.
     std::deque<VkResult> acquire;
     std::deque<VkResult> present;
     std::deque<VkResult> create;
     std::deque<VkResult> capabilities;
 
-    VkExtent2D extent = {UINT32_MAX, UINT32_MAX}; // of the surface; this: whatever its images have
+    VkExtent2D extent = {UINT32_MAX, UINT32_MAX}; // of the surface; UINT32_MAX: the swapchain decides
     VkImageUsageFlags usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     bool supported = true;
     std::vector<VkPresentModeKHR> modes = {VK_PRESENT_MODE_FIFO_KHR};
@@ -31,14 +31,14 @@ struct FakeSurfaces
     int swapchains_made = 0;
     int swapchains_alive = 0;
     int presented = 0;
-    VkSwapchainCreateInfoKHR last{}; // that was made
+    VkSwapchainCreateInfoKHR last{}; // of the last swapchain made
 };
 
-/// The state, as new.
+/// Resets the state and returns it.
 FakeSurfaces& resetFakeSurfaces();
 FakeSurfaces& fakeSurfaces();
 
-/// The machine's Vulkan with such surfaces: for HeadlessOptions::get_instance_proc_addr.
+/// The machine's Vulkan with fake surfaces: for HeadlessOptions::get_instance_proc_addr.
 PFN_vkGetInstanceProcAddr vulkanWithFakeSurfaces();
 
 /// For HeadlessOptions::window.

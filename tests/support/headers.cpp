@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-// Nothing: the headers of all tests are precompiled with it.
+// Empty: CMake precompiles the headers of all tests with it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A model of the history of roots (core/overlay/root_history.h) that knows nothing of regions.
+// A model of the history of roots (core/overlay/root_history.h), without regions.
 #pragma once
 
 #include <rapidcheck.h>
@@ -15,14 +15,15 @@
 namespace zvo::test
 {
 
-/// The line of entries, each with what it shows; the first one shows nothing. Properties fail where calls make no
-/// sense.
+/// A line of entries and what each of them shows; the first one shows nothing. Properties fail at calls that are not
+/// allowed.
 template <typename Shown> class HistoryLine
 {
 public:
     explicit HistoryLine(std::size_t entries_max) : m_entries_max(entries_max) { m_shown[0] = {}; }
 
-    /// An entry behind the current one, in the place of those of redo. is_pending: end() is going to tell how it ended.
+    /// Adds an entry behind the current one; entries that could be redone are dropped. is_pending: end() will report
+    /// the outcome.
     void push(const Shown& shown, bool is_pending)
     {
         const std::uint64_t id = ++m_last;
@@ -41,7 +42,7 @@ public:
         }
     }
 
-    /// In the place of an entry that failed stands the one that it followed.
+    /// Reports the outcome of the oldest pending entry. A failed entry is replaced by the one that it followed.
     void end(std::uint64_t id, bool failed)
     {
         RC_ASSERT(!m_pending.empty());
@@ -71,7 +72,7 @@ public:
         m_line.erase(place);
     }
 
-    /// One entry falls off: the last of those of redo, or else the oldest.
+    /// Drops one entry: the last one that can be redone or, if there is none, the oldest.
     void drop()
     {
         RC_ASSERT(m_at > 1 || redoCount() != 0);
@@ -80,7 +81,7 @@ public:
         m_at -= is_undone ? 0 : 1;
     }
 
-    /// The line becomes what it was before a frame that is lost. Numbers are not used again.
+    /// Restores the line as it was before a lost frame. Numbers are not used again.
     void takeBack(const HistoryLine& before)
     {
         const std::uint64_t last = m_last;
@@ -88,7 +89,7 @@ public:
         m_last = last;
     }
 
-    /// By one entry back or on; false at the ends.
+    /// Moves by one entry back or forward. Returns false at the ends.
     bool move(int by)
     {
         if (by < 0 ? m_at == 0 : m_at + 1 == m_line.size())
@@ -102,7 +103,7 @@ public:
     [[nodiscard]] const Shown& shown() const { return m_shown.at(m_line[m_at]); }
     [[nodiscard]] std::uint64_t current() const { return m_line[m_at]; }
 
-    /// What an entry that is not pending shows: itself, or the entry that it fell back to.
+    /// The entry that is shown in place of one that has ended: itself, or the one that it fell back to.
     [[nodiscard]] std::uint64_t endedAs(std::uint64_t id) const
     {
         const auto found = m_fell_to.find(id);
@@ -119,8 +120,8 @@ private:
     std::vector<std::uint64_t> m_line = {0};
     std::size_t m_at = 0;
     std::uint64_t m_last = 0;
-    std::map<std::uint64_t, std::uint64_t> m_fell_to;              // of entries that failed
-    std::deque<std::pair<std::uint64_t, std::uint64_t>> m_pending; // entries, and what they fall back to
+    std::map<std::uint64_t, std::uint64_t> m_fell_to;              // by failed entry
+    std::deque<std::pair<std::uint64_t, std::uint64_t>> m_pending; // entries, and what replaces them on failure
 };
 
 } // namespace zvo::test

@@ -182,7 +182,7 @@ void HistoryMachine::check()
     {
         RC_ASSERT(isIntact(m_truth[id].writer, m_truth[id].region));
     }
-    m_frames.back().regions.emplace(m_shown.writer, m_shown.region); // traced
+    m_frames.back().regions.emplace(m_shown.writer, m_shown.region); // the frame traces what is shown
     checkLayers();
 }
 
@@ -200,7 +200,7 @@ void HistoryMachine::mark(const OverlayRegion& region, int writer)
                 writer);
 }
 
-// Nobody else has got any of it since.
+// Whether the region has not been given to another writer since.
 bool HistoryMachine::isIntact(int writer, const OverlayRegion& region) const
 {
     const auto is_writers = [&](int w) { return w == writer; };
@@ -223,7 +223,8 @@ std::set<int> HistoryMachine::writersOfEntries()
     return writers;
 }
 
-// As if it had never been pushed, but for what fell off when it was.
+// Removes a failed entry, or replaces it by the entry before it if that no longer precedes it. Entries that were
+// dropped for it stay dropped.
 void HistoryMachine::removeFailed(std::vector<std::uint64_t>& entries, std::size_t& current, const Update& update)
 {
     for (std::size_t i = 0; i < entries.size(); ++i)
@@ -250,7 +251,7 @@ std::uint64_t HistoryMachine::bytesOfEntries()
     return bytes;
 }
 
-// Whether there would be room beside the regions of the entries alone.
+// Whether the region would fit if only the entries held regions.
 bool HistoryMachine::fitsBesideEntries(std::uint32_t nodes, std::uint32_t voxels)
 {
     std::vector<bool> free_nodes(m_node_writers.size(), true);
@@ -292,7 +293,7 @@ std::optional<OverlayRegion> HistoryMachine::allocate(std::uint32_t nodes, std::
     const std::size_t dropped = count - (m_history.undoCount() + m_history.redoCount() + 1);
     for (std::size_t i = 0; i < dropped; ++i)
     {
-        RC_ASSERT(!fitsBesideEntries(nodes, voxels)); // this drop was needed
+        RC_ASSERT(!fitsBesideEntries(nodes, voxels)); // dropping this entry was necessary
         RC_ASSERT(dropEntry());
         m_line_changed = true;
     }
@@ -305,7 +306,7 @@ std::optional<OverlayRegion> HistoryMachine::allocate(std::uint32_t nodes, std::
         RC_ASSERT(dropped != 0u || !nothing_waits);
         return region;
     }
-    RC_ASSERT(dropped == 0u); // as dropping all would have been in vain:
+    RC_ASSERT(dropped == 0u); // nothing was dropped, because dropping everything would not have helped:
     const std::vector<std::uint64_t> entries = m_entries;
     const std::size_t current = m_current;
     while (dropEntry())
@@ -341,14 +342,14 @@ void HistoryMachine::checkCurrent()
                                            [&](const Update& update) { return update.id == entry.id; }));
     if (!entry.pending)
     {
-        RC_ASSERT(m_shown.layers == told.layers); // what the device shows is what the host believes
+        RC_ASSERT(m_shown.layers == told.layers); // the host's list of layers matches the device
     }
 }
 
-// None is forgotten that may be shown again, and none is kept for longer.
+// Checks that the history knows exactly the layers that may be shown again.
 void HistoryMachine::checkLayers()
 {
-    std::set<std::uint32_t> expected; // layers here have the numbers of their writers
+    std::set<std::uint32_t> expected; // a layer's number is that of its writer
     for (const std::uint64_t id : m_entries)
     {
         expected.insert(static_cast<std::uint32_t>(m_told[id].writer));

@@ -14,9 +14,9 @@
 namespace zvo::test
 {
 
-/// The device and its user: which memory frames in flight use, what the root slot shows, and what should be in the
-/// history, all kept without a look at how the history does it. Properties fail
-/// where they differ.
+/// A model of the device and its user: the memory that frames in flight use, the tree in the root slot, and the entries
+/// that the history should have. It is kept independently of the history's own state. The property fails where the two
+/// differ.
 class HistoryMachine
 {
 public:
@@ -29,33 +29,33 @@ public:
 
     explicit HistoryMachine(const Setup& setup);
 
-    /// An update in the frame that is being recorded. used: of its region, if it succeeds.
+    /// An update in the frame that is being recorded. used: what it uses of its region, if it succeeds.
     void update(std::uint32_t nodes, std::uint32_t voxels, std::uint32_t used, bool succeeds);
 
-    /// An entry that shows the static octree.
+    /// Adds an entry that shows the static octree.
     void showStatic();
 
     /// Undo, or redo.
     void move(bool back);
 
-    /// An update that is begun and then given up, in this frame.
+    /// Begins an update and gives it up in the same frame.
     void giveUp(std::uint32_t nodes, std::uint32_t voxels);
 
     void nextFrame();
 
-    /// The frame that is being recorded is lost: it did nothing, though its regions may be written.
+    /// Loses the frame that is being recorded. It has no effect, though its regions may have been written.
     void loseFrame();
 
-    /// The device is done with the oldest frame but the one being recorded.
+    /// The device completes the oldest frame, unless that is being recorded.
     void finishFrame();
 
     /// The host reads the status of the oldest update whose frame is done.
     void endUpdate();
 
-    /// What must hold at any time.
+    /// Checks what must hold at any time.
     void check();
 
-    /// What must hold when the device is done with everything; goes there.
+    /// Lets the device complete everything, then checks what must hold.
     void checkEnd();
 
 private:
@@ -64,13 +64,13 @@ private:
     // An octree in the device's memory.
     struct Root
     {
-        int writer = 0;       // number of the update that made it; 0: the static one
-        OverlayRegion region; // what it consists of
+        int writer = 0;       // number of the update that made it; 0: the static octree
+        OverlayRegion region; // its nodes and voxels
         std::vector<LayerState> layers;
 
         bool operator==(const Root&) const = default;
     };
-    struct Told // what the history should say of an entry
+    struct Told // the expected state of an entry
     {
         int writer = 0;
         std::vector<LayerState> layers;
@@ -80,14 +80,14 @@ private:
         std::uint64_t id;
         std::uint64_t frame;
         int writer;
-        std::uint64_t before; // entry
+        std::uint64_t before; // entry that was current before
         bool succeeds;
         OverlayRegion used;
     };
     struct Frame
     {
         std::uint64_t number;
-        std::map<int, OverlayRegion> regions; // that it reads or writes, by writer
+        std::map<int, OverlayRegion> regions; // regions that the frame reads or writes, by writer
     };
 
     void beginFrame();
@@ -108,25 +108,25 @@ private:
     OverlayArena m_arena;
     RootHistory m_history;
     vk::FrameList m_frame_list{{&m_history}};
-    std::vector<int> m_node_writers; // whose each node is, or was
+    std::vector<int> m_node_writers; // last writer of each node
     std::vector<int> m_block_writers;
-    std::vector<Root> m_root_slots; // [node]: of regions that start there
+    std::vector<Root> m_root_slots; // [node] octrees of the regions that start there
     Root m_shown;
     int m_writer_count = 0;
-    std::deque<Frame> m_frames; // the last one is being recorded
+    std::deque<Frame> m_frames; // the last frame is being recorded
     std::uint64_t m_frame_done = 0;
     std::deque<Update> m_updates;
-    std::vector<std::uint64_t> m_entries{0}; // ids
+    std::vector<std::uint64_t> m_entries{0}; // their ids
     std::size_t m_current = 0;
     struct
     {
         std::vector<std::uint64_t> entries;
         std::size_t current = 0;
     } m_before;                            // the line when the frame began
-    bool m_line_changed = false;           // since
-    std::map<std::uint64_t, Root> m_truth; // of each entry, on the device
+    bool m_line_changed = false;           // since the frame began
+    std::map<std::uint64_t, Root> m_truth; // what each entry shows on the device
     std::map<std::uint64_t, Told> m_told;
-    std::map<int, OverlayRegion> m_owned; // by writer
+    std::map<int, OverlayRegion> m_owned; // regions held by entries, by writer
 };
 
 } // namespace zvo::test

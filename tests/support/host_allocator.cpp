@@ -89,7 +89,7 @@ void* HostAllocator::reallocate(void* original, std::size_t bytes, std::size_t a
         std::memcpy(memory, original, std::min(bytes, old_bytes));
         release(original);
     }
-    return memory; // where it is null, the original stays what it was
+    return memory; // if this is null, the original stays valid
 }
 
 void HostAllocator::release(void* memory)

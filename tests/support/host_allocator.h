@@ -11,13 +11,13 @@
 namespace zvo::test
 {
 
-/// Host memory for a Vulkan driver (VkAllocationCallbacks), which is counted and can fail. Fails a test where something
-/// is freed that was not allocated.
+/// Host memory for a Vulkan driver (VkAllocationCallbacks), which counts its calls and can fail. The test fails if
+/// something is freed that was not allocated.
 class HostAllocator
 {
 public:
     HostAllocator();
-    ~HostAllocator(); ///< frees what was not
+    ~HostAllocator(); ///< frees what the driver has not freed
     HostAllocator(const HostAllocator&) = delete;
     HostAllocator& operator=(const HostAllocator&) = delete;
 
@@ -37,7 +37,7 @@ private:
     void release(void* memory);
 
     VkAllocationCallbacks m_callbacks{};
-    mutable std::mutex m_mutex; // drivers have threads
+    mutable std::mutex m_mutex; // drivers call from several threads
     std::uint64_t m_call_count = 0;
     std::uint64_t m_fail_number = UINT64_MAX;
     std::map<void*, std::size_t> m_live; // bytes

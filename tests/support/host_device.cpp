@@ -232,7 +232,7 @@ void HostDevice::makeDevice()
         }
     }
     VK_CHECK(m_functions.vkCreateDevice(m_physical_device, &m_info, nullptr, &m_device));
-    m_info.queueCreateInfoCount = 0; // from here on, m_info is only what is declared
+    m_info.queueCreateInfoCount = 0; // from here on, m_info is only the declaration
     m_info.pQueueCreateInfos = nullptr;
     m_functions = vk::ownerFunctions(m_get, m_instance, m_device);
     m_owner_functions = vk::ownerFunctions(handles().get_instance_proc_addr, m_instance, m_device);

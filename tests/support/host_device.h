@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A program that embeds zvo: its own Vulkan, made without anything of zvo's but a table of function pointers.
+// A program that embeds zvo, with its own Vulkan objects. Of zvo it uses only the table of function pointers.
 #pragma once
 
 #include "support/device.h"
@@ -14,22 +14,23 @@
 namespace zvo::test
 {
 
-/// How a HostDevice is made, and what it hands over to zvo.
+/// How a HostDevice is made, and what it declares to zvo.
 struct HostOptions
 {
     bool validation = deviceOptions().validation; // core and synchronization validation
-    std::atomic<std::uint32_t>* message_counter = deviceOptions().message_counter; // a test fails when that one counts
-    bool debug_utils = true;                                                       // implied by validation
-    std::uint32_t api_version = VK_API_VERSION_1_3;                                // of the instance
+    std::atomic<std::uint32_t>* message_counter =
+        deviceOptions().message_counter;            // counts messages; with the default, the test fails on any
+    bool debug_utils = true;                        // implied by validation
+    std::uint32_t api_version = VK_API_VERSION_1_3; // of the instance
     std::vector<const char*> device_extensions;
 
-    /// The host's own part of the device's creation; empty: it enables nothing. What it chains must live until the
-    /// HostDevice is made, and for as long as zvo may read the declaration.
+    /// Changes the device's create info as a host would; empty: no features are enabled. Structs that it chains must
+    /// live until the HostDevice is made, and for as long as zvo may read the declaration.
     std::function<void(VkDeviceCreateInfo&)> prepare;
     bool patch = true;         // zvo::patchFeatures adds what zvo needs
-    OptionalFeatures optional; // for that
+    OptionalFeatures optional; // for patchFeatures
 
-    PFN_vkGetInstanceProcAddr zvo_functions = nullptr; // that zvo gets, such as failingVulkan(); null: the loader's
+    PFN_vkGetInstanceProcAddr zvo_functions = nullptr;           // for zvo, such as failingVulkan(); null: the loader's
     const VkAllocationCallbacks* allocation_callbacks = nullptr; // for what zvo creates
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     std::uint64_t memory_budget_bytes = UINT64_MAX;
@@ -37,25 +38,25 @@ struct HostOptions
     LogCallback log{};
 };
 
-/// Whether HostOptions::validation can be had.
+/// Whether the layer that HostOptions::validation needs is installed.
 bool hasValidationLayer();
 
-/// An instance, a device, a queue and command buffers. What zvo makes on them must be gone, and its work done, before
-/// the HostDevice is destroyed.
+/// An instance, a device, a queue and command buffers. Before the HostDevice is destroyed, zvo's objects on it must be
+/// destroyed and their work done.
 class HostDevice
 {
 public:
-    /// Takes the software device, or the one that ZVO_TEST_DEVICE names. Throws Error for anything that fails.
+    /// Takes the software device, or the one that ZVO_TEST_DEVICE names. Throws Error if anything fails.
     explicit HostDevice(const HostOptions& options = {});
     ~HostDevice();
     HostDevice(const HostDevice&) = delete;
     HostDevice& operator=(const HostDevice&) = delete;
 
-    /// What the host hands over; the declaration points to structs of this HostDevice.
+    /// The host's declaration to zvo; it points to structs of this HostDevice.
     [[nodiscard]] vk::DeviceHandles handles() const;
 
-    /// The same with functions that own devices, images and command buffers, too: for tests whose vk::Device takes the
-    /// host's part as well. They come from HostOptions::zvo_functions.
+    /// The declaration with functions that create devices, images and command buffers, for tests whose vk::Device takes
+    /// the host's part. The functions come from HostOptions::zvo_functions.
     [[nodiscard]] vk::DeviceHandles ownerHandles() const;
 
     [[nodiscard]] VkInstance instance() const { return m_instance; }
@@ -64,22 +65,23 @@ public:
     [[nodiscard]] VkQueue queue() const { return m_queue; }
     [[nodiscard]] std::uint32_t queueFamily() const { return m_queue_family; }
 
-    /// The host's own functions: calls of them are not seen by what HostOptions::zvo_functions wraps.
+    /// The host's own functions, without the wrappers of HostOptions::zvo_functions.
     [[nodiscard]] const vk::Functions& fn() const { return m_functions; }
 
-    /// A new command buffer that is being recorded. All of them live as long as the HostDevice.
+    /// Begins a new command buffer. Command buffers live as long as the HostDevice.
     VkCommandBuffer begin();
 
-    /// Ends it and submits it, once; with a barrier behind it, so that the host and later work see what it wrote.
+    /// Ends the command buffer and submits it once. A barrier behind it makes its writes visible to the host and to
+    /// later work.
     void submit(VkCommandBuffer commands);
 
-    /// Waits for all that was submitted.
+    /// Waits for all submitted work.
     void wait();
 
-    /// The three in turn.
+    /// Calls begin(), record, submit() and wait().
     void run(const std::function<void(VkCommandBuffer)>& record);
 
-    /// What the validation layers have said so far of this instance.
+    /// Number of messages from the validation layers of this instance.
     [[nodiscard]] std::uint32_t messageCount() const { return m_message_count; }
 
 private:
@@ -98,7 +100,7 @@ private:
     std::vector<std::string> m_instance_extensions;
     std::atomic<std::uint32_t> m_message_count = 0;
     FeatureStorage m_feature_storage;
-    VkDeviceCreateInfo m_info{}; // its pNext and pEnabledFeatures are what is declared
+    VkDeviceCreateInfo m_info{}; // pNext and pEnabledFeatures are declared to zvo
     VkInstance m_instance = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT m_messenger = VK_NULL_HANDLE;
     VkPhysicalDevice m_physical_device = VK_NULL_HANDLE;

@@ -104,7 +104,8 @@ void HostImage::change(vk::FrameGraph& graph, VkImageLayout layout, VkAccessFlag
 
 void HostImage::beginCopies(vk::FrameGraph& graph, VkImageLayout layout)
 {
-    change(graph, layout, VK_ACCESS_2_NONE, VK_ACCESS_2_TRANSFER_WRITE_BIT); // after reads, and writes made visible
+    change(graph, layout, VK_ACCESS_2_NONE,
+           VK_ACCESS_2_TRANSFER_WRITE_BIT); // waits for reads, and makes writes visible
 }
 
 void HostImage::endCopies(vk::FrameGraph& graph)

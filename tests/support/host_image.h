@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images as a host has them: with mip levels and layers, in any layout, and with barriers of its own.
+// Images of a host: with mip levels and layers, in any layout, and with the host's own barriers.
 #pragma once
 
 #include "vk/headless.h"
@@ -11,7 +11,7 @@
 namespace zvo::test
 {
 
-/// A 2D image that can only be copied from and to. Move is not needed: tests make it where they use it.
+/// A 2D image that can only be copied from and to. It cannot be moved; tests make it where they use it.
 class HostImage
 {
 public:
@@ -25,14 +25,14 @@ public:
     [[nodiscard]] VkExtent2D extentOf(std::uint32_t mip_level) const;
     [[nodiscard]] std::uint32_t texelWords() const;
 
-    /// The barrier that comes before a copy, as core/present/image_target.h states it: into layout, keeping what is
-    /// there.
+    /// Records the barrier that comes before a copy, as core/present/image_target.h states it: into layout, keeping the
+    /// contents.
     void beginCopies(vk::FrameGraph& graph, VkImageLayout layout);
 
-    /// The one that comes after: for copies from the image.
+    /// Records the barrier that comes after copies into the image, before copies from it.
     void endCopies(vk::FrameGraph& graph);
 
-    /// Words of all texels of one mip level and layer, row by row: of color or depth. Waits.
+    /// The words of all texels of one mip level and layer, row by row, of color or depth. Waits.
     void upload(std::uint32_t mip_level, std::uint32_t layer, std::span<const gpu::uint> words);
     std::vector<gpu::uint> download(std::uint32_t mip_level, std::uint32_t layer);
 

@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr std::uint64_t kSlabBytes = 100ull << 20; // more than a block of zvo's, less than two
-constexpr std::uint64_t kFirstOffset = 3ull << 12; // what a host has there is its own
+constexpr std::uint64_t kFirstOffset = 3ull << 12; // the host keeps what is below for itself
 
 std::uint64_t roundUp(std::uint64_t value, std::uint64_t unit)
 {

@@ -13,8 +13,9 @@
 namespace zvo::test
 {
 
-/// A host's allocator of device memory: ranges in slabs, never at a slab's beginning, which go back to the driver when
-/// the last one is released. Fails a test where zvo asks for what it may not, or returns what it did not get.
+/// A host's allocator of device memory: it hands out ranges of slabs, none at a slab's beginning. A slab goes back to
+/// the driver when its last range is released. The test fails if zvo asks for what it may not, or releases what it did
+/// not get.
 class HostMemory
 {
 public:
@@ -23,18 +24,18 @@ public:
     HostMemory(const HostMemory&) = delete;
     HostMemory& operator=(const HostMemory&) = delete;
 
-    /// For HostOptions::memory. Works once attach() was called.
+    /// For HostOptions::memory. They work once attach() was called.
     MemoryCallbacks callbacks();
 
-    /// The device whose memory is handed out, until the next attach(); must outlive the ranges.
+    /// Sets the device whose memory is handed out. The device must outlive the ranges.
     void attach(const HostDevice& host);
 
-    /// Forgets the count of requests, and lets count of them fail with result, from the one with this number (from 0
-    /// on) on; UINT64_MAX: none.
+    /// Forgets the count of requests, and lets count requests in a row fail with result, beginning with the one with
+    /// this number (from 0 on); UINT64_MAX: none.
     void failRequests(std::uint64_t number, std::uint64_t count = UINT64_MAX,
                       VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY);
 
-    /// From now on no request for more bytes than these succeeds.
+    /// From now on, requests for more bytes fail.
     void setLargest(std::uint64_t bytes) { m_largest_bytes = bytes; }
 
     [[nodiscard]] std::uint64_t requestCount() const { return m_request_count; }
@@ -43,7 +44,7 @@ public:
     [[nodiscard]] std::uint64_t liveBytes() const;
     [[nodiscard]] std::vector<std::string> liveNames() const;
 
-    /// For tests of zvo's own checks: changes what is handed out from now on, after all that is right about it.
+    /// For tests of zvo's own checks: spoil() changes every range that is handed out from now on.
     void setSpoiler(void (*spoil)(MemoryRange&)) { m_spoil = spoil; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes of the tests as a host describes them.
+// Scenes of the tests as descriptions that a host would make.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -10,7 +10,7 @@
 namespace zvo::test
 {
 
-/// What zvo::Model takes for a scene at rest.
+/// The zvo::ModelInfo of a scene at rest, with the arrays that it points to.
 class HostModel
 {
 public:
@@ -21,7 +21,7 @@ public:
     [[nodiscard]] ModelInfo info() const;
 
 private:
-    Scene m_scene; // that the others refer to
+    Scene m_scene; // the others refer to it
     std::vector<MeshInfo> m_meshes;
     std::vector<InstanceInfo> m_instances;
     std::vector<MaterialInfo> m_materials;

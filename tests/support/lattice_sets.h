@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sets of voxels of lattice triangles, and the symmetries of the grid.
+// Voxel sets of lattice triangles, and symmetries of the grid.
 #pragma once
 
 #include "core/headless/pipeline.h"
@@ -29,7 +29,7 @@ inline Grid latticeGrid(std::uint32_t depth)
     return {.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
 }
 
-/// The voxels that the device makes of triangles.
+/// The voxels that the device finds for triangles.
 inline VoxelSet deviceVoxels(vk::HeadlessDevice& device, std::span<const stress::LatticeTriangle> triangles,
                              std::uint32_t depth, Coverage coverage)
 {
@@ -40,7 +40,7 @@ inline VoxelSet deviceVoxels(vk::HeadlessDevice& device, std::span<const stress:
     return std::move(contents.codes);
 }
 
-/// The voxels that place() makes of voxels; those for which it returns something outside of the grid are left out.
+/// The images of voxels under place(). Those outside of the grid are left out.
 inline VoxelSet mapped(const VoxelSet& voxels, std::uint32_t depth,
                        const std::function<glm::ivec3(const glm::ivec3&)>& place)
 {
@@ -71,7 +71,7 @@ inline VoxelSet difference(const VoxelSet& a, const VoxelSet& b)
     return result;
 }
 
-/// A permutation of the axes with mirroring: coordinate i becomes coordinate axis[i] of the image.
+/// A permutation of the axes with mirroring. Coordinate i of the image is coordinate axis[i] of the point.
 struct Symmetry
 {
     std::array<int, 3> axis{0, 1, 2};
@@ -90,7 +90,7 @@ struct Symmetry
     }
 };
 
-/// All of them, the identity first.
+/// All symmetries of the cube, the identity first.
 inline std::vector<Symmetry> symmetries()
 {
     std::vector<Symmetry> all;

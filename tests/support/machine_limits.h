@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the machines that run random commands on a DynamicOctree have in common.
+// Limits that all machines of random commands on a DynamicOctree share.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace zvo::test
 {
 
 inline constexpr int kAttemptsMax = 64;
-inline constexpr int kUpdatesPerFrame = 4; // that DynamicOctree takes
+inline constexpr int kUpdatesPerFrame = 4; // limit of DynamicOctree
 inline constexpr double kTinyBudgetMs = 1e-6;
 
 } // namespace zvo::test

@@ -6,7 +6,7 @@
 namespace
 {
 
-// A test fails when the validation layers spoke during it.
+// Fails a test during which the validation layers wrote messages.
 class ValidationListener : public testing::EmptyTestEventListener
 {
     void OnTestStart(const testing::TestInfo&) override { m_before = zvo::test::validationMessageCount(); }
@@ -19,8 +19,8 @@ class ValidationListener : public testing::EmptyTestEventListener
     std::uint32_t m_before = 0;
 };
 
-// Destroys the device before the process ends (drivers may not be called from static destructors); that must be silent,
-// too: a leak would show here.
+// Destroys the device before the process ends, as drivers may not be called from static destructors. Fails if the
+// validation layers then write a message, such as that of a leak.
 class DeviceEnvironment : public testing::Environment
 {
     void TearDown() override

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes on the device that move, and what voxelizing them gives.
+// Moving scenes on the device, and the octrees that are built of them.
 #pragma once
 
 #include "core/base/grid.h"
@@ -20,7 +20,7 @@
 namespace zvo::test
 {
 
-/// An octree, as far as it can be compared.
+/// The contents of an octree, for comparisons.
 struct Made
 {
     std::string sha;
@@ -61,17 +61,17 @@ private:
     DynamicObjectBuffers m_buffers;
 };
 
-/// What scene gives on the device that tests share, uploaded anew.
+/// Uploads scene anew to the device that tests share, and builds an octree of it.
 Made makeAnew(const Scene& scene, const Grid& grid, Coverage coverage);
 
-/// Around mixedScene().
+/// A grid around mixedScene().
 constexpr Grid kGrid{.origin = glm::vec3(-4.0F), .voxel_size = 0.125F, .depth = 6};
 
-/// Expects that dynamic object in pose has the bytes of the posed scene uploaded anew, with both coverages; returns the
+/// Expects, with both coverages, that object in pose gives the same bytes as the posed scene uploaded anew. Returns the
 /// number of voxels.
 std::uint32_t expectEqualsPosed(MovedScene& object, const Scene& scene, const Pose& pose);
 
-/// A scene of instances of all sorts, rigid ones among them, and its pose.
+/// A scene with instances of all kinds, rigid ones among them, and a pose of it.
 std::pair<Scene, Pose> mixedScene(std::mt19937& random);
 
 } // namespace zvo::test

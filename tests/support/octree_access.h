@@ -14,7 +14,7 @@
 namespace zvo::test
 {
 
-/// The levels of octree as the oracles take them.
+/// The levels of octree in the oracles' type.
 inline std::vector<oracle::NodeRange> levelsOf(const DeviceTree& octree)
 {
     std::vector<oracle::NodeRange> levels;
@@ -25,7 +25,7 @@ inline std::vector<oracle::NodeRange> levelsOf(const DeviceTree& octree)
     return levels;
 }
 
-/// Voxels of octree and what is wrong with its nodes.
+/// The voxels of octree, and the faults in its nodes.
 inline oracle::OctreeContents contentsOf(vk::HeadlessDevice& device, const DeviceTree& octree)
 {
     return oracle::checkOctree(device.download(octree.nodes), levelsOf(octree), octree.grid.depth);

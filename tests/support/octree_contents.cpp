@@ -20,7 +20,7 @@ std::string describe(const Cell& cell)
                        cell.attribute.color, cell.attribute.normal, cell.emission);
 }
 
-// Children come in their order.
+// Sets a child of node. Calls must come in the order of the children.
 void addChild(gpu::Node& node, std::uint32_t c, std::uint32_t number)
 {
     if ((node.mask_lo | node.mask_hi) == 0)
@@ -39,12 +39,11 @@ void addChild(gpu::Node& node, std::uint32_t c, std::uint32_t number)
     }
 }
 
-// A node on the way down.
 struct NodeOnPath
 {
     std::uint64_t code = 0;
     std::uint32_t node = 0;
-    bool listed = false; // stands in a list: what is said of it follows from its rank
+    bool listed = false; // found in a list, so its rank gives the indices of its attributes
     gpu::BeforeChild rank{0, 0};
 };
 
@@ -83,7 +82,7 @@ public:
         return m_averages.empty() ? gpu::Attribute{} : m_averages.at(place.listed ? place.rank.nodes : own);
     }
 
-    // The child, at a level, in a cell that is set.
+    // The child in cell c of parent, which must be set. level: of the child.
     [[nodiscard]] NodeOnPath child(const NodeOnPath& parent, std::uint32_t c, std::uint32_t level) const
     {
         NodeOnPath child;
@@ -99,7 +98,7 @@ public:
         return child;
     }
 
-    // The voxel in a cell that is set, of a leaf.
+    // The voxel in cell c of leaf, which must be set.
     [[nodiscard]] Cell voxel(const NodeOnPath& leaf, std::uint32_t c) const
     {
         Cell cell = {m_levels, leaf.code << 6 | c, {}, 0};
@@ -118,7 +117,7 @@ public:
     }
 
 private:
-    // What the node says of a cell.
+    // The child's number that the node's bases give for cell c: base + children before it.
     [[nodiscard]] std::uint32_t named(const NodeOnPath& place, std::uint32_t c) const
     {
         const gpu::Node& n = node(place);
@@ -224,7 +223,7 @@ DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, 
     octree.node_count = static_cast<std::uint32_t>(node_count);
     octree.voxel_count = static_cast<std::uint32_t>(cells.size() - node_count);
     octree.emission_scale = emission_scale;
-    std::size_t parent = 0; // a node's number is its place among cells
+    std::size_t parent = 0; // a node's number is its index in cells
     for (std::size_t i = 0; i < cells.size(); ++i)
     {
         const Cell& cell = cells[i];

@@ -11,10 +11,10 @@
 namespace zvo::test
 {
 
-/// A node or a voxel as a ray sees it, whatever its number.
+/// A node or a voxel as rays find it, without its index.
 struct Cell
 {
-    std::uint32_t level = 0; // of nodes; nodeLevels() for a voxel
+    std::uint32_t level = 0; // of a node; nodeLevels() for a voxel
     std::uint64_t code = 0;  // Morton code among the cells of its level
     gpu::Attribute attribute{};
     std::uint32_t emission = 0; // RGB9E5, or 0
@@ -26,20 +26,20 @@ struct Cell
     }
 };
 
-/// Everything below nodes[0], level by level in Morton order, by following the bases, and lists, as the traversal does;
-/// below lists, ranks along the path tell which attributes are whose. Attributes and emission are 0 where tree has
-/// none. Throws std::out_of_range where something leads out of a buffer.
+/// Lists everything below nodes[0], level by level in Morton order. It follows bases and lists as the traversal does;
+/// below lists, attributes are found by the ranks along the path. Attributes and emission are 0 if tree has none.
+/// Throws std::out_of_range if a reference leads out of a buffer.
 std::vector<Cell> cellsOf(vk::HeadlessDevice& device, const DeviceTree& tree);
 
-/// The octree of cells as cellsOf() lists them, in device memory, breadth first, with attributes and emission if that
-/// is asked for.
+/// The octree of cells, listed as by cellsOf(), breadth first. attributes: with attributes and emission.
 DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, bool attributes,
                     float emission_scale);
 
-/// An octree of cells as cellsOf() lists them, with their attributes and emission: breadth first, made on the host.
+/// The octree of cells, listed as by cellsOf(), with their attributes and emission. It is made on the host, breadth
+/// first.
 DeviceTree octreeOf(vk::HeadlessDevice& device, const std::vector<Cell>& cells, const Grid& grid, float emission_scale);
 
-/// What tells two lists apart: the first difference, or "" for none.
+/// Returns the first difference of two lists, or "".
 std::string difference(const std::vector<Cell>& actual, const std::vector<Cell>& expected);
 
 } // namespace zvo::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What parameters of tests are called, in the tests' names and wherever a runner shows their values.
+// Names of test parameters, in the names of tests and in a runner's output.
 #pragma once
 
 #include "zvo/types.h"
@@ -12,7 +12,7 @@
 namespace zvo
 {
 
-/// GoogleTest calls it; without, it prints bytes.
+/// GoogleTest prints parameters with it; otherwise it would print bytes.
 inline void PrintTo(Coverage coverage, std::ostream* out)
 {
     *out << (coverage == Coverage::Thin ? "thin" : "conservative");
@@ -28,7 +28,7 @@ inline std::string nameOf(Coverage coverage)
     return coverage == Coverage::Thin ? "Thin" : "Conservative";
 }
 
-/// A file's name up to its first dot.
+/// The name of a file up to its first dot.
 inline std::string nameOf(const std::string& file)
 {
     return file.substr(0, file.find('.'));

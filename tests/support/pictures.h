@@ -11,11 +11,11 @@
 namespace zvo::test
 {
 
-/// A picture and how it came about.
+/// A picture with its hits and counts.
 struct Picture
 {
     std::vector<gpu::uint> image;
-    std::vector<gpu::Hit> hits;   // misses in dead tiles, too
+    std::vector<gpu::Hit> hits;   // in dead tiles: misses
     std::vector<gpu::uint> light; // 0 in dead tiles
     std::uint32_t live_tiles = 0;
     std::uint32_t capped_rays = 0;
@@ -24,13 +24,13 @@ struct Picture
 Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, std::uint32_t width,
                     std::uint32_t height, const TraceOptions& options);
 
-/// The same with buffers that were used before.
+/// Takes the picture with a beam grid that was used before.
 Picture takePicture(vk::HeadlessDevice& device, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
                     TraceBuffers& buffers, const TraceOptions& options);
 
 std::uint32_t hitCount(const Picture& picture);
 
-/// Cameras inside, outside, close, far away, along axes and orthographic ones, for a grid with its corner at 0.
+/// Cameras inside, outside, close, far away, along axes, and orthographic ones, for a grid with its corner at 0.
 std::vector<ViewCamera> manyCameras(const Grid& grid);
 
 } // namespace zvo::test

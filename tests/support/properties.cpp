@@ -15,7 +15,7 @@ void checkPropertyOf(int cases, const rc::detail::Property& property)
     static const bool chosen = std::getenv("RC_PARAMS") != nullptr;
     if (!chosen)
     {
-        setenv("RC_PARAMS", "seed=1", 0); // RapidCheck reads it once, and draws a seed where it finds none
+        setenv("RC_PARAMS", "seed=1", 0); // RapidCheck reads it once; without it, the seed is random
     }
     rc::detail::TestParams params = rc::detail::configuration().testParams;
     if (!chosen)

@@ -12,7 +12,7 @@ namespace zvo::test
 namespace
 {
 
-constexpr std::uint32_t kTail = 64; // so that what a spoiled node leads to exists
+constexpr std::uint32_t kTail = 64; // so that children of spoiled nodes exist
 constexpr gpu::Node kSpoiledNode = {~0U, 0, ~0U, 0};
 constexpr gpu::Attribute kSpoiledAttribute = {0xFF00FF, 0};
 
@@ -32,7 +32,7 @@ gpu::Node withChildrenAt(const gpu::Node& node, std::uint32_t first)
     return {node.mask_lo, first, node.mask_hi, first + static_cast<std::uint32_t>(std::popcount(node.mask_lo))};
 }
 
-// A node of the new octree and the one that it stands for.
+// A node of the new octree and the original one.
 struct Pair
 {
     std::uint32_t node;
@@ -122,7 +122,7 @@ Relocated relocate(vk::HeadlessDevice& device, const DeviceTree& octree, const R
     nodes.resize(nodes.size() + options.gap);
     std::uint32_t voxel_count = (octree.voxel_count + options.gap + 31) / 32 * 32;
 
-    // Touched nodes whose children have no place yet, in Morton order.
+    // Touched nodes whose children are not placed yet, in Morton order.
     std::vector<std::uint32_t> touched = {0};
     for (std::uint32_t level = 0; level < level_count; ++level)
     {

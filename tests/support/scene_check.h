@@ -8,7 +8,7 @@
 namespace zvo::test
 {
 
-/// The first promise of core/scene/scene.h and core/scene/rig.h that scene does not keep; "" where it is whole.
+/// Returns the first rule of core/scene/scene.h and core/scene/rig.h that scene breaks, or "".
 std::string sceneFault(const Scene& scene);
 
 } // namespace zvo::test

@@ -11,10 +11,10 @@
 namespace zvo::test
 {
 
-/// One instance of the corners' triangles, three each, with one default material.
+/// One instance of the triangles, each three corners in a row, with one default material.
 Scene triangleSoup(const std::vector<glm::vec3>& corners);
 
-/// count random triangles in [0, extent]^3: tiny, long, thin, flat and huge ones mixed.
+/// count random triangles in [0, extent]^3, a mixture of tiny, long, thin, flat and huge ones.
 Scene randomTriangles(std::uint32_t seed, std::size_t count, float extent);
 
 /// The box from min to max, twelve triangles.
@@ -23,17 +23,17 @@ Scene boxScene(const glm::vec3& min, const glm::vec3& max);
 /// A sphere of rings x 2 rings quads.
 Scene sphereScene(const glm::vec3& center, float radius, std::uint32_t rings);
 
-/// Path of one of the big scenes that do not come with the project (scenes/README.md), if it is there.
+/// Path of one of the big scenes that are not in the project (scenes/README.md), if it is there.
 std::optional<std::filesystem::path> sharedScene(const std::string& name);
 
-/// The first model that one of the project's scene files ("atrium_knot" and so on) needs and that is not there; empty
-/// if all are.
+/// The first missing model that one of the project's scene files ("atrium_knot" and so on) needs; empty if none is
+/// missing.
 std::string missingModelOf(const std::string& scene_file);
 
-/// Path of one of the project's own scenes.
+/// Path of one of the project's scenes.
 std::filesystem::path ownScene(const std::string& name);
 
-/// Path of an own scene, or else of one of the big ones, if it is there.
+/// Path of one of the project's scenes, or else of one of the big ones, if it is there.
 std::optional<std::filesystem::path> findScene(const std::string& name);
 
 } // namespace zvo::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small pictures of octrees that are taken again and again, also of frames in flight.
+// Small pictures of octrees that are taken repeatedly, also in frames in flight.
 #pragma once
 
 #include "core/trace/trace.h"
@@ -13,33 +13,34 @@
 namespace zvo::test
 {
 
-/// How an octree is looked at.
+/// Camera and options of a picture.
 struct Shot
 {
-    std::array<int, 3> eye = {10, 5, 12};  // 2 eye + 1 eighths of the extent: in any direction, near, far or inside
-    std::array<int, 3> target = {2, 2, 2}; // quarters of the extent: never where the eye is
+    std::array<int, 3> eye = {
+        10, 5, 12}; // 2 eye + 1 eighths of the extent, which can be in any direction, near, far or inside
+    std::array<int, 3> target = {2, 2, 2}; // quarters of the extent, never equal to the eye
     bool orthographic = false;
     bool beam = true;
-    bool lit = true;     // shadows and occlusion: more rays
+    bool lit = true;     // with shadows and occlusion
     bool coarse = false; // nodes of level 1 and their averages instead of voxels
 
-    /// Of a scene with the extent [0, extent]^3 in a grid.
+    /// The camera for a scene with the extent [0, extent]^3 in a grid.
     [[nodiscard]] TraceCamera camera(const Grid& grid, float extent) const;
 };
 
 std::ostream& operator<<(std::ostream& out, const Shot& shot);
 
-/// Takes pictures of one octree after the other by the same shot, in all views that the same hits are shaded in.
+/// Takes pictures of octrees with the same shot, in all views that shade the same hits.
 class ShotTaker
 {
 public:
     explicit ShotTaker(vk::Device& device);
 
-    /// Records the passes for pictures of tree; overwrites those that were taken before. beam: is made anew.
+    /// Records the passes for pictures of tree, which overwrite the last ones. beam is made anew.
     void record(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam, const TraceCamera& camera,
                 const Shot& shot);
 
-    /// The pixels of all views, once the device is done with what was recorded, up to FrameGraph::releaseToHost().
+    /// The pixels of all views. The device must be done with what was recorded, including FrameGraph::releaseToHost().
     [[nodiscard]] std::vector<gpu::uint> pictures() const;
 
 private:

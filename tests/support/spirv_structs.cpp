@@ -13,7 +13,7 @@ namespace
 
 constexpr std::size_t kHeaderWords = 5;
 
-// Strings are UTF-8, four bytes a word, first byte lowest, ended by a zero byte.
+// Decodes a string: UTF-8, four bytes a word, first byte lowest, zero-terminated.
 std::string text(std::span<const std::uint32_t> words)
 {
     std::string result;

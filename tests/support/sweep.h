@@ -11,9 +11,9 @@
 namespace zvo::test
 {
 
-/// Which calls of a run fail, one after the other, in a test that looks at what becomes of each: every fifth, from
-/// another one on each day and in each run of the same test, so that all come in turn. Every one where the environment
-/// variable ZVO_TEST_FULL is 1. ZVO_TEST_SWEEP_START repeats a day: it stands for the number of the day modulo 5.
+/// Chooses the calls that fail, one in each run, in tests of all failures. By default every fifth call fails; the first
+/// one changes with the day and with each run of the same test, so that all have their turn. With ZVO_TEST_FULL=1 every
+/// call fails. ZVO_TEST_SWEEP_START repeats a day: it replaces the day's number modulo 5.
 class Sweep
 {
 public:
@@ -25,16 +25,16 @@ public:
         m_start = start != nullptr ? std::strtoull(start, nullptr, 10) : today();
     }
 
-    /// From one call that fails to the next one.
+    /// Distance of two calls that fail.
     [[nodiscard]] std::uint64_t step() const { return m_step; }
 
-    /// The first call of the next run that fails, below step().
+    /// The first call that fails in the next sweep; less than step().
     std::uint64_t first() { return m_start++ % m_step; }
 
     /// Whether every call fails once.
     [[nodiscard]] bool isFull() const { return m_step == 1; }
 
-    /// Of count calls, how many fail in a run, at least.
+    /// The least number of calls that fail in a sweep over count calls.
     [[nodiscard]] std::uint64_t share(std::uint64_t count) const { return count / m_step; }
 
 private:
@@ -48,8 +48,8 @@ private:
     std::uint64_t m_start;
 };
 
-/// Expects that a sweep over the calls of an octree's frames made hundreds of them fail, and every function of frames
-/// that can fail; of a sample fewer, and some functions. failed: functions that did.
+/// Expects that a sweep over an octree's frames made hundreds of calls fail, and calls of every function of frames that
+/// can fail. A sample needs fewer, and only some functions. failed: functions whose calls failed.
 void expectFramesSwept(const std::set<std::string>& failed, std::uint64_t error_count);
 
 } // namespace zvo::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small octrees for tracing, made on the host from sets of voxels.
+// Small octrees for tracing, which are made on the host from sets of voxels.
 #pragma once
 
 #include "core/tree/device_tree.h"
@@ -23,14 +23,14 @@ Codes codesWhere(std::uint32_t depth, const std::function<bool(const glm::uvec3&
 /// At most count random voxels: half of them anywhere, half of them in clusters.
 Codes randomCodes(std::uint32_t depth, std::uint32_t count, std::mt19937& random);
 
-/// The voxels whose distance from the grid's centre is within half a voxel of radius (in voxels), so that the shell has
-/// no holes between face neighbours.
+/// The voxels whose distance from the grid's centre differs from radius (in voxels) by at most half a voxel. The shell
+/// has no holes between face neighbours.
 Codes sphereShell(std::uint32_t depth, double radius);
 
-/// Menger's sponge in base 4: a cell of every block of 4x4x4 is left out if two coordinates are in its middle.
+/// A Menger sponge in base 4: of every block of 4x4x4, the cells with two middle coordinates are left out.
 Codes spongeCodes(std::uint32_t depth);
 
-/// The octree of codes in device memory; the grid has its corner at 0 and voxels of size 1. Without attributes.
+/// The octree of codes in device memory, without attributes. The grid has its corner at 0 and voxels of size 1.
 DeviceTree octreeOf(vk::HeadlessDevice& device, std::span<const std::uint64_t> codes, std::uint32_t depth);
 
 /// Gives every voxel and node of octree an arbitrary attribute, and some voxels emission.

@@ -84,7 +84,7 @@ oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes&
         {
             direction[axis] *= axis == pick(0, 2) ? 1.0F : 1e-6F;
         }
-        if (kind == 5 || kind == 6) // from far away: planes may fall together
+        if (kind == 5 || kind == 6) // from far away, where planes may coincide by rounding
         {
             origin[axis] =
                 1.0F + edge * (voxel[axis] + uniform(0.0F, 1.0F)) - direction[axis] * (kind == 5 ? 100.0F : 1e6F);

@@ -15,7 +15,7 @@
 namespace zvo::test
 {
 
-/// A hit as the device stores it, taken apart.
+/// A hit of the device, unpacked.
 struct DeviceHit
 {
     float t = 0.0F;
@@ -25,23 +25,23 @@ struct DeviceHit
     glm::uvec3 cell{0U};
 };
 
-/// Nothing for a miss.
+/// Returns nothing for a miss.
 std::optional<DeviceHit> unpack(const gpu::Hit& hit);
 
 gpu::Ray deviceRay(const oracle::Ray& ray, float t_max = std::numeric_limits<float>::infinity());
 
 /// Rays from inside, outside and far away; some along axes and diagonals, some from and through corners of voxels, some
-/// almost parallel to planes. resolution: of the root cube. very_far: some from a million cubes away, where many planes
-/// fall together and the reference has to look at almost every voxel.
+/// almost parallel to planes. resolution: of the root cube. very_far: some rays begin a million cubes away. There
+/// planes coincide by rounding, and the reference has to look at almost every voxel.
 oracle::Ray pickRay(std::mt19937& random, std::uint32_t resolution, const Codes& codes, bool very_far = true);
 
-/// Hits of rays, in their order; expects that capped_count of them got no answer.
+/// Traces rays and returns their hits in the same order. Expects that capped_count rays got no answer.
 std::vector<gpu::Hit> traceOnDevice(vk::HeadlessDevice& device, const DeviceTree& tree,
                                     const std::vector<gpu::Ray>& rays, const TraceOptions& options = {},
                                     std::uint32_t capped_count = 0);
 
-/// Traces count rays of many kinds through tree, which holds codes, and expects that voxel, t and face of each equal
-/// the reference's bit for bit, and that some of them hit.
+/// Traces count rays of many kinds through tree, whose voxels are codes. Expects that voxel, t and face of each hit
+/// equal the reference bit for bit, and that some rays hit.
 void expectEqualsReference(vk::HeadlessDevice& device, const DeviceTree& tree, const Codes& codes, std::uint32_t count,
                            const TraceOptions& options = {}, bool very_far = true);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two trees that have to look alike, by pictures and by rays.
+// Compares two trees that should look alike, by pictures and by rays.
 #pragma once
 
 #include "core/trace/trace.h"
@@ -13,7 +13,7 @@
 namespace zvo::test
 {
 
-/// The attributes of a tree, by which indices in two trees are compared.
+/// Attributes of a tree, which identify voxels whose indices differ in two trees.
 struct HitAttributes
 {
     HitAttributes(vk::HeadlessDevice& device, const DeviceTree& tree);
@@ -25,21 +25,21 @@ struct HitAttributes
     std::uint32_t levels;
 };
 
-/// Traces both trees in the same way and expects the same results, bit for bit; of hits, the same attributes, wherever
-/// they are stored. Both trees have attributes in 8 bytes or none. What is given must outlive this.
+/// Traces both trees in the same way and expects the same results, bit for bit. Hits must have the same attributes,
+/// wherever these are stored. Both trees have attributes in 8 bytes, or none. They must outlive this object.
 class TreeComparison
 {
 public:
     TreeComparison(vk::HeadlessDevice& device, const DeviceTree& expected, const DeviceTree& tree);
 
-    /// Pictures by every view and many levels of detail, from everywhere and from close.
+    /// Compares pictures in every view and with many levels of detail, from many cameras and from close.
     void pictures(const ViewCamera& close);
 
-    /// Rays of many kinds, many of them to the voxels of codes.
+    /// Compares rays of many kinds; many of them aim at the voxels of codes.
     void rays(const Codes& codes) const;
 
 private:
-    // A tree, and what pictures of it take.
+    // A tree with its tracer's buffers.
     struct Subject
     {
         Subject(vk::HeadlessDevice& device, const DeviceTree& view);

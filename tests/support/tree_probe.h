@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What must hold of every tree that checkTree accepts, wherever its bytes are from.
+// Properties of every tree that checkTree accepts, whatever its bytes.
 #pragma once
 
 #include "core/trace/trace.h"
@@ -12,8 +12,8 @@
 namespace zvo::test
 {
 
-/// Walks through tree on the host. "" or what is wrong: voxels come in ascending order, inside of the grid, as many as
-/// are counted; no more nodes differ than there are.
+/// Walks through tree on the host. Returns "", or what is wrong: voxels must come in ascending order, inside of the
+/// grid, and as many as are counted; there must be at least as many nodes as differ.
 std::string walkFault(const TreeData& tree);
 
 /// Traces many trees on one device, with the same buffers.
@@ -22,8 +22,8 @@ class TreeProbe
 public:
     explicit TreeProbe(vk::HeadlessDevice& device);
 
-    /// Copies tree to the device and traces a picture and rays with options that random chooses. "" or what is wrong: a
-    /// ray that reaches its cap, a hit whose number is none of the voxels'.
+    /// Copies tree to the device, and traces a picture and rays with random options. Returns "", or what is wrong: a
+    /// ray reached its cap, or a hit has an index that no voxel has.
     std::string traceFault(const TreeData& tree, std::mt19937& random);
 
 private:
@@ -32,7 +32,7 @@ private:
     BeamGrid m_dag_beam;
     TraceBuffers m_picture;
     vk::BufferOf<gpu::Ray> m_rays;
-    vk::BufferOf<gpu::Hit> m_hits; // [m_rays.count()], like those of the picture
+    vk::BufferOf<gpu::Hit> m_hits; // [m_rays.count()]
     vk::BufferOf<gpu::DispatchArgs> m_rounds;
     vk::BufferOf<gpu::TraceStatus> m_status;
 };

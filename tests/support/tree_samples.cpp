@@ -19,7 +19,7 @@ namespace zvo::test
 namespace
 {
 
-// What makes subtrees equal: the cells, and what the children are.
+// The content of a subtree: child mask, and the children's numbers. Equal subtrees have equal content.
 using Subtree = std::pair<std::uint64_t, std::vector<std::uint32_t>>;
 
 // The nodes of one level of a DAG.
@@ -70,7 +70,7 @@ gpu::BeforeChild below(const std::vector<DagLevel>& levels, std::size_t level, s
     return sum;
 }
 
-// Numbers of an octree's nodes, depth first.
+// Appends the numbers of an octree's nodes in depth-first order.
 void listDepthFirst(const TreeData& octree, std::size_t level, std::uint32_t index, std::vector<std::uint32_t>& order)
 {
     order.push_back(index);

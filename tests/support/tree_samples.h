@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Trees in the host's memory, made the direct way: maps instead of hash tables, recursion instead of passes.
+// Trees that are made in the host's memory by other means than on the device: maps instead of hash tables, recursion
+// instead of passes.
 #pragma once
 
 #include "core/tree/tree_data.h"
@@ -12,7 +13,7 @@
 namespace zvo::test
 {
 
-/// The octree of sorted, unique Morton codes, without attributes; a grid with its corner at 0 and voxels of size 1.
+/// The octree of sorted, unique Morton codes, without attributes. The grid has its corner at 0 and voxels of size 1.
 TreeData octreeOf(std::span<const std::uint64_t> codes, std::uint32_t depth);
 
 /// Gives all voxels and nodes of an octree arbitrary attributes, and one voxel in seven emission.
@@ -21,7 +22,7 @@ void addAttributes(TreeData& octree);
 /// The same tree with its attributes in a packed form.
 TreeData packedTree(const TreeData& tree, AttributeFormat format);
 
-/// The same tree with equal subtrees as one.
+/// The DAG of an octree, in which equal subtrees are one.
 TreeData dagOf(const TreeData& octree);
 
 struct TreeSample
@@ -30,11 +31,11 @@ struct TreeSample
     TreeData tree;
 };
 
-/// Octrees and DAGs, with attributes and without: of no voxel, of one, full ones, regular and random ones; depths 1
-/// to 6. Some also with packed attributes, named "..._with_attributes_4" or "_block".
+/// Octrees and DAGs, with and without attributes: empty, of one voxel, full, regular and random ones, of depths 1 to 6.
+/// Some also have packed attributes, with names that end in "_with_attributes_4" or "_block".
 std::vector<TreeSample> treeSamples();
 
-/// What tells two trees apart, or "" for none.
+/// Returns the first difference of two trees, or "".
 std::string treeDifference(const TreeData& actual, const TreeData& expected);
 
 } // namespace zvo::test

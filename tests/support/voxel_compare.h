@@ -12,8 +12,8 @@
 namespace zvo::test
 {
 
-/// Expects that device makes of scene exactly the oracle's voxels, a well-formed octree of them, and drops as many
-/// triangles. Returns the number of voxels.
+/// Expects that the device makes the oracle's voxels of scene, in a well-formed octree, and drops as many triangles as
+/// the oracle. Returns the number of voxels.
 std::size_t expectEqualsOracle(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, Coverage coverage,
                                const BuildOptions& options = {});
 

@@ -25,7 +25,7 @@ void pad(Bytes& bytes)
     bytes.resize((bytes.size() + kZvoAlignment - 1) / kZvoAlignment * kZvoAlignment);
 }
 
-// As much of the section table as there is.
+// The part of the section table that the file holds.
 std::span<std::byte> tableBytes(Bytes& file, const ZvoHeader& header)
 {
     const std::uint64_t room = (file.size() - sizeof(header)) / sizeof(ZvoSection);

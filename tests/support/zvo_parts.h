@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A `.zvo` file taken apart, to be changed and put together with right sizes, offsets and checksums: what is wrong with
-// it then is what was changed.
+// The parts of a `.zvo` file, to be changed and put together again with correct sizes, offsets and checksums. So the
+// only fault of such a file is the change.
 #pragma once
 
 #include "core/file/zvo_file.h"
@@ -20,32 +20,32 @@ struct ZvoParts
 {
     struct Section
     {
-        ZvoSection entry; // offset, bytes and checksum are made anew by join()
+        ZvoSection entry; // join() recomputes offset, bytes and checksum
         Bytes content;
     };
 
     ZvoHeader header;
     std::vector<Section> sections;
 
-    /// Nothing where the bytes are too few for what they announce.
+    /// Returns nothing if the file is shorter than its header or table says.
     static std::optional<ZvoParts> split(std::span<const std::byte> file);
 
-    /// Leaves counts of elements, ids and everything else as they are.
+    /// Keeps counts of elements, ids and everything else.
     [[nodiscard]] Bytes join() const;
 
-    /// The section of that id, or null.
+    /// The section with that id, or null.
     Section* find(ZvoSectionId id);
 };
 
-/// Puts right the checksums of a file's table and header, whatever its sections are; the table is as long as the header
-/// says and the file has room for.
+/// Corrects the checksums of a file's table and header, whatever its sections are. The table is as long as the header
+/// says, but ends with the file.
 void fixHeadChecksums(Bytes& file);
 
-/// Puts right the checksums of a file whose table and sections lie where the header says; what lies outside of the file
-/// is left out.
+/// Corrects all checksums of a file whose table and sections lie where the header says. Parts outside of the file are
+/// skipped.
 void fixChecksums(Bytes& file);
 
-/// What writeZvo writes, and its SHA-256.
+/// The bytes that writeZvo writes, and their SHA-256.
 Bytes zvoBytes(const TreeData& tree);
 std::string zvoSha256(const TreeData& tree);
 
