@@ -22,7 +22,7 @@ constexpr std::size_t kChunkHeaderBytes = 8;
 constexpr std::string_view kMagic = "glTF";
 constexpr std::string_view kJsonChunk = "JSON";
 constexpr std::string_view kBinChunk{"BIN\0", 4};
-constexpr int kDepthMax = 100; // the JSON library recurses when it writes
+constexpr int kDepthMax = 100; // the JSON library writes recursively
 
 constexpr auto kWholeNumbers = std::to_array<std::uint64_t>(
     {0,     1,     2,     3,     4,     5,         6,    7,           12,          16,          127,
@@ -87,7 +87,7 @@ constexpr auto kTexts = std::to_array<std::string_view>({"SCALAR",
                                                          "QUATERNION",
                                                          "EXPONENTIAL"});
 
-/// Single precision numbers as bits, and indices.
+/// Bits of numbers in single precision, and indices.
 const auto kWords = std::to_array<std::uint32_t>(
     {0, 1, 2, 65535, 65536, ~0U, 1U << 31U, std::bit_cast<std::uint32_t>(1.0F), std::bit_cast<std::uint32_t>(-1.0F),
      std::bit_cast<std::uint32_t>(1e-45F), std::bit_cast<std::uint32_t>(1e-30F), std::bit_cast<std::uint32_t>(1e30F),
@@ -209,7 +209,7 @@ void changePlace(const Place& place, const std::vector<Place>& places, std::mt19
     }
     else if (choice == 2)
     {
-        const json other = *pick(places, random).value; // a copy: it may hold the place itself
+        const json other = *pick(places, random).value; // a copy, because it may contain the place
         value = other;
     }
     else if (choice == 3 && place.parent != nullptr && place.parent->is_array())

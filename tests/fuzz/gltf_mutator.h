@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mutations that leave a glTF file readable, so that a fuzzer gets past the parsers.
+// Mutations that keep most glTF files readable, so that a fuzzer gets past the parsers.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,27 @@
 namespace zvo::test
 {
 
-/// A .glb file taken apart, or a .gltf file, whose text is all of it.
+/// The chunks of a .glb file, or the text of a .gltf file.
 struct GltfParts
 {
     bool binary = false;
     std::string text;
     std::vector<std::uint8_t> bin;
 
-    /// What is no whole .glb becomes text.
+    /// A file that is no complete .glb becomes text.
     static GltfParts split(std::span<const std::uint8_t> file);
 
-    /// The file, with chunk lengths that are right.
+    /// The file, with correct chunk lengths.
     [[nodiscard]] std::vector<std::uint8_t> join() const;
 };
 
-/// Changes one value, key or item of the JSON in text. Leaves text alone where it is not JSON or deeply nested.
+/// Changes one value, key or item of the JSON in text. Does not change text that is no JSON, or is deeply nested.
 void mutateJson(std::string& text, std::mt19937& random);
 
 /// Overwrites an aligned number in bin with an extreme one.
 void mutateBin(std::vector<std::uint8_t>& bin, std::mt19937& random);
 
-/// Takes a member of the JSON of other over into text.
+/// Copies a member of the JSON of other into text.
 void crossJson(std::string& text, const std::string& other, std::mt19937& random);
 
 } // namespace zvo::test

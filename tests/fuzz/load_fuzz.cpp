@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A libFuzzer target: the bytes of a scene file (what it is its content tells) are loaded, checked and voxelized at
-// 16^3, in a pose where something moves. A file that the loader refuses must give an Error{Input} of one line;
-// everything else must hold what Scene promises and voxelize.
+// A libFuzzer target for scene files, whose format follows from their content. The input is loaded, checked and
+// voxelized at 16^3, in a pose if something moves. If the loader refuses a file, it must throw an Error{Input} of one
+// line. All other scenes must keep the rules of Scene, and must be voxelized without an error.
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/animation.h"
@@ -32,7 +32,7 @@ namespace
 
 constexpr std::uint32_t kDepth = 4; // 16^3
 
-// What is bigger only takes time on the device.
+// Larger inputs only take more time on the device.
 constexpr std::uint64_t kTrianglesMax = 2000;
 constexpr std::size_t kInstancesMax = 200;
 constexpr std::uint64_t kTexelsMax = 1U << 14U;
@@ -46,7 +46,7 @@ void require(bool condition, const char* what)
     }
 }
 
-/// A folder with the input and a few files that it may name.
+/// A folder with the input and a few files to which it may refer.
 class Folder
 {
 public:
@@ -64,11 +64,11 @@ private:
     TempDir m_dir;
 };
 
-/// Made once; destroyed before the driver's own statics are.
+/// The device and folder, which are made once, and destroyed before the driver's static objects.
 struct Session
 {
     Folder folder;
-    std::unique_ptr<vk::HeadlessDevice> device; // none: the voxelizer is left out
+    std::unique_ptr<vk::HeadlessDevice> device; // null: nothing is voxelized
 };
 
 std::unique_ptr<Session> g_session;
@@ -164,7 +164,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         return 0;
     }
-    constexpr double kSecondsPerByte = 0.375; // any time will do; sizes differ
+    constexpr double kSecondsPerByte = 0.375; // an arbitrary time that depends on the input's size
     const zvo::Scene shown =
         moves(*scene) ? posedScene(*scene, poseAt(*scene, kSecondsPerByte * static_cast<double>(size))) : *scene;
     require(shown.triangleCount() == scene->triangleCount(), "a pose that loses triangles");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Changes OBJ, PLY and STL files so that most of them still get past the parsers.
+// Mutations of OBJ, PLY and STL files, most of which still get past the parsers.
 #pragma once
 
 #include <random>
@@ -8,10 +8,10 @@
 namespace zvo::test
 {
 
-/// Changes, adds, repeats or takes out words and lines, or changes a number of a binary file.
+/// Changes, adds, repeats or removes words and lines, or changes a number of a binary file.
 void mutateMesh(std::string& content, std::mt19937& random);
 
-/// Puts lines of another file into content.
+/// Copies lines of another file into content.
 void crossMesh(std::string& content, const std::string& other, std::mt19937& random);
 
 } // namespace zvo::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A libFuzzer target: the bytes of a .zvo file. What the reader refuses must give an Error{Input} of one line; what it
-// accepts must be written as it was read, and is traced: each hit must have a number that the tree's attributes have.
-// ZVO_FUZZ_SEEDS names a folder that gets the trees of the tests as seeds.
+// A libFuzzer target for .zvo files. If the reader refuses a file, it must throw an Error{Input} of one line. An
+// accepted file must be written again with the same content. Its tree is traced, and each hit must have an index of the
+// tree's attributes. ZVO_FUZZ_SEEDS names a folder into which the trees of the tests are written as seeds.
 #include "core/base/kernels.h"
 #include "core/file/zvo_file.h"
 #include "fuzz/tree_mutator.h"
@@ -26,7 +26,7 @@ namespace zvo::test
 namespace
 {
 
-constexpr std::uint64_t kVoxelsMax = 1U << 16U; // what has more only takes time on the host
+constexpr std::uint64_t kVoxelsMax = 1U << 16U; // larger trees only take more time on the host
 
 void require(bool condition, const char* what)
 {
@@ -37,7 +37,7 @@ void require(bool condition, const char* what)
     }
 }
 
-std::unique_ptr<vk::HeadlessDevice> g_device; // none: nothing is traced
+std::unique_ptr<vk::HeadlessDevice> g_device; // null: nothing is traced
 std::unique_ptr<TreeProbe> g_probe;           // on it
 
 void closeDevice()
@@ -138,7 +138,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     std::mt19937 random(seed);
     if (random() % 16 == 0)
     {
-        return LLVMFuzzerMutate(data, size, size_max); // checksums are wrong then
+        return LLVMFuzzerMutate(data, size, size_max); // this leaves checksums wrong
     }
     const Bytes file = mutateTree(std::as_bytes(std::span(data, size)), random, LLVMFuzzerMutate);
     if (file.size() > size_max)

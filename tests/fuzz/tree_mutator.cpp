@@ -13,7 +13,7 @@ namespace zvo::test
 namespace
 {
 
-// Another number: near, far, or one that makes trouble.
+// Another number: a near one, a far one, or one at a limit.
 template <typename T> T changedNumber(T value, std::mt19937& random)
 {
     constexpr T kMax = static_cast<T>(~T{0});
@@ -47,7 +47,7 @@ template <typename T> void changeWord(std::span<std::byte> bytes, std::mt19937& 
     std::byte* const word = bytes.data() + random() % (bytes.size() / sizeof(T)) * sizeof(T);
     const std::byte* const other = bytes.data() + random() % (bytes.size() / sizeof(T)) * sizeof(T);
     T value{};
-    std::memcpy(&value, random() % 4 == 0 ? other : word, sizeof(T)); // sometimes one word comes to two places
+    std::memcpy(&value, random() % 4 == 0 ? other : word, sizeof(T)); // sometimes two words become equal
     value = random() % 4 == 0 ? value : changedNumber(value, random);
     std::memcpy(word, &value, sizeof(T));
 }
@@ -64,7 +64,7 @@ TreeData soundTree(std::mt19937& random)
 {
     const std::uint32_t depth = 1 + random() % 7;
     std::vector<std::uint64_t> codes(random() % 200);
-    const std::uint64_t repeat = random() % 2 == 0 ? 0 : 0777; // some have equal parts
+    const std::uint64_t repeat = random() % 2 == 0 ? 0 : 0777; // sometimes with equal parts
     std::generate(codes.begin(), codes.end(),
                   [&]
                   {
@@ -110,7 +110,7 @@ void changeSections(ZvoParts& parts, std::mt19937& random)
     }
 }
 
-// Other bytes, and a count that fits their number as it fitted before.
+// Changes the bytes of a section. Its count fits them if it did before.
 void changeContent(ZvoParts::Section& section, const MutateBytes& mutate)
 {
     const std::size_t size = section.content.size();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faults made on purpose. The scripts that run tests under a tool first run the fault that the tool is there to find: a
-// tool that stays silent about it proves nothing by staying silent about the rest.
+// Deliberate faults. A script that runs tests under a tool first runs a fault that the tool should find. Silence about
+// the tests counts only if the tool has reported the fault.
 #include "vk/kernels.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint32_t kCount = 1U << 18; // long enough that all threads of the device take part
+constexpr std::uint32_t kCount = 1U << 18; // so many that all threads of the device take part
 
 // For scripts/check-valgrind.
 TEST(Control, DISABLED_WorkgroupsRaceForAWord)

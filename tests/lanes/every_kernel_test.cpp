@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every kernel of the library, run once on work so small that a tool which slows programs down a hundredfold can watch:
-// valgrind, instrumented kernels, poisoned memory.
+// Runs every kernel of the library once. The work is so small that it can be watched by tools that slow programs down a
+// hundredfold: valgrind, instrumented kernels, poisoned memory.
 #include "core/base/grid.h"
 #include "core/base/kernels.h"
 #include "core/deform/deform_mesh.h"
@@ -35,7 +35,7 @@ namespace zvo
 namespace
 {
 
-// The way down to a voxel's rank in a DAG goes below the table of ranks, over every kind of list.
+// The path to a voxel's rank in a DAG goes below the table of ranks, through every kind of list.
 constexpr std::uint32_t kDepthOfRankSums = 11;
 
 using test::device;
@@ -51,7 +51,7 @@ void addNames(Names& names, const std::vector<vk::PassTime>& passes)
     }
 }
 
-// A few triangles with all that a material can have, in three materials: plain, textured and emissive, blended.
+// A few triangles in three materials, which use every property of a material: plain, textured and emissive, blended.
 Scene smallScene()
 {
     Scene scene = test::randomTriangles(3, 12, 16.0F);
@@ -96,7 +96,7 @@ std::vector<std::uint64_t> voxelCodesOf(const std::vector<test::Cell>& cells, co
     return codes;
 }
 
-// Pictures by every path of the tracer.
+// Traces pictures by every path of the tracer.
 Names tracePictures(const DeviceTree& tree)
 {
     Names names;
@@ -108,7 +108,7 @@ Names tracePictures(const DeviceTree& tree)
     {
         if (tree.isDag() && stack != TraceStack::Registers)
         {
-            continue; // lists and stacks know nothing of each other, and every variant has to be compiled
+            continue; // lists and stacks are independent, and compiling each variant takes time
         }
         for (const View shown : {View::Color, View::Iterations})
         {
@@ -145,7 +145,7 @@ Names tracePictures(const DeviceTree& tree)
     return names;
 }
 
-// 70 vertices with all that a deforming mesh can have, twice, of which the second is without a skin.
+// Deforms 70 vertices with all that a deforming mesh can have, in two instances; the second one has no skin.
 Names deformVertices()
 {
     Scene scene;
@@ -183,7 +183,8 @@ Names deformVertices()
     return names;
 }
 
-// The scene, as an octree or a DAG, merged with itself, moved by two voxels; pictures of that; and that undone.
+// Merges the scene, as an octree or a DAG, with a copy of itself that is moved by two voxels, traces pictures of it,
+// and undoes it.
 Names mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool compressed)
 {
     Names names;
@@ -225,7 +226,7 @@ Names mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool
     EXPECT_EQ(voxelCodesOf(test::cellsOf(device(), octree.tree()), grid), oracle::voxelize(both, grid, coverage).codes);
 
     Names shown = tracePictures(octree.tree());
-    for (const char* kernel : {"trace/beam_ranks", "trace/primary_ranks", "trace/ranks"}) // their variants for overlays
+    for (const char* kernel : {"trace/beam_ranks", "trace/primary_ranks", "trace/ranks"}) // for overlays
     {
         EXPECT_EQ(shown.contains(kernel), compressed) << kernel;
     }
@@ -236,8 +237,7 @@ Names mergeObjects(const Scene& scene, const Grid& grid, Coverage coverage, bool
     return names;
 }
 
-// Strokes of a brush that carve, fill and paint, with so little room that what is left of them moves, and a step is
-// undone.
+// Carves, fills and paints with so little room that states have to move, and undoes a step.
 Names editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
 {
     Names names;
@@ -273,7 +273,7 @@ Names editVoxels(DeviceTree fixed, bool attributes, float emission_scale)
     return names;
 }
 
-// The scene as an octree and as a DAG, and as one without attributes: every variant takes its time to be compiled.
+// Edits the scene as an octree, as a DAG, and without attributes; compiling more variants would take too long.
 Names editTrees(const Scene& scene, const Grid& grid)
 {
     Names names;
@@ -295,7 +295,7 @@ Names editTrees(const Scene& scene, const Grid& grid)
     return names;
 }
 
-// The octree as a DAG, and that DAG once more, of which nothing can be shared.
+// Compresses the octree to a DAG, and that DAG again, in which nothing more can be shared.
 Names compressOctree(DeviceTree octree, const CompressOptions& options)
 {
     Names names;
@@ -310,7 +310,7 @@ Names compressOctree(DeviceTree octree, const CompressOptions& options)
     return names;
 }
 
-// Pictures of the octree with its attributes in fewer bytes. Pictures are there in all formats.
+// Traces pictures of the octree with packed attributes. Pictures of all formats are traced.
 Names tracePacked(BuildResult built, AttributeFormat format)
 {
     Names names;
@@ -320,7 +320,7 @@ Names tracePacked(BuildResult built, AttributeFormat format)
     return names;
 }
 
-// The same DAG, joined of eight tiles.
+// Makes the same DAG, joined of eight tiles.
 Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, const DeviceTree& octree)
 {
     const std::uint32_t tile_depth = grid.depth - 1;
@@ -343,7 +343,7 @@ Names joinTiles(const GpuScene& scene, const Grid& grid, Coverage coverage, cons
     return names;
 }
 
-// A picture of 3 x 2 pixels at twice and at a third of its width.
+// Scales a picture of 3 x 2 pixels to twice and to a third of its width.
 Names scalePictures()
 {
     const std::vector<gpu::uint> from = {1, 2, 3, 4, 5, 6};
@@ -362,7 +362,7 @@ Names scalePictures()
     return names;
 }
 
-// Pictures in the texel formats of hosts' images, lit and not, and their depth.
+// Traces pictures in the texel formats of hosts' images, lit and unlit, with depth.
 Names traceForHosts(const DeviceTree& tree)
 {
     Names names;
@@ -398,7 +398,7 @@ Names traceForHosts(const DeviceTree& tree)
     return names;
 }
 
-// Of all kernels, those of brushes or the others.
+// Expects that all kernels of brushes have run, or all others.
 void expectAllRan(const Names& names, bool of_brushes)
 {
     for (const vk::EmbeddedKernel& kernel : zvoKernels())
@@ -427,9 +427,9 @@ TEST(EveryKernel, RunsOnASmallScene)
         std::uint32_t depth;
         float voxel_size;
         bool pictures;
-        std::uint64_t table_slots; // of equal nodes at first: too few, or an estimate
+        std::uint64_t table_slots; // at first, of the table of equal nodes; too few, or an estimate
     };
-    // The beam has finer cells from depth 7 on, keys have two words from depth 13 on.
+    // The beam grid has finer cells from depth 7 on, and keys have two words from depth 13 on.
     const Case cases[] = {{Coverage::Conservative, 3, 2.0F, false, 2},
                           {Coverage::Thin, 7, 0.25F, true, 0},
                           {Coverage::Thin, 13, 1.0F, false, 0}};

@@ -14,11 +14,11 @@ struct DeformedVertex
 {
     glm::dvec3 position{0.0};
     glm::dvec3 position_bound{0.0};
-    glm::dvec3 normal{0.0};  // unit length
-    double normal_bound = 0; // distance from normal to the unit vector in the direction that single precision
-                             // finds;\ninfinite if single precision may find any direction, or if there is no normal
-                             // infinite where single precision may find any, or there is none
-    int side = 1;            // -1: the joints mirror; 0: single precision may find either sign
+    glm::dvec3 normal{0.0}; // unit length
+    // The distance from normal to the unit vector in the direction that single precision finds. It is infinite if
+    // single precision may find any direction, or if there is no normal.
+    double normal_bound = 0;
+    int side = 1; // -1: the joints mirror; 0: single precision may find either sign
 };
 
 /// Deforms a vertex of primitive by finite morph weights and finite joint matrices (empty: none). Independent of the

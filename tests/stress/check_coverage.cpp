@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check_coverage: millions of triangles and whole meshes, device against oracle, both coverages. Ends with 1 when
-// anything differs.
+// check_coverage: compares the voxels of the device and the oracle for millions of triangles and whole meshes, in both
+// coverages. Ends with 1 if anything differs.
 #include "core/base/kernels.h"
 #include "io/gltf/gltf_loader.h"
 #include "stress/compare_coverage.h"
@@ -20,7 +20,7 @@ namespace
 
 constexpr std::array<Coverage, 2> kCoverages{Coverage::Conservative, Coverage::Thin};
 
-/// Shares of all triangles, in percent, by shape.
+/// Percentage of all triangles by shape.
 constexpr std::array<std::uint64_t, kShapeCount> kShares{19, 18, 17, 18, 17, 6, 2, 1, 2};
 
 struct Options
@@ -55,7 +55,7 @@ void print(const std::string& name, Coverage coverage, const Tally& tally)
     std::fflush(stdout);
 }
 
-/// Tallies by shape and coverage.
+/// [shape][coverage]
 using Tallies = std::array<std::array<Tally, 2>, kShapeCount>;
 
 void runBatch(vk::HeadlessDevice& device, const Options& options, Shape shape, std::uint64_t number,
@@ -74,16 +74,16 @@ void runBatch(vk::HeadlessDevice& device, const Options& options, Shape shape, s
     }
 }
 
-/// Differences.
+/// Returns the number of differences.
 std::uint64_t checkTriangles(vk::HeadlessDevice& device, const Options& options)
 {
     Tallies tallies;
-    std::array<std::uint64_t, kShapeCount> next{}; // number of the next batch
+    std::array<std::uint64_t, kShapeCount> next{}; // [shape] number of the next batch
     const auto start = std::chrono::steady_clock::now();
     double told = 0;
     for (std::uint64_t done = 0; done < options.triangles;)
     {
-        // The shape that is furthest behind its share.
+        // The shape that is furthest behind its percentage.
         std::size_t shape = 0;
         for (std::size_t i = 0; i < kShapeCount; ++i)
         {
@@ -120,7 +120,7 @@ std::uint64_t checkTriangles(vk::HeadlessDevice& device, const Options& options)
     return sums[0].differences + sums[1].differences;
 }
 
-/// Vertices that do not come on the lattice as they are: one in fifty of the triangles. Differences.
+/// Checks triangles whose vertices need rounding to the lattice, a fiftieth of all. Returns the number of differences.
 std::uint64_t checkPlaced(vk::HeadlessDevice& device, const Options& options)
 {
     std::array<Tally, 2> sums;

@@ -25,7 +25,7 @@ using Color = std::array<std::uint16_t, 3>; // linear, fractions of 65535
 constexpr std::size_t kFindingsMax = 8;
 constexpr std::size_t kSuspectsMax = 64;
 
-/// A triangle covers a voxel.
+/// One triangle and one voxel that it covers.
 struct Record
 {
     std::uint64_t code;
@@ -39,7 +39,7 @@ Grid unitGrid(std::uint32_t depth)
     return {.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
 }
 
-/// Code and colour of each voxel, and what the octree's structure has against it.
+/// Code and colour of each voxel, and faults of the octree's structure.
 struct DeviceVoxels
 {
     std::vector<std::uint64_t> codes;
@@ -68,7 +68,7 @@ std::uint32_t packedMean(std::uint64_t red, std::uint64_t green, std::uint64_t b
     return mean(red) | mean(green) << 8 | mean(blue) << 16;
 }
 
-/// What is different, a line each; the number of differences comes back.
+/// Appends a line for each difference, and returns their number.
 std::uint64_t compare(const std::vector<std::uint64_t>& codes, const std::vector<std::uint32_t>& colors,
                       const oracle::Dropped& dropped, const DeviceVoxels& device, std::vector<std::uint64_t>& suspects,
                       std::vector<std::string>& findings)
@@ -121,7 +121,7 @@ struct ExpectedVoxels
     std::uint64_t hidden = 0;
 };
 
-/// Sorted, one a fragment.
+/// Records of all fragments, sorted.
 std::vector<Record> fragmentRecords(const Batch& batch, Coverage coverage, oracle::Dropped& dropped)
 {
     const Grid grid = unitGrid(batch.depth);
@@ -187,7 +187,7 @@ ExpectedVoxels expectedVoxels(const Batch& batch, const std::vector<Color>& colo
     return expected;
 }
 
-/// Random but the same for the same number of triangles.
+/// Random colours, which are the same for the same number of triangles.
 std::vector<Color> tagColors(std::size_t count)
 {
     std::mt19937 random(17);
@@ -216,7 +216,7 @@ bool touches(const LatticeTriangle& triangle, const glm::ivec3& voxel)
            glm::all(glm::greaterThanEqual(high, voxel * 256 - 256));
 }
 
-/// Which triangles are at fault: those near the suspects, each voxelized alone.
+/// Finds the triangles at fault, by voxelizing those near the suspects one by one.
 void findCulprits(vk::HeadlessDevice& device, const Batch& batch, Coverage coverage,
                   const std::vector<std::uint64_t>& suspects, std::vector<std::string>& findings)
 {

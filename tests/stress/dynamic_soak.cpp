@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One mesh goes round in a grid of 64^3, period after period: every frame is what voxelizing everything anew gives, and
-// the same whenever it comes again; memory stays what it was after the first periods. Ends with 1 when that is not so.
+// A mesh moves in a circle through a grid of 64^3, for many periods. Frames must equal a full rebuild, and the same
+// frame of other periods. Memory must not grow after the first periods. Ends with 1 if anything differs.
 //
 //   zvo_dynamic_soak [--frames N]
 #include "core/base/kernels.h"
@@ -38,13 +38,13 @@ namespace
 constexpr float kExtent = 16.0F;
 constexpr std::uint32_t kDepth = 6;
 constexpr std::uint64_t kPeriod = 50;
-constexpr std::uint64_t kWarmUp = 4 * kPeriod; // frames after which nothing grows
+constexpr std::uint64_t kWarmUp = 4 * kPeriod; // frames after which memory must not grow
 constexpr std::uint32_t kFramesInFlight = 2;
 constexpr std::uint64_t kHostSlackBytes = 64 << 20; // validation layers keep 300 bytes a frame
 
 using Cells = std::vector<test::Cell>;
 
-// Bytes of this process that are in memory.
+// Bytes of this process in physical memory.
 std::uint64_t residentBytes()
 {
     std::uint64_t pages = 0;
@@ -53,7 +53,7 @@ std::uint64_t residentBytes()
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-// Round the middle, up and down, turning; a part of the way is outside.
+// A circle around the middle, up and down, with a rotation. A part of it lies outside of the grid.
 glm::dmat4 transformAt(std::uint64_t frame)
 {
     const double angle = glm::two_pi<double>() * static_cast<double>(frame % kPeriod) / kPeriod;
@@ -86,7 +86,7 @@ public:
         for (std::uint64_t frame = 0; frame < frame_count; ++frame)
         {
             submit(frame);
-            // Every other period, frames are waited for one by one and compared; else only the last one is.
+            // In every other period all frames are waited for and compared, in the others only the last one.
             if (frame / kPeriod % 2 == 0 || frame % kPeriod == kPeriod - 1 || frame == frame_count - 1)
             {
                 settle();
@@ -143,7 +143,7 @@ private:
         m_flights.pop_front();
     }
 
-    // Waits until the last frame's dynamic objects are shown.
+    // Waits until the dynamic objects of the last frame are shown.
     void settle()
     {
         for (int attempt = 0; attempt < 64; ++attempt)
@@ -218,9 +218,9 @@ private:
     std::unique_ptr<DynamicOctree> m_octree;
     DynamicObjectId m_object = 0;
     std::deque<Flight> m_flights;
-    std::vector<Cells> m_period; // what frames of the first period show
+    std::vector<Cells> m_period; // contents of the frames of the first period
     std::uint64_t m_compared_count = 0;
-    std::uint64_t m_failed_count = 0; // updates without room
+    std::uint64_t m_failed_count = 0; // updates that found no room
     std::uint64_t m_held = 0;         // after the warm-up
     std::uint64_t m_peak = 0;
     std::uint64_t m_resident = 0;

@@ -12,10 +12,11 @@ namespace zvo::stress
 namespace
 {
 
-constexpr int kDepthMax = 16; // single precision holds all its lattice points, 24 bits each; deep_grid_test goes on
+constexpr int kDepthMax =
+    16; // single precision, with 24 bits, holds all lattice points up to here; deep_grid_test covers deeper grids
 
-/// One triangle a block of edge^3 voxels, in blocks drawn without repetition. A voxel's width is left free at each side
-/// of a block, as closed voxels touch.
+/// Puts one triangle into each block of edge^3 voxels, in blocks drawn without repetition. A voxel's width is left free
+/// at each side of a block, because closed voxels touch.
 void fillBlocks(TriangleMaker& maker, Batch& batch, int block_log2, std::size_t count_max)
 {
     const int axis_log2 = static_cast<int>(batch.depth) - block_log2;
@@ -39,12 +40,14 @@ void fillBlocks(TriangleMaker& maker, Batch& batch, int block_log2, std::size_t 
     }
 }
 
-/// Triangles on top of each other, across a grid of low resolution. expected_voxels: of one triangle, about.
+/// Puts triangles on top of each other, across a grid of low resolution. expected_voxels: approximate number for one
+/// triangle.
 void fillPile(TriangleMaker& maker, Batch& batch, std::size_t expected_voxels, std::size_t count_max)
 {
     const int resolution = 1 << batch.depth;
     const std::size_t voxels = std::size_t{1} << (3 * batch.depth);
-    // Few enough that each fragment shows in its voxel's colour; sometimes a handful, so that each shows in the set.
+    // Usually so few that each fragment shows in its voxel's colour; sometimes only a handful, so that each shows in
+    // the set.
     std::size_t count = std::clamp<std::size_t>(6 * voxels / expected_voxels, 12, 4096);
     count = maker.oneIn(4) ? static_cast<std::size_t>(maker.pick(1, 4)) : count;
     const int margin = maker.oneIn(2) ? 0 : maker.pick(1, 512);
@@ -77,7 +80,7 @@ const char* nameOf(Shape shape)
 
 Batch makeBatch(std::uint64_t seed, Shape shape, std::uint64_t number, std::size_t count_max)
 {
-    constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL; // spreads the seeds
+    constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL; // makes seeds differ in all bits
     TriangleMaker maker((seed * kGolden + static_cast<std::uint64_t>(shape)) * kGolden + number);
     Batch batch;
     batch.shape = shape;
@@ -112,7 +115,8 @@ Batch makeBatch(std::uint64_t seed, Shape shape, std::uint64_t number, std::size
         }
         else
         {
-            // Blocks of 8^3 or 16^3 voxels hold small triangles, blocks of 64^3 and more also such that go by rows.
+            // Blocks of 8^3 or 16^3 voxels have small triangles. Blocks of 64^3 and more also have some that go by
+            // rows.
             const int block_log2 = maker.oneIn(12) ? 6 : maker.oneIn(3) ? 4 : 3;
             batch.depth = pickDepth(maker, std::max(7, block_log2 + 3), kDepthMax);
             fillBlocks(maker, batch, block_log2, std::min<std::size_t>(count_max, block_log2 == 6 ? 1024 : 16384));

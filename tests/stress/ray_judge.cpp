@@ -19,8 +19,8 @@ namespace
 {
 
 constexpr std::uint64_t kChunk = 1U << 12;      // rays that a host thread takes at a time
-constexpr std::size_t kVoxelsForFarRays = 5000; // from far away, the first reference looks at almost every voxel
-constexpr std::uint32_t kReportedMax = 20;      // wrong rays that are printed
+constexpr std::size_t kVoxelsForFarRays = 5000; // from far away, the first reference has to look at almost every voxel
+constexpr std::uint32_t kReportedMax = 20;      // wrong rays to print
 
 std::mutex g_print;
 Tally g_tally;

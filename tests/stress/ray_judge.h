@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What references say of rays, and how many of them were of which kind.
+// Compares rays with the references, and counts them by kind.
 #pragma once
 
 #include "oracle/ray_bounds.h"
@@ -16,7 +16,7 @@
 namespace zvo::stress
 {
 
-/// Occupied voxels that rays are traced through.
+/// A tree for tracing, and its voxels.
 struct StressTree
 {
     std::string name;
@@ -24,20 +24,20 @@ struct StressTree
     std::uint32_t depth;
 };
 
-/// Of all rays since the last printTally().
+/// Counts of all rays since the last printTally().
 struct Tally
 {
-    std::array<std::atomic<std::uint64_t>, 3> kinds{}; // by oracle::RayClass
+    std::array<std::atomic<std::uint64_t>, 3> kinds{}; // [oracle::RayClass]
     std::atomic<std::uint64_t> exact{0};               // compared bit for bit
     std::atomic<std::uint64_t> hits{0};
     std::atomic<std::uint64_t> invalid{0};
     std::atomic<std::uint64_t> wrong{0};
 };
 
-/// The only one; threads count in it together.
+/// The only tally, which threads share.
 Tally& tally();
 
-/// Prints the tally, after a text, and begins a new one; wrong rays stay counted.
+/// Prints a text and the tally, and sets it to zero, except the wrong rays.
 void printTally(const std::string& what);
 
 /// Calls work(first, end) for parts of [0, count) on all processors.
@@ -46,14 +46,14 @@ void inParallel(std::uint64_t count, const std::function<void(std::uint64_t, std
 /// Counts a wrong ray, and prints it if it is one of the first.
 void reportWrong(const std::string& where, const StressRay& ray, const std::string& what);
 
-/// Compares the device's answers with both references: oracle/trace.h, bit for bit, and oracle/ray_bounds.h.
+/// Compares the device's hits with both references: with oracle/trace.h bit for bit, and with oracle/ray_bounds.h.
 class RayJudge
 {
 public:
     /// tree must outlive the judge.
     explicit RayJudge(const StressTree& tree);
 
-    /// hit: the device's answer; levels: of nodes in the tree. Counts and reports.
+    /// Checks the device's hit, counts the ray, and reports it if it is wrong. levels: of nodes in the tree.
     void check(const StressRay& ray, const std::optional<test::DeviceHit>& hit, std::uint32_t levels) const;
 
 private:

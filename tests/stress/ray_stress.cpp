@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Millions of rays against two references (oracle/trace.h bit for bit, oracle/ray_bounds.h), out of closed shells, and
-// pictures made in every way. Ends with a checksum of all hits: it must not depend on stack or subgroup size.
+// Traces millions of rays and compares them with two references (oracle/trace.h bit for bit, oracle/ray_bounds.h); rays
+// out of closed shells, which must hit; and pictures by every path of the tracer. Prints a checksum of all hits, which
+// must not depend on stack or subgroup size.
 //
 //   zvo_ray_stress [--rays N] [--seed S]    N random rays, N aimed ones, N / 4 out of closed shells
 #include "core/base/kernels.h"
@@ -70,7 +71,7 @@ std::vector<StressTree> makeTrees()
 using MakeRay = std::function<StressRay(Random&)>;
 using Check = std::function<void(const StressRay&, const std::optional<test::DeviceHit>&)>;
 
-// Traces count rays through octree, and checks each hit and adds it to sum.
+// Traces count rays through octree, checks each hit and adds it to sum.
 void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, TraceStack stack, std::uint64_t count,
                 std::uint64_t seed, const MakeRay& make_ray, const Check& check, Sha256& sum)
 {
@@ -120,7 +121,7 @@ void traceBatch(vk::HeadlessDevice& device, const DeviceTree& octree, TraceStack
     sum.update(std::as_bytes(std::span(hits)));
 }
 
-// The given number of rays in all, spread over trees and stacks.
+// Traces count rays in all, spread over trees and stacks.
 void traceTrees(vk::HeadlessDevice& device, const std::vector<StressTree>& trees, const Options& options, bool aimed,
                 Sha256& sum)
 {
@@ -151,7 +152,7 @@ struct Shell
     std::string name;
     Scene scene;
     std::uint32_t depth;
-    glm::vec3 low; // whole voxels that are inside
+    glm::vec3 low; // whole voxels inside of the shell
     glm::vec3 high;
 };
 
@@ -177,7 +178,7 @@ std::vector<Shell> makeShells()
     return shells;
 }
 
-// Rays out of closed shells that zvo voxelized, thin: each hits.
+// Traces rays out of closed shells, voxelized by zvo with thin coverage. Each ray must hit.
 void traceShells(vk::HeadlessDevice& device, const Options& options, Sha256& sum)
 {
     const std::vector<Shell> shells = makeShells();
@@ -207,7 +208,7 @@ void traceShells(vk::HeadlessDevice& device, const Options& options, Sha256& sum
     }
 }
 
-// Primary hits of a picture as bytes that depend on nothing else, and the most iterations of a ray.
+// The bytes of a picture's primary hits, and the most iterations of a ray.
 struct Picture
 {
     std::vector<gpu::Hit> hits;
@@ -250,7 +251,7 @@ bool sameHits(const Picture& a, const Picture& b)
                       { return x.index == y.index && x.t == y.t && x.where == y.where; });
 }
 
-// Pictures with and without the beam, with every stack. Returns how many were taken.
+// Takes pictures with and without the beam, with every stack. Returns their number.
 std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressTree>& trees, Sha256& sum)
 {
     std::uint32_t count = 0;
@@ -276,7 +277,7 @@ std::uint32_t takePictures(vk::HeadlessDevice& device, const std::vector<StressT
                     options.view = View::Iterations;
                     Picture picture = takePicture(device, octree, camera, options);
                     ++count;
-                    // Each cell on the way is left once and entered by at most one descent for each level.
+                    // Each cell on the path is left once, and entered by at most one descent for each level.
                     const std::uint32_t bound = (3 * octree.grid.rootResolution() + 1) * (octree.grid.nodeLevels() + 1);
                     const bool wrong = (first && !sameHits(*first, picture)) || picture.iterations_max > bound;
                     if (wrong)

@@ -15,7 +15,7 @@ namespace
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kFar = 1e5F;     // units
-constexpr float kFarFrom = 2e3F; // from here on, planes fall together
+constexpr float kFarFrom = 2e3F; // from here on, planes coincide by rounding
 constexpr std::uint32_t kInvalidEvery = 16;
 
 std::uint32_t below(Random& random, std::uint32_t end)
@@ -48,7 +48,7 @@ glm::vec3 anyDirection(Random& random)
     }
 }
 
-// Components -range to range, zeros of both signs, not all zero.
+// A direction with whole components from -range to range, zeros of both signs among them, not all zero.
 glm::vec3 wholeDirection(Random& random, std::uint32_t range)
 {
     glm::vec3 direction(0.0F);
@@ -129,7 +129,7 @@ StressRay aimedRay(Random& random, std::uint32_t resolution, const test::Codes& 
     {
         corner[axis] = static_cast<float>(below(random, 2));
     }
-    if (below(random, 2) == 0) // a point of an edge
+    if (below(random, 2) == 0) // a point on an edge
     {
         corner[static_cast<int>(below(random, 3))] = uniform(random, 0.0F, 1.0F);
     }
@@ -158,7 +158,7 @@ StressRay aimedRay(Random& random, std::uint32_t resolution, const test::Codes& 
         origin = target - anyDirection(random) * kFar * edge;
         direction = target - origin;
         break;
-    case 4: // in an edge, from a distance that may be whole
+    case 4: // in an edge, from a distance that may be a whole number
         direction = glm::vec3(0.0F);
         direction[static_cast<int>(below(random, 3))] = below(random, 2) == 0 ? 1.0F : -1.0F;
         direction *= std::exp2(static_cast<float>(below(random, 5)) - 2.0F);
@@ -175,7 +175,7 @@ StressRay aimedRay(Random& random, std::uint32_t resolution, const test::Codes& 
         direction[axis] = below(random, 2) == 0 ? 0.0F : -0.0F;
         break;
     }
-    case 6: // ties all along
+    case 6: // in directions with exact ties
         direction = wholeDirection(random, 1);
         origin = target - direction * edge * static_cast<float>(below(random, 2 * resolution));
         break;
@@ -194,7 +194,7 @@ StressRay aimedRay(Random& random, std::uint32_t resolution, const test::Codes& 
     case 10: // long and short directions
         direction *= std::exp2(uniform(random, -40.0F, 60.0F));
         break;
-    default: // from the middle of a voxel along ties
+    default: // from the middle of a voxel in directions with ties
         origin = 1.0F + edge * (voxel + 0.5F);
         direction = wholeDirection(random, 3);
         origin -= direction * edge * static_cast<float>(below(random, resolution));

@@ -47,10 +47,10 @@ LatticeTriangle TriangleMaker::triangle(Shape shape, const TriangleRoom& room, i
     return {};
 }
 
-// slim: covers a line of voxels only.
+// slim: the triangle covers only a line of voxels.
 LatticeTriangle TriangleMaker::huge(int resolution, bool slim)
 {
-    // Somewhere in the triangle lies a point of the grid.
+    // A point of the grid in the triangle.
     const glm::dvec3 inside = glm::dvec3(point(0, resolution * 256));
     const double reach = std::exp2(14 + 14.5 * fraction());
     const auto direction = [&](double size)
@@ -75,7 +75,7 @@ LatticeTriangle TriangleMaker::huge(int resolution, bool slim)
     return triangle;
 }
 
-// A cube of this size or less in room.
+// A cube of this size or less within room.
 TriangleRoom TriangleMaker::cube(const TriangleRoom& room, int size, glm::ivec3& corner)
 {
     const int edge = std::min(size, room.high - room.low);
@@ -125,7 +125,7 @@ LatticeTriangle TriangleMaker::needle(const TriangleRoom& room)
 
 LatticeTriangle TriangleMaker::tiny(const TriangleRoom& room)
 {
-    // Corners, middles of edges and faces, centres; and points of the diamonds in between.
+    // Corners, middles of edges and faces, centres, and points of the diamonds between them.
     const int step = oneIn(3) ? 64 : 128;
     const glm::ivec3 place = point(room.low / step, room.high / step) * step;
     const int size = pickSize(1, 400);
@@ -198,7 +198,7 @@ LatticeTriangle TriangleMaker::degenerate(const TriangleRoom& room)
     if (oneIn(5))
         along = glm::ivec3(0);
     LatticeTriangle triangle = {start, start + along * pick(-4, 4), start + along * pick(-4, 4)};
-    for (int k = 0; k < 3; ++k) // moved back as a whole: clamping would bend it
+    for (int k = 0; k < 3; ++k) // moved as a whole, because clamping would deform it
     {
         const auto [low, high] = std::minmax({triangle[0][k], triangle[1][k], triangle[2][k]});
         const int move = low < room.low ? room.low - low : std::min(0, room.high - high);
@@ -237,7 +237,7 @@ LatticeTriangle TriangleMaker::border(int resolution)
         for (glm::ivec3& p : triangle)
             p[axis] = face;
     }
-    if (oneIn(6)) // a slope that reaches a face at a column's centre
+    if (oneIn(6)) // a slope that meets a face at a column's centre
         triangle[0][axis] = end - 64 * pick(0, 8);
     return triangle;
 }
@@ -271,7 +271,7 @@ LatticeTriangle TriangleMaker::threshold(const TriangleRoom& room)
         std::swap(extent.x, extent.y);
     const auto size = [&](int columns) { return std::max(1, (columns - 1) * 256 + pick(-254, 254)); };
     glm::ivec2 edge = {size(extent.x), size(extent.y)};
-    if (oneIn(3)) // the end of 32-bit arithmetic
+    if (oneIn(3)) // at the limits of 32-bit arithmetic
         edge[pick(0, 1)] = std::min(8192 + pick(-1, 1), cells * 256);
     const int height = pick(0, std::min(edge.x, edge.y));
     const int axis = pick(0, 2);

@@ -12,17 +12,17 @@
 namespace zvo::stress
 {
 
-/// Where the points of a triangle may lie: low to high in lattice units, on all axes.
+/// The range of a triangle's points: low to high in lattice units, on all axes.
 struct TriangleRoom
 {
     int low = 0;
     int high = 0;
 };
 
-/// The nearest point whose coordinates single precision holds: 24 bits each.
+/// The nearest point whose coordinates single precision holds, in 24 bits each.
 glm::ivec3 representable(const glm::ivec3& p);
 
-/// Numbers, points and triangles, the same for the same seed.
+/// Makes numbers, points and triangles, which are the same for the same seed.
 class TriangleMaker
 {
 public:
@@ -36,17 +36,17 @@ public:
     }
     bool oneIn(int count) { return pick(1, count) == 1; }
     double fraction() { return static_cast<double>(m_random() >> 11) * 0x1p-53; }
-    /// Between low and high, as likely in each octave.
+    /// A size between low and high, all octaves being equally likely.
     int pickSize(int low, int high)
     {
         return static_cast<int>(low * std::exp2(fraction() * std::log2(static_cast<double>(high) / low)));
     }
     glm::ivec3 point(int low, int high) { return {pick(low, high), pick(low, high), pick(low, high)}; }
 
-    /// One of a shape in room; resolution: of the grid, beyond which some reach.
+    /// A triangle of a shape in room; some reach beyond the grid. resolution: of the grid.
     LatticeTriangle triangle(Shape shape, const TriangleRoom& room, int resolution);
 
-    /// slim: covers a line of voxels only.
+    /// slim: the triangle covers only a line of voxels.
     LatticeTriangle huge(int resolution, bool slim);
 
 private:
