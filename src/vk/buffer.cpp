@@ -20,7 +20,7 @@ constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BU
                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                       VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
-// Of the largest GPU_BUFFER in the shaders.
+// The alignment of the largest GPU_BUFFER in the shaders.
 constexpr VkDeviceSize kAddressAlignment = 16;
 
 constexpr VkMemoryPropertyFlags kHostMemory =

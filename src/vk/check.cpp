@@ -47,7 +47,7 @@ const char* resultName(VkResult result)
 
 void throwFailedCall(VkResult result, const char* call, const char* file, int line)
 {
-    // "m_device.fn().vkCreateBuffer(...)" is about vkCreateBuffer.
+    // For "m_device.fn().vkCreateBuffer(...)", the function is vkCreateBuffer.
     std::string_view function = call;
     const std::size_t start = function.find("vk");
     function.remove_prefix(start == std::string_view::npos ? 0 : start);

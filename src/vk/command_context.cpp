@@ -37,7 +37,8 @@ VkCommandBuffer CommandContext::begin()
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     VK_CHECK(fn.vkBeginCommandBuffer(m_commands, &info));
 
-    // Earlier work may be under way; and a fence says that it is done, not that this work sees its writes.
+    // The barrier is needed although earlier work may be complete: a fence does not make its writes visible to this
+    // work.
     VkMemoryBarrier2 memory{};
     memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
     memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -89,7 +90,7 @@ void CommandContext::wait()
     const VkResult result = fn.vkWaitForFences(m_device.handle(), 1, &m_fence, VK_TRUE, UINT64_MAX);
     if (result < 0)
     {
-        fn.vkDeviceWaitIdle(m_device.handle()); // what the work uses is about to be destroyed
+        fn.vkDeviceWaitIdle(m_device.handle()); // the resources of the work are about to be destroyed
         throwFailedCall(result, "vkWaitForFences", __FILE_NAME__, __LINE__);
     }
 }

@@ -14,7 +14,7 @@ namespace zvo::vk
 namespace
 {
 
-// The host may have chosen another queue family than query() would. Returns what it can do.
+// Enters the host's queue family, which may differ from that of query(), into report. Returns the family's flags.
 VkQueueFlags useQueueFamily(DeviceReport& report, const Functions& fn, std::uint32_t queue_family,
                             float timestamp_period_ns)
 {
@@ -112,7 +112,7 @@ void Device::takeDeclaration()
         const bool enabled = contains(declared, feature.name);
         if (!contains(m_report.present, feature.name))
         {
-            continue; // query() has said so
+            continue; // query() has already reported it
         }
         m_features[feature] = enabled ? VK_TRUE : VK_FALSE;
         if (enabled)
@@ -155,7 +155,7 @@ void Device::logText(LogSeverity severity, fmt::string_view format, fmt::format_
     }
     catch (...)
     {
-        // A message is not worth more than what it is about.
+        // A message that cannot be made is dropped, so that its cause does not fail.
     }
 }
 

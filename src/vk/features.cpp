@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where features stand in a host's chain of structs, and which chains Vulkan forbids (VkDeviceCreateInfo's valid
-// usage).
+// Finds features in a host's chain of structs, and chains that Vulkan forbids (valid usage of VkDeviceCreateInfo).
 #include "vk/features.h"
 
 #include <algorithm>
@@ -34,7 +33,7 @@ constexpr Feature kFeatures[] = {
     ZVO_FEATURE(Required, 12, bufferDeviceAddress, BufferDeviceAddress, BUFFER_DEVICE_ADDRESS),
     ZVO_FEATURE(Required, 12, scalarBlockLayout, ScalarBlockLayout, SCALAR_BLOCK_LAYOUT),
     ZVO_FEATURE(Required, 13, synchronization2, Synchronization2, SYNCHRONIZATION_2),
-    ZVO_FEATURE(Required, 13, maintenance4, Maintenance4, MAINTENANCE_4), // workgroup sizes by constants
+    ZVO_FEATURE(Required, 13, maintenance4, Maintenance4, MAINTENANCE_4), // for workgroup sizes by constants
     ZVO_FEATURE(Optional, 12, hostQueryReset, HostQueryReset, HOST_QUERY_RESET),
     ZVO_FEATURE(Optional, 13, subgroupSizeControl, SubgroupSizeControl, SUBGROUP_SIZE_CONTROL),
     ZVO_CORE_FEATURE(Noted, shaderInt16),
@@ -45,7 +44,7 @@ constexpr Feature kFeatures[] = {
 #undef ZVO_FEATURE
 #undef ZVO_CORE_FEATURE
 
-// A struct of features that a later version of Vulkan collects in a struct of its own: the two exclude each other.
+// A struct of features that a later version of Vulkan has in a larger struct. A chain may not have both.
 struct SingleStruct
 {
     VkStructureType type;
@@ -107,7 +106,7 @@ constexpr WholeStruct kWholeStructs[] = {
     {kVulkan13, "VkPhysicalDeviceVulkan13Features"},
 };
 
-// The struct of that type in a chain; null: there is none.
+// The struct of that type in a chain, or null.
 const VkBaseInStructure* find(const void* chain, VkStructureType type)
 {
     const auto* link = static_cast<const VkBaseInStructure*>(chain);
@@ -133,7 +132,7 @@ const VkBool32* memberAt(const void* base, std::size_t offset)
     return reinterpret_cast<const VkBool32*>(static_cast<const std::byte*>(base) + offset);
 }
 
-// Of a feature in a chain; null: no struct there has it.
+// The member for a feature in a chain, or null if no struct there has it.
 const VkBool32* memberIn(const void* chain, const Feature& feature)
 {
     if (const VkBaseInStructure* whole = find(chain, feature.whole))
@@ -199,7 +198,7 @@ bool wants(const OptionalFeatures& optional, const Feature& feature)
            (feature.name == "subgroupSizeControl" && optional.subgroup_sizes);
 }
 
-// Puts a struct of storage, with nothing enabled in it, in front of the chain.
+// Puts a struct of storage, with all features disabled, in front of the chain.
 template <typename Struct> void putInFront(VkDeviceCreateInfo& info, Struct& storage, VkStructureType type)
 {
     storage = {};
@@ -237,7 +236,7 @@ void enable(VkDeviceCreateInfo& info, FeatureStorage& storage, const Feature& fe
     if (feature.whole == kCore && info.pEnabledFeatures != nullptr)
     {
         member = memberIn(*info.pEnabledFeatures, feature);
-        if (*member == VK_FALSE) // what the host points to is its own
+        if (*member == VK_FALSE) // the host's struct may not be changed
         {
             storage.enabled = *info.pEnabledFeatures;
             info.pEnabledFeatures = &storage.enabled;
@@ -253,7 +252,7 @@ void enable(VkDeviceCreateInfo& info, FeatureStorage& storage, const Feature& fe
             member = memberIn(info.pNext, feature);
         }
     }
-    if (*member == VK_FALSE) // what is enabled already may stand in constant memory
+    if (*member == VK_FALSE) // an enabled one may be in constant memory, and needs no write
     {
         *const_cast<VkBool32*>(member) = VK_TRUE;
     }

@@ -17,9 +17,9 @@ namespace
 {
 
 constexpr std::uint64_t kWordBytes = 4;
-// Of fills and copies: what a slicer counts as one unit. Of updates: all that one command takes.
+// Bytes of a fill or copy that a slicer counts as one unit, and of an update the most that one command takes.
 constexpr std::uint64_t kPieceBytes = 64 << 10;
-constexpr std::uint64_t kFillKey = 1; // no kernel's address
+constexpr std::uint64_t kFillKey = 1; // cannot be the address of a kernel
 constexpr std::uint64_t kCopyKey = 2;
 constexpr std::uint64_t kUpdateKey = 3;
 constexpr std::uint64_t kRecordKey = 4;
@@ -97,7 +97,7 @@ void AnyPass::declare(const Buffer& buffer, Access access)
     {
         misuse(fmt::format("pass {} was already dispatched when buffer {} was declared", m_kernel.name, buffer.name()));
     }
-    if (buffer.handle() != VK_NULL_HANDLE) // an empty buffer has nothing to wait for
+    if (buffer.handle() != VK_NULL_HANDLE) // an empty buffer needs no barrier
     {
         m_accesses.push_back(accessOf(buffer, access));
     }
@@ -172,11 +172,11 @@ void AnyPass::dispatchIndirectRaw(const BufferOf<gpu::DispatchArgs>& args, std::
     m_graph.closePiece();
 }
 
-// whole: workgroups along x and y when all of them go into one piece; 0: exactly groups of them.
+// whole: workgroups along x and y, which are used if all go into one piece; 0: records exactly that many workgroups.
 void AnyPass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params,
                            std::size_t bytes)
 {
-    // Ranges smaller than this could start where no base reaches.
+    // A smaller range could begin where no base can be set.
     const std::uint64_t least = groups / m_graph.m_device.limits().maxComputeWorkGroupCount[1] + 1;
     m_graph.recordPieces(m_kernel.name, key(), groups, least,
                          [&](std::uint64_t first, std::uint64_t count)
@@ -195,8 +195,8 @@ void AnyPass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> wh
                          });
 }
 
-// One row of workgroups after the other, each at a base such that row * row length + column, which is how kernels
-// number their workgroups, is the number in the whole pass.
+// Records rows of workgroups. The base of each is such that row * row length + column, by which kernels number their
+// workgroups, is the number in the whole pass.
 void AnyPass::recordGroupRange(std::uint64_t first, std::uint64_t count)
 {
     const VkPhysicalDeviceLimits& limits = m_graph.m_device.limits();
@@ -206,7 +206,9 @@ void AnyPass::recordGroupRange(std::uint64_t first, std::uint64_t count)
     while (count != 0)
     {
         const std::uint64_t rows = (count + longest - 1) / longest;
-        const std::uint64_t x = (count + rows - 1) / rows; // about equal: no base reaches a short row far behind
+        const std::uint64_t x =
+            (count + rows - 1) /
+            rows; // rows have about equal length, since a short one far behind could not be reached by a base
         const std::uint64_t base_x = std::min(first, first % x + (max_x - x - first % x) / x * x);
         const std::uint64_t base_y = (first - base_x) / x;
         if (base_y >= limits.maxComputeWorkGroupCount[1])
@@ -218,7 +220,8 @@ void AnyPass::recordGroupRange(std::uint64_t first, std::uint64_t count)
         first += x;
         count -= x;
     }
-    // Nothing at base 0: lavapipe (of Mesa 22.3, for one) keeps the last base for later indirect dispatches.
+    // Resets the base by an empty dispatch: lavapipe (Mesa 22.3 at least) keeps the last one for later indirect
+    // dispatches.
     fn.vkCmdDispatchBase(m_graph.m_commands, 0, 0, 0, 0, 0, 0);
 }
 
@@ -345,8 +348,8 @@ void FrameGraph::declarePass(const std::string& name, std::span<const BufferAcce
     m_dump += '\n';
 }
 
-// Calls record for the pieces of a pass, in order and without a barrier between them: what they write, no other one
-// reads.
+// Calls record for the pieces of a pass in order. They have no barriers between them, as no piece reads what another
+// one writes.
 void FrameGraph::recordPieces(const std::string& name, std::uint64_t key, std::uint64_t units, std::uint64_t least,
                               const std::function<void(std::uint64_t first, std::uint64_t count)>& record)
 {
@@ -367,7 +370,7 @@ void FrameGraph::recordPieces(const std::string& name, std::uint64_t key, std::u
     }
 }
 
-// Workgroups of an indirect dispatch that is about to be recorded.
+// Reads the workgroup count of an indirect dispatch on the host before it is recorded.
 std::uint64_t FrameGraph::readGroups(const Buffer& args, std::uint64_t offset, Buffer& readback)
 {
     const BufferAccess accesses[] = {accessOf(args, Access::CopyRead), accessOf(readback, Access::CopyWrite)};

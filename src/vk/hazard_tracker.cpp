@@ -24,7 +24,7 @@ enum StageIndex
     kHost
 };
 
-// Indexed by StageIndex. Fills and copies are one stage here: fills have no stage bit of their own.
+// [StageIndex]. Fills and copies are one stage here, because fills have no stage bit.
 constexpr Stage kStages[] = {
     {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT},
     {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, 0, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT},
@@ -117,13 +117,13 @@ Barrier HazardTracker::next(std::span<const BufferAccess> accesses)
     for (const auto& [resource, use] : pass)
     {
         State& state = m_states[resource];
-        // The host reads after the device is done, so no pass of this graph can wait for it.
+        // The host reads after the device is done, so no pass of this graph waits for that.
         Mask reads = use.reads & ~bit(kHost);
         if (use.writes != 0)
         {
             state = {};
             state.writes.stages = use.writes;
-            reads &= ~use.writes; // whoever waits for the write waits for the same stage's read too
+            reads &= ~use.writes; // who waits for the write also waits for the same stage's read
         }
         state.reads.stages |= reads;
         for (int stage = 0; stage < kStageCount; ++stage)
@@ -134,7 +134,8 @@ Barrier HazardTracker::next(std::span<const BufferAccess> accesses)
     return barrier;
 }
 
-// Stages whose write is about to wait for a read that waited for the write in stage: that is enough.
+// Stages whose write will wait for a read that already waited for the write in `stage`. They need not wait for that
+// write.
 HazardTracker::StageMask HazardTracker::coveredByReads(const State& state, int stage)
 {
     StageMask covered = 0;
@@ -176,7 +177,7 @@ Barrier HazardTracker::record(StageMask from, StageMask to)
         {
             for (int stage = 0; stage < kStageCount; ++stage)
             {
-                // Barriers chain: a stage that already waits for the use passes that on.
+                // Barriers chain: a stage that waits for the use makes those that wait for it wait, too.
                 if (((bit(stage) | uses->before[stage]) & from) != 0)
                 {
                     uses->before[stage] |= to;

@@ -25,17 +25,17 @@ namespace zvo::vk
 namespace
 {
 
-// Of one transfer between host and device; longer ones go in turns. Bigger gains nothing: a turn costs tens of
-// microseconds.
+// Size of one transfer between host and device; larger ones are split. A larger size gains nothing, as a transfer costs
+// tens of microseconds.
 constexpr std::uint64_t kStagingBytes = 16ull << 20;
-constexpr std::uint64_t kStagingBytesMin = 64ull << 10; // where memory is short
+constexpr std::uint64_t kStagingBytesMin = 64ull << 10; // if memory is short
 
 bool has(const DeviceReport& report, std::string_view feature)
 {
     return std::ranges::find(report.present, feature) != report.present.end();
 }
 
-// For kernels in subgroups of a chosen size. Where the device cannot, Device says so.
+// Whether kernels take subgroups of a chosen size. If the device cannot, Device reports it.
 bool choosesSubgroupSize(const HeadlessOptions& options, const DeviceReport& report)
 {
     return options.overrides.subgroup_size != 0 && report.min_subgroup_size != 0;
@@ -96,7 +96,7 @@ public:
     [[nodiscard]] VkDevice handle() const { return m_handle; }
     [[nodiscard]] VkQueue queue() const { return m_queue; }
     [[nodiscard]] const Functions& fn() const { return m_functions; }
-    [[nodiscard]] const void* features() const { return m_features; } // the chain that it was created with
+    [[nodiscard]] const void* features() const { return m_features; } // the chain that the device was created with
     [[nodiscard]] const std::vector<std::string>& extensions() const { return m_extensions; }
 
 private:
@@ -105,7 +105,7 @@ private:
         return options.window ? std::vector{VK_KHR_SWAPCHAIN_EXTENSION_NAME} : std::vector<const char*>();
     }
 
-    // A device whose functions are not all there.
+    // Destroys a device some of whose functions are missing.
     static void destroyBare(const Instance& instance, VkDevice device)
     {
         const auto destroy = reinterpret_cast<PFN_vkDestroyDevice>(
@@ -113,7 +113,7 @@ private:
         destroy(device, nullptr);
     }
 
-    // What the validation layer's own code in the kernels needs.
+    // Enables what the validation layer's instrumentation in kernels needs.
     void enableForInstrumentation(const Instance& instance, const DeviceReport& report)
     {
         VkPhysicalDeviceFeatures2 present{};
@@ -134,7 +134,7 @@ private:
     Functions m_functions;
 };
 
-// Spreads a run over submissions that are waited for one by one, and measures them.
+// Splits a run into submissions that are waited for one by one, and measures them.
 class RunSlicer : public Slicer
 {
 public:
@@ -187,7 +187,7 @@ public:
     [[nodiscard]] std::uint32_t submissionCount() const { return m_submission_count; }
 
 private:
-    // A pass that goes on in the next submission is still one pass.
+    // A pass that continues in the next submission gives one time.
     void append(std::vector<PassTime>&& times)
     {
         auto first = times.begin();
@@ -203,7 +203,7 @@ private:
     SlicePlanner& m_planner;
     TimerPool& m_timers;
     Buffer& m_readback;
-    std::function<void()> m_pause; // between two submissions
+    std::function<void()> m_pause; // called between two submissions
     std::vector<PassTime> m_times;
     std::uint32_t m_submission_count = 0;
 };
@@ -218,7 +218,7 @@ void checkRange(const Buffer& buffer, std::uint64_t offset, std::uint64_t bytes)
     }
 }
 
-// Of a transfer of bytes, with room for what the transfer is about.
+// Staging bytes for a transfer of bytes, which leave room for its target.
 std::uint64_t stagingBytes(const Device& device, std::uint64_t bytes)
 {
     return std::min(bytes, std::clamp(device.memory().roomBytes() / 2, kStagingBytesMin, kStagingBytes));
@@ -290,7 +290,7 @@ struct HeadlessDevice::Impl
         pauseHere();
     }
 
-    // Where no command buffer is being recorded. What a pause does goes on without pauses.
+    // Calls the pause; no command buffer may be under recording. Work of the pause has no pauses itself.
     void pauseHere()
     {
         if (pause)
@@ -303,7 +303,7 @@ struct HeadlessDevice::Impl
         }
     }
 
-    // The flight that is free, or whose submission is the oldest.
+    // A free flight, or else the one with the oldest submission.
     Flight& nextFlight(std::size_t number)
     {
         if (number == flights.size())
@@ -323,15 +323,15 @@ struct HeadlessDevice::Impl
     CommandContext commands;
     TimerPool timers;
     Buffer readback;       // arguments of an indirect dispatch
-    Buffer pause_readback; // likewise, of what a pause runs
+    Buffer pause_readback; // the same for work of a pause
     SlicePlanner planner;
-    std::function<void()> pause;        // between submissions; empty: none
+    std::function<void()> pause;        // called between submissions; may be empty
     bool is_pausing = false;            // pause is being called
     std::uint32_t submission_count = 0; // of the last run
     std::uint32_t timer_capacity;
     std::size_t flights_max;
     std::size_t next_flight = 0;
-    std::vector<std::unique_ptr<Flight>> flights; // made when they are needed, used in turns
+    std::vector<std::unique_ptr<Flight>> flights; // made when needed, used in turns
 };
 
 std::vector<DeviceReport> queryAllDevices()

@@ -39,14 +39,14 @@ Image::Image(Device& device, std::string name, std::uint32_t width, std::uint32_
 
     VkMemoryRequirements requirements{};
     fn.vkGetImageMemoryRequirements(device.handle(), m_handle, &requirements);
-    // Buffers may lie in the same block of memory: the image gets pages of its own.
+    // The image gets pages of its own, as buffers may lie in the same block of memory.
     const std::uint64_t granularity = std::max<std::uint64_t>(1, device.limits().bufferImageGranularity);
     requirements.alignment = std::max(requirements.alignment, granularity);
     requirements.size = (requirements.size + granularity - 1) / granularity * granularity;
     m_memory = device.memory().allocate(requirements, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0, m_name.c_str());
     VK_CHECK(fn.vkBindImageMemory(device.handle(), m_handle, m_memory.memory, m_memory.offset));
 
-    // A view needs a usage that views are for; an image that is only copied has none.
+    // Views are only allowed with some usages. An image that is only copied has no view.
     constexpr VkImageUsageFlags kCopies = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if ((usage & ~kCopies) == 0)
     {

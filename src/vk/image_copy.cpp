@@ -37,7 +37,7 @@ void copyToImage(FrameGraph& graph, const Buffer& from, const ImageRegion& regio
     {
         return;
     }
-    VkBufferImageCopy copy{}; // rows without gaps
+    VkBufferImageCopy copy{}; // zeros: rows without gaps
     copy.imageSubresource = {region.aspect, region.mip_level, region.array_layer, 1};
     copy.imageOffset = {region.offset.x, region.offset.y, 0};
     copy.imageExtent = {region.extent.width, region.extent.height, 1};

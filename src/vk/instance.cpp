@@ -182,7 +182,7 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
     m_functions = ownerFunctions(get, m_handle);
     if (validation && m_functions.vkCreateDebugUtilsMessengerEXT(m_handle, &messenger, nullptr, &m_messenger) < 0)
     {
-        m_messenger = VK_NULL_HANDLE; // the messages still come through the one given to vkCreateInstance
+        m_messenger = VK_NULL_HANDLE; // messages still arrive through the one in vkCreateInstance
     }
 }
 

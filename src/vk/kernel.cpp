@@ -18,7 +18,7 @@ namespace zvo::vk
 namespace
 {
 
-// Push constants are a struct whose size is a multiple of four where C++ agrees with the shader about it.
+// Push constants whose layout C++ and the shader share have a size that is a multiple of four.
 constexpr std::uint32_t kPushConstantUnit = 4;
 
 void checkSpecialization(const EmbeddedKernel& kernel, const KernelInterface& interface,
@@ -121,7 +121,7 @@ const Kernel& KernelCache::get(std::string_view name, const Specialization& spec
         return known->second;
     }
     const EmbeddedKernel& embedded = find(name);
-    Kernel& kernel = m_kernels[std::move(key)]; // the cache destroys what it holds, complete or not
+    Kernel& kernel = m_kernels[std::move(key)]; // the cache destroys its kernels, incomplete ones too
     try
     {
         create(embedded, specialization, kernel);
@@ -171,7 +171,7 @@ void KernelCache::replace(std::string_view name, std::vector<std::uint32_t> word
     }
     for (std::size_t i = 0; i < made.size(); ++i)
     {
-        std::swap(*targets[i], made[i]); // references to it stay valid
+        std::swap(*targets[i], made[i]); // references to the kernel stay valid
     }
     m_replaced.insert(m_replaced.end(), made.begin(), made.end());
     std::vector<std::uint32_t>& kept = m_modules[std::string(name)];

@@ -16,7 +16,7 @@ namespace
 
 constexpr std::string_view kNoConstant = "no other constant";
 
-// "wide_keys" is kWideKeys.
+// The shader's name of a constant: "wide_keys" becomes kWideKeys.
 std::string shaderName(std::string_view name)
 {
     std::string result = "k";

@@ -33,7 +33,7 @@ struct MemoryAllocator::Block
     MemoryRange taken{};
     std::uint32_t memory_type = 0;
     std::uint64_t bytes = 0;
-    FreeRanges free; // bytes, as offsets in the VkDeviceMemory: alignments are about these
+    FreeRanges free; // in bytes, from the beginning of the VkDeviceMemory, to which alignments refer
 
     [[nodiscard]] bool unused() const { return free.total() == bytes; }
 };
@@ -95,7 +95,7 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
 {
     const std::uint64_t size = requirements.size;
     const Wish wish = {size, std::max<std::uint64_t>(1, requirements.alignment), required, preferred, what};
-    // Types with the preferred properties first, then those that merely suffice.
+    // Tries types with the preferred properties first, then those with only the required ones.
     for (const VkMemoryPropertyFlags wanted : {required | preferred, required})
     {
         for (std::uint32_t type = 0; type < m_properties.memoryTypeCount; ++type)
@@ -110,7 +110,7 @@ MemoryBlock MemoryAllocator::allocate(const VkMemoryRequirements& requirements, 
             {
                 if ((required & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) == 0)
                 {
-                    block.mapped = nullptr; // it happens to be visible, but the caller may not count on it
+                    block.mapped = nullptr; // the caller did not ask for visible memory, and must not rely on it
                 }
                 m_used_bytes += size;
                 m_peak_bytes = std::max(m_peak_bytes, m_used_bytes);
@@ -144,7 +144,7 @@ bool MemoryAllocator::allocateFrom(std::uint32_t type, const Wish& wish, MemoryB
 {
     result.memory_type = type;
     result.bytes = wish.size;
-    if (wish.size > m_block_bytes / 2) // so that a block never ends half empty because of one of these
+    if (wish.size > m_block_bytes / 2) // large requests get memory of their own, so that no block ends half empty
     {
         if (!takeMemory(type, wish.size, wish, result.taken))
         {
@@ -162,7 +162,7 @@ bool MemoryAllocator::allocateFrom(std::uint32_t type, const Wish& wish, MemoryB
             return true;
         }
     }
-    // A new block; where memory is short, one that just suffices.
+    // A new block, which is only as large as the request if memory is short.
     Wish of_block = wish;
     of_block.name = kBlockName;
     for (const std::uint64_t bytes : {m_block_bytes, wish.size})
@@ -206,7 +206,7 @@ bool MemoryAllocator::takeFrom(std::uint32_t index, std::uint64_t alignment, Mem
     return true;
 }
 
-// Of a request to the host whole granules: what lies beside it may be of another kind.
+// A request to the host takes whole granules, because its neighbour may be of another kind.
 std::uint64_t MemoryAllocator::heldSize(std::uint64_t size) const
 {
     return m_device.handles().memory.allocate != nullptr ? roundUp(size, m_granularity) : size;
@@ -370,7 +370,7 @@ void MemoryAllocator::release(const MemoryBlock& range) noexcept
     {
         return;
     }
-    // One unused block of a type stays, so that allocating and releasing in turn does not reach the driver every time.
+    // Keeps one unused block of each type, so that alternating allocations and releases do not reach the driver.
     const bool another = std::any_of(m_blocks.begin(), m_blocks.end(),
                                      [&](const std::unique_ptr<Block>& other) {
                                          return other && other.get() != &block && other->unused() &&

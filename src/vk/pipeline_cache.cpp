@@ -23,8 +23,8 @@ namespace
 
 constexpr char kMagic[8] = {'z', 'v', 'o', 'p', 'i', 'p', 'e', '1'};
 
-// In front of the driver's data. The driver's own header says whose the data are, this one whether they are whole: not
-// every driver survives damaged data.
+// Stands in front of the driver's data. The driver's header identifies the device; this one detects damaged data, which
+// some drivers do not survive.
 struct FileHeader
 {
     char magic[8];
@@ -32,7 +32,7 @@ struct FileHeader
     std::uint64_t hash;
 };
 
-// FNV-1a (Fowler, Noll, Vo).
+// FNV-1a hash (Fowler, Noll, Vo).
 std::uint64_t hashOf(const std::vector<char>& data)
 {
     constexpr std::uint64_t kOffsetBasis = 14695981039346656037ull;
@@ -101,12 +101,12 @@ PipelineCacheFile::~PipelineCacheFile()
     }
     catch (...)
     {
-        // The next run compiles again; that is all.
+        // Without a cache, only the next run takes longer.
     }
     m_functions.vkDestroyPipelineCache(m_device, m_handle, nullptr);
 }
 
-// Written beside the file and then renamed, so that a reader never sees half of it.
+// Writes beside the file and renames, so that a reader never sees an incomplete file.
 void PipelineCacheFile::save() const
 {
     std::size_t bytes = 0;

@@ -229,7 +229,7 @@ DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance 
     }
     else
     {
-        // Structs that an older driver does not know stay zero, so that it is said to lack what is in them.
+        // Structs that an older driver does not know stay zero, so that their features are reported as missing.
         vk::queryFeatures(report, fn);
         vk::queryProperties(report, fn);
     }

@@ -18,7 +18,7 @@ namespace zvo::vk
 void RecordedUploads::flush()
 {
     assert(m_copies.empty() || m_graph != nullptr);
-    while (!m_copies.empty()) // each leaves the list first, so that none is recorded without what it copies
+    while (!m_copies.empty()) // a copy leaves the list first, so that a failure leaves none without its staging buffer
     {
         Copy copy = std::move(m_copies.front());
         m_copies.pop_front();

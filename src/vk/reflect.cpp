@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads what the host must know of a kernel from its SPIR-V (Khronos SPIR-V specification 1.6, section 2.3).
+// Reflects a kernel's SPIR-V (Khronos SPIR-V specification 1.6, section 2.3).
 #include "vk/kernel.h"
 
 #include "zvo/error.h"
@@ -39,7 +39,7 @@ struct Member
     throw Error(ErrorCode::Other, "the SPIR-V module is not a kernel: " + what);
 }
 
-// The declarations of a module that matter here, by result id.
+// The declarations of a module that are needed here, by result id.
 class Module
 {
 public:
@@ -80,7 +80,7 @@ public:
         {
             result.constants.push_back(specializationConstant(id, spec_id));
         }
-        // A specialized local size stands in the module twice, once without a name if it has one at all.
+        // A specialized local size appears twice in the module; if it has a name, one of them lacks it.
         std::vector<ModuleConstant>& constants = result.constants;
         std::ranges::sort(constants, [](const ModuleConstant& a, const ModuleConstant& b)
                           { return a.id != b.id ? a.id < b.id : a.name > b.name; });
@@ -102,7 +102,7 @@ private:
     struct Declaration
     {
         spv::Op op{};
-        std::span<const std::uint32_t> operands; // without the result id; constants: the type, then the values
+        std::span<const std::uint32_t> operands; // without the result id; for constants: the type, then the values
     };
 
     void visit(spv::Op op, std::span<const std::uint32_t> operands)
@@ -224,7 +224,7 @@ private:
 
     void readLocalSize(KernelInterface& result) const
     {
-        // The WorkgroupSize built-in overrules the execution mode where a module has both.
+        // The WorkgroupSize built-in takes precedence over the execution mode.
         std::span<const std::uint32_t> sizes = m_local_size;
         bool by_id = m_local_size_by_id;
         const auto built_in = m_constants.find(m_workgroup_size);
@@ -258,7 +258,7 @@ private:
         return found->second;
     }
 
-    // The type that id's declaration names at index, or its number there.
+    // The operand at index of id's declaration.
     [[nodiscard]] std::uint32_t operand(std::uint32_t id, std::size_t index) const
     {
         const Declaration& found = declaration(id);
@@ -281,7 +281,7 @@ private:
 
     [[nodiscard]] std::uint32_t pointee(std::uint32_t pointer_type) const { return operand(pointer_type, 1); }
 
-    // Strings are UTF-8, four bytes a word, first byte lowest, ended by a zero byte.
+    // Decodes a string: UTF-8, four bytes a word, first byte lowest, zero-terminated.
     [[nodiscard]] std::string name(std::uint32_t id) const
     {
         std::string result;
@@ -332,7 +332,7 @@ private:
         return result;
     }
 
-    // Size with tail padding and alignment, by the rules of the scalar layout, which are those of C++.
+    // Size with tail padding, and alignment, by the rules of the scalar layout, which equal those of C++.
     [[nodiscard]] Layout layout(std::uint32_t type, const Member* member, int nesting) const
     {
         if (nesting > kMaxNesting)
@@ -415,7 +415,7 @@ private:
     std::uint32_t m_entry_points = 0;
     std::span<const std::uint32_t> m_local_size;
     bool m_local_size_by_id = false;
-    std::uint32_t m_workgroup_size = 0;            // id of the constant that is the built-in, 0: none
+    std::uint32_t m_workgroup_size = 0;            // id of the constant with the built-in; 0: none
     std::optional<std::uint32_t> m_push_constants; // type of the pointer to the block
     std::map<std::uint32_t, Declaration> m_declarations;
     std::map<std::uint32_t, std::span<const std::uint32_t>> m_constants;

@@ -10,7 +10,8 @@ namespace zvo::vk
 namespace
 {
 
-// A kernel's cost changes with the data: cheap work makes what is remembered fall slowly.
+// The least part of a remembered cost that a cheaper measurement leaves. It falls slowly, as a kernel's cost changes
+// with the data.
 constexpr double kForgetting = 0.7;
 
 constexpr double kUnitsMax = 4e18; // fits 64 bits
@@ -24,7 +25,7 @@ std::uint64_t wholeUnits(double units)
 
 void SlicePlanner::beginRun()
 {
-    m_pieces.clear(); // of a run that threw
+    m_pieces.clear(); // a run that threw may have left some
     m_planned_ms = 0;
     m_units = 0;
     for (auto& [key, rate] : m_rates)
@@ -40,7 +41,7 @@ double SlicePlanner::unitCost(const Rate& rate) const
                                 : m_options.submission_ms / static_cast<double>(kCaution * kFirstUnits);
 }
 
-// Units that may wait for one measurement.
+// Units that may be admitted before the next measurement.
 std::uint64_t SlicePlanner::cautious(const Rate& rate) const
 {
     const std::uint64_t first =
@@ -71,7 +72,7 @@ std::uint64_t SlicePlanner::admit(Key key, std::uint64_t units)
         const std::uint64_t cautious_units = cautious(rate);
         const std::uint64_t wanted = std::min(units, cautious_units);
         const std::uint64_t unmeasured = cautious_units - std::min(cautious_units, rate.admitted);
-        // Small remainders of a submission are not worth a piece.
+        // The rest of a submission gets no small piece.
         admitted = m_pieces.empty() ? std::clamp<std::uint64_t>(in_time, 1, wanted)
                                     : (std::min(in_time, unmeasured) >= wanted ? wanted : 0);
     }
@@ -111,7 +112,7 @@ void SlicePlanner::learnCount(Key key, std::uint64_t bound, std::uint64_t units)
     Rate& rate = m_rates[key];
     if (!rate.part_known)
     {
-        rate.ms_per_unit = 0; // was measured by the bound
+        rate.ms_per_unit = 0; // the rate was measured by the bound, not by the count
     }
     rate.part_known = true;
     rate.part_of_bound = static_cast<double>(std::max<std::uint64_t>(units, 1)) /

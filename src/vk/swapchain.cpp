@@ -16,8 +16,8 @@ namespace zvo::vk
 namespace
 {
 
-constexpr std::uint64_t kAcquireNs = 1'000'000'000; // a window system that takes longer has no image for this frame
-constexpr std::uint32_t kNoExtent = UINT32_MAX;     // the window takes the size of its images
+constexpr std::uint64_t kAcquireNs = 1'000'000'000; // after this time the frame gets no image
+constexpr std::uint32_t kNoExtent = UINT32_MAX;     // the surface takes the size of its images
 
 VkSemaphore makeSemaphore(Device& device, const char* name)
 {
@@ -74,7 +74,7 @@ VkCompositeAlphaFlagBitsKHR compositeAlpha(const VkSurfaceCapabilitiesKHR& capab
 
 } // namespace
 
-// One VkSwapchainKHR with its images.
+// A VkSwapchainKHR with its images.
 struct Swapchain::Chain
 {
     explicit Chain(Device& owner) : device(owner) {}
@@ -106,7 +106,7 @@ struct Swapchain::Chain
     VkSwapchainKHR handle = VK_NULL_HANDLE;
     VkExtent2D extent{};
     std::vector<VkImage> images;
-    std::vector<VkSemaphore> presentable; // one for each image: free again when the image is
+    std::vector<VkSemaphore> presentable; // [image] free again when the image is
 };
 
 bool encodesSrgb(VkFormat format)
@@ -119,7 +119,7 @@ bool encodesSrgb(VkFormat format)
 std::optional<VkSurfaceFormatKHR> chooseSurfaceFormat(std::span<const VkSurfaceFormatKHR> formats,
                                                       const std::function<bool(VkFormat)>& takes_blits)
 {
-    // Lower is better.
+    // The lowest rank is the best.
     const auto rank = [](const VkSurfaceFormatKHR& format)
     {
         constexpr VkFormat kPlain[] = {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM,
@@ -131,7 +131,7 @@ std::optional<VkSurfaceFormatKHR> chooseSurfaceFormat(std::span<const VkSurfaceF
     std::optional<VkSurfaceFormatKHR> best;
     for (VkSurfaceFormatKHR format : formats)
     {
-        // Old drivers say so where they take any.
+        // Old drivers report UNDEFINED if any format is allowed.
         format.format = format.format == VK_FORMAT_UNDEFINED ? VK_FORMAT_B8G8R8A8_UNORM : format.format;
         if (takes_blits(format.format) && (!best || rank(format) < rank(*best)))
         {
@@ -196,7 +196,7 @@ void Swapchain::makeSurface()
     chooseFormat();
 }
 
-// The next acquire() makes another surface.
+// Drops the surface; the next acquire() makes another one.
 void Swapchain::loseSurface()
 {
     Device& device = m_device.device();
@@ -254,7 +254,7 @@ VkPresentModeKHR Swapchain::presentMode()
     return vulkanMode(m_mode);
 }
 
-// Images for a window of that many pixels. Leaves m_chain empty where the window has none at the moment.
+// Makes images for a window of that size in pixels. Leaves m_chain empty if the window has none at the moment.
 VkResult Swapchain::make(VkExtent2D framebuffer)
 {
     Device& device = m_device.device();
@@ -277,7 +277,7 @@ VkResult Swapchain::make(VkExtent2D framebuffer)
     {
         return VK_ERROR_OUT_OF_DATE_KHR;
     }
-    // The old one is retired whether or not there is a new one.
+    // The old swapchain is retired even if making the new one fails.
     VkSwapchainKHR old = VK_NULL_HANDLE;
     if (m_chain != nullptr)
     {
@@ -339,7 +339,7 @@ VkResult Swapchain::tryAcquire(VkExtent2D framebuffer, std::uint64_t frame, std:
                                                               VK_NULL_HANDLE, &index);
     if (result == VK_SUCCESS || result == VK_SUBOPTIMAL_KHR)
     {
-        m_is_stale = m_is_stale || result == VK_SUBOPTIMAL_KHR; // this frame still fits
+        m_is_stale = m_is_stale || result == VK_SUBOPTIMAL_KHR; // the images still fit this frame
         image = SwapchainImage{index, m_chain->images[index], m_chain->extent, available, m_chain->presentable[index]};
     }
     return result;
@@ -347,7 +347,7 @@ VkResult Swapchain::tryAcquire(VkExtent2D framebuffer, std::uint64_t frame, std:
 
 std::optional<SwapchainImage> Swapchain::acquire(VkExtent2D framebuffer, std::uint64_t frame)
 {
-    constexpr int kAttempts = 3; // a window that is being resized may be out of date at once
+    constexpr int kAttempts = 3; // a window that is being resized can be out of date again at once
     m_deletion_queue.beginFrame(frame);
     std::optional<SwapchainImage> image;
     if (framebuffer.width == 0 || framebuffer.height == 0)

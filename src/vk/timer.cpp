@@ -50,8 +50,8 @@ void TimerPool::reset()
     m_open = false;
 }
 
-// Both stamps are taken when everything recorded before them is complete: the difference is the pass's own time, even
-// where passes would overlap.
+// Both timestamps are taken when everything recorded before them is complete. So the difference is the pass's own time,
+// even if passes could overlap.
 void TimerPool::begin(VkCommandBuffer commands, const std::string& name)
 {
     if (m_names.size() == m_pass_capacity)
@@ -63,8 +63,8 @@ void TimerPool::begin(VkCommandBuffer commands, const std::string& name)
     m_names.push_back(name);
     m_open = true;
     m_device.fn().vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_pool, query);
-    // Where something was drawn before, lavapipe takes a stamp only when another command is waited for: it would see
-    // the end of the pass. A stamp that nobody looks at is such a command.
+    // After draws, lavapipe takes a timestamp only when it waits for a later command, which would be the end of the
+    // pass. A second timestamp, which nobody reads, is such a command.
     if (m_stamp_count == 3)
     {
         m_device.fn().vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_pool, query + 2);
