@@ -13,7 +13,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::size_t kMessageMax = 4096; // bytes; nothing is allocated for what may be a lack of memory
+constexpr std::size_t kMessageMax = 4096; // bytes; fixed, because memory may be what was lacking
 
 std::array<char, kMessageMax>& lastMessage()
 {
@@ -21,7 +21,7 @@ std::array<char, kMessageMax>& lastMessage()
     return message;
 }
 
-// Functions of the C++ interface that call a host's functions in C. user: the ZvoContext.
+// The C++ callbacks, which call the host's functions in C. user: the ZvoContext.
 
 void logInC(void* user, LogSeverity severity, const char* message)
 {

@@ -57,7 +57,7 @@ ZVO_SAME(ZVO_ALPHA_MODE_BLEND, AlphaMode::Blend);
 #undef ZVO_SAME
 static_assert(ZVO_NO_TEXTURE == kNoTexture);
 
-// Elements of To, of which each is a few of From.
+// A span of To over an array of From; each To consists of a few From.
 template <typename To, typename From> std::span<const To> spanOf(const From* first, std::size_t count, const char* name)
 {
     static_assert(sizeof(To) % sizeof(From) == 0 && alignof(To) == alignof(From));

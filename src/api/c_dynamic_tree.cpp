@@ -19,7 +19,7 @@ Mat4 matrixOf(const float* values)
     return result;
 }
 
-// What a function of a DynamicTree returns, after all pointers were looked at.
+// Checks all pointers, then calls work and stores its answer.
 template <typename Work>
 ZvoResult answered(const char* function, ZvoDynamicTree* tree, VkBool32* answer, const Work& work)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C interface: models, trees, and how they are made.
+// The C interface: models, trees, and the jobs that make them.
 #include "api/c_convert.h"
 #include "api/c_handles.h"
 #include "api/c_struct.h"
@@ -17,7 +17,7 @@ VkBool32 boolean(bool value)
     return value ? VK_TRUE : VK_FALSE;
 }
 
-// TreeBuild and TreeCompression have the same steps.
+// TreeBuild and TreeCompression share these functions.
 
 template <typename Job> ZvoResult record(const char* function, Job* job, ZvoRecorder* recorder, VkBool32* has_more)
 {

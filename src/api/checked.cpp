@@ -15,7 +15,7 @@ namespace zvo
 namespace
 {
 
-// Buffers, and memory, for each of them.
+// Each frame in flight has its own buffers and memory.
 constexpr std::uint32_t kFramesInFlightMax = 16;
 
 template <typename Values> bool areFinite(const Values& values)
@@ -146,7 +146,7 @@ const TraceInfo& checked(const TraceInfo& info)
     checkedAmount(info.occlusion_reach, "TraceInfo::occlusion_reach");
     checkedAmount(info.detail_pixels, "TraceInfo::detail_pixels");
     const glm::dvec3 direction = glm::normalize(toGlm(info.to_sun));
-    if (info.view == View::Color && !(std::abs(glm::length(direction) - 1) < 0.5)) // NaN, 0: of none
+    if (info.view == View::Color && !(std::abs(glm::length(direction) - 1) < 0.5)) // also for NaN and 0
     {
         throw Error(ErrorCode::Usage, fmt::format("TraceInfo::to_sun is ({}, {}, {}): that is no direction",
                                                   info.to_sun[0], info.to_sun[1], info.to_sun[2]));

@@ -14,7 +14,7 @@ namespace zvo
 namespace
 {
 
-// Where zvo's work on its own resources takes place.
+// The stages of zvo's work on its own resources.
 constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
                                           VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
 
@@ -32,7 +32,7 @@ void recordBarrier(const vk::Device& device, VkCommandBuffer commands, const VkM
     device.fn().vkCmdPipelineBarrier2(commands, &info);
 }
 
-// Of which none runs a shader. Those of extensions that zvo does not know may.
+// The stages that run no shader. A stage of an extension that zvo does not know may run some.
 constexpr VkPipelineStageFlags2 kStagesWithoutShaders =
     VK_PIPELINE_STAGE_2_TOP_OF_PIPE_BIT | VK_PIPELINE_STAGE_2_BOTTOM_OF_PIPE_BIT |
     VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT |
@@ -41,7 +41,7 @@ constexpr VkPipelineStageFlags2 kStagesWithoutShaders =
     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_RESOLVE_BIT |
     VK_PIPELINE_STAGE_2_BLIT_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_HOST_BIT;
 
-// Three timestamps each, at the most, whose number has 32 bits.
+// Each takes up to three timestamps, whose number must fit 32 bits.
 constexpr std::uint32_t kTimedPassesMax = 1U << 16;
 
 const ContextInfo& checked(const ContextInfo& info)
@@ -92,7 +92,7 @@ Context::Impl::Impl(const ContextInfo& info)
 {
 }
 
-// What goes with it goes at once: no frame is under way.
+// No frame is under way, so waiting objects are destroyed at once.
 Context::Impl::~Impl()
 {
     frames.clear();
@@ -172,7 +172,7 @@ void Context::frameDone(std::uint64_t frame)
         {
             impl.takeTimes(*state);
         }
-        catch (...) // what the device is done with is given back all the same
+        catch (...) // the frame's memory is given back all the same
         {
             failure = failure ? failure : std::current_exception();
         }
@@ -193,7 +193,7 @@ void Context::frameLost(std::uint64_t frame)
     }
     if (impl.frames.empty() || frame > impl.frames.back()->number)
     {
-        return; // it never began
+        return; // the frame never began
     }
     if (impl.was_lost || frame != impl.frames.back()->number)
     {
@@ -209,7 +209,7 @@ void Context::frameLost(std::uint64_t frame)
     }
     const std::uint64_t number = state.number;
     impl.frames.pop_back();
-    if (impl.frames.empty()) // nothing is under way
+    if (impl.frames.empty()) // no frame is under way
     {
         impl.deletion_queue.frameDone(number);
     }

@@ -50,7 +50,7 @@ DynamicTree::Impl::Impl(Recorder::Impl& recorder, Tree&& fixed, const DynamicTre
     }
     catch (const Error& error)
     {
-        if (error.code() != ErrorCode::Usage) // else nothing was taken
+        if (error.code() != ErrorCode::Usage) // with Usage, the tree was not taken
         {
             fixed.release();
         }
@@ -88,7 +88,7 @@ void DynamicTree::Impl::learn()
     {
         if (made.made_in->is_lost)
         {
-            octree->remove(made.object); // what its vertices are was not uploaded
+            octree->remove(made.object); // the upload of its vertices was lost
         }
     }
     std::erase_if(new_objects, [](const NewObject& made) { return made.made_in->is_lost || made.made_in->is_done; });
@@ -136,7 +136,7 @@ DynamicObjectId DynamicTree::addObject(Recorder& recorder, const Model& model, c
     const Model::Impl& model_impl = usable(model);
     requireSame(impl.context, model_impl.context);
     const auto& mesh = model_impl.mesh;
-    Pose pose = poseOf(*mesh, to_world); // looks at to_world before anything is recorded
+    Pose pose = poseOf(*mesh, to_world); // checks to_world before anything is recorded
     impl.enter(recorder.impl());
     const DynamicObjectId object =
         recording(recorder, [&](Recorder::Impl&) { return impl.octree->add(mesh, std::move(pose)); });

@@ -75,7 +75,7 @@ Material materialOf(const MaterialInfo& info, std::size_t texture_count, std::si
 Primitive primitiveOf(const MeshInfo& info, std::size_t material_count, std::size_t number)
 {
     const std::size_t vertex_count = info.positions.size();
-    if (std::max(vertex_count, info.triangles.size()) > UINT32_MAX) // and none of them is looked at
+    if (std::max(vertex_count, info.triangles.size()) > UINT32_MAX) // checked before any element is read
     {
         throw Error(ErrorCode::Input, fmt::format("a model cannot be uploaded: mesh {} has more than 2^32 - 1 vertices "
                                                   "or triangles",

@@ -25,10 +25,10 @@ namespace
 
 constexpr std::uint32_t kEdgeMax = 16384; // pixels
 
-// Above it, a direction counts as vertical.
+// A direction with a larger vertical component counts as vertical.
 constexpr double kVertical = 0.999999;
 
-// Sine of the angle between forward and up: with less, rounding would decide where up is.
+// Least sine of the angle between forward and up. Below it, rounding would decide the camera's up direction.
 constexpr double kSlantMin = 1e-9;
 
 std::uint32_t checkedEdge(std::uint32_t edge)
@@ -163,7 +163,7 @@ struct ZVO_LOCAL Tracer::Impl
     Context::Impl& context;
     std::unique_ptr<TreeTracer> tracer;
     std::shared_ptr<FrameState> frame = nullptr; // of the last picture
-    vk::BufferOf<float> depths = {};             // none until depth is asked for
+    vk::BufferOf<float> depths = {};             // empty until depth is requested
 };
 
 CameraInfo CameraInfo::lookAt(const DVec3& eye, const DVec3& target, double vertical_fov)

@@ -28,7 +28,7 @@ BuildOptions optionsOf(const TreeBuildInfo& info)
     return options;
 }
 
-// Jobs that make a tree, one behind the other, and a last step that writes the table by which shaders find it.
+// A sequence of jobs that make a tree, and a last step that writes the table by which shaders find it.
 class TreeJob : public StepJob
 {
 public:
@@ -58,7 +58,7 @@ public:
             m_is_published = true;
             return;
         }
-        if (!m_part->isDone()) // as that of an empty octree is from the start
+        if (!m_part->isDone()) // the part of an empty octree is done from the start
         {
             m_part->resume(std::move(passes));
         }
@@ -85,7 +85,7 @@ protected:
     void setTree(DeviceTree&& tree) { m_tree = std::make_unique<Tree::Impl>(context, std::move(tree)); }
 
 private:
-    // The part is done: begins another one, or sets the tree.
+    // Called when a part is done: begins the next one, or sets the tree.
     virtual void endPart() = 0;
 
     StepJob* m_part = nullptr;
@@ -128,11 +128,11 @@ struct ZVO_LOCAL TreeBuild::Impl final : TreeJob
         }
     }
 
-    std::shared_ptr<const DynamicMesh> mesh; // what builder reads
+    std::shared_ptr<const DynamicMesh> mesh; // the builder reads it
     AttributeFormat format;
     std::unique_ptr<OctreeBuilder> builder;
     BuildResult built;
-    std::unique_ptr<TreePacker> packer; // of built; null: that is not there yet
+    std::unique_ptr<TreePacker> packer; // of `built`; null until that is there
     std::map<std::string, std::uint64_t> dropped;
 };
 
@@ -194,12 +194,12 @@ struct ZVO_LOCAL TreeCompression::Impl final : TreeJob
     ~Impl() override
     {
         context.deleteLater(std::move(builder));
-        source.reset(); // it deletes what it has later
+        source.reset(); // it deletes its buffers later
     }
 
     void endPart() override { setTree(builder->take().dag); }
 
-    std::unique_ptr<Tree::Impl> source; // what is left of the octree
+    std::unique_ptr<Tree::Impl> source; // the rest of the octree
     std::unique_ptr<SvdagBuilder> builder;
 };
 
