@@ -22,8 +22,8 @@ namespace zvo
 namespace
 {
 
-/// One temporary file for a signal handler to remove. The path is written while the state is Filling and read while it
-/// is Pending.
+/// A temporary file that a signal handler should remove. The path is written in the state Filling and read in the state
+/// Pending.
 struct PendingFile
 {
     enum State : int
@@ -36,13 +36,13 @@ struct PendingFile
     std::atomic<int> state{Free};
     std::array<char, PATH_MAX> path{};
 };
-static_assert(std::atomic<int>::is_always_lock_free); // or a signal handler could not use it
+static_assert(std::atomic<int>::is_always_lock_free); // so that a signal handler may use it
 
-constexpr int kPendingFileCapacity =
-    16; // files written at the same time; more are written, but not removed on a signal
+// Files written at the same time. Further ones are written, but not removed on a signal.
+constexpr int kPendingFileCapacity = 16;
 std::array<PendingFile, kPendingFileCapacity> g_pending_files;
 
-/// The slot taken, or -1 when there is none or the path is too long for it.
+/// Returns the slot taken, or -1 if there is none or the path is too long.
 int addPendingFile(const std::string& path)
 {
     if (path.size() >= PATH_MAX)
@@ -82,14 +82,14 @@ Error existsError(const std::filesystem::path& target)
     return {ErrorCode::Output, fmt::format("{} exists already; use -f to overwrite it", target.string())};
 }
 
-/// Unlike any other file's of this process, and hidden; short, as the target's name may have the longest length.
+/// A hidden name, unique in this process. It is short, because the target's name may already have the longest length.
 std::filesystem::path temporaryBeside(const std::filesystem::path& target)
 {
     static std::atomic<unsigned> next{0};
     return target.parent_path() / fmt::format(".zvo-{}-{}.tmp", ::getpid(), next++);
 }
 
-/// Renames without replacing, where the file system can; otherwise after looking.
+/// Renames without replacing. If the file system cannot do that in one step, it checks first.
 int renameIfAbsent(const char* from, const char* to)
 {
     if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0)
@@ -107,7 +107,7 @@ int renameIfAbsent(const char* from, const char* to)
     return ::rename(from, to) == 0 ? 0 : errno;
 }
 
-/// Brings the directory's entry to disk. Not every file system can; the file itself is there already.
+/// Syncs the directory's entry. Not every file system can, but the file itself is synced already.
 void syncDirectory(const std::filesystem::path& directory)
 {
     const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -134,7 +134,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, Overwrite overwrite)
         }
         return;
     }
-    // Absolute, so that a later change of the working directory does not matter; real, so that a link stays a link.
+    // Absolute, because the working directory may change; with links resolved, so that a link stays a link.
     std::error_code failure;
     m_target = std::filesystem::weakly_canonical(std::filesystem::absolute(target, failure), failure);
     if (failure)

@@ -27,7 +27,7 @@ std::string childPath(std::string_view where, std::string_view key)
     return where.empty() ? std::string(key) : fmt::format("{}.{}", where, key);
 }
 
-/// Follows a parser through a document.
+/// Tracks the parser's position in a document.
 class ParserWatch
 {
 public:
@@ -67,8 +67,8 @@ private:
     struct Level
     {
         bool is_array = false;
-        std::size_t item_count = 0; // begun
-        std::string key;            // the last one
+        std::size_t item_count = 0; // items begun so far
+        std::string key;            // last key
         std::set<std::string> keys;
     };
 
@@ -99,7 +99,7 @@ bool isPlain(const json& value)
     return !value.is_structured();
 }
 
-/// What a message shows of a value.
+/// The text of a value in a message.
 std::string shown(const json& value)
 {
     if (value.is_object())
@@ -135,7 +135,7 @@ json parseJsonStrictly(std::string_view text, const std::filesystem::path& file)
     }
     catch (const json::exception& failure)
     {
-        // The message opens with "[json.exception...] ", which helps nobody.
+        // Skips the "[json.exception...] " at the message's beginning.
         const std::string message = failure.what();
         const std::size_t start = message.find("] ");
         throw inputError(file,
@@ -306,7 +306,7 @@ glm::dvec3 JsonCursor::direction() const
     {
         throw mismatch("three numbers [x, y, z], not all 0");
     }
-    return glm::normalize(v / longest); // squares of very small numbers would be 0
+    return glm::normalize(v / longest); // divided first, as squares of very small numbers would be 0
 }
 
 } // namespace zvo

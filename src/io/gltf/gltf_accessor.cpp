@@ -16,7 +16,7 @@ namespace zvo
 namespace
 {
 
-/// Bytes of a component; 0 for what the specification does not know.
+/// Bytes of a component; 0 if the specification does not know the type.
 std::size_t componentBytes(int component_type)
 {
     switch (component_type)
@@ -35,7 +35,7 @@ std::size_t componentBytes(int component_type)
     }
 }
 
-/// Components of an element; 0 for the smaller matrices, which nothing in a scene has.
+/// Components of an element; 0 for small matrices, which scenes do not use.
 std::uint32_t componentCount(int type)
 {
     switch (type)
@@ -111,7 +111,7 @@ template <typename Component> std::vector<float> readNumbersAs(const GltfAccesso
     return numbers;
 }
 
-/// read(Component{}) for the type of the accessor's components.
+/// Calls read(Component{}) with the type of the accessor's components.
 template <typename Read> auto withComponent(const GltfAccessor& accessor, const Read& read)
 {
     switch (accessor.component_type)
@@ -143,7 +143,7 @@ template <typename Component> std::vector<std::uint32_t> readIndicesAs(const Glt
     return indices;
 }
 
-/// Elements in a buffer view as a document describes them.
+/// A range of elements in a buffer view.
 struct ElementRange
 {
     int buffer_view = -1;
@@ -153,7 +153,7 @@ struct ElementRange
     std::size_t stride_bytes = 0;
 };
 
-/// The first element. Throws where not all of them lie in the view.
+/// The first element. Throws if some of them lie outside of the view.
 const std::uint8_t* locate(const GltfDocument& document, const ElementRange& range, const std::string& where)
 {
     if (range.stride_bytes < range.element_bytes)
@@ -162,7 +162,7 @@ const std::uint8_t* locate(const GltfDocument& document, const ElementRange& ran
                                          range.stride_bytes, kExportAgain));
     }
     const std::span<const std::uint8_t> view = document.bufferView(range.buffer_view);
-    // count elements fit when the last one does; written so that nothing overflows.
+    // count elements fit if the last one does; written so that nothing overflows.
     const std::size_t available = view.size() - std::min(range.offset_bytes, view.size());
     const bool fits = range.count == 0 || (available >= range.element_bytes &&
                                            range.count - 1 <= (available - range.element_bytes) / range.stride_bytes);
@@ -176,7 +176,7 @@ const std::uint8_t* locate(const GltfDocument& document, const ElementRange& ran
     return view.data() + range.offset_bytes;
 }
 
-/// The accessor's elements one behind the other in its own storage, zeros where it has no buffer view.
+/// Copies the accessor's elements into its own storage, or zeros if it has no buffer view.
 void copyElements(const GltfDocument& document, GltfAccessor& accessor)
 {
     const std::size_t element_bytes = elementBytes(accessor);
@@ -195,7 +195,7 @@ void copyElements(const GltfDocument& document, GltfAccessor& accessor)
     accessor.stride_bytes = element_bytes;
 }
 
-/// Puts the values of a sparse accessor in their places.
+/// Writes the values of a sparse accessor over the others.
 void applySparse(const GltfDocument& document, const tinygltf::Accessor& source, GltfAccessor& accessor)
 {
     const auto& sparse = source.sparse;
@@ -225,7 +225,7 @@ void applySparse(const GltfDocument& document, const tinygltf::Accessor& source,
     const std::uint8_t* value =
         locate(document, {sparse.values.bufferView, values_offset, count, element_bytes, element_bytes},
                accessor.where + ".sparse.values");
-    std::size_t next = 0; // the smallest index that may come
+    std::size_t next = 0; // the least allowed index
     for (const std::uint32_t index : readIndices(indices))
     {
         if (index < next || index >= accessor.count)

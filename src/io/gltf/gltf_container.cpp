@@ -22,7 +22,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian and is read by copying");
 
-constexpr int kJsonDepthMax = 256; // nesting that some recursive function still stands
+constexpr int kJsonDepthMax = 256; // nesting that all recursive functions can handle
 
 // Binary glTF: a header of magic, version, length; then chunks of length, type and data.
 constexpr std::string_view kGlbMagic = "glTF";
@@ -92,7 +92,7 @@ GltfContainer splitGlb(Bytes file, const std::filesystem::path& path)
     return container;
 }
 
-/// How deep arrays and objects are nested in JSON text.
+/// The depth of nested arrays and objects in JSON text.
 int nestingDepth(std::string_view text)
 {
     int depth = 0;
@@ -103,7 +103,7 @@ int nestingDepth(std::string_view text)
         const char character = text[i];
         if (in_string && character == '\\')
         {
-            ++i; // what is escaped, perhaps a quote
+            ++i; // skips the escaped character, which may be a quote
         }
         else if (character == '"')
         {
@@ -140,7 +140,7 @@ json parseGltfJson(std::string_view text, const std::filesystem::path& path)
     }
     catch (const json::exception& failure)
     {
-        // The message opens with "[json.exception...] ", which helps nobody.
+        // Skips the "[json.exception...] " at the message's beginning.
         const std::string message = failure.what();
         const std::size_t start = message.find("] ");
         throw gltfError(path, fmt::format("not a glTF file: {}; check that it is glTF 2.0 (.gltf or .glb)",

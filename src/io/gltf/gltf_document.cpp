@@ -30,8 +30,8 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::uint64_t kUnpackedFreeBytes = std::uint64_t{1} << 30U;
 constexpr std::uint64_t kUnpackedBytesPerByte = 128; // twice what a vertex codec reaches on equal vertices
 
-/// The parts of the document that tinygltf sees. Buffers and images, whose sizes and files it does not check well
-/// enough, are read here, and animations, of which it refuses some that may be there; extras are not needed.
+/// The parts of the document that tinygltf reads. Buffers and images are read here, because it does not check their
+/// sizes and files enough, and animations, because it refuses some that are allowed. Extras are not needed.
 constexpr std::array kModelParts = {
     "asset",     "extensionsUsed", "extensionsRequired", "scene",       "scenes",   "nodes",  "meshes",
     "accessors", "materials",      "textures",           "bufferViews", "samplers", "cameras"};
@@ -45,8 +45,8 @@ constexpr std::array<std::string_view, 7> kSupportedExtensions = {"EXT_meshopt_c
                                                                   "KHR_mesh_quantization",
                                                                   "KHR_texture_transform"};
 
-/// Extensions without which the same surfaces have the same base colour and emission: how they scatter light, lights
-/// beside the surfaces, alternatives that nobody chose, data about the file.
+/// Extensions that do not change surfaces, base colour or emission: scattering of light, lights, alternatives that are
+/// not chosen, data about the file.
 constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
     "KHR_animation_pointer",      "KHR_lights_punctual",      "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",    "KHR_materials_dispersion", "KHR_materials_ior",
@@ -88,8 +88,8 @@ void checkExtensions(const json& document, const std::filesystem::path& path)
     }
 }
 
-/// Takes the indices out of all primitives, in their order: tinygltf refuses a document with indices whose accessor has
-/// no buffer view, as sparse and packed ones may.
+/// Takes the indices out of all primitives, in order. tinygltf refuses a document whose indices have an accessor
+/// without a buffer view, which sparse and packed ones may have.
 std::vector<int> takeIndices(json& document)
 {
     std::vector<int> taken;
@@ -105,7 +105,7 @@ std::vector<int> takeIndices(json& document)
     return taken;
 }
 
-/// Puts them back. False where tinygltf has left out a primitive.
+/// Puts the indices back. Returns false if tinygltf has left out a primitive.
 bool putIndices(tinygltf::Model& model, const std::vector<int>& taken)
 {
     std::size_t next = 0;
@@ -150,7 +150,7 @@ tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
 
 void loadBuffers(GltfDocument& document, const json& root, Bytes bin)
 {
-    std::map<std::string, Bytes> files; // by path: many buffers may lie in one file
+    std::map<std::string, Bytes> files; // by path; several buffers may share a file
     const json& buffers = gltfItems(root, "buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i)
     {
@@ -262,7 +262,7 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
     {
         throw error(fmt::format("{} has a zero byte in it; {}", where, kExportAgain));
     }
-    // Some exporters write names as they are, without percent-encoding.
+    // Some exporters write names without percent-encoding.
     std::error_code unreadable;
     const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
     const bool as_written =

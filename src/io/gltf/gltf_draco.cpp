@@ -17,9 +17,9 @@ namespace
 {
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
-constexpr std::uint16_t kVersion = DRACO_BITSTREAM_VERSION(2, 2); // the one that the extension allows
+constexpr std::uint16_t kVersion = DRACO_BITSTREAM_VERSION(2, 2); // the only one that the extension allows
 
-// What the decoders allocate, about.
+// Approximate allocations of the decoders.
 constexpr std::uint64_t kFaceBytes = 64;          // corners and their neighbours
 constexpr std::uint64_t kVertexBytes = 16;        // corner tables
 constexpr std::uint64_t kFaceAttributeBytes = 40; // seams of an attribute
@@ -33,7 +33,7 @@ struct Counts
     std::uint8_t attributes = 0; // with connectivity of their own
 };
 
-/// What a mesh announces in front of its connectivity.
+/// Reads the counts that precede a mesh's connectivity.
 bool peek(draco::DecoderBuffer buffer, draco::MeshEncoderMethod method, Counts& counts)
 {
     if (method == draco::MESH_SEQUENTIAL_ENCODING)
@@ -46,7 +46,7 @@ bool peek(draco::DecoderBuffer buffer, draco::MeshEncoderMethod method, Counts& 
            draco::DecodeVarint(&counts.split_vertices, &buffer);
 }
 
-/// A decoder that knows what it will need before it allocates anything: Draco's own believe whatever the data says.
+/// A decoder that checks the memory it will need before it allocates any. Draco's decoders trust the data.
 template <typename Decoder, draco::MeshEncoderMethod kMethod> class BoundedDecoder final : public Decoder
 {
 public:
@@ -69,7 +69,7 @@ protected:
     bool DecodeAllAttributes() override
     {
         const draco::PointCloud& points = *this->point_cloud();
-        std::uint64_t bytes = 0; // of a point; a number of 64 bits at most a component, 255 components at most
+        std::uint64_t bytes = 0; // of a point; a component takes at most 64 bits, and there are at most 255
         for (std::int32_t i = 0; i < points.num_attributes(); ++i)
         {
             bytes += kPointBytes + static_cast<std::uint64_t>(points.attribute(i)->byte_stride());
@@ -83,7 +83,7 @@ private:
     const std::string& m_where;
 };
 
-/// Null where the data does not decode.
+/// Returns null if the data does not decode.
 std::unique_ptr<draco::Mesh> decodeMesh(const GltfDocument& document, std::span<const std::uint8_t> data,
                                         const std::string& where)
 {
@@ -113,13 +113,13 @@ std::unique_ptr<draco::Mesh> decodeMesh(const GltfDocument& document, std::span<
     {
         return decoder && decoder->Decode(options, &buffer, mesh.get()).ok() ? std::move(mesh) : nullptr;
     }
-    catch (const std::length_error&) // of a vector, for a count that no memory holds
+    catch (const std::length_error&) // thrown by vectors if a count exceeds all memory
     {
         return nullptr;
     }
 }
 
-/// The values of all points, one behind the other. False where a value has no place in an accessor of that type.
+/// Copies the values of all points in sequence. Returns false if a value does not fit the component type.
 template <typename Component>
 bool copyValues(const draco::PointAttribute& source, std::uint32_t point_count, std::vector<std::uint8_t>& bytes)
 {
@@ -193,7 +193,8 @@ std::optional<GltfDracoMesh> GltfDracoMesh::unpack(const GltfDocument& document,
         throw document.error(
             fmt::format("{} stands for indices, but {}.indices is missing; {}", place, where, kExportAgain));
     }
-    // A list has all of them; a strip may have lost triangles without area, and gltf_size counts one for each index.
+    // A list must have all faces. A strip may have lost triangles without area; gltf_size counts one face for each
+    // index.
     const std::size_t face_count = unpacked.m_mesh->num_faces();
     const std::size_t index_count = document.model.accessors[primitive.indices].count;
     const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;

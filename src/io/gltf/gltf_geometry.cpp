@@ -35,8 +35,8 @@ constexpr std::initializer_list<int> kIndexTypes = {TINYGLTF_COMPONENT_TYPE_UNSI
                                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
                                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT};
 
-/// Makes the sum of a vertex's weights 1 and lets joints of weight 0, which may name anything, repeat one that counts.
-/// Returns false where no weights make sense: the vertex follows joint 0.
+/// Normalizes a vertex's weights to the sum 1. Joints of weight 0, whose indices may be invalid, become copies of one
+/// that counts. Returns false if no weight is usable; the vertex then follows joint 0.
 bool normalizeWeights(glm::u16vec4& joints, glm::vec4& weights)
 {
     double sum = 0.0;
@@ -108,7 +108,7 @@ public:
     }
 
 private:
-    /// The accessor of an attribute, nothing where there is none.
+    /// The accessor of an attribute, or nothing if there is none.
     std::optional<GltfAccessor> open(const std::string& attribute, std::initializer_list<int> component_types,
                                      std::uint32_t component_count_min, std::uint32_t component_count_max) const
     {
@@ -159,7 +159,7 @@ private:
         return readVectors<3>(*open("POSITION", quantized() ? kFloatOrShort : kFloat, 3, 3));
     }
 
-    /// Normals of unit length; one that has no direction becomes zero.
+    /// Unit normals; a normal without direction becomes zero.
     std::vector<glm::vec3> readNormals() const
     {
         const auto accessor = open("NORMAL", quantized() ? kFloatOrShort : kFloat, 3, 3);
@@ -207,7 +207,7 @@ private:
         return uvs;
     }
 
-    /// Colours with alpha, 1 where it is missing. Whole numbers are normalized whether or not the file says so.
+    /// Colours with alpha, which is 1 if missing. Integers are normalized even if the file does not say so.
     std::vector<glm::vec4> readColors() const
     {
         auto accessor = open("COLOR_0", kFloatOrUnsigned, 3, 4);
@@ -229,7 +229,7 @@ private:
         return colors;
     }
 
-    /// Joints and weights, neither where one of them is missing.
+    /// Reads joints and weights, or neither if one of them is missing.
     void readJoints(Primitive& primitive) const
     {
         auto joints = open("JOINTS_0", kJointTypes, 4, 4);
@@ -251,7 +251,7 @@ private:
         {
             primitive.joints.emplace_back(vertex);
         }
-        weights->normalized = true; // whole numbers are, whether or not the file says so
+        weights->normalized = true; // integers are normalized even if the file does not say so
         primitive.weights = readVectors<4>(*weights);
         bool all_valid = true;
         for (std::size_t i = 0; i < m_vertex_count; ++i)
@@ -288,7 +288,7 @@ private:
         return target;
     }
 
-    /// What a morph target adds; 0 for what is not finite, as even a weight of 0 would not hide it.
+    /// The deltas of a morph target. Those that are not finite become 0, as even a weight of 0 would not hide them.
     std::vector<glm::vec3> readDeltas(int index, const std::string& attribute, const std::string& where) const
     {
         GltfAccessor accessor = openAccessor(m_document, index, attribute + " of " + where);
@@ -371,7 +371,7 @@ private:
     const tinygltf::Primitive& m_source;
     std::string m_where; // "meshes[0].primitives[1]"
     GltfWarnings& m_warnings;
-    std::optional<GltfDracoMesh> m_draco; // where the primitive is packed
+    std::optional<GltfDracoMesh> m_draco; // present if the primitive is packed
     std::size_t m_vertex_count = 0;
 };
 

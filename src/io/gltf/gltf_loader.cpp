@@ -63,7 +63,7 @@ public:
     }
 
 private:
-    /// Instances of all primitives of mesh. common: what they share; where: the node.
+    /// Adds instances of all primitives of mesh. common: the members that they share; where: the node.
     void addInstances(int mesh, const Instance& common, const std::string& where)
     {
         auto known = m_mesh_primitives.find(mesh);
@@ -95,7 +95,7 @@ private:
         }
     }
 
-    /// Whether a primitive of the scene can hang on a skin.
+    /// Whether a primitive of the scene can use a skin.
     bool fits(std::uint32_t skin, std::uint32_t primitive, const std::string& where)
     {
         if (skin == kNone)
@@ -136,7 +136,7 @@ private:
         return added;
     }
 
-    /// The joints that a skin must have: one more than the largest index.
+    /// The least number of joints of a skin: one more than the largest index.
     static std::size_t jointCount(const Primitive& primitive)
     {
         std::size_t count = 0;
@@ -157,7 +157,7 @@ private:
         camera.orthographic = source.type == "orthographic";
         if (camera.orthographic)
         {
-            // A negative magnification mirrors the picture, which no exporter means.
+            // Exporters do not mean the mirroring that a negative magnification gives.
             camera.half_height = static_cast<float>(std::abs(source.orthographic.ymag));
         }
         else

@@ -17,7 +17,7 @@ namespace
 
 constexpr const char* kSpecularGlossinessName = "KHR_materials_pbrSpecularGlossiness";
 
-/// A factor in single precision: from 0 on and finite.
+/// Converts a factor to single precision; it must be finite and at least 0.
 float toFactor(const GltfDocument& document, double value, const std::string& where)
 {
     if (value < 0.0 || value > static_cast<double>(std::numeric_limits<float>::max()))
@@ -71,8 +71,8 @@ double emissiveStrength(const tinygltf::Material& material)
     return extension->second.Get("emissiveStrength").GetNumberAsDouble();
 }
 
-/// The base colour of KHR_materials_pbrSpecularGlossiness, which stands instead of the metallic-roughness one: its
-/// diffuse colour. Metals, whose colour is all specular, become dark.
+/// Takes the diffuse colour of KHR_materials_pbrSpecularGlossiness as the base colour. Metals, which have only a
+/// specular colour, become dark.
 void useSpecularGlossiness(tinygltf::Material& material)
 {
     const auto extension = material.extensions.find(kSpecularGlossinessName);
@@ -102,7 +102,7 @@ void useSpecularGlossiness(tinygltf::Material& material)
     material.pbrMetallicRoughness = diffuse;
 }
 
-/// The image of a texture, -1 where it has none that is read.
+/// The image of a texture, or -1 if it has none that can be read.
 int imageOf(const tinygltf::Texture& texture)
 {
     const auto extension = texture.extensions.find("EXT_texture_webp");
@@ -120,8 +120,8 @@ glm::dvec2 toVec2(const tinygltf::Value& value, const std::string& name, double 
     return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
 }
 
-/// The texture coordinates that a texture reads. The rotation turns the coordinates counter-clockwise when v points up,
-/// that is, clockwise in (u, v): KHR_texture_transform as its examples and its test model have it.
+/// The texture coordinates that a texture reads. The rotation is counter-clockwise when v points up, so it is clockwise
+/// in (u, v), as in the examples and the test model of KHR_texture_transform.
 GltfUvSource uvSource(const tinygltf::TextureInfo& info)
 {
     GltfUvSource source;
@@ -241,7 +241,7 @@ std::uint32_t GltfMaterials::image(int index)
     }
     const GltfImageSource& source = m_document.images[index];
     const std::string property = fmt::format("images[{}]", index);
-    std::vector<std::uint8_t> storage; // of what does not lie in a buffer
+    std::vector<std::uint8_t> storage; // for data outside of the buffers
     std::span<const std::uint8_t> encoded;
     if (source.buffer_view >= 0)
     {

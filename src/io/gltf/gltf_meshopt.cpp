@@ -18,8 +18,8 @@ namespace
 using nlohmann::json;
 
 constexpr std::uint64_t kVertexStrideMax = 256;
-// The vertex codec spends at least two bits on 16 equal bytes: no data unpacks to more. The index codecs check that
-// they have at least a byte a triangle or index themselves, before they write.
+// The vertex codec spends at least two bits on 16 equal bytes, so no data unpacks to more. The index codecs check,
+// before they write, that they have at least a byte for each triangle or index.
 constexpr std::uint64_t kVertexBytesPerByteMax = 64;
 
 struct PackedView
@@ -32,7 +32,7 @@ struct PackedView
     std::string where; // "bufferViews[2].extensions.EXT_meshopt_compression"
 };
 
-/// The extension of a view or buffer, null where it has none.
+/// The extension of a view or buffer, or null.
 const json* extensionOf(const json& item)
 {
     const auto extensions = item.find("extensions");
@@ -52,7 +52,7 @@ void require(bool condition, const GltfDocument& document, const PackedView& vie
     }
 }
 
-/// What the extension asks of sizes, so that the decoders can rely on it.
+/// Checks the sizes that the extension requires, on which the decoders rely.
 void checkSizes(const GltfDocument& document, const PackedView& view, std::uint64_t unpacked_bytes)
 {
     const std::uint64_t stride = view.stride_bytes;
@@ -84,7 +84,7 @@ void checkSizes(const GltfDocument& document, const PackedView& view, std::uint6
             fmt::format("has the filter {}, which does not go with {} of {} bytes", view.filter, view.mode, stride));
 }
 
-/// False where data is malformed.
+/// Returns false if data is malformed.
 bool decode(const PackedView& view, std::vector<std::uint8_t>& unpacked)
 {
     const auto count = static_cast<std::size_t>(view.count);

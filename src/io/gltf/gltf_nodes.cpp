@@ -43,7 +43,7 @@ glm::dmat4 localMatrix(const GltfDocument& document, int index)
     return withAffineRow(matrix);
 }
 
-/// The parent of each node. Throws for a node with two, and for a cycle.
+/// The parent of each node. Throws if a node has two, or is part of a cycle.
 std::vector<std::optional<int>> findParents(const GltfDocument& document)
 {
     const std::vector<tinygltf::Node>& nodes = document.model.nodes;
@@ -60,7 +60,7 @@ std::vector<std::optional<int>> findParents(const GltfDocument& document)
             parents[child] = node;
         }
     }
-    // With one parent at most, a node that no walk from a root reaches hangs on a cycle.
+    // Since nodes have at most one parent, a node that cannot be reached from a root belongs to a cycle.
     std::vector<int> reached;
     for (int node = 0; node < static_cast<int>(nodes.size()); ++node)
     {
@@ -110,7 +110,7 @@ std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
     const std::vector<tinygltf::Node>& nodes = document.model.nodes;
     const std::vector<int> roots = findRoots(document, findParents(document));
     std::vector<GltfPlacedNode> placed;
-    std::vector<GltfPlacedNode> open; // the next one last; to_world is that of the parent
+    std::vector<GltfPlacedNode> open; // the last one is visited next; to_world is its parent's
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
     {
         open.push_back({*root, kNone, glm::dmat4(1.0)});

@@ -49,7 +49,7 @@ std::optional<Interpolation> toInterpolation(const std::string& interpolation)
     return found != kInterpolations.end() ? std::optional(found->second) : std::nullopt;
 }
 
-/// Whether glTF lets an accessor be the values of that path.
+/// Whether glTF allows the accessor's type for values of that path.
 bool fitsPath(const GltfAccessor& values, ChannelPath path)
 {
     const bool may_be_whole = path == ChannelPath::Rotation || path == ChannelPath::Weights;
@@ -59,8 +59,8 @@ bool fitsPath(const GltfAccessor& values, ChannelPath path)
            (may_be_whole || !is_whole);
 }
 
-/// Reads the key frames of channel, whose other members are set; numbers_per_key: of a value. Returns what is wrong
-/// with them, nothing where they can be used.
+/// Reads the key frames of channel, whose other members are set. numbers_per_key: components of a value. Returns the
+/// fault, or "" if they can be used.
 std::string readKeys(const GltfDocument& document, const GltfChannelSource& source, std::size_t numbers_per_key,
                      const std::string& where, Channel& channel)
 {
@@ -72,13 +72,13 @@ std::string readKeys(const GltfDocument& document, const GltfChannelSource& sour
         return "its times or values have a type that glTF does not allow there";
     }
     const std::size_t tangents = channel.interpolation == Interpolation::CubicSpline ? 3 : 1;
-    // Divided, as the product may leave 64 bits.
+    // Division is used because the product may exceed 64 bits.
     const std::size_t number_count = values.count * values.component_count;
     if (times.count == 0 || number_count % times.count != 0 || number_count / times.count != tangents * numbers_per_key)
     {
         return "it does not have a value for each time";
     }
-    values.normalized = true; // whole numbers are, whether or not the file says so
+    values.normalized = true; // integers are normalized even if the file does not say so
     channel.times = readNumbers(times);
     channel.values = readNumbers(values);
     if (!allFinite(channel.times) || channel.times.front() < 0.0F ||
@@ -188,7 +188,7 @@ std::uint32_t GltfRig::loadSkin(int skin)
     return static_cast<std::uint32_t>(m_scene.skins.size() - 1);
 }
 
-/// One for each joint; nothing where they cannot be used.
+/// One matrix for each joint; empty if they cannot be used.
 std::vector<glm::mat4> GltfRig::readInverseBind(const GltfSkinSource& source, const std::string& where)
 {
     if (source.inverse_bind < 0)
@@ -264,7 +264,7 @@ std::vector<Channel> GltfRig::readChannels(const GltfAnimationSource& source, co
         channel.interpolation = *interpolation;
         if (channel.node == kNone)
         {
-            continue; // of a scene that is not shown
+            continue; // belongs to a scene that is not shown
         }
         const Node& node = m_scene.nodes[channel.node];
         const bool is_weights = *path == ChannelPath::Weights;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// After the JSON schema of the glTF 2.0 specification (Khronos Group, 2021), as far as the loader reads the document.
+// Follows the JSON schema of the glTF 2.0 specification (Khronos Group, 2021), for the parts that the loader reads.
 #include "io/gltf/gltf_schema.h"
 
 #include "io/gltf/gltf_document.h"
@@ -31,7 +31,7 @@ enum class Kind
     Whole,      // whole number from 0 on
     Enumerator, // whole number that fits a signed 32-bit one
     Number,
-    Numbers, // array of `count` numbers; of any number of them where that is 0
+    Numbers, // array of `count` numbers, or of any number of them if that is 0
     Text,
     Texts, // array of strings
     Flag,

@@ -15,7 +15,7 @@ namespace zvo
 namespace
 {
 
-/// Elements of an accessor; 0 where it is not given, or its buffer view cannot hold that many, which is refused later.
+/// Elements of an accessor. 0 if there is none, or if its buffer view cannot hold that many; that is refused later.
 double elementCount(const tinygltf::Model& model, int index)
 {
     if (index < 0)
@@ -63,7 +63,7 @@ SceneSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
     return size;
 }
 
-/// Bytes of a node, and of what a pose (core/scene/animation.h) has for its instances.
+/// Bytes of a node, and of the pose (core/scene/animation.h) of its instances.
 double nodeBytes(const GltfDocument& document, const tinygltf::Node& node)
 {
     double bytes = sizeof(Node);
@@ -88,7 +88,7 @@ double skinBytes(const GltfDocument& document)
     return bytes;
 }
 
-/// Channels have their key frames each, also where they share them in the file.
+/// Each channel has its own key frames, even if the file shares them.
 double animationBytes(const GltfDocument& document)
 {
     double bytes = 0;

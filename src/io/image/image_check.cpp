@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// After ISO/IEC 10918-1 (JPEG), annex B, and the PNG specification (W3C, second edition, 2003).
+// Follows ISO/IEC 10918-1 (JPEG), annex B, and the PNG specification (W3C, second edition, 2003).
 #include "io/image/image_check.h"
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::uint64_t kDeflateRatioMax = 1032;     // bytes that a byte of deflate becomes at most
-constexpr std::uint64_t kJpegPixelsPerByteMax = 512; // every 8 x 8 pixels take a bit or more
+constexpr std::uint64_t kDeflateRatioMax = 1032;     // most bytes that a byte of deflate can become
+constexpr std::uint64_t kJpegPixelsPerByteMax = 512; // every 8 x 8 pixels take at least a bit
 constexpr std::uint32_t kScansMax = 500;             // the most thorough encoders write about ten
 
-// JPEG: a marker is kMark and a code.
+// A JPEG marker is kMark and a code.
 constexpr std::uint8_t kMark = 255;
 constexpr std::uint8_t kStuffing = 0; // after kMark in pixel data: the byte kMark
 constexpr std::uint8_t kRestart0 = 208;
@@ -51,7 +51,7 @@ std::uint32_t readBigEndian(Bytes bytes, std::size_t at, std::size_t count)
     return value;
 }
 
-/// Bits of a pixel by the colour type and depth of a PNG's header; 0 where there is no header.
+/// Bits of a pixel for the colour type and depth in a PNG's header; 0 if there is no header.
 std::uint64_t pngPixelBits(Bytes png)
 {
     for (std::size_t at = kPngSignature.size(); at + kChunkFrameBytes + kPngHeaderBytes <= png.size();)
@@ -68,8 +68,8 @@ std::uint64_t pngPixelBits(Bytes png)
     return 0;
 }
 
-/// The Huffman tables of a segment: for each a byte of class and number, the count of symbols of each length, the
-/// symbols.
+/// Checks the Huffman tables of a segment. Each has a byte of class and number, the count of symbols of each length,
+/// and the symbols.
 bool areTablesValid(Bytes segment)
 {
     while (!segment.empty())
@@ -119,7 +119,7 @@ std::string findImageFault(Bytes encoded)
             break;
         }
         const std::size_t segment_bytes = std::min<std::size_t>(readBigEndian(encoded, at, 2), encoded.size() - at);
-        if (segment_bytes < 2) // with the length itself
+        if (segment_bytes < 2) // the length includes itself
         {
             return "a segment has no length";
         }
@@ -143,7 +143,7 @@ ImageCost estimateImageCost(Bytes encoded, std::uint32_t width, std::uint32_t he
     ImageCost cost;
     if (isTextAt(encoded, 0, kPngSignature))
     {
-        cost.raw_bytes = (1 + (width * pngPixelBits(encoded) + 7) / 8) * height; // a filter byte opens each row
+        cost.raw_bytes = (1 + (width * pngPixelBits(encoded) + 7) / 8) * height; // each row begins with a filter byte
         cost.plausible = cost.raw_bytes / kDeflateRatioMax <= encoded.size();
     }
     else

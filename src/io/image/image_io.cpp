@@ -15,10 +15,10 @@
 namespace
 {
 
-/// The most that the decoder may take at a time, so that a small file which unfolds without end is stopped.
+/// The most bytes of one allocation of the decoder. It stops small files that unpack without end.
 thread_local std::size_t t_decoder_bytes_max = 0;
 
-/// Zeros: where a file leaves pixels out, they are the same on every run.
+/// The memory is zero, so that pixels missing in a file are the same on every run.
 void* decoderAllocate(std::size_t bytes)
 {
     return bytes <= t_decoder_bytes_max ? std::calloc(bytes, 1) : nullptr;
@@ -31,7 +31,7 @@ void* decoderReallocate(void* old, std::size_t bytes)
 
 } // namespace
 
-// stb as static functions: a program that links zvo may bring its own.
+// stb's functions are static, because a program that links zvo may have its own.
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 #define STBI_ONLY_PNG
@@ -67,7 +67,7 @@ Error imageError(const std::string& where, const std::string& what)
     return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
 }
 
-// Throws for a picture that is too large, or takes more than bytes_max bytes decoded.
+// Throws if a picture is too large, or takes more than bytes_max bytes decoded.
 void checkSize(int width, int height, std::uint64_t bytes_max, const std::string& where)
 {
     if (std::max(width, height) > static_cast<int>(kImageEdgeMax))
@@ -155,7 +155,7 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
                                width, height, encoded.size()));
     }
     const std::size_t rgba_bytes = std::size_t{static_cast<std::uint32_t>(width)} * height * kChannels;
-    // Twice: the decoder doubles what turns out too small.
+    // The factor 2 allows the decoder to double a buffer that is too small.
     t_decoder_bytes_max = kDecoderBytesMin + 2 * (encoded.size() + std::max<std::size_t>(cost.raw_bytes, rgba_bytes));
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels, kChannels));

@@ -16,7 +16,7 @@ namespace zvo
 namespace
 {
 
-/// Bytes in memory as assimp reads them.
+/// A file in memory, for assimp.
 class MemoryStream final : public Assimp::IOStream
 {
 public:
@@ -54,7 +54,7 @@ private:
     std::size_t m_at = 0;
 };
 
-/// A material file as assimp takes it: one of very few bytes is an error to it.
+/// A material file with padding, because assimp refuses files of very few bytes.
 std::vector<std::uint8_t> padded(std::vector<std::uint8_t> material_file)
 {
     constexpr std::size_t kBytesMin = 16;
@@ -102,7 +102,7 @@ Assimp::IOStream* SceneFiles::Open(const char* file, const char* /*mode*/)
         m_missing.push_back(file);
         return nullptr;
     }
-    // A scene may name it any number of times; its materials are known after the first.
+    // A scene may name it several times; only the first one loads its materials.
     const bool is_new = m_material_files.insert(*beside).second;
     return keep(std::make_unique<MemoryStream>(padded(is_new ? readFile(*beside) : std::vector<std::uint8_t>())));
 }
@@ -112,7 +112,7 @@ void SceneFiles::Close(Assimp::IOStream* file)
     std::erase_if(m_streams, [file](const auto& stream) { return stream.get() == file; });
 }
 
-// Assimp does not close what it fails to read.
+// Keeps the file, as assimp does not close files that it fails to read.
 Assimp::IOStream* SceneFiles::keep(std::unique_ptr<Assimp::IOStream> file)
 {
     m_streams.push_back(std::move(file));

@@ -28,7 +28,7 @@ namespace zvo
 namespace
 {
 
-/// Takes all other formats out of an importer: what a file is has been decided.
+/// Removes all other formats from an importer, as the file's format is known.
 void keepObj(Assimp::Importer& importer)
 {
     for (std::size_t i = importer.GetImporterCount(); i > 0; --i)
@@ -37,7 +37,7 @@ void keepObj(Assimp::Importer& importer)
         {
             Assimp::BaseImporter* other = importer.GetImporter(i - 1);
             importer.UnregisterLoader(other);
-            delete other; // it is the caller's now
+            delete other; // the caller owns it now
         }
     }
 }
@@ -49,7 +49,7 @@ WrapMode toWrapMode(int mode)
                                              : WrapMode::Repeat;
 }
 
-/// Makes a Scene of what assimp has read, every count and index checked.
+/// Makes a Scene of assimp's result, and checks every count and index.
 class ObjReader
 {
 public:
@@ -82,7 +82,7 @@ public:
         return std::move(m_scene);
     }
 
-    /// Once for each kind.
+    /// Warns once for each kind.
     void warn(const std::string& kind)
     {
         const std::string line = inputError(m_path, kind).what();
@@ -93,7 +93,7 @@ public:
     }
 
 private:
-    /// Adds up what read() will make, before it makes anything.
+    /// Adds up the memory that read() will take, before it is taken.
     void checkSize() const
     {
         SceneSize size;
@@ -156,7 +156,7 @@ private:
         }
         for (unsigned int i = 0; mesh.mTextureCoords[0] != nullptr && i < mesh.mNumVertices; ++i)
         {
-            // v points up in these formats.
+            // v points up in OBJ files.
             primitive.uvs.emplace_back(mesh.mTextureCoords[0][i].x, 1.0F - mesh.mTextureCoords[0][i].y);
         }
         for (unsigned int i = 0; mesh.mColors[0] != nullptr && i < mesh.mNumVertices; ++i)
@@ -201,7 +201,8 @@ private:
         material.base_color_texture = texture(source, aiTextureType_DIFFUSE);
         if (material.base_color_texture && glm::vec3(material.base_color) == glm::vec3(0.0F))
         {
-            material.base_color = glm::vec4(1.0F, 1.0F, 1.0F, material.base_color.a); // exporters mean the texture
+            material.base_color = glm::vec4(
+                1.0F, 1.0F, 1.0F, material.base_color.a); // black would hide the texture, which exporters do not mean
         }
         if (material.emission != glm::vec3(0.0F))
         {
@@ -210,7 +211,7 @@ private:
         const std::string cut_out = texturePath(source, aiTextureType_OPACITY);
         if (!cut_out.empty() && cut_out == texturePath(source, aiTextureType_DIFFUSE))
         {
-            material.alpha_mode = AlphaMode::Mask; // by the colour texture's own alpha
+            material.alpha_mode = AlphaMode::Mask; // taken from the colour texture's own alpha
         }
         else if (!cut_out.empty())
         {
@@ -251,7 +252,7 @@ private:
         return static_cast<std::uint32_t>(m_scene.textures.size() - 1);
     }
 
-    /// Index into Scene::images; nothing, with a warning, for what cannot be used.
+    /// Index into Scene::images, or nothing, with a warning, if the image cannot be used.
     std::optional<std::uint32_t> readImage(const std::string& name)
     {
         const auto [known, is_new] = m_images.emplace(name, std::nullopt);
@@ -300,7 +301,7 @@ Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> b
     const std::string name = path.stem().string() + ".obj";
     Assimp::Importer importer;
     keepObj(importer);
-    auto* files = new SceneFiles(path, bytes, name); // the importer's from now on
+    auto* files = new SceneFiles(path, bytes, name); // the importer owns it from now on
     importer.SetIOHandler(files);
     const aiScene* source = importer.ReadFile(name, aiProcess_Triangulate);
     if (!files->outside().empty())

@@ -25,7 +25,7 @@ namespace zvo
 namespace
 {
 
-/// What a colour channel of that type is divided by.
+/// The divisor of a colour channel of that type.
 double channelMax(PlyType type)
 {
     return type == PlyType::UInt8    ? std::numeric_limits<std::uint8_t>::max()
@@ -33,7 +33,7 @@ double channelMax(PlyType type)
                                      : 1.0;
 }
 
-/// What a number of a vertex means; an index into VertexValues.
+/// The meaning of a number of a vertex, as an index into VertexValues.
 enum class Use : std::size_t
 {
     X,
@@ -114,7 +114,7 @@ private:
     {
         if (element.properties.empty())
         {
-            return; // has no data, however many there are
+            return; // its elements have no data, whatever their number
         }
         if (element.name == "vertex")
         {
@@ -301,7 +301,7 @@ private:
         }
     }
 
-    /// The next number of the data. What is read as text in single precision is rounded once.
+    /// The next number of the data. Numbers that are text are parsed in single precision, so they are rounded once.
     double number(PlyType type)
     {
         if (m_encoding == PlyEncoding::Text)
@@ -362,7 +362,7 @@ private:
     }
 
     const std::filesystem::path& m_path;
-    TextCursor m_cursor; // in the header, and in the data where it is text
+    TextCursor m_cursor; // in the header, and in the data if it is text
     std::string_view m_data;
     PlyEncoding m_encoding = PlyEncoding::Text;
     SceneBytesLeft m_bytes_left;

@@ -19,7 +19,7 @@ namespace
 
 static_assert(std::endian::native == std::endian::little, "STL is little-endian and is read by copying");
 
-// A binary file: a header that says nothing, the number of facets, the facets.
+// A binary file has a header without meaning, the number of facets, and the facets.
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kFacetsOffset = kHeaderBytes + sizeof(std::uint32_t);
 constexpr std::size_t kNormalBytes = 3 * sizeof(float);
@@ -148,7 +148,7 @@ private:
     TextCursor m_lines;
     std::size_t m_line_number = 0;
     std::array<glm::vec3, 3> m_corners{};
-    std::size_t m_corner_count = 0; // of the facet so far
+    std::size_t m_corner_count = 0; // of the current facet
     SceneBytesLeft m_bytes_left;
     Primitive m_primitive;
 };

@@ -19,7 +19,7 @@ constexpr double kSamplesMax = 256.0;
 constexpr double kFrameCountTolerance = 1e-9; // relative
 constexpr double kRoundingMargin = 1e-6;      // of the largest coordinate: a few units in the last place
 
-/// The finite positions of a scene, those that a triangle uses.
+/// The finite positions of a scene that triangles use.
 class Points
 {
 public:
@@ -70,7 +70,7 @@ void extend(Bounds& bounds, const Bounds& other)
     bounds.max = glm::max(bounds.max, other.max);
 }
 
-/// Of a scene that only is moved as a whole.
+/// The bounds of a scene that moves only as a whole.
 Bounds sweptBounds(const Scene& scene, const glm::dmat4& to_world, const Motion& motion, double seconds)
 {
     const Points points(scene);
@@ -106,7 +106,7 @@ Bounds boundsOfObject(const DynamicObject& object, const AnimatedScene& animated
                            animated.seconds);
     }
     Bounds bounds;
-    // Every frame, unless there are very many.
+    // Takes every frame, unless there are very many.
     const double count =
         std::clamp(std::round(animated.seconds * animated.frames_per_second), kSamplesMin, kSamplesMax);
     for (double sample = 0.0; sample < count; ++sample)

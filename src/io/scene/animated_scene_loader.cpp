@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loading of animated scenes (io/scene/animated_scene.h): files are found and loaded, and divided into what stands
-// still and what moves.
+// Loads animated scenes (io/scene/animated_scene.h): finds and loads files, and divides them into static and dynamic
+// parts.
 #include "core/base/finite.h"
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
@@ -30,7 +30,7 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t kShownAnimations = 8;                       // more are only counted
-constexpr std::size_t kSceneFileBytesMax = std::size_t{4} << 20U; // many times what 4096 objects take
+constexpr std::size_t kSceneFileBytesMax = std::size_t{4} << 20U; // many times the size of 4096 objects
 
 /// The product in double precision, rounded once.
 glm::mat4 placed(const glm::dmat4& to_world, const glm::mat4& transform)
@@ -43,7 +43,7 @@ Error objectError(const fs::path& scene_file_path, const SceneFileObject& object
     return inputError(scene_file_path, fmt::format("{}.{}", object.where, text));
 }
 
-/// The file of an object in the first of the folders that has it. other_folder: how messages call the second one.
+/// The object's file, in the first of the folders that has it. other_folder: the name of the second one in messages.
 fs::path resolve(const fs::path& scene_file_path, const SceneFileObject& object, const std::vector<fs::path>& folders,
                  const std::string& other_folder)
 {
@@ -77,7 +77,7 @@ void moveBehind(std::vector<std::string>& into, std::vector<std::string>& from)
     from.clear();
 }
 
-/// What the arrays of a scene take.
+/// The memory that the arrays of a scene take.
 SceneSize sizeOf(const Scene& scene)
 {
     SceneSize size;
@@ -109,7 +109,7 @@ SceneSize sizeOf(const Scene& scene)
     return size;
 }
 
-/// Loads the files of an animated scene's objects, each once.
+/// Loads the files of an animated scene's objects, once each.
 class ObjectLoader
 {
 public:
@@ -122,7 +122,7 @@ public:
         }
     }
 
-    /// The scene in a file, at one of its uses.
+    /// Returns the scene of a file, for one of its uses.
     Scene load(const fs::path& path)
     {
         File& file = m_files.at(path);
@@ -136,13 +136,13 @@ public:
         m_size.triangle_count += file.size.triangle_count;
         m_size.vertex_count = std::max(m_size.vertex_count, file.size.vertex_count);
         m_size.bytes += file.size.bytes;
-        checkSceneSize(m_scene_file_path, m_size); // before it is copied
+        checkSceneSize(m_scene_file_path, m_size); // checked before the scene is copied
         if (--file.use_count == 0)
         {
             return std::move(file.scene);
         }
         Scene copy = file.scene;
-        file.scene.warnings.clear(); // are told once
+        file.scene.warnings.clear(); // warnings are printed once
         file.scene.rest_warnings.clear();
         return copy;
     }
@@ -150,7 +150,7 @@ public:
 private:
     struct File
     {
-        std::size_t use_count = 0; // still to come
+        std::size_t use_count = 0; // uses still to come
         bool is_loaded = false;
         Scene scene;
         SceneSize size;
@@ -182,7 +182,7 @@ void checkTransform(const fs::path& scene_file_path, const SceneFileObject& obje
     }
 }
 
-/// What a message says of the animations of a file.
+/// The text that a message has about the animations of a file.
 std::string listAnimations(const std::vector<Animation>& animations)
 {
     if (animations.empty())
@@ -203,7 +203,7 @@ std::string listAnimations(const std::vector<Animation>& animations)
     return fmt::format("has {}", fmt::join(names, ", "));
 }
 
-/// Leaves the scene of an object the animation that plays.
+/// Keeps only the animation that the object plays.
 void chooseAnimation(const fs::path& scene_file_path, const SceneFileObject& object, Scene& scene)
 {
     if (keepAnimation(scene, object.animation))
@@ -225,7 +225,7 @@ bool isDeformedAtAll(const Scene& scene)
                        { return isDeformed(scene.primitives[instance.primitive], instance); });
 }
 
-/// Adds what stands still, cameras included.
+/// Adds the static part, cameras included.
 void addFixed(AnimatedScene& animated, Scene&& scene, const glm::dmat4& to_world)
 {
     if (isDeformedAtAll(scene))
@@ -245,14 +245,13 @@ void addFixed(AnimatedScene& animated, Scene&& scene, const glm::dmat4& to_world
     animated.fixed.append(std::move(scene));
 }
 
-/// Adds a dynamic object that has no scene yet, with those instances of scene that move, and the others as what stands
-/// still.
+/// Adds a dynamic object, which has no scene yet, with the instances of scene that move; the others become static.
 void addParts(AnimatedScene& animated, DynamicObject moving, Scene&& scene, const std::vector<bool>& moves)
 {
     moveBehind(animated.warnings, scene.warnings);
     if (!std::holds_alternative<std::monostate>(moving.motion))
     {
-        scene.cameras.clear(); // they would have to move
+        scene.cameras.clear(); // moving cameras are not supported
     }
     if (std::find(moves.begin(), moves.end(), true) == moves.end())
     {

@@ -23,7 +23,7 @@ constexpr const char* kSchema = "zvo.camera_path/1";
 constexpr double kPathSecondsMax = 1e6;
 constexpr double kFovMax = 180; // degrees, not reached
 
-// Why keys make no path; nothing: they do.
+// The reason why keys make no path, or nothing if they do.
 std::optional<std::string> faultOf(const std::vector<CameraKey>& keys)
 {
     if (keys.empty())
@@ -50,10 +50,10 @@ std::optional<std::string> faultOf(const std::vector<CameraKey>& keys)
     return std::nullopt;
 }
 
-// What is interpolated, at key i.
+// Function that returns the interpolated value of a key.
 template <typename Value> using ValueOf = Value (*)(const CameraKey&);
 
-// The tangent at key i: of the chord between its neighbours, or of the only chord at an end.
+// The tangent at key i: the slope between its neighbours, or between it and its only neighbour at an end.
 template <typename Value> Value tangentAt(const std::vector<CameraKey>& keys, std::size_t i, ValueOf<Value> valueOf)
 {
     const std::size_t before = i == 0 ? i : i - 1;
@@ -61,7 +61,7 @@ template <typename Value> Value tangentAt(const std::vector<CameraKey>& keys, st
     return (valueOf(keys[after]) - valueOf(keys[before])) / (keys[after].seconds - keys[before].seconds);
 }
 
-// Between key i, at 0, and the next one, at 1.
+// The value between key i (t = 0) and the next one (t = 1).
 template <typename Value>
 Value between(const std::vector<CameraKey>& keys, std::size_t i, double t, ValueOf<Value> valueOf)
 {
@@ -101,7 +101,7 @@ ViewCamera CameraPath::at(double seconds) const
     key.eye = between<glm::dvec3>(m_keys, i, t, [](const CameraKey& k) { return k.eye; });
     key.target = between<glm::dvec3>(m_keys, i, t, [](const CameraKey& k) { return k.target; });
     key.fov_degrees = between<double>(m_keys, i, t, [](const CameraKey& k) { return k.fov_degrees; });
-    // Curves overshoot.
+    // Curves may overshoot the keys' values.
     const auto [low, high] = std::minmax(m_keys[i].fov_degrees, m_keys[i + 1].fov_degrees);
     key.fov_degrees = std::clamp(key.fov_degrees, low, high);
     if (key.eye == key.target)

@@ -104,7 +104,7 @@ Scene loadFile(const std::filesystem::path& path)
     }
 }
 
-/// Puts a node with that transform above all others.
+/// Adds a root node with that transform above all others.
 void placeNodes(Scene& scene, const glm::mat4& to_world)
 {
     Scene placed;
@@ -128,7 +128,7 @@ bool isSceneFile(const std::filesystem::path& path)
 glm::mat3 rotationToY(UpAxis up)
 {
     const auto columns = [](const glm::vec3& x, const glm::vec3& y, const glm::vec3& z)
-    { return glm::mat3(x, y, z); }; // where x, y and z of the file go
+    { return glm::mat3(x, y, z); }; // the axes to which x, y and z of the file are mapped
     switch (up)
     {
     case UpAxis::X:

@@ -20,8 +20,9 @@ constexpr std::size_t kObjectsMax = 4096;
 constexpr double kSecondsMax = 1e6;
 constexpr double kFramesPerSecondMax = 1e4;
 constexpr double kDegreesOfTurn = 360.0;
-constexpr double kDefaultFov = 45.0;     // degrees
-constexpr double kHalfTurnCosine = 1e-9; // of half the angle: nearer to half a turn rounding decides the way around
+constexpr double kDefaultFov = 45.0; // degrees
+constexpr double kHalfTurnCosine =
+    1e-9; // of half the angle; nearer to a half turn, rounding would decide the direction
 
 std::optional<glm::dvec3> findVector(const JsonCursor& object, std::string_view key)
 {
@@ -128,7 +129,7 @@ LineMotion readLine(const JsonCursor& line, double scene_seconds)
     return motion;
 }
 
-/// The elements of an array with one for each key; none where it is missing.
+/// The elements of an array that has one for each key; none if it is missing.
 std::vector<JsonCursor> readKeyed(const JsonCursor& keys, std::string_view name, std::size_t key_count)
 {
     const auto array = keys.find(name);

@@ -11,13 +11,13 @@ namespace zvo
 namespace
 {
 
-/// Items of a list that are in use, and their numbers among those.
+/// The items of a list that are in use, and their new numbers.
 class Used
 {
 public:
     explicit Used(std::size_t count) : m_numbers(count, kNone) {}
 
-    /// The item's number among those in use, which it is from now on.
+    /// Marks the item as used, and returns its new number.
     std::uint32_t number(std::uint32_t index)
     {
         std::uint32_t& number = m_numbers[index];
@@ -29,7 +29,7 @@ public:
         return number;
     }
 
-    /// In order of their numbers.
+    /// Old indices, in order of the new numbers.
     [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return m_indices; }
 
 private:

@@ -22,13 +22,13 @@ namespace zvo
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
+static_assert(std::endian::native == std::endian::little); // numbers are written as they are in memory
 
 constexpr std::uint32_t kColorMask = 0xffffffU;
 constexpr std::uint64_t kVerticesOfQuad = 4;
 constexpr std::uint64_t kIndicesOfQuad = 6;
 
-// One side of voxels: axis is what it looks along, upper whether towards higher coordinates. u and v are the next axes.
+// One side of voxels: its axis, and whether it faces upwards along it. u and v are the next two axes.
 struct Side
 {
     int axis;
@@ -38,7 +38,7 @@ struct Side
     [[nodiscard]] int v() const { return (axis + 2) % 3; }
 };
 
-// A rectangle of faces of one colour: in the plane before or behind a layer of cells.
+// A rectangle of faces of one colour, in the lower or upper plane of a layer of cells.
 struct Quad
 {
     Side side;
@@ -50,7 +50,7 @@ struct Quad
     std::uint32_t color;
 };
 
-// A face of one voxel, in the order of layers, rows and columns.
+// A face of one voxel. Its key sorts by layer, row and column.
 struct Face
 {
     std::uint64_t key;
@@ -92,11 +92,11 @@ std::vector<Face> facesOf(const TreeData& tree, const Side& side)
     return faces;
 }
 
-// Faces to rows, and rows to rectangles with equal ones of the row before.
+// Joins faces to runs in a row, and runs to rectangles with equal ones of the row before.
 void addQuads(const std::vector<Face>& faces, const Side& side, std::vector<Quad>& quads)
 {
-    std::vector<std::size_t> open;      // quads that end in the row before, by u
-    std::vector<std::size_t> next_open; // in this one
+    std::vector<std::size_t> open;      // [by u] quads that end in the previous row
+    std::vector<std::size_t> next_open; // [by u] quads that end in this row
     std::size_t candidate = 0;          // in open
     std::uint64_t current = UINT64_MAX; // layer and row
     for (std::size_t i = 0; i < faces.size();)
@@ -135,7 +135,7 @@ void addQuads(const std::vector<Face>& faces, const Side& side, std::vector<Quad
     }
 }
 
-// Corners against the clock, seen from outside.
+// Corners counterclockwise, seen from outside.
 std::array<glm::vec3, kVerticesOfQuad> cornersOf(const Quad& quad)
 {
     std::array<glm::vec3, kVerticesOfQuad> corners{};
@@ -151,7 +151,7 @@ std::array<glm::vec3, kVerticesOfQuad> cornersOf(const Quad& quad)
     return corners;
 }
 
-// Linear 16-bit fractions, and an alpha of 1.
+// The colour as linear 16-bit fractions, with alpha 1.
 std::array<std::uint16_t, 4> linearColor(std::uint32_t color)
 {
     constexpr double kOne = 65535.0;
@@ -165,7 +165,7 @@ std::array<std::uint16_t, 4> linearColor(std::uint32_t color)
     return linear;
 }
 
-// Hands on what was collected, in pieces.
+// Collects bytes, and writes them in pieces.
 class Pieces
 {
 public:

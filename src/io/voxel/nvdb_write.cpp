@@ -28,7 +28,7 @@ nanovdb::Rgba8 rgbaOf(std::uint32_t color)
 
 using Builder = nanovdb::GridBuilder<nanovdb::Rgba8>;
 
-// The finished grid. Throws std::bad_alloc where memory does not suffice.
+// The finished grid. Throws std::bad_alloc if memory does not suffice.
 nanovdb::GridHandle<> handleOf(Builder& builder, const Grid& grid)
 {
     const glm::dvec3 center = glm::dvec3(grid.origin) + 0.5 * double{grid.voxel_size};
@@ -36,7 +36,7 @@ nanovdb::GridHandle<> handleOf(Builder& builder, const Grid& grid)
     {
         return builder.getHandle(double{grid.voxel_size}, {center.x, center.y, center.z}, "zvo");
     }
-    catch (const std::runtime_error&) // of its buffer or its thread: of a grid like ours there is no other reason
+    catch (const std::runtime_error&) // thrown only when its buffer or thread could not be made
     {
         throw std::bad_alloc();
     }
@@ -58,7 +58,7 @@ nanovdb::GridHandle<> gridOf(const TreeData& tree)
     return handleOf(builder, tree.grid);
 }
 
-// What stands before the grid. The library's own way of writing files needs one that it can go back in.
+// The bytes before the grid. The library's own writer needs a file in which it can seek back.
 std::string headOf(const nanovdb::GridHandle<>& grid)
 {
     nanovdb::io::Segment segment;

@@ -23,8 +23,8 @@ struct Box
 {
     std::vector<std::uint32_t> colors;
     std::array<double, kChannels> mean{};
-    std::size_t widest = 0; // the channel that deviates most
-    double deviation = 0;   // of that one: the sum of squares
+    std::size_t widest = 0; // channel with the largest deviation
+    double deviation = 0;   // its sum of squared differences from the mean
 };
 
 Box boxOf(std::vector<std::uint32_t> colors, std::span<const std::uint32_t> counts)
@@ -32,7 +32,7 @@ Box boxOf(std::vector<std::uint32_t> colors, std::span<const std::uint32_t> coun
     Box box;
     for (std::size_t channel = 0; channel < kChannels; ++channel)
     {
-        std::uint64_t weight = 0; // 2^32 voxels of 8 bits squared stay below 2^49: sums are exact
+        std::uint64_t weight = 0; // at most 2^32 voxels; their sums of 8-bit squares stay below 2^49, and are exact
         std::uint64_t sum = 0;
         std::uint64_t squares = 0;
         for (const std::uint32_t color : colors)
@@ -64,7 +64,8 @@ std::uint32_t meanColor(const Box& box)
     return color;
 }
 
-// Both halves have colours: where a channel deviates, some are above its mean and some are not.
+// Splits a box at the mean of its widest channel. Both halves get colours, since in a channel that deviates some are
+// above the mean and some are not.
 void halve(Box& box, std::vector<Box>& boxes, std::span<const std::uint32_t> counts)
 {
     const auto isLow = [&](std::uint32_t color)
@@ -77,7 +78,7 @@ void halve(Box& box, std::vector<Box>& boxes, std::span<const std::uint32_t> cou
     }
     if (low.empty() || high.empty())
     {
-        box.deviation = 0; // rounding alone made it seem to deviate
+        box.deviation = 0; // the deviation was only rounding
         return;
     }
     Box upper = boxOf(std::move(high), counts);

@@ -47,7 +47,7 @@ public:
         return value;
     }
 
-    // How many bytes of something follow, if they do.
+    // Reads a number of bytes, and checks that so many follow.
     std::uint32_t size()
     {
         const std::int32_t value = number();
@@ -58,7 +58,7 @@ public:
         return static_cast<std::uint32_t>(value);
     }
 
-    // How many of something that has bytes_each bytes at least.
+    // Reads a number of items of at least bytes_each bytes, and checks that so many follow.
     std::uint32_t count(std::uint32_t bytes_each)
     {
         const std::int32_t value = number();
@@ -99,7 +99,7 @@ bool isHidden(const Dictionary& attributes)
     return hidden != attributes.end() && hidden->second == "1";
 }
 
-// MagicaVoxel's colours where a file has none: a cube of 6 levels a channel without black, then ramps.
+// MagicaVoxel's palette for files without one: a cube of 6 levels a channel without black, then ramps.
 std::array<std::uint32_t, kVoxPaletteSize> defaultPalette()
 {
     constexpr std::array<std::uint32_t, 10> kRamp = {238, 221, 187, 170, 136, 119, 85, 68, 34, 17};
@@ -251,7 +251,7 @@ private:
     {
         for (std::uint32_t& color : m_scene.palette)
         {
-            color = static_cast<std::uint32_t>(content.number()) & 0xffffffU; // the alpha says nothing
+            color = static_cast<std::uint32_t>(content.number()) & 0xffffffU; // the alpha has no meaning
         }
     }
 
@@ -324,7 +324,7 @@ private:
     }
 
     const std::filesystem::path& m_name;
-    std::optional<glm::ivec3> m_size; // of the model whose voxels come next
+    std::optional<glm::ivec3> m_size; // of the model whose voxels follow
     VoxScene m_scene;
 };
 

@@ -17,7 +17,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::uint64_t kVoxelsMax = std::uint64_t{1} << 28; // that are placed; a model may be placed often
+constexpr std::uint64_t kVoxelsMax = std::uint64_t{1} << 28; // in all placements
 constexpr std::uint32_t kPlacementsMax = 1U << 20;           // visits of nodes
 constexpr std::uint32_t kNestingMax = 256;                   // of nodes
 constexpr std::uint32_t kEdgeMax = 1U << Grid::kDepthMax;    // of everything
@@ -89,7 +89,8 @@ private:
                 }
                 place(m_scene.models[static_cast<std::size_t>(model)], placement);
             }
-            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) // the first one next
+            for (auto child = node.children.rbegin(); child != node.children.rend();
+                 ++child) // the first child is visited next
             {
                 visits.push_back({*child, visit.nesting + 1, placement});
             }
@@ -108,7 +109,7 @@ private:
         return placement;
     }
 
-    // A model turns around the corner of the voxel in its middle.
+    // A model rotates about the corner of the voxel in its middle.
     void place(const VoxModel& model, const VoxPlacement& placement)
     {
         const std::size_t count = model.voxelCount();

@@ -15,7 +15,7 @@ namespace zvo
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
+static_assert(std::endian::native == std::endian::little); // numbers are written as they are in memory
 
 constexpr std::uint32_t kBlockBits = 8; // models of 256^3
 constexpr std::uint32_t kPaletteSize = 255;
@@ -28,7 +28,7 @@ std::uint32_t colorOf(const TreeData& tree, std::size_t voxel)
     return tree.hasAttributes() ? tree.voxelAttribute(voxel).color & (kColorCount - 1) : kPlainColor;
 }
 
-// zvo's cell as MagicaVoxel's voxel.
+// Converts zvo's coordinates to MagicaVoxel's.
 glm::ivec3 turned(const glm::uvec3& cell)
 {
     const glm::ivec3 c(cell);
@@ -45,7 +45,7 @@ struct Model
     [[nodiscard]] glm::ivec3 size() const { return max - min + 1; }
 };
 
-// Bytes of chunks, little-endian.
+// Collects the bytes of chunks, little-endian.
 class Writer
 {
 public:
@@ -58,7 +58,7 @@ public:
     }
     template <typename T> void append(const T& value) { add(&value, sizeof(value)); }
 
-    // A chunk without children around what is in content.
+    // Writes a chunk without children.
     void chunk(const char* id, const Writer& content)
     {
         name(id);
@@ -81,7 +81,7 @@ private:
     std::vector<std::byte> m_bytes;
 };
 
-// A node that places another one.
+// Writes a transform node above another node.
 void addTransform(Writer& writer, std::int32_t id, std::int32_t child, std::int32_t layer,
                   const std::string& translation)
 {
@@ -101,7 +101,7 @@ void addTransform(Writer& writer, std::int32_t id, std::int32_t child, std::int3
     writer.chunk("nTRN", content);
 }
 
-// The root, a group, and for each model its place and its shape.
+// The scene graph: root, group, and for each model a transform and a shape.
 Writer sceneGraph(const std::vector<Model>& models)
 {
     constexpr std::int32_t kFirstTransform = 2;
@@ -136,7 +136,7 @@ Writer paletteChunk(const Palette& palette)
 {
     constexpr std::uint32_t kOpaque = 0xff000000U;
     Writer content;
-    for (std::size_t i = 0; i <= kPaletteSize; ++i) // 256 are written, the last one has no index
+    for (std::size_t i = 0; i <= kPaletteSize; ++i) // 256 are written; the last one has no index
     {
         content.append(i < palette.colors.size() ? palette.colors[i] | kOpaque : std::uint32_t{0});
     }
@@ -171,7 +171,7 @@ void writeVox(const TreeData& tree, const std::function<void(std::span<const std
     const Palette palette = quantize(counts, kPaletteSize);
     const Writer graph = sceneGraph(models);
     const Writer colors = paletteChunk(palette);
-    constexpr std::uint64_t kModelBytes = kChunkHeaderBytes + 12 + kChunkHeaderBytes + 4; // SIZE, and XYZI's head
+    constexpr std::uint64_t kModelBytes = kChunkHeaderBytes + 12 + kChunkHeaderBytes + 4; // SIZE, and the head of XYZI
     const std::uint64_t children_bytes = models.size() * kModelBytes + std::uint64_t{4} * tree.voxel_count +
                                          graph.bytes().size() + colors.bytes().size();
     if (children_bytes > kSizeMax)
@@ -189,7 +189,7 @@ void writeVox(const TreeData& tree, const std::function<void(std::span<const std
     writer.number(static_cast<std::int64_t>(children_bytes));
     constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
     std::size_t model = 0;
-    std::uint64_t rest = 0; // voxels of the current model
+    std::uint64_t rest = 0; // voxels of the current model still to come
     voxel = 0;
     forEachVoxel(tree,
                  [&](std::uint64_t code)
