@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr std::uint32_t kCrowdMax = 200000;
-constexpr float kSlopeX = 0.2F; // of the plane of the triangle and the patch
+constexpr float kSlopeX = 0.2F; // slope of the plane of triangle and patch
 constexpr float kSlopeY = 0.13F;
 
 Scene soupOf(std::vector<glm::vec3> corners)
@@ -35,7 +35,7 @@ glm::vec3 onPlane(float x, float y)
     return {1 + x, 1 + y, 1 + kSlopeX * x + kSlopeY * y};
 }
 
-// In [-1, 1]; unlike the library's distributions, the same everywhere.
+// A number in [-1, 1]. Unlike the library's distributions, it is the same on every platform.
 float signedUnit(std::mt19937& random)
 {
     return static_cast<float>(random() >> 8) / static_cast<float>(1U << 23) - 1.0F;
@@ -60,7 +60,7 @@ std::uint32_t crowdCount(std::uint32_t resolution)
     return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(half * half * half, 1, kCrowdMax));
 }
 
-// Equilateral, the middle at the origin, inside the voxel around it.
+// Adds an equilateral triangle, whose middle is at the origin inside the voxel around it.
 void addThroughMiddle(std::vector<glm::vec3>& corners, const glm::vec3& middle, std::mt19937& random)
 {
     constexpr float kRadius = 0.45F;
@@ -77,7 +77,7 @@ void addThroughMiddle(std::vector<glm::vec3>& corners, const glm::vec3& middle, 
     }
 }
 
-// Voxels on a lattice over the whole grid, as many on each edge as the crowd needs.
+// Middles of voxels on a lattice over the whole grid, with as many on each edge as the crowd needs.
 std::vector<glm::vec3> crowdMiddles(std::uint32_t resolution)
 {
     const std::uint32_t count = crowdCount(resolution);
@@ -136,7 +136,7 @@ Scene diagonalSlivers(std::uint32_t resolution)
 {
     constexpr int kRows = 10; // of slivers on either axis, along each diagonal
     const auto edge = static_cast<float>(resolution);
-    const float spread = edge / 4; // of their ends
+    const float spread = edge / 4; // edge of the squares in which they begin and end
     std::vector<glm::vec3> corners;
     for (int i = 0; i < 4 * kRows * kRows; ++i)
     {

@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kWidth = 1920;
 constexpr std::uint32_t kHeight = 1080;
 
-// Passes of compression and of the DAG's pictures, told from those of the octree.
+// Marks passes as those of compression and the DAG's pictures, apart from those of the octree.
 std::vector<vk::PassTime> ofDag(std::vector<vk::PassTime> passes)
 {
     for (vk::PassTime& pass : passes)
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    // Primary rays through the octree, compression, and rays through both.
+    // Measures primary rays through the octree, compression, and rays through both.
     void measureTrees(const DeviceTree& octree, const TraceCamera& camera, BenchRow& row)
     {
         TreeTracer tracer(m_device.device());
@@ -127,11 +127,11 @@ private:
     struct Compression
     {
         DeviceTree dag;
-        DagNumbers numbers;               // but those of pictures
+        DagNumbers numbers;               // all but those of pictures
         std::vector<vk::PassTime> passes; // mean of the runs, summed by name
     };
 
-    // After a warm-up. Each run takes a copy of the octree, which it uses up. Throws Error{Memory} where memory does
+    // Measures compression after a warm-up. Each run uses up a copy of the octree. Throws Error{Memory} if memory does
     // not suffice for both at once.
     Compression measureCompress(const DeviceTree& octree)
     {
@@ -142,7 +142,7 @@ private:
         std::vector<double> compress_ms;
         for (std::uint32_t i = 0; i < m_options.run_count; ++i)
         {
-            compressed = {}; // its memory goes before the next one's comes
+            compressed = {}; // frees its memory before the next one is made
             compressed = run();
             compress_ms.push_back(compressed.ms());
             addPasses(compression.passes, ofDag(compressed.passes), m_options.run_count);

@@ -6,7 +6,7 @@
 namespace zvo::cli
 {
 
-/// `zvo bench`: measures scenes at resolutions and tells the numbers as a table, as JSON, or both. Throws Error.
+/// `zvo bench`: measures scenes at several resolutions, and prints a table, JSON, or both. Throws Error.
 void bench(const BenchOptions& options);
 
 } // namespace zvo::cli

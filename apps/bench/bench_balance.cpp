@@ -32,7 +32,7 @@ struct GeneratedScene
 {
     const char* name;
     Scene (*make)(std::uint32_t resolution);
-    bool grows; // has four times the voxels at twice the resolution
+    bool grows; // at twice the resolution it has four times the voxels
 };
 
 constexpr std::array kGeneratedScenes = {
@@ -44,12 +44,12 @@ constexpr std::array kGeneratedScenes = {
 struct BalanceRow
 {
     std::string scene;
-    std::size_t subject = 0; // the same at all resolutions
+    std::size_t subject = 0; // number of the scene, the same at all resolutions
     std::uint32_t resolution = 0;
     std::uint64_t triangles = 0;
     std::uint64_t voxels = 0;
     Spread geometry_ms;                  // without attributes
-    std::optional<Spread> attributes_ms; // with them, unless they were not asked for
+    std::optional<Spread> attributes_ms; // with attributes, if these were asked for
     bool generated = false;
     bool grows = true;
 
@@ -59,11 +59,11 @@ struct BalanceRow
     }
 };
 
-/// One time over another, of rows as they are or a voxel.
+/// The ratio of the times of two rows, in all or per voxel.
 struct BalanceRatio
 {
     std::string name;
-    std::string scene; // or two of them
+    std::string scene; // or two scenes
     std::uint32_t resolution = 0;
     double geometry = 0;
     std::optional<double> attributes;
@@ -108,7 +108,7 @@ double quotient(double a, double b)
     return b > 0 ? a / b : 0.0;
 }
 
-// Time of a over time of b, a voxel or in all.
+// The ratio of the times of a and b, per voxel or in all.
 BalanceRatio ratioOf(const std::string& name, const BalanceRow& a, const BalanceRow& b, bool per_voxel)
 {
     const auto of = [&](const Spread& x, const Spread& y)
@@ -130,7 +130,7 @@ double worst(const BalanceRatio& ratio)
     return std::max(ratio.geometry, ratio.attributes.value_or(0.0));
 }
 
-// The file that takes longest a voxel over the one that takes least, at one resolution.
+// The ratio of the most to the least time per voxel, among files at one resolution.
 std::optional<BalanceRatio> slowestOverFastest(const std::vector<BalanceRow>& rows, std::uint32_t resolution)
 {
     std::optional<BalanceRatio> largest;
@@ -150,7 +150,7 @@ std::optional<BalanceRatio> slowestOverFastest(const std::vector<BalanceRow>& ro
     return largest;
 }
 
-// What twice the resolution costs.
+// The ratios of times at twice the resolution.
 std::vector<BalanceRatio> doublings(const std::vector<BalanceRow>& rows)
 {
     std::vector<BalanceRatio> ratios;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Balance of load: what a voxel costs, whatever the triangles are like that cover it.
+// Load balance: the time per voxel for triangles of different shapes and sizes.
 #pragma once
 
 #include "bench/bench_options.h"
@@ -7,8 +7,8 @@
 namespace zvo::cli
 {
 
-/// `zvo bench --balance`: measures generated scenes, and files if any were named, at resolutions, and tells the times
-/// and their ratios as a table, as JSON, or both. Throws Error.
+/// `zvo bench --balance`: measures generated scenes, and files if any were named, at several resolutions. Prints times
+/// and their ratios as a table, JSON, or both. Throws Error.
 void benchBalance(const BenchOptions& options);
 
 } // namespace zvo::cli

@@ -32,13 +32,13 @@ namespace zvo::cli
 namespace
 {
 
-// As the thesis has it.
+// The picture's size in the thesis.
 constexpr std::uint32_t kWidth = 1280;
 constexpr std::uint32_t kHeight = 720;
 constexpr std::uint32_t kDepth = 9;
 constexpr std::uint32_t kTraceTurns = 3; // pictures of each octree for each rebuild
 
-// Least and greatest of some counts.
+// Least and greatest of several counts.
 struct Range
 {
     std::uint64_t min = UINT64_MAX;
@@ -71,7 +71,7 @@ struct DynamicRow
     std::uint64_t voxels_static = 0;
     std::uint64_t nodes_static = 0;
     std::uint64_t geometry_bytes_static = 0;
-    Range voxels_dynamic; // covered by what moves
+    Range voxels_dynamic; // covered by dynamic objects
     Range nodes_dynamic;  // of the overlays
     double voxelize_ms = 0;
     double build_ms = 0;
@@ -79,7 +79,7 @@ struct DynamicRow
     Spread dynamic_voxelize_ms;
     Spread update_ms;
     Spread rebuild_ms;
-    Spread rebuild_moving_ms; // of what moves alone
+    Spread rebuild_moving_ms; // of the dynamic objects alone
     std::optional<Spread>
         enlarged_ms; // dynamic voxelization and update in a grid four times as large, with the same voxels
     Spread trace_merged_ms;
@@ -140,7 +140,7 @@ Json rowJson(const DynamicRow& row)
     return json;
 }
 
-// Whether a pass of an update belongs to the voxelization of what moves.
+// Whether a pass of an update belongs to the voxelization of dynamic objects.
 bool voxelizes(const std::string& pass)
 {
     constexpr std::string_view kParts[] = {"voxelize/", "update/layer_", "mover/", "deform/"};
@@ -190,7 +190,7 @@ private:
         return {m_options.coverage, m_options.attributes, m_options.structure};
     }
 
-    // Every frame once, after one that finds out how much room it takes.
+    // Measures each frame once, after an update that finds the room it needs.
     void measureFrames(const AnimatedScene& animated, LiveScene& live, DynamicRow& row, Progress& progress)
     {
         std::vector<double> voxelize_ms;
@@ -203,7 +203,7 @@ private:
             row.retry_count += update.retry_count;
             if (update.retry_count != 0 && frame + 1 < row.frame_count)
             {
-                continue; // the last attempt did not voxelize everything
+                continue; // the last attempt did not voxelize everything again
             }
             row.voxels_dynamic.add(update.report.dynamic_count);
             row.nodes_dynamic.add(update.report.node_count);
@@ -219,7 +219,7 @@ private:
         row.update_ms = Spread::of(update_ms);
     }
 
-    // At times spread evenly over the animated scene. Pictures of both octrees are traced in turns.
+    // Measures rebuilds at times spread evenly over the animated scene. Pictures of both octrees are traced in turns.
     void measureRebuilds(const AnimatedScene& animated, LiveScene& live, const TraceCamera& camera, DynamicRow& row,
                          Progress& progress)
     {
@@ -264,7 +264,7 @@ private:
         row.trace_rebuilt_ms = Spread::of(rebuilt_trace_ms);
     }
 
-    // Some frames in a grid four times as large with voxels of the same size.
+    // Measures some frames in a grid four times as large, with voxels of the same size.
     void measureEnlarged(const AnimatedScene& animated, Grid grid, DynamicRow& row, Progress& progress)
     {
         grid.depth += 2;
@@ -284,7 +284,7 @@ private:
         row.enlarged_ms = Spread::of(enlarged_ms);
     }
 
-    // The beam grid and primary rays.
+    // Time of the beam grid and primary rays.
     double traceMs(const DeviceTree& tree, const TraceCamera& camera)
     {
         m_tracer.forget();

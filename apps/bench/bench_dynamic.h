@@ -6,7 +6,7 @@
 namespace zvo::cli
 {
 
-/// `zvo bench --dynamic`: updates while something moves, beside building everything anew. Throws Error.
+/// `zvo bench --dynamic`: measures updates of dynamic objects, and full rebuilds to compare. Throws Error.
 void benchDynamic(const BenchOptions& options);
 
 } // namespace zvo::cli

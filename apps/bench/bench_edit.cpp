@@ -40,16 +40,16 @@ constexpr std::uint32_t kDepth = 9;
 constexpr std::array<std::uint32_t, 4> kRadii = {4, 8, 16, 32};
 constexpr std::array<const char*, 3> kActionNames = {"carve", "fill", "paint"};
 constexpr std::array<std::uint32_t, 3> kStrokeCounts = {10, 100, 1000};
-constexpr std::uint32_t kStrokesMeasured = 10; // the last ones of each of these
+constexpr std::uint32_t kStrokesMeasured = 10; // the last ones of each stage
 constexpr std::uint32_t kHistoryRadius = 8;
 constexpr std::uint32_t kAttemptsMax = 64;
 constexpr EditBounds kBounds = {kStrokeCounts.back(), 256U << 20};
 
-// Of some times, in milliseconds.
+// Median and percentile of times, in milliseconds.
 struct Times
 {
     double median = 0;
-    double p95 = 0; // 95 of 100 are not above
+    double p95 = 0; // 95 of 100 times are not above it
 
     /// values: at least one.
     static Times of(std::vector<double> values)
@@ -69,7 +69,7 @@ Json timesJson(const Times& times)
     return {{"median", times.median}, {"p95", times.p95}};
 }
 
-// A radius and an action, each time from the unedited tree on.
+// Strokes of one radius and action, each on the unedited tree.
 struct StrokeRow
 {
     std::uint32_t radius = 0;
@@ -80,7 +80,7 @@ struct StrokeRow
     std::uint64_t bytes = 0; // median
 };
 
-// Strokes of all actions, one after the other.
+// Strokes of all actions, each on the result of the last one.
 struct HistoryRow
 {
     std::uint32_t stroke_count = 0;
@@ -101,7 +101,7 @@ struct EditRow
     std::vector<HistoryRow> history;
 };
 
-// Rows of tables: a scene's beside one of its own.
+// A row of a table with its scene.
 template <typename Row> using InScene = std::pair<const EditRow*, const Row*>;
 
 const Columns<InScene<StrokeRow>>& strokeColumns()
@@ -168,7 +168,7 @@ Json rowJson(const EditRow& row)
     return json;
 }
 
-// Whether a pass moves what edits have.
+// Whether a pass moves the kept states of edits.
 bool compacts(const std::string& pass)
 {
     constexpr std::string_view kParts[] = {"edit/mark",     "edit/live_sums", "edit/voxel_bits",       "octree/scan",
@@ -176,13 +176,13 @@ bool compacts(const std::string& pass)
     return std::ranges::any_of(kParts, [&](std::string_view part) { return pass.find(part) != std::string::npos; });
 }
 
-// Whether a pass belongs to a dab, or shows what it has made; others copy to larger buffers.
+// Whether a pass belongs to a dab or shows its result; other passes copy to larger buffers.
 bool dabs(const std::string& pass)
 {
     return !compacts(pass) && (pass.find("edit/") != std::string::npos || pass == "update/show");
 }
 
-// A tree under a brush.
+// A tree, and strokes on it.
 class Canvas
 {
 public:
@@ -205,7 +205,7 @@ public:
         m_octree = std::make_unique<DynamicOctree>(device, std::move(fixed), dynamic);
     }
 
-    // A stroke of one dab at a random voxel of the scene. Returns its time.
+    // Draws a stroke of one dab at a random voxel of the scene. Returns its time.
     double stroke(BrushAction action, std::uint32_t radius)
     {
         const std::uint64_t code = m_codes[m_random() % m_codes.size()];
@@ -272,7 +272,7 @@ private:
     double m_compaction_ms = 0;
 };
 
-// Strokes of one kind, each of which is undone.
+// Measures strokes of one kind, each of which is undone.
 StrokeRow measureStrokes(Canvas& canvas, std::uint32_t radius, std::uint32_t action, std::uint32_t run_count)
 {
     std::vector<double> dab_ms;
@@ -284,7 +284,7 @@ StrokeRow measureStrokes(Canvas& canvas, std::uint32_t radius, std::uint32_t act
         const double ms = canvas.stroke(static_cast<BrushAction>(action), radius);
         const std::uint64_t top = canvas.edits().shownBytes();
         const double first_undo_ms = canvas.undo();
-        if (run != 0) // the first one makes room
+        if (run != 0) // the first one only makes room
         {
             dab_ms.push_back(ms);
             undo_ms.push_back(first_undo_ms);
@@ -302,7 +302,7 @@ StrokeRow measureStrokes(Canvas& canvas, std::uint32_t radius, std::uint32_t act
             bytes[bytes.size() / 2]};
 }
 
-// Times of the last strokes of so many.
+// Measures the last strokes after given numbers of them.
 std::vector<HistoryRow> measureHistory(Canvas& canvas, Progress& progress)
 {
     std::vector<HistoryRow> rows;

@@ -25,7 +25,7 @@ namespace
 {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kBatchRays = 4096; // that a thread takes at a time
+constexpr std::size_t kBatchRays = 4096; // taken by a thread at a time
 
 template <typename Handle, auto release> struct Release
 {
@@ -38,8 +38,8 @@ using GeometryHandle = std::unique_ptr<RTCGeometry, Release<RTCGeometry, rtcRele
 
 struct Voxels
 {
-    std::vector<glm::u16vec3> cells; // half the bytes of their boxes
-    float size = 0;                  // edge of a voxel, a power of two: all planes are exact
+    std::vector<glm::u16vec3> cells; // half the bytes of boxes
+    float size = 0;                  // edge of a voxel; a power of two, so that all planes are exact
 };
 
 glm::vec3 lowCorner(const Voxels& voxels, std::uint32_t primitive)
@@ -55,7 +55,7 @@ void boundVoxel(const RTCBoundsFunctionArguments* arguments)
     *arguments->bounds_o = {low.x, low.y, low.z, 0.0F, high.x, high.y, high.z, 0.0F};
 }
 
-// Width rays that are traced together: what Embree calls a packet.
+// Width rays that are traced together, which Embree calls a packet.
 template <unsigned Width> struct Packet;
 template <> struct Packet<1>
 {
@@ -89,7 +89,7 @@ template <typename Field> auto& at(Field& field, unsigned i)
     }
 }
 
-// The slab test, without branches: the compiler makes one vector operation of each line.
+// A slab test without branches. The compiler makes one vector operation of each line.
 template <unsigned Width> void intersectPacket(const RTCIntersectFunctionNArguments& arguments)
 {
     const Voxels& voxels = *static_cast<const Voxels*>(arguments.geometryUserPtr);
@@ -122,7 +122,7 @@ void intersectVoxel(const RTCIntersectFunctionNArguments* arguments)
 {
     switch (arguments->N)
     {
-    case 1: // Embree takes stragglers of a packet one by one
+    case 1: // Embree passes the last rays of a packet one by one
         return intersectPacket<1>(*arguments);
     case 8:
         return intersectPacket<8>(*arguments);
@@ -168,7 +168,7 @@ std::uint64_t traceBatch(RTCScene scene, RTCIntersectContext& context, std::span
     return hit_count;
 }
 
-// Hits among all rays, which all processors trace, batch by batch.
+// Traces all rays on all processors, batch by batch. Returns the number of hits.
 template <unsigned Width> std::uint64_t traceOnce(RTCScene scene, std::span<const PrimaryRay> rays)
 {
     std::atomic<std::size_t> next = 0;
@@ -191,7 +191,7 @@ template <unsigned Width> std::uint64_t traceOnce(RTCScene scene, std::span<cons
     return hit_count;
 }
 
-// Million rays a second in the median of the runs, after a warm-up.
+// Million rays a second, as the median of the runs after a warm-up.
 template <unsigned Width> double measureRate(RTCScene scene, std::span<const PrimaryRay> rays, std::uint32_t run_count)
 {
     traceOnce<Width>(scene, rays);
@@ -255,7 +255,7 @@ PrimaryRay rayOf(const TraceCamera& camera, glm::ivec2 pixel, glm::ivec2 size)
 
 std::vector<PrimaryRay> primaryRays(const TraceCamera& camera, std::uint32_t width, std::uint32_t height)
 {
-    constexpr int kBlock = 4; // pixels on an edge
+    constexpr int kBlock = 4; // pixels per edge
     const glm::ivec2 size(width, height);
     std::vector<PrimaryRay> rays;
     rays.reserve(std::size_t{width} * height);

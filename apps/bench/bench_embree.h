@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Embree (Wald et al., Embree: A Kernel Framework for Efficient CPU Ray Tracing, 2014) on the same rays, to compare
-// with.
+// Traces the same rays by Embree (Wald et al., Embree: A Kernel Framework for Efficient CPU Ray Tracing, 2014), for
+// comparison.
 #pragma once
 
 #include "core/base/grid.h"
@@ -15,14 +15,14 @@
 namespace zvo::cli
 {
 
-/// A primary ray in the space in which the octree's root cube is [1, 2)^3.
+/// A primary ray in the space where the octree's root cube is [1, 2)^3.
 struct PrimaryRay
 {
     glm::vec3 origin{0.0F};
     glm::vec3 direction{0.0F};
 };
 
-/// The rays of a picture, 16 neighbours in each block of 4 x 4 pixels one after another.
+/// The rays of a picture, block by block; the 16 rays of a block of 4 x 4 pixels are neighbours.
 std::vector<PrimaryRay> primaryRays(const TraceCamera& camera, std::uint32_t width, std::uint32_t height);
 
 struct EmbreeResult
@@ -32,12 +32,13 @@ struct EmbreeResult
     std::uint64_t hit_count = 0;   // rays that hit something
 };
 
-/// Traces rays, neighbours in the picture beside each other, on all processors through voxels, each a user primitive
-/// with an exact slab test, run_count times after a warm-up. codes: their Morton codes. Throws Error{Memory}.
+/// Traces rays through voxels on all processors, run_count times after a warm-up. Each voxel is a user primitive with
+/// an exact slab test. Neighbours in the list should be neighbours in the picture. codes: Morton codes of the voxels.
+/// Throws Error{Memory}.
 EmbreeResult traceVoxelsByEmbree(const Grid& grid, std::span<const std::uint64_t> codes,
                                  std::span<const PrimaryRay> rays, std::uint32_t run_count);
 
-/// The same through the scene's triangles, all opaque and instances unrolled.
+/// Traces the same rays through the scene's triangles, which are all opaque; each instance has its own copy of them.
 EmbreeResult traceTrianglesByEmbree(const Grid& grid, const Scene& scene, std::span<const PrimaryRay> rays,
                                     std::uint32_t run_count);
 

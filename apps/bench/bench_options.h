@@ -31,10 +31,10 @@ struct BenchOptions
     bool attributes = true;
     std::string camera; // as in RenderOptions
     bool passes = false;
-    bool balance = false; // balance of load on generated scenes, and on scenes if any were named
-    bool dynamic = false; // scenes in which something moves: update against rebuild
-    bool edit = false;    // strokes of a brush
-    TreeStructure structure = TreeStructure::Svo; // of what stands still or is edited; with dynamic or edit
+    bool balance = false;                         // load balance on generated scenes, and on scenes if any were named
+    bool dynamic = false;                         // updates against rebuilds of scenes with dynamic objects
+    bool edit = false;                            // strokes of a brush
+    TreeStructure structure = TreeStructure::Svo; // of the static part; with dynamic or edit
     DeviceOptions device;
     OutputOptions output; // path: unused
 };

@@ -26,7 +26,7 @@ BuildRuns measureBuild(vk::HeadlessDevice& device, const GpuScene& scene, const 
     std::vector<double> total_ms;
     for (std::uint32_t run = 0; run < run_count; ++run)
     {
-        runs.last = {}; // its memory goes before the next one's comes
+        runs.last = {}; // frees its memory before the next one is made
         runs.last = buildOctree(device, scene, grid, options);
         voxelize_ms.push_back(runs.last.operationMs("voxelize"));
         build_ms.push_back(runs.last.operationMs("octree"));

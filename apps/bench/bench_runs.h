@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The runs of a measurement.
+// Repeated measurements.
 #pragma once
 
 #include "bench/bench_table.h"
@@ -13,10 +13,10 @@
 namespace zvo::cli
 {
 
-/// Adds passes, each divided by run_count, to sums of the same names; both in order of occurrence.
+/// Adds passes, each divided by run_count, to the sums with the same names. Both stay in order of occurrence.
 void addPasses(std::vector<vk::PassTime>& sums, std::vector<vk::PassTime> passes, std::uint32_t run_count);
 
-/// Voxelization and octree construction, on the device's timers.
+/// Times of voxelization and octree construction, by the device's timers.
 struct BuildRuns
 {
     Spread voxelize_ms;
@@ -26,7 +26,7 @@ struct BuildRuns
     BuildResult last;
 };
 
-/// run_count runs, at least one, after a warm-up that also finds out how much room they need.
+/// Measures run_count runs, at least one, after a warm-up that also finds the room they need.
 BuildRuns measureBuild(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, BuildOptions options,
                        std::uint32_t run_count);
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array kUsualScenes = {"bunny_low.glb", "dragon.glb", "sponza.glb"};
 
-// The project's own scenes: beside the working directory's or the program's source tree.
+// The project's own scenes, in the working directory or in the program's source tree.
 std::vector<fs::path> ownScenes()
 {
     std::error_code ignored;
@@ -95,7 +95,7 @@ std::vector<fs::path> scenesOf(const BenchOptions& options)
     return scenes;
 }
 
-// Finds out now what would otherwise show after an hour. Throws the loader's error for a file that is missing.
+// Throws the loader's error if a file is missing, which would otherwise show only after an hour.
 void checkPresent(const std::vector<fs::path>& paths)
 {
     for (const fs::path& path : paths)

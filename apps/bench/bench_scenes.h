@@ -9,7 +9,7 @@
 namespace zvo::cli
 {
 
-/// The files to measure: those named, or the usual ones. Throws Error{Input} where there are none, or one is missing.
+/// The files to measure: the named ones, or the usual ones. Throws Error{Input} if there are none, or one is missing.
 std::vector<std::filesystem::path> benchScenes(const BenchOptions& options);
 
 } // namespace zvo::cli

@@ -31,7 +31,7 @@ std::string percent(double part)
     return fmt::format("{:.1f} %", 100 * part);
 }
 
-// What text(numbers) says of the DAG, or that there is none.
+// The text for the DAG, or a dash if there is none.
 template <typename Text> std::string orDash(const std::optional<DagNumbers>& dag, const Text& text)
 {
     return dag ? text(*dag) : "-";
@@ -104,7 +104,7 @@ template <typename T> Json orNull(const std::optional<T>& value)
     return value ? Json(*value) : Json(nullptr);
 }
 
-// What value(numbers) says of the DAG, or null.
+// The value for the DAG, or null if there is none.
 template <typename Value> Json dagJson(const std::optional<DagNumbers>& dag, const Value& value)
 {
     return dag ? Json(value(*dag)) : Json(nullptr);

@@ -13,7 +13,7 @@
 namespace zvo::cli
 {
 
-/// Of the runs of one row.
+/// Median, least and greatest time of a row's runs.
 struct Spread
 {
     double median = 0;
@@ -29,20 +29,20 @@ std::string spreadText(const Spread& spread);
 
 Json spreadJson(const Spread& spread);
 
-constexpr std::uint32_t kTraceTurns = 3; // pictures for each run: they take less time than the rest
+constexpr std::uint32_t kTraceTurns = 3; // pictures for each run, as they take less time than the rest
 
-/// What a row tells of the DAG that is made of its octree.
+/// The numbers of a row about the DAG of its octree.
 struct DagNumbers
 {
     std::uint64_t nodes = 0;
     std::uint64_t geometry_bytes = 0; // of nodes and lists
-    std::uint64_t rank_bytes = 0;     // what attributes need beside them
+    std::uint64_t rank_bytes = 0;     // additional bytes that attributes need
     Spread compress_ms;
     Spread trace_ms;
-    Spread trace_ratio; // DAG / octree, of pictures that were traced one after the other
+    Spread trace_ratio; // DAG / octree, of pictures that were traced in turns
 };
 
-/// One scene at one resolution.
+/// The numbers of one scene at one resolution.
 struct BenchRow
 {
     std::string scene; // the file's name without its extension
@@ -58,8 +58,8 @@ struct BenchRow
     Spread voxelize_ms;
     Spread build_ms;
     Spread trace_ms;               // of the octree
-    std::optional<DagNumbers> dag; // unless memory does not suffice for octree and DAG at once
-    double beam_grid_ms = 0;       // once for an octree; in no other time
+    std::optional<DagNumbers> dag; // nothing if memory does not suffice for octree and DAG at once
+    double beam_grid_ms = 0;       // once for each octree; not part of other times
     std::uint64_t rays = 0;
     std::uint64_t hits = 0;                               // rays that hit a voxel
     std::optional<double> embree_user_mrays_per_s;        // through the same voxels
@@ -73,13 +73,13 @@ struct BenchRow
     [[nodiscard]] double mvoxelsPerSecond() const;
     [[nodiscard]] double mraysPerSecond() const;
 
-    /// Of the DAG and the octree: bytes of geometry.
+    /// Bytes of geometry of the DAG, divided by those of the octree.
     [[nodiscard]] double dagGeometryRatio(const DagNumbers& numbers) const;
-    /// Compression over voxelization and octree construction: times.
+    /// Time of compression, divided by that of voxelization and octree construction.
     [[nodiscard]] double compressRatio(const DagNumbers& numbers) const;
 };
 
-/// What all rows share.
+/// What all rows have in common.
 struct BenchHeader
 {
     vk::DeviceReport device;
@@ -88,13 +88,13 @@ struct BenchHeader
     std::uint32_t run_count = 0;
 };
 
-/// The head of the table, in Markdown: a sentence on the conditions, names of columns.
+/// The head of the table, in Markdown: a sentence on the conditions, and the columns' names.
 std::string tableHead(const BenchHeader& header);
 
 /// One line of the table.
 std::string tableLine(const BenchRow& row);
 
-/// The times of passes as a table of its own.
+/// A table of the passes' times.
 std::string passTable(const std::string& scene, std::uint32_t resolution, const std::vector<vk::PassTime>& passes);
 
 /// The report of `zvo bench`; the names of the fields are an interface.

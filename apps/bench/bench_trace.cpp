@@ -29,7 +29,7 @@ std::vector<vk::PassTime> PrimaryRays::trace()
 namespace
 {
 
-// Traces a picture: one more time, and its share of the sums.
+// Traces a picture; adds its time and its part of the sums.
 void addPicture(PrimaryRays& rays, std::uint32_t turn_count, std::vector<double>& ms, std::vector<vk::PassTime>& sums)
 {
     std::vector<vk::PassTime> passes = rays.trace();

@@ -13,14 +13,15 @@
 namespace zvo::cli
 {
 
-/// Traces pictures of one tree. What is given must outlive this.
+/// Traces pictures of one tree. Device, tree and tracer must outlive this object.
 class PrimaryRays
 {
 public:
-    /// Makes the tree's beam grid and traces a picture, so that the next ones are warm.
+    /// Makes the tree's beam grid and traces a picture as a warm-up.
     PrimaryRays(vk::HeadlessDevice& device, const DeviceTree& tree, const TraceCamera& camera, TreeTracer& tracer);
 
-    /// The passes of a picture: beam and primary rays, once the beam grid is this tree's.
+    /// Traces a picture and returns its passes: beam and primary rays. The beam grid is made first if it is another
+    /// tree's.
     std::vector<vk::PassTime> trace();
 
     [[nodiscard]] double beamGridMs() const { return m_beam_grid_ms; }
@@ -40,18 +41,18 @@ struct TraceRuns
 {
     Spread octree_ms;
     Spread dag_ms;
-    Spread ratio;                            // DAG / octree, of pictures that were traced one after the other
+    Spread ratio;                            // DAG / octree, of pictures that were traced in turns
     std::vector<vk::PassTime> octree_passes; // mean of the runs, summed by name
     std::vector<vk::PassTime> dag_passes;
 };
 
-/// Traces both, turn by turn, each turn the other one first: what else the machine does meets both alike.
+/// Traces both in turns, changing the order each time, so that other load of the machine affects both equally.
 TraceRuns traceInTurns(PrimaryRays& octree, PrimaryRays& dag, std::uint32_t turn_count);
 
-/// The octree's alone, where there is no DAG: the rest of the result is empty.
+/// Measures the octree alone if there is no DAG; the rest of the result is empty.
 TraceRuns traceAlone(PrimaryRays& octree, std::uint32_t turn_count);
 
-/// Pixels of the last picture whose ray hit something.
+/// Number of pixels of the last picture whose ray hit something.
 std::uint64_t countHits(vk::HeadlessDevice& device, const TraceBuffers& buffers);
 
 } // namespace zvo::cli

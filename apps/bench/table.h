@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables in Markdown, line by line as the rows come.
+// Tables in Markdown, written line by line.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,11 +11,11 @@
 namespace zvo::cli
 {
 
-/// What a table tells of a Row. The first column is names, to the left; the others are numbers, to the right.
+/// A column of a table of Rows. The first column has names, aligned left; the others have numbers, aligned right.
 template <typename Row> struct Column
 {
     const char* name;
-    int width; // of what is mostly in it
+    int width; // usual width of its values
     std::function<std::string(const Row&)> value;
 };
 

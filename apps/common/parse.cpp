@@ -161,7 +161,7 @@ std::uint64_t parseBytes(std::string_view option, std::string_view text)
 {
     constexpr std::string_view kUnits = "KMGT";
     constexpr double kMax = 0x1p63;
-    const bool is_spelt_out = text.ends_with("iB"); // GiB is G
+    const bool is_spelt_out = text.ends_with("iB"); // GiB means the same as G
     std::string_view digits = text.substr(0, text.size() - (is_spelt_out ? 2 : 0));
     double scale = 1;
     const std::size_t unit = digits.empty() ? std::string_view::npos : kUnits.find(digits.back());

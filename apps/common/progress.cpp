@@ -20,7 +20,7 @@ namespace
 const char* g_program = "zvo";
 std::function<void(std::string_view)> g_listener;
 std::atomic<bool> g_bar_shown = false;
-static_assert(std::atomic<bool>::is_always_lock_free); // or a signal handler could not use it
+static_assert(std::atomic<bool>::is_always_lock_free); // so that a signal handler may use it
 
 constexpr std::size_t kBarWidth = 30;
 constexpr char kClearLine[] = "\r\033[K";

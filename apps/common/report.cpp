@@ -56,7 +56,7 @@ Json octreeJson(const std::string& schema, const vk::DeviceReport& device, const
     json["bytes"] = {
         {"geometry", octree.geometryBytes()}, {"attributes", octree.attributeBytes()}, {"peak_device", peak_bytes}};
     json["octree_sha256"] = octree_sha256;
-    json["cold_run"] = true; // times include whatever a device does only the first time
+    json["cold_run"] = true; // times include what a device does only at first
     json["retries"] = result.retry_count;
     json["passes"] = passesJson(result.passes);
     json["voxelize_ms"] = result.operationMs("voxelize");

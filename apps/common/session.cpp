@@ -20,7 +20,7 @@ namespace zvo::cli
 namespace
 {
 
-// Empty where there is no place for it.
+// Returns an empty path if there is no folder for it.
 std::filesystem::path cacheFolder()
 {
     std::filesystem::path base = environmentPath("XDG_CACHE_HOME");
@@ -48,7 +48,7 @@ void warnOfNothing(bool has_triangles)
     }
 }
 
-// Those that were left out because their numbers make no sense, not because of where they are.
+// The dropped triangles whose numbers are invalid, without those that lie outside.
 std::map<std::string, std::uint64_t> senselessAmong(std::map<std::string, std::uint64_t> dropped)
 {
     std::erase_if(dropped,
@@ -56,7 +56,7 @@ std::map<std::string, std::uint64_t> senselessAmong(std::map<std::string, std::u
     return dropped;
 }
 
-// Options that a scene file takes no notice of must not look as if it did.
+// Refuses options that have no effect with a scene file.
 void checkSceneFileOptions(const VoxelOptions& options)
 {
     if (options.scenes.size() > 1)

@@ -13,10 +13,10 @@ namespace zvo::cli
 namespace
 {
 
-// Ends the process at once, without half-written files. Calls only what a signal handler may call.
+// Removes half-written files and ends the process at once. Calls only functions that signal handlers may call.
 void onSignal(int signal)
 {
-    constexpr int kSignalExit = 128; // plus the signal's number, as shells have it
+    constexpr int kSignalExit = 128; // plus the signal's number, as in shells
     removePendingFiles();
     clearProgressBar();
     ::_exit(kSignalExit + signal);
@@ -33,13 +33,13 @@ void installSignalHandlers()
     {
         struct sigaction inherited = {};
         sigaction(signal, nullptr, &inherited);
-        if (inherited.sa_handler != SIG_IGN) // as under nohup
+        if (inherited.sa_handler != SIG_IGN) // ignored under nohup, for example
         {
             sigaction(signal, &action, nullptr);
         }
     }
-    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of the write
-    std::signal(SIGXFSZ, SIG_IGN); // and so is a file that grows too big
+    std::signal(SIGPIPE, SIG_IGN); // a closed pipe fails the write instead
+    std::signal(SIGXFSZ, SIG_IGN); // a file above the size limit fails the write, too
 }
 
 } // namespace zvo::cli

@@ -16,8 +16,9 @@ namespace zvo::cli
 namespace
 {
 
-constexpr float kDefaultFov = 45.0F;    // degrees
-constexpr double kCloseDistance = 0.42; // of the framing camera's: about two thirds of the rays hit a single object
+constexpr float kDefaultFov = 45.0F; // degrees
+constexpr double kCloseDistance =
+    0.42; // of the framing camera's distance: about two thirds of the rays hit a single object
 
 constexpr std::array kViews = {
     NamedView{"color", View::Color}, NamedView{"albedo", View::Albedo}, NamedView{"normal", View::Normal},

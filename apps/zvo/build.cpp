@@ -37,11 +37,11 @@ void checkName(const OutputOptions& options)
     }
 }
 
-// A tree and how it came about.
+// A tree, and numbers on how it was made.
 struct Built
 {
     TreeData tree;
-    std::map<std::string, std::uint64_t> dropped; // triangles left out, by reason
+    std::map<std::string, std::uint64_t> dropped; // dropped triangles, by reason
     std::vector<vk::PassTime> passes;
     std::uint32_t retry_count = 0;
     std::uint32_t tile_count = 1;
@@ -87,7 +87,7 @@ Json builtJson(vk::HeadlessDevice& device, const BuildFileOptions& options, std:
     json["bytes"] = {{"geometry", tree.geometryBytes()},
                      {"attributes", tree.attributeBytes()},
                      {"peak_device", device.device().memory().peakBytes()}};
-    json["cold_run"] = true; // times include whatever a device does only the first time
+    json["cold_run"] = true; // times include what a device does only at first
     json["retries"] = built.retry_count;
     json["passes"] = passesJson(sumByName(built.passes));
     json["voxelize_ms"] = operationMs(built.passes, "voxelize");

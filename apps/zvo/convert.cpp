@@ -89,7 +89,7 @@ void convert(const ConvertOptions& options)
     }
     Progress progress(2);
     progress.step("loading");
-    std::optional<vk::HeadlessDevice> device; // only for what needs one
+    std::optional<vk::HeadlessDevice> device; // only for conversions that need one
     const auto openDevice = [&]
     {
         if (!device)

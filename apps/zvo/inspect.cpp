@@ -22,7 +22,7 @@ namespace zvo::cli
 namespace
 {
 
-// SHA-256 of a file that can be read again.
+// SHA-256 of a regular file, which can be read again.
 std::string fileSha256(const std::filesystem::path& path)
 {
     constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
@@ -41,7 +41,7 @@ std::string fileSha256(const std::filesystem::path& path)
     return sha.hexDigest();
 }
 
-// A file with its digest. What is no regular file is read once.
+// A file with its digest. A file that is not regular is read once.
 std::pair<ZvoFile, std::string> readWithSha256(const std::filesystem::path& path)
 {
     std::error_code failure;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// zvo: the command line program. Standard output is data, standard error is talk.
+// zvo: the command line program. Data goes to standard output, messages to standard error.
 #include "bench/bench.h"
 #include "build.h"
 #include "common/output.h"

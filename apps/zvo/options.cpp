@@ -213,7 +213,7 @@ CLI::App* addInfo(CLI::App& app, InfoOptions& options)
     return info;
 }
 
-// Arguments that nothing took.
+// Names the arguments that no option has taken.
 std::string strangerText(const CLI::App& app)
 {
     const std::vector<std::string> strangers = app.remaining(true);

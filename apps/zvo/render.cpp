@@ -32,7 +32,7 @@ namespace zvo::cli
 namespace
 {
 
-/// Where the pictures are taken from.
+/// The camera of each picture.
 class CameraWork
 {
 public:
@@ -44,7 +44,7 @@ public:
         }
     }
 
-    /// The camera of the frame with that number; start: without a path.
+    /// The camera of the frame with that number. start: used if there is no path.
     [[nodiscard]] ViewCamera at(std::uint32_t number, double frames_per_second, const ViewCamera& start) const
     {
         return !m_path            ? start
@@ -59,7 +59,7 @@ private:
     std::optional<CameraPath> m_path;
 };
 
-/// The pictures of a scene.
+/// Makes the pictures of a scene, and the report.
 class RenderRun
 {
 public:
@@ -70,14 +70,14 @@ public:
     {
     }
 
-    // A camera that turns around what stands still, or flies.
+    // Shows a static scene; the camera orbits or flies.
     void turn(Scene&& scene, const Grid& grid, const ViewCamera& camera, const glm::dvec3& center)
     {
         const auto report = [&](const BuildResult& built) { m_report.addOctree(built, m_triangle_count); };
         turn(makeTree(std::move(scene), grid, report), camera, center);
     }
 
-    // The same around what a file holds.
+    // Does the same with the tree of a file.
     void turn(TreeData&& tree, const ViewCamera& camera, const glm::dvec3& center)
     {
         m_progress.step("copying to the device");
@@ -87,7 +87,7 @@ public:
         turn(uploaded, camera, center);
     }
 
-    // What stands still is voxelized once, what moves is merged with it at each time.
+    // Voxelizes the static part once, and merges dynamic objects with it at each time.
     void play(AnimatedScene&& animated, const Grid& grid, const ViewCamera& camera)
     {
         m_progress.step("voxelizing what stands still");
@@ -112,7 +112,7 @@ public:
         }
     }
 
-    // Everything is voxelized together, at each time anew.
+    // Voxelizes everything anew at each time.
     void rebuild(const AnimatedScene& animated, const Grid& grid, const ViewCamera& camera)
     {
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
@@ -138,7 +138,7 @@ public:
         }
     }
 
-    // After all pictures.
+    // Completes the report after all pictures.
     void finish(std::optional<Output>& file)
     {
         if (file)
@@ -170,7 +170,7 @@ private:
                                 : loopedTime(animated, m_options.voxels.time.value_or(0.0));
     }
 
-    // A scene, as it is to be traced; report is shown the octree.
+    // Makes the tree of a scene to be traced. report is called with the octree.
     template <typename Report> DeviceTree makeTree(Scene&& scene, const Grid& grid, const Report& report)
     {
         m_triangle_count = scene.triangleCount();
@@ -178,7 +178,8 @@ private:
         listener.step = [&](std::string_view step) { m_progress.step(step); };
         listener.built = [&](const BuildResult& built)
         {
-            m_has_warned = m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped); // not for each frame
+            m_has_warned =
+                m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped); // only once, not for each frame
             report(built);
         };
         StaticPart part =
@@ -208,8 +209,8 @@ private:
     vk::HeadlessDevice m_device;
     Renderer m_renderer;
     RenderReport m_report;
-    std::uint64_t m_triangle_count = 0; // of the scene voxelized last
-    bool m_has_warned = false;          // of triangles that were dropped, which one frame after the other may have
+    std::uint64_t m_triangle_count = 0; // of the last voxelized scene
+    bool m_has_warned = false;          // of dropped triangles, which may occur in every frame
 };
 
 bool hasZvoFile(const VoxelOptions& options)
@@ -217,7 +218,7 @@ bool hasZvoFile(const VoxelOptions& options)
     return std::any_of(options.scenes.begin(), options.scenes.end(), isZvoFile);
 }
 
-// Options that a tree takes no notice of must not look as if it did.
+// Refuses options that have no effect with a tree.
 void checkTreeOptions(const RenderOptions& options)
 {
     const VoxelOptions& voxels = options.voxels;
@@ -292,7 +293,7 @@ void render(const RenderOptions& options)
     VoxelOptions voxels = options.voxels;
     if (options.camera_path)
     {
-        voxels.time.reset(); // it is the camera's where nothing else moves
+        voxels.time.reset(); // only the camera moves, so the time is its own
     }
     AnimatedScene animated = loadAnimatedSceneWithWarnings(voxels, options.frames || options.voxels.time);
     const bool moves = !animated.objects.empty();

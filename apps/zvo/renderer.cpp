@@ -13,7 +13,7 @@ namespace zvo::cli
 namespace
 {
 
-// The time of the passes up to the last primary rays: what comes after them is light and colour.
+// Time of the passes up to the last primary rays. Later passes compute light and colour.
 double primaryMs(const std::vector<vk::PassTime>& passes)
 {
     double ms = 0;

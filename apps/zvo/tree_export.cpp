@@ -18,7 +18,7 @@ namespace zvo::cli
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little); // numbers are written as they stand in memory
+static_assert(std::endian::native == std::endian::little); // numbers are written as they are in memory
 
 glm::vec3 voxelCenter(const Grid& grid, std::uint64_t code)
 {
@@ -53,7 +53,7 @@ void appendAttribute(std::vector<std::byte>& bytes, const gpu::Attribute& attrib
     }
 }
 
-// Hands on what was collected, in pieces.
+// Collects bytes, and writes them in pieces.
 class Pieces
 {
 public:

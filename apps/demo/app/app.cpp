@@ -21,9 +21,9 @@ namespace zvo::demo
 namespace
 {
 
-constexpr double kIdleSeconds = 0.1;      // between looks at a window that shows nothing
-constexpr double kLongestStep = 0.25;     // seconds: a program that was stopped does not jump
-constexpr std::size_t kCpuLadderStep = 2; // half the window's edges: what software devices begin with
+constexpr double kIdleSeconds = 0.1;      // between checks of a window that shows nothing
+constexpr double kLongestStep = 0.25;     // seconds; limits the jump after the program was stopped
+constexpr std::size_t kCpuLadderStep = 2; // half the window's edges, with which software devices begin
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
@@ -46,7 +46,7 @@ Settings settingsFor(const DemoOptions& options)
     return file ? readSettings(*file) : Settings{};
 }
 
-// What options say, and settings where they do not.
+// The view of the options, or of the settings where options are not given.
 ViewState viewOf(const DemoOptions& options, const Settings& settings)
 {
     ViewState view = settings.view;
@@ -60,7 +60,7 @@ ViewState viewOf(const DemoOptions& options, const Settings& settings)
     return view;
 }
 
-// A window of panels in the upper left or right corner. ImGui::End() ends it, whether or not it is open.
+// Begins a window of panels in the upper left or right corner. ImGui::End() ends it, whether or not it is open.
 bool beginPanels(const char* title, bool is_right)
 {
     constexpr float kMargin = 10;
@@ -117,7 +117,7 @@ App::App(const DemoOptions& options, Clock::time_point start)
 
 App::~App()
 {
-    m_loading.reset(); // its thread tells things
+    m_loading.reset(); // its thread may write notices
     cli::listenToTalk(nullptr);
 }
 
@@ -179,7 +179,7 @@ void App::takeInput()
     const PictureSize size = m_window.framebufferSize();
     const bool idles = !m_replay && (size.width == 0 || size.height == 0);
     const std::vector<InputEvent> users = m_window.takeEvents(idles ? kIdleSeconds : 0.0);
-    // What the window system does to the window counts even while a script is played.
+    // While a script is played, only the user's request to close the window counts.
     for (const InputEvent& event : users)
     {
         if (!m_replay || std::holds_alternative<CloseEvent>(event))
@@ -215,7 +215,7 @@ void App::apply(const InputEvent& event)
     {
         m_mouse = *move;
     }
-    const bool is_the_panels = m_ui.handle(event); // which also see what happens while they are hidden
+    const bool is_the_panels = m_ui.handle(event); // the panels see events even while they are hidden
     if (m_panels.shows_panels && is_the_panels)
     {
         return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// App: what keys do.
+// App: the actions of keys.
 #include "demo/app/app.h"
 
 #include "common/progress.h"
@@ -34,7 +34,8 @@ void App::onKey(const KeyEvent& event)
 
 void App::perform(const KeyBinding& binding, Key key)
 {
-    const auto number = static_cast<std::size_t>(key) - static_cast<std::size_t>(binding.key); // in a range
+    const auto number =
+        static_cast<std::size_t>(key) - static_cast<std::size_t>(binding.key); // position in a range of keys
     switch (binding.action)
     {
     case Action::ShowKeys:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// App: frames on their way through the device, and what is learnt from them.
+// App: recording and submitting frames, and reading their results.
 #include "demo/app/app.h"
 
 #include "common/progress.h"
@@ -42,7 +42,7 @@ void App::draw()
     }
     if (m_options.fixed_step)
     {
-        // What this frame shows does not depend on which frames the device is done with.
+        // Waits, so that this frame does not depend on which frames the device has completed.
         finishAll();
         m_world->scene.settle(worldSeconds());
     }
@@ -81,7 +81,7 @@ void App::draw()
         picture.inspected = flight.inspected;
         picture.report = flight.report.get();
     }
-    // Nothing that may fail comes between an image and the submission that waits for it.
+    // Nothing that may fail stands between acquiring an image and the submission that waits for it.
     const std::optional<vk::SwapchainImage> target = m_swapchain.acquire({size.width, size.height}, m_drawn_count);
     picture.target = target ? &*target : nullptr;
     submit(picture, std::move(flight));
@@ -92,7 +92,7 @@ void App::draw()
     ++m_drawn_count;
 }
 
-// Makes buffers for the picture. Without them it is not drawn; that there is no memory for the first one is an error.
+// Makes buffers for the picture. Without memory for them the picture is left out; for the first one that is an error.
 bool App::prepare(const Picture& picture)
 {
     try
@@ -173,7 +173,7 @@ void App::finishOldest()
     }
 }
 
-// Writes a screenshot. That one fails which a key asked for is no reason to end.
+// Writes a screenshot. A failure ends the program only if the command line asked for the screenshot.
 void App::keep(const Flight& flight)
 {
     try

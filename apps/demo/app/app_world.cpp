@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// App: which world is shown, and what becomes of it.
+// App: the world that is shown, and the one that is being loaded.
 #include "demo/app/app.h"
 
 #include "common/output.h"
@@ -21,10 +21,10 @@ namespace zvo::demo
 namespace
 {
 
-constexpr double kLoadingPieceMs = 30; // of work on a world between two frames of another one
-constexpr int kSavedMost = 1000;       // files of one name
+constexpr double kLoadingPieceMs = 30; // work on a world between two frames of another one
+constexpr int kSavedMost = 1000;       // largest number in a file's name
 
-// A file of that name in the working folder that is not there yet.
+// A name in the working folder that no file has yet.
 std::string freeName(const std::string& stem)
 {
     for (int i = 1; i < kSavedMost; ++i)
@@ -54,13 +54,13 @@ void App::loadFiles(const std::vector<std::filesystem::path>& files)
     }
     WorldOptions options = m_world_options;
     options.voxels.scenes = files;
-    options.voxels.time.reset(); // of what was named on the command line, like the grid's place
+    options.voxels.time.reset(); // belongs to the files of the command line, as does the grid's position
     options.voxels.bounds.reset();
     options.voxels.grid_position.reset();
     beginLoading(std::move(options));
 }
 
-// In the background; with fixed steps at once, as then every frame shows the same on every run.
+// Begins loading in the background. With fixed steps it loads at once, so that every run shows the same frames.
 void App::beginLoading(WorldOptions options)
 {
     if (m_options.fixed_step)
@@ -98,7 +98,7 @@ void App::continueLoading()
     {
         return;
     }
-    std::exception_ptr failure; // of a frame, not of what is being made
+    std::exception_ptr failure; // a frame's failure, not that of loading
     const auto frame = [&]
     {
         try
@@ -139,7 +139,7 @@ void App::continueLoading()
     }
 }
 
-// The camera stays where it is if only the voxels are others.
+// Shows a world. The camera stays if only the voxels have changed.
 void App::show(std::unique_ptr<World> world, const WorldOptions& options)
 {
     const bool is_same = options.voxels.scenes == m_world_options.voxels.scenes;
@@ -167,7 +167,7 @@ void App::request(const EditRequest& request)
     }
 }
 
-// Whether the device is at work on a world, in which nothing but frames may come between.
+// Whether the device is making a world; meanwhile only frames may be drawn.
 bool App::isMakingAWorld()
 {
     if (m_loading != nullptr)
@@ -177,7 +177,7 @@ bool App::isMakingAWorld()
     return m_loading != nullptr;
 }
 
-// What is shown, as a file.
+// Saves the shown tree to a file.
 void App::save()
 {
     if (isMakingAWorld())

@@ -88,7 +88,7 @@ void Editor::found(std::uint64_t look, const gpu::PixelReport& report, World& wo
     }
 }
 
-// What the hand takes is decided by where it went down.
+// Chooses the dynamic object by the point at which the button was pressed.
 void Editor::grab(const glm::ivec3& voxel, World& world)
 {
     if (std::exchange(m_has_grabbed, true))
@@ -128,7 +128,7 @@ void Editor::request(const EditRequest& request, World& world)
     }
 }
 
-// Along the plane that faces the camera, with the grabbed point under the pointer.
+// Moves the object parallel to the plane that faces the camera, with the grabbed point under the pointer.
 void Editor::drag(World& world)
 {
     if (m_drag)

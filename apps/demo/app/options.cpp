@@ -35,7 +35,7 @@ Examples:
 
 Exit codes: 0 success, 2 usage, 3 input, 4 output, 5 no usable device or no display, 6 memory, 1 anything else.)";
 
-// Seconds: "0.02" or "1/60".
+// Parses seconds: "0.02" or "1/60".
 FixedStep parseStep(std::string_view option, std::string_view text)
 {
     const std::size_t slash = text.find('/');

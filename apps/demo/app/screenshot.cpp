@@ -19,7 +19,7 @@ namespace
 
 constexpr int kNumberMax = 9999;
 
-// The first name that is free.
+// The first name that no file has.
 std::string newName()
 {
     for (int i = 1; i <= kNumberMax; ++i)

@@ -46,7 +46,7 @@ View readView(const JsonCursor& value)
     return found->view;
 }
 
-// Calls read with the member of that name, if it is there.
+// Calls read with the member of that name, if there is one.
 template <typename Read> void with(const JsonCursor& object, const char* name, Read read)
 {
     if (const std::optional<JsonCursor> value = object.find(name))
@@ -65,7 +65,7 @@ void readViewState(const JsonCursor& object, ViewState& view)
     with(object, "sun",
          [&](const JsonCursor& value)
          {
-             static_cast<void>(value.direction()); // not all 0; any length
+             static_cast<void>(value.direction()); // checks that not all numbers are 0; any length is allowed
              view.to_sun = value.vector();
          });
     with(object, "exposure",

@@ -37,7 +37,7 @@ std::string textOf(const fs::path& file)
     return {bytes.begin(), bytes.end()};
 }
 
-// A folder for the compiler's results, removed with everything in it.
+// A folder for the compiler's results, removed with its contents.
 class ScratchFolder
 {
 public:
@@ -64,7 +64,7 @@ private:
     fs::path m_path;
 };
 
-// The compiler at work on one kernel.
+// A run of the compiler on one kernel.
 class Compilation
 {
 public:
@@ -123,13 +123,13 @@ private:
     pid_t m_pid = -1;
 };
 
-// When files below a folder, and what they include, were last written. Each file is read once.
+// The times at which files below a folder, and their includes, were last written. Each file is read once.
 class Dependencies
 {
 public:
     explicit Dependencies(const fs::path& root) : m_root(root) {}
 
-    // The latest time of a file and all that it includes; nothing where it is not there.
+    // The latest time of a file and all its includes; nothing if it is missing.
     std::optional<fs::file_time_type> latest(const std::string& file)
     {
         const auto known = m_latest.find(file);
@@ -137,7 +137,7 @@ public:
         {
             return known->second;
         }
-        m_latest[file] = std::nullopt; // files that include each other end here
+        m_latest[file] = std::nullopt; // ends the recursion of files that include each other
         std::error_code missing;
         const fs::file_time_type own = fs::last_write_time(m_root / file, missing);
         if (missing)

@@ -34,7 +34,7 @@ int indexOf(Key key)
     return static_cast<int>(key);
 }
 
-// What the panels take of an event.
+// Passes an event to Dear ImGui. Returns whether it was for the panels.
 struct Feed
 {
     ImGuiIO& io;
@@ -46,7 +46,7 @@ struct Feed
         io.KeyShift = io.KeysDown[indexOf(Key::LeftShift)] || io.KeysDown[indexOf(Key::RightShift)];
         io.KeyCtrl = io.KeysDown[indexOf(Key::LeftControl)] || io.KeysDown[indexOf(Key::RightControl)];
         io.KeyAlt = io.KeysDown[indexOf(Key::LeftAlt)] || io.KeysDown[indexOf(Key::RightAlt)];
-        return event.pressed && io.WantTextInput; // a key that is let go concerns all
+        return event.pressed && io.WantTextInput; // everybody sees a key's release
     }
     bool operator()(const TextEvent& event) const
     {
@@ -81,7 +81,7 @@ Ui::Ui(vk::HeadlessDevice& device, const ComposePass& pass, Window& window, std:
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // settings.h keeps what is kept
+    io.IniFilename = nullptr; // settings.h stores what is kept
     io.LogFilename = nullptr;
     ImFontConfig font;
     font.SizePixels = kFontPixels * m_scale;
@@ -101,7 +101,7 @@ Ui::Ui(vk::HeadlessDevice& device, const ComposePass& pass, Window& window, std:
     info.PipelineCache = handles.pipeline_cache;
     info.DescriptorPool = m_descriptors;
     info.MinImageCount = std::max(frames_in_flight, 2U);
-    info.ImageCount = info.MinImageCount; // sets of vertices in turns
+    info.ImageCount = info.MinImageCount; // sets of vertices, used in turns
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     info.CheckVkResultFn = onResult;
     ImGui_ImplVulkan_Init(&info, pass.handle());
@@ -182,7 +182,7 @@ bool Ui::handle(const InputEvent& event)
 
 void Ui::build(PictureSize window, PictureSize framebuffer, double seconds, const std::function<void()>& panels)
 {
-    constexpr double kShortest = 1e-4; // Dear ImGui wants time to pass
+    constexpr double kShortest = 1e-4; // Dear ImGui requires that time passes
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(window.width), static_cast<float>(window.height)};
     if (window.width != 0 && window.height != 0)

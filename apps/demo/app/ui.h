@@ -63,7 +63,7 @@ private:
     VkDescriptorPool m_descriptors = VK_NULL_HANDLE;
     float m_scale;
     std::array<Button, kMouseButtonCount> m_buttons;
-    std::string m_clipboard; // that Dear ImGui was given last
+    std::string m_clipboard; // last text given to Dear ImGui
 };
 
 } // namespace zvo::demo

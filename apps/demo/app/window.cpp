@@ -23,7 +23,7 @@ namespace zvo::demo
 namespace
 {
 
-std::string g_glfw_error; // the last one
+std::string g_glfw_error; // the last error
 
 void onError(int, const char* text)
 {
@@ -36,7 +36,7 @@ void onError(int, const char* text)
                                                g_glfw_error.empty() ? "" : ": ", g_glfw_error));
 }
 
-// In the order of Key, from Space on: the others are ranges.
+// In the order of Key, from Space on; the keys before are ranges.
 constexpr std::array kSingleKeys = {
     // clang-format off
     GLFW_KEY_SPACE, GLFW_KEY_COMMA, GLFW_KEY_PERIOD, GLFW_KEY_MINUS, GLFW_KEY_EQUAL, GLFW_KEY_LEFT_BRACKET,
@@ -86,7 +86,7 @@ void installCallbacks(GLFWwindow* window)
                        [](GLFWwindow* w, int code, int, int action, int modifiers)
                        {
                            const std::optional<Key> key = keyOfGlfw(code);
-                           if (key && action != GLFW_REPEAT) // Dear ImGui repeats by itself
+                           if (key && action != GLFW_REPEAT) // Dear ImGui repeats keys itself
                            {
                                windowOf(w).note(KeyEvent{*key, action != GLFW_RELEASE, modifiersOf(modifiers)});
                            }
@@ -216,7 +216,7 @@ float Window::uiScale() const
     int pixel_width = 0;
     glfwGetWindowSize(m_window, &window_width, nullptr);
     glfwGetFramebufferSize(m_window, &pixel_width, nullptr);
-    // Where the window's units are larger than pixels, that is a part of it already.
+    // Units that are larger than pixels already contain a part of the scale.
     const float unit = window_width > 0 ? static_cast<float>(pixel_width) / static_cast<float>(window_width) : 1.0F;
     return std::clamp(scale / std::max(unit, 1.0F), 1.0F, 4.0F);
 }
@@ -224,7 +224,7 @@ float Window::uiScale() const
 void Window::resize(PictureSize size)
 {
     m_has_no_extent = size.width == 0 || size.height == 0;
-    if (m_has_no_extent) // which the window system may refuse
+    if (m_has_no_extent) // the window system may refuse it, so only size() changes
     {
         return;
     }

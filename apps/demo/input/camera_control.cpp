@@ -20,11 +20,11 @@ namespace zvo::demo
 namespace
 {
 
-constexpr double kTurn = std::numbers::pi; // radians of a drag over the window's height
-constexpr double kPitchMax = 1.55;         // radians up and down: never quite vertical
-constexpr double kZoom = 0.85;             // of the distance that a notch of the wheel leaves
-constexpr double kSpeedStep = 1.25;        // of a notch
-constexpr double kFast = 4;                // with Shift
+constexpr double kTurn = std::numbers::pi; // radians for a drag over the window's height
+constexpr double kPitchMax = 1.55;         // radians up and down, so that the camera is never quite vertical
+constexpr double kZoom = 0.85;             // factor on the distance for each notch of the wheel
+constexpr double kSpeedStep = 1.25;        // factor for each notch
+constexpr double kFast = 4;                // factor with Shift
 constexpr double kUsualSpeed = 0.25;       // subjects a second
 constexpr double kSpeedMin = 1e-4;         // subjects a second
 constexpr double kSpeedMax = 1e2;
@@ -35,7 +35,7 @@ double pitchOf(const glm::dvec3& forward)
     return std::asin(std::clamp(forward.y, -1.0, 1.0));
 }
 
-// With y up.
+// Sets the camera's axes, with y up.
 void setDirection(ViewCamera& camera, double yaw, double pitch)
 {
     const glm::dvec3 forward(std::cos(pitch) * std::sin(yaw), std::sin(pitch), -std::cos(pitch) * std::cos(yaw));
@@ -105,7 +105,7 @@ void CameraControl::handle(const InputEvent& event, bool has_tool, double height
 
 void CameraControl::onKey(const KeyEvent& event)
 {
-    // Keys that do something else with Ctrl or Alt do not move.
+    // Keys with Ctrl or Alt do something else, and do not move.
     const bool is_other = event.modifiers.control || event.modifiers.alt;
     m_held[static_cast<std::size_t>(event.key)] = event.pressed && !is_other;
 }
@@ -233,7 +233,7 @@ std::optional<ViewCamera> cameraOfText(std::string_view text)
     {
         return cli::cameraOfNumbers(*numbers);
     }
-    catch (const Error&) // too few, or no direction
+    catch (const Error&) // too few numbers, or no direction
     {
         return std::nullopt;
     }

@@ -9,7 +9,7 @@ namespace zvo::demo
 namespace
 {
 
-constexpr double kKeySeconds = 0.25; // between keys that are recorded
+constexpr double kKeySeconds = 0.25; // between recorded keys
 
 } // namespace
 
@@ -69,7 +69,7 @@ void CameraFlight::recordKey(const CameraControl& control)
     const ViewCamera& camera = control.camera();
     const double now = m_record_time.seconds();
     const bool is_due = m_recorded.empty() || now - m_recorded.back().seconds >= kKeySeconds;
-    if (is_due && !camera.orthographic) // which keys cannot tell
+    if (is_due && !camera.orthographic) // keys cannot represent orthographic cameras
     {
         m_recorded.push_back({now, camera.position, control.pivot(), glm::degrees(camera.vertical_fov)});
     }

@@ -12,26 +12,27 @@
 namespace zvo::demo
 {
 
-/// Camera paths: flown along, and recorded.
+/// Flies the camera along paths, and records paths.
 class CameraFlight
 {
 public:
     explicit CameraFlight(const std::optional<FixedStep>& step) : m_time(step), m_record_time(step) {}
 
-    /// Flies along path from its beginning. stays: after its end, too, where the camera stands still.
+    /// Flies along path from its beginning. stays: the camera stays at the path's end instead of being released.
     void fly(CameraPath path, bool stays);
 
-    /// Begins the flight along the path that there is, or ends it; false where there is none.
+    /// Begins a flight along the current path, or ends it. Returns false if there is no path.
     bool toggle();
     void stop() { m_flies = false; }
     [[nodiscard]] bool flies() const { return m_flies; }
 
-    /// Begins recording, or ends it: then the path is what was recorded, if that is anything, and returned.
+    /// Begins recording, or ends it. At the end, the recorded path, if it is one, becomes the current one and is
+    /// returned.
     std::optional<CameraPath> toggleRecording();
     [[nodiscard]] bool records() const { return m_records; }
 
-    /// A frame more, which took so long by the clock; the first frame shows the beginning. Moves the camera, or watches
-    /// it.
+    /// Advances by a frame, whose duration is by the clock; the first frame shows the path's beginning. Moves the
+    /// camera, or records it.
     void advance(double seconds, bool is_first, CameraControl& camera);
 
 private:

@@ -7,7 +7,7 @@
 namespace zvo::demo
 {
 
-/// The time that every frame takes, whatever the clock says: numerator / denominator seconds.
+/// A fixed time for every frame, independent of the clock: numerator / denominator seconds.
 struct FixedStep
 {
     double numerator = 1;
@@ -16,14 +16,14 @@ struct FixedStep
     [[nodiscard]] double seconds() const { return numerator / denominator; }
 };
 
-/// Time that frames add up to. Of fixed steps it is what multiplying says, not what adding up says: frame N of steps of
-/// 1/30 is at N / 30 seconds exactly, as `zvo render` has it.
+/// The total time of frames. Fixed steps are multiplied, not added up: frame N with steps of 1/30 is at exactly N / 30
+/// seconds, as in `zvo render`.
 class Elapsed
 {
 public:
     explicit Elapsed(const std::optional<FixedStep>& step) : m_step(step) {}
 
-    /// A frame more, which took this long by the clock.
+    /// Adds a frame, whose duration is by the clock.
     void add(double seconds)
     {
         if (m_step)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What happens to the window, in the order in which it happens: from the window system, or from a script.
+// Events of the window, in order, from the window system or from a script.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace zvo::demo
 {
 
-/// The keys that the program, or a text field, knows.
+/// The keys that the program or text fields use.
 enum class Key : std::uint8_t
 {
     // clang-format off
@@ -31,7 +31,7 @@ inline constexpr std::size_t kKeyCount = static_cast<std::size_t>(Key::RightAlt)
 std::string_view keyName(Key key);
 std::optional<Key> keyOf(std::string_view name);
 
-/// Keys held while another one, or a button, is pressed.
+/// Modifier keys that are held while another key or a button is pressed.
 struct Modifiers
 {
     bool shift = false;
@@ -66,8 +66,8 @@ struct TextEvent
     bool operator==(const TextEvent&) const = default;
 };
 
-/// The pointer's place, from the window's top left corner in the window's units, which high-density screens have
-/// several pixels of.
+/// The pointer's position, from the window's top left corner, in the window's units. On high-density screens a unit has
+/// several pixels.
 struct MouseMoveEvent
 {
     double x = 0;
@@ -93,7 +93,7 @@ struct WheelEvent
     bool operator==(const WheelEvent&) const = default;
 };
 
-/// The window has this size in its own units from now on; without an extent there is nothing to draw.
+/// The window's new size in its own units. Without an extent nothing is drawn.
 struct ResizeEvent
 {
     std::uint32_t width = 0;
@@ -116,7 +116,7 @@ struct DropEvent
     bool operator==(const DropEvent&) const = default;
 };
 
-/// Someone wants the window closed.
+/// A request to close the window.
 struct CloseEvent
 {
     bool operator==(const CloseEvent&) const = default;

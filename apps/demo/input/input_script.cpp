@@ -26,7 +26,7 @@ constexpr std::uint32_t kEdgeMax = 16384; // of a window
 constexpr double kWheelMax = 1000;
 constexpr std::array<const char*, kMouseButtonCount> kButtonNames = {"left", "right", "middle"};
 
-// The code point that is all of text.
+// The code point, if text is a single one.
 std::optional<char32_t> onlyCodePoint(std::string_view text)
 {
     const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -267,7 +267,7 @@ std::vector<ScriptedEvent> readInputScript(const std::filesystem::path& file)
 
 std::string inputScriptText(std::span<const ScriptedEvent> events)
 {
-    // A line for each event.
+    // One line for each event.
     std::string text = fmt::format("{{\"schema\": \"{}\", \"events\": [", kInputSchema);
     for (const ScriptedEvent& event : events)
     {

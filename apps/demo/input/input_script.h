@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Input events with the frames before which they happen, as JSON: recorded, and played again.
+// Input events as JSON, each with the frame before which it happens. Scripts are recorded and played.
 //
 //     {"schema": "zvo.input/1", "events": [
 //         {"frame": 3, "key": "W", "pressed": true, "modifiers": ["shift"]},
@@ -12,7 +12,7 @@
 //         {"frame": 9, "drop": ["scene.glb"]},
 //         {"frame": 10, "close": true}]}
 //
-// Frames never go down; modifiers may be left out. Files are looked for from the working folder on.
+// Frames must not decrease; modifiers may be left out. Paths are relative to the working folder.
 #pragma once
 
 #include "demo/input/input_event.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table of keys: what they do, and what F1 and docs/window.md say that they do.
+// The table of keys and their actions, which is also shown by F1 and in docs/window.md.
 #pragma once
 
 #include "demo/input/input_event.h"
@@ -12,10 +12,10 @@
 namespace zvo::demo
 {
 
-/// What a key makes the program do.
+/// The action of a key.
 enum class Action
 {
-    None, // the camera's affair, or the mouse's
+    None, // handled by the camera or the mouse
     ShowKeys,
     ShowPanels,
     NextView,
@@ -48,10 +48,10 @@ enum class Action
 /// A row of the table.
 struct KeyBinding
 {
-    std::string_view keys; // as people read them
+    std::string_view keys; // text for people
     std::string_view what;
     Action action = Action::None;
-    Key key = Key::Escape;      // with an action
+    Key key = Key::Escape;      // if it has an action
     Key last_key = Key::Escape; // of a range that begins with key
     bool shift = false;
     bool control = false;
@@ -99,7 +99,7 @@ inline constexpr std::array kKeyBindings = {
     boundTo("Ctrl+Q", Action::Quit, Key::Q, "quit", false, true),
 };
 
-/// The row of the table that a press of a key names.
+/// The row for a key that is pressed; null if there is none.
 const KeyBinding* bindingOf(const KeyEvent& event);
 
 /// The table in Markdown, as docs/window.md has it.

@@ -9,20 +9,20 @@
 namespace zvo::demo
 {
 
-/// The time of the scene: runs, stands still, goes on by one frame.
+/// The time of the scene, which can run, stop, or advance by single frames.
 class Timeline
 {
 public:
     explicit Timeline(const std::optional<FixedStep>& step) : m_run(step) {}
 
-    /// From here on.
+    /// Sets the time.
     void start(double seconds)
     {
         m_start = seconds;
         m_run.reset();
     }
 
-    /// A frame more, which took this long by the clock.
+    /// Adds a frame, whose duration is by the clock.
     void advance(double seconds)
     {
         if (m_plays)
@@ -31,7 +31,7 @@ public:
         }
     }
 
-    /// Stops, and goes on by a frame of the animated scene.
+    /// Stops, and advances by one frame of the animated scene.
     void step(const AnimatedScene& animated)
     {
         m_plays = false;
@@ -41,7 +41,7 @@ public:
     void play(bool plays) { m_plays = plays; }
     [[nodiscard]] bool plays() const { return m_plays; }
 
-    /// Seconds of the scene in a second; from 0 on.
+    /// Seconds of the scene per second; at least 0.
     [[nodiscard]] double speed() const { return m_speed; }
     void setSpeed(double speed)
     {
@@ -49,7 +49,7 @@ public:
         m_speed = speed;
     }
 
-    /// From 0 to the animated scene's end, where everything begins anew.
+    /// The time within the animated scene, which starts again at its end.
     [[nodiscard]] double secondsIn(const AnimatedScene& animated) const { return loopedTime(animated, seconds()); }
 
 private:

@@ -10,13 +10,13 @@ namespace zvo::demo
 namespace
 {
 
-// What finds the hits of primary rays.
+// Whether a pass takes part in finding the hits of primary rays.
 bool isPrimary(const std::string& pass)
 {
     return pass == "trace/beam" || pass == "trace/primary" || pass == "trace/primary_ranks" || pass == "trace/ranks";
 }
 
-// Adds a frame to histories; what it does not have took nothing.
+// Adds a frame to histories. Entries that the frame lacks get 0.
 void addFrameTo(std::map<std::string, History>& histories, std::vector<std::string>& names,
                 const std::map<std::string, double>& times, const std::vector<std::string>& in_order)
 {
@@ -97,7 +97,7 @@ void FrameStats::addPasses(std::span<const vk::PassTime> passes, std::uint64_t r
     m_gpu_ms.add(all_ms);
     if (primary_ms > 0)
     {
-        constexpr double kRaysPerMs = 1e3; // of a megaray a second
+        constexpr double kRaysPerMs = 1e3; // rays in a millisecond, for a megaray a second
         m_megarays.add(static_cast<double>(ray_count) / primary_ms / kRaysPerMs);
     }
 }

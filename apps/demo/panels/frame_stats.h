@@ -14,7 +14,7 @@
 namespace zvo::demo
 {
 
-/// The last values of something, frame by frame.
+/// The last values of a quantity, one for each frame.
 class History
 {
 public:
@@ -22,7 +22,7 @@ public:
 
     void add(double value);
 
-    /// From the oldest to the newest.
+    /// Values from the oldest to the newest.
     [[nodiscard]] const std::vector<float>& values() const { return m_values; }
 
     [[nodiscard]] double last() const { return m_values.empty() ? 0.0 : double{m_values.back()}; }
@@ -35,14 +35,14 @@ private:
     std::vector<float> m_values;
 };
 
-/// How long frames took: by the clock, and on the device by pass.
+/// Durations of frames by the clock, and of their passes on the device.
 class FrameStats
 {
 public:
-    /// A frame took this long, from its beginning to the next one's.
+    /// Adds the duration of a frame, from its beginning to the next one's.
     void addFrame(double ms) { m_frame_ms.add(ms); }
 
-    /// The passes of a frame. Those of the same name count together; one that a frame does not have took nothing.
+    /// Adds the passes of a frame. Times of passes with the same name are summed; missing passes count as 0.
     void addPasses(std::span<const vk::PassTime> passes, std::uint64_t ray_count);
 
     [[nodiscard]] const History& frameMs() const { return m_frame_ms; }
@@ -52,14 +52,14 @@ public:
     [[nodiscard]] const std::vector<std::string>& names() const { return m_names; }
     [[nodiscard]] const History& pass(const std::string& name) const { return m_passes.at(name); }
 
-    /// Passes of an operation together, and the operations in the order in which they first occurred.
+    /// Times of the passes of each operation, and the operations in the order in which they first occurred.
     [[nodiscard]] const std::vector<std::string>& operations() const { return m_operation_names; }
     [[nodiscard]] const History& operation(const std::string& name) const { return m_operations.at(name); }
 
-    /// Frames a second, by the clock, on average.
+    /// Average frames a second, by the clock.
     [[nodiscard]] double framesPerSecond() const;
 
-    /// Primary rays of a second of the passes that trace them, in millions.
+    /// Primary rays in a second of the passes that trace them, in millions.
     [[nodiscard]] double megaraysPerSecond() const { return m_megarays.mean(); }
 
 private:
@@ -72,8 +72,8 @@ private:
     std::map<std::string, History> m_operations;
 };
 
-/// The operation that a pass belongs to, by its name: "trace" of "trace/primary" and of "fill trace/args"; "other"
-/// where the name does not tell.
+/// The operation of a pass, from its name: "trace" for "trace/primary" and for "fill trace/args"; "other" if the name
+/// has none.
 std::string operationOf(std::string_view pass);
 
 } // namespace zvo::demo

@@ -8,7 +8,7 @@
 namespace zvo::demo
 {
 
-/// What the program has to say, for a few seconds, over the picture.
+/// Messages of the program, which are shown over the picture for a few seconds.
 class Notices
 {
 public:

@@ -30,7 +30,7 @@ void inspectorPanel(const std::optional<InspectedPixel>& pixel, const Grid& grid
     {
         return;
     }
-    // As many lines for every pixel: the panel does not jump.
+    // The number of lines is constant, so that the panel does not jump.
     if (!pixel || pixel->report.hit == 0)
     {
         tell(pixel ? fmt::format("pixel {}, {}: nothing", pixel->position.x, pixel->position.y) : "no pixel");

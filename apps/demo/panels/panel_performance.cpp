@@ -16,7 +16,7 @@ namespace
 
 constexpr double kMiB = 1 << 20;
 
-// A row of the table: of an operation, which opens to its passes, or of a pass. Whether it is open.
+// A row of the table, for an operation, which can be opened, or for a pass. Returns whether it is open.
 bool timeRow(const std::string& name, const History& history, bool is_operation)
 {
     ImGui::TableNextRow();

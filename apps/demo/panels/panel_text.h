@@ -8,7 +8,7 @@
 namespace zvo::demo
 {
 
-/// A line of text in the panel at hand.
+/// Adds a line of text to the current panel.
 inline void tell(const std::string& text)
 {
     ImGui::TextUnformatted(text.c_str());

@@ -19,7 +19,7 @@ constexpr std::array<const char*, 3> kToolNames = {"camera", "brush", "move"};
 constexpr std::array<const char*, 3> kActionNames = {"carve", "fill", "paint"};
 constexpr std::array<const char*, 2> kShapeNames = {"sphere", "box"};
 
-// One of several, side by side.
+// Radio buttons for choices, side by side.
 template <typename Choice, std::size_t count> void choose(Choice& choice, const std::array<const char*, count>& names)
 {
     for (std::size_t i = 0; i < count; ++i)

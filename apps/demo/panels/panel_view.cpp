@@ -86,7 +86,7 @@ void presentChoice(ViewState& view, const ViewInfo& info)
     }
 }
 
-// What the colours of the iterations view stand for (trace/views.comp).
+// A legend of the colours of the iterations view (trace/views.comp).
 void iterationsLegend()
 {
     constexpr std::array kCounts = {1, 3, 7, 15, 31, 63, 127};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The panels over the picture, each in a file of its name. They are built within a frame of Dear ImGui. They show their
+// The panels over the picture, one in each panel_*.cpp. They are built within a frame of Dear ImGui. They show their
 // arguments, and change those that the user changes.
 #pragma once
 
@@ -18,14 +18,14 @@
 namespace zvo::demo
 {
 
-/// Where the panels stand, and which of them are open.
+/// Which panels are shown and open.
 struct PanelState
 {
     bool shows_panels = true;
     bool shows_keys = false;
 };
 
-/// What the view panel also shows.
+/// Further values that the view panel shows.
 struct ViewInfo
 {
     double internal_scale = 1; // in use
@@ -33,37 +33,37 @@ struct ViewInfo
     double camera_speed = 1; // world units a second
 };
 
-/// Device memory by what it is for, in bytes.
+/// Device memory by purpose, in bytes.
 struct MemoryUse
 {
-    std::uint64_t geometry = 0;   // of what stands still
-    std::uint64_t attributes = 0; // likewise
+    std::uint64_t geometry = 0;   // of the static part
+    std::uint64_t attributes = 0; // of the static part
     std::uint64_t pictures = 0;
-    std::uint64_t used = 0; // these, and all else: what moves, overlays, the beam grid
-    std::uint64_t held = 0; // of the driver
+    std::uint64_t used = 0; // all use: the above, dynamic objects, overlays, the beam grid and the rest
+    std::uint64_t held = 0; // allocated from the driver
 };
 
-/// Frames a second, Mrays/s, memory, and the device's time by pass.
+/// Shows frames a second, Mrays/s, memory, and the device's times by pass.
 void performancePanel(const FrameStats& stats, const MemoryUse& memory);
 
-/// View, light, detail, resolution.
+/// Shows and changes view, light, detail and resolution.
 void viewPanel(ViewState& view, const ViewInfo& info);
 
-/// What is shown, and when.
+/// Shows the world's contents, and its time, which can be changed.
 void scenePanel(const World& world, Timeline& timeline);
 
-/// What was asked for in the build panel.
+/// The user's requests in the build panel.
 struct BuildAnswer
 {
     std::optional<WorldOptions> rebuild; // with other options
     bool cancels = false;
 };
 
-/// Resolution, coverage and structure of what is shown, where they can be chosen; what is being made in the background.
-/// loading: null for nothing.
+/// Shows resolution, coverage and structure of the world, which can be chosen if it was voxelized, and the progress of
+/// loading. loading: null for none.
 BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Loading* loading);
 
-/// What was asked for in the tools panel.
+/// The user's requests in the tools panel.
 struct ToolsAnswer
 {
     bool undoes = false;
@@ -71,26 +71,27 @@ struct ToolsAnswer
     bool saves = false;
 };
 
-/// What the left button does, the brush, what can be undone.
+/// Shows the tool of the left button, the brush, and the history.
 ToolsAnswer toolsPanel(ToolState& state, const World& world);
 
-/// A pixel that the pointer was on, and what its ray met.
+/// A pixel under the pointer, and what its ray hits.
 struct InspectedPixel
 {
     glm::uvec2 position{0U}; // in the window
     gpu::PixelReport report{};
 };
 
-/// What the pixel under the pointer shows.
+/// Shows the voxel at the pixel under the pointer.
 void inspectorPanel(const std::optional<InspectedPixel>& pixel, const Grid& grid);
 
-/// Why shaders do not compile, until the user closes it, which clears the message; nothing for no message.
+/// Shows the compiler's message until the user closes the panel, which clears the message. An empty message shows
+/// nothing.
 void shadersPanel(std::string& message);
 
-/// The table of keys.
+/// Shows the table of keys.
 void keysPanel(bool& is_open);
 
-/// What the program has to say.
+/// Shows the program's messages.
 void noticesPanel(const Notices& notices);
 
 } // namespace zvo::demo

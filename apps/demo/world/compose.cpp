@@ -9,7 +9,7 @@ namespace zvo::demo
 namespace
 {
 
-// The image is in this layout between passes.
+// The image's layout between passes.
 constexpr VkImageLayout kRestLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
 
 struct Use
@@ -93,7 +93,8 @@ ComposePass::~ComposePass()
 
 ComposeImage::ComposeImage(vk::Device& device, const ComposePass& pass, PictureSize size, bool encodes_srgb)
     : m_device(device), m_pass(pass), m_size(size), m_encodes_srgb(encodes_srgb),
-      // Blits between two formats that encode sRGB keep the bytes; drawing must not decode them.
+      // Blits between two formats that encode sRGB keep the bytes. Draws use a view of another format, as they must not
+      // decode them.
       m_image(device, "compose", size.width, size.height, encodes_srgb ? VK_FORMAT_R8G8B8A8_SRGB : ComposePass::kFormat,
               VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
               ComposePass::kFormat)

@@ -14,11 +14,11 @@
 namespace zvo::demo
 {
 
-/// How what is drawn over pictures goes into a ComposeImage: a render pass for others' pipelines.
+/// The render pass that draws over pictures in a ComposeImage, for pipelines of others.
 class ComposePass
 {
 public:
-    /// The picture's bytes are sRGB codes, which blend as they are.
+    /// The picture's bytes are sRGB codes. They are blended without decoding.
     static constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
 
     explicit ComposePass(vk::Device& device);
@@ -33,12 +33,13 @@ private:
     VkRenderPass m_handle = VK_NULL_HANDLE;
 };
 
-/// The image that a window shows, before it goes to the swapchain: the picture in the window's size, and what is drawn
-/// over it. A frame records fill(), drawOver(), copyTo() and show() in this order, as far as it needs them.
+/// The image of the window before it goes to the swapchain: the picture in the window's size, and the panels over it. A
+/// frame records fill(), drawOver(), copyTo() and show() in this order; those that it does not need are left out.
 class ComposeImage
 {
 public:
-    /// encodes_srgb: of the swapchain's format, to which the bytes go as they are. pass must outlive this.
+    /// encodes_srgb: whether the swapchain's format does, to which the bytes are copied unchanged. pass must outlive
+    /// this.
     ComposeImage(vk::Device& device, const ComposePass& pass, PictureSize size, bool encodes_srgb);
     ~ComposeImage();
     ComposeImage(const ComposeImage&) = delete;
@@ -47,19 +48,19 @@ public:
     [[nodiscard]] PictureSize size() const { return m_size; }
     [[nodiscard]] bool encodesSrgb() const { return m_encodes_srgb; }
 
-    /// Device memory that it takes.
+    /// Device memory of the image.
     [[nodiscard]] std::uint64_t bytes() const { return m_image.bytes() + m_scaled.bytes(); }
 
-    /// Records the passes that put a picture there, in any size.
+    /// Records the passes that put a picture of any size into the image.
     void fill(vk::FrameGraph& graph, const TraceBuffers& picture);
 
-    /// Records the pass in which draw draws over the picture, within the render pass.
+    /// Records the render pass in which draw draws over the picture.
     void drawOver(vk::FrameGraph& graph, const std::function<void(VkCommandBuffer)>& draw);
 
-    /// Records the copy to a buffer of as many words as there are pixels: red | green << 8 | blue << 16 | alpha << 24.
+    /// Records the copy to a buffer with a word for each pixel: red | green << 8 | blue << 16 | alpha << 24.
     void copyTo(vk::FrameGraph& graph, vk::BufferOf<gpu::uint>& pixels);
 
-    /// Records the pass that brings it to an image of the swapchain.
+    /// Records the pass that blits it to an image of the swapchain.
     void show(vk::FrameGraph& graph, const vk::SwapchainImage& target);
 
 private:
@@ -68,7 +69,7 @@ private:
     PictureSize m_size;
     bool m_encodes_srgb;
     vk::Image m_image;
-    vk::BufferOf<gpu::uint> m_scaled; // empty until a picture of another size comes
+    vk::BufferOf<gpu::uint> m_scaled; // empty until a picture has another size than the window
     VkFramebuffer m_framebuffer = VK_NULL_HANDLE;
 };
 

@@ -51,7 +51,7 @@ std::unique_ptr<World> Loading::finish(vk::HeadlessDevice& device, double interv
     Clock::time_point last_frame = Clock::now();
     const auto pause = [&]
     {
-        if (Clock::now() - last_frame >= interval) // transfers pause, too
+        if (Clock::now() - last_frame >= interval) // transfers cause pauses, too
         {
             frame();
             last_frame = Clock::now();

@@ -38,7 +38,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     }
     if (picture.inspected)
     {
-        // The pixel that is shown there (scalePicture()).
+        // The traced pixel that is shown at a pixel (scalePicture()).
         const auto tracedPixel = [](std::uint32_t at, std::uint32_t shown, std::uint32_t traced)
         { return (2 * at + 1) * traced / (2 * shown); };
         const glm::uvec2 pixel = {tracedPixel(picture.inspected->x, picture.window.width, buffers.width),

@@ -23,17 +23,17 @@ struct Picture
     ViewCamera camera;
     ViewState view;
     PictureSize window;                            // in pixels
-    PictureSize internal;                          // that is traced
+    PictureSize internal;                          // size of the traced picture
     std::function<void(VkCommandBuffer)> panels;   // draws over the picture; may be empty
-    const vk::SwapchainImage* target = nullptr;    // null: it is not shown
+    const vk::SwapchainImage* target = nullptr;    // null: the picture is not shown
     vk::BufferOf<gpu::uint>* screenshot = nullptr; // gets the window's pixels; may be null
     bool screenshot_has_panels = true;
     std::optional<glm::uvec2> inspected;              // pixel of the window
-    vk::BufferOf<gpu::PixelReport>* report = nullptr; // gets what is there
+    vk::BufferOf<gpu::PixelReport>* report = nullptr; // gets the result for that pixel
 };
 
-/// Records frames: from the world's tree to the image of the swapchain. Its buffers follow the sizes that are asked
-/// for; old ones go when the device is done with their frames.
+/// Records frames, from the world's tree to the image of the swapchain. Its buffers are made for the requested sizes;
+/// old ones are freed when the device is done with their frames.
 class Renderer
 {
 public:
@@ -42,21 +42,21 @@ public:
     {
     }
 
-    /// The frame with this number begins, upwards; it shows tree. encodes_srgb: of the swapchain's format. Throws
-    /// Error{Memory} for pictures that the device's budget does not allow: then the last ones stay.
+    /// Begins a frame, which shows tree; numbers must rise. encodes_srgb: whether the swapchain's format does. Throws
+    /// Error{Memory} if the device's budget does not allow the picture's buffers; the last ones stay then.
     void begin(std::uint64_t frame, const DeviceTree& tree, const Picture& picture, bool encodes_srgb);
 
-    /// Records it, of a tree.
+    /// Records the frame.
     void record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture);
 
     /// The device is done with that frame and all before it.
     void frameDone(std::uint64_t frame) { m_deletion_queue.frameDone(frame); }
 
-    /// The frame that began last does not reach the device, or the kernels may have changed: what they make for tracing
-    /// is made again.
+    /// Drops what kernels have made for tracing, which is then made again. Called if the last frame is lost, or kernels
+    /// may have changed.
     void forget() { m_tracer.forget(); }
 
-    /// Device memory of the picture on its way.
+    /// Device memory for the picture.
     [[nodiscard]] std::uint64_t pictureBytes() const;
 
     /// Primary rays of a frame.

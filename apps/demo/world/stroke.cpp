@@ -6,7 +6,7 @@ namespace zvo::demo
 
 void Stroke::press()
 {
-    m_answered = m_is_stroke ? m_answered : m_look; // a press before the last one was answered goes on with it
+    m_answered = m_is_stroke ? m_answered : m_look; // a press continues a stroke that still waits for an answer
     ++m_look;
     m_is_down = true;
     m_is_stroke = true;

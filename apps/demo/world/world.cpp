@@ -27,7 +27,8 @@ bool isTreeFile(const std::filesystem::path& file)
     return isZvoFile(file) || cli::isVoxFile(file);
 }
 
-// A box around a dynamic object in a pose: what joints pull is between where each of them alone would put it.
+// A box around a dynamic object in a pose. A skinned vertex lies between the positions that each of its joints would
+// give it.
 Bounds boundsOf(const Scene& scene, const Pose& pose)
 {
     Bounds bounds;
