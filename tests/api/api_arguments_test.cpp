@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Arguments that make no sense are Error{Usage}, before anything is recorded.
+// Invalid arguments give Error{Usage} before anything is recorded.
 #include "api_scene.h"
 #include "expect_usage.h"
 
@@ -23,9 +23,9 @@ using test::expectUsage;
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kOddNumbers[] = {-1.0F, kInf, -kInf, kNan}; // for what is finite and not negative
+constexpr float kOddNumbers[] = {-1.0F, kInf, -kInf, kNan}; // invalid for values that must be finite and not negative
 
-// As a host gets a value of an enumeration by a cast, or from a file.
+// An enumeration's value as a host may get it, by a cast or from a file.
 template <typename Enum> Enum numbered(int value)
 {
     return static_cast<Enum>(value);
@@ -39,7 +39,7 @@ protected:
     ModelInfo modelInfo() { return m_description.info(); }
     Model model() { return m_host.upload(modelInfo()); }
 
-    // That many transforms, each wrong in one number.
+    // Transforms that are each wrong in one number.
     static std::vector<Mat4> wrongTransforms()
     {
         std::vector<Mat4> result;
@@ -90,7 +90,7 @@ TEST_F(ApiArguments, GridsAreFiniteWithVoxelsOfASize)
     EXPECT_NO_THROW((void)cameraRays(test::apiCamera(), {{-1e6F, 0, 1e6F}, 1e-3F, 17}, 100));
 }
 
-// The machine's Vulkan, but no queue family draws.
+// The machine's Vulkan without queue families that draw.
 PFN_vkGetPhysicalDeviceQueueFamilyProperties g_queue_families = nullptr;
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
 
@@ -190,7 +190,7 @@ TEST(ApiTargets, NothingIsRecordedWhereOneOfThemWillNotDo)
     nothing([](ImageTarget& target, DepthTarget&) { target.layout = VK_IMAGE_LAYOUT_UNDEFINED; }, "VkImageLayout");
     nothing([](ImageTarget& target, DepthTarget&) { target.offset.x = -3; }, "(-3, 0)");
 
-    // The picture has room, or has not.
+    // Pictures that fit the image, and others that do not.
     for (const bool of_depth : {false, true})
     {
         const auto placed = [&](VkOffset2D offset, VkExtent2D extent)
@@ -217,7 +217,7 @@ TEST_F(ApiArguments, HandlesAreNotNull)
     expectUsage([&] { (void)query(nullptr, info.instance, info.physical_device); }, "vkGetInstanceProcAddr");
     expectUsage([&] { (void)query(info.get_instance_proc_addr, VK_NULL_HANDLE, info.physical_device); }, "VkInstance");
     expectUsage([&] { (void)query(info.get_instance_proc_addr, info.instance, VK_NULL_HANDLE); }, "VkPhysicalDevice");
-    m_host.frame([](Recorder&, VkCommandBuffer) {}); // the context goes on
+    m_host.frame([](Recorder&, VkCommandBuffer) {}); // the context still works
 }
 
 TEST_F(ApiArguments, ObjectsAndInstancesStandByAffineTransforms)
@@ -339,7 +339,7 @@ TEST_F(ApiArguments, DynamicTreesHaveNumbersThatTheyCanKeep)
         making({.coverage = numbered<Coverage>(value)}, "DynamicTreeInfo::coverage");
         making({.merge = numbered<MergeRule>(value)}, "DynamicTreeInfo::merge");
     }
-    EXPECT_GT(fixed.info().voxel_count, 0U); // it stays as it is
+    EXPECT_GT(fixed.info().voxel_count, 0U); // the tree stays as it is
     m_host.frame([&](Recorder& recorder, VkCommandBuffer)
                  { DynamicTree(recorder, std::move(fixed), {.frames_in_flight = 16}); });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What zvo promises to hosts: what it does not call, what it says of misuse, and what it leaves behind when it fails.
+// What zvo promises to hosts: the Vulkan functions it does not call, its messages on misuse, and its state after
+// failures.
 #include "api_scene.h"
 #include "expect_usage.h"
 #include "support/failing_vulkan.h"
@@ -20,7 +21,7 @@ namespace
 
 using test::expectUsage;
 
-/// All that a host can do, in a few frames. Returns a picture of each tree.
+/// Uses everything that a host can do, in a few frames. Returns a picture of each tree.
 class Program
 {
 public:
@@ -76,7 +77,7 @@ TEST(ApiContract, ZvoNeitherSubmitsNorWaits)
     {
         test::EmbeddingHost host(options);
         Program(host).run();
-        EXPECT_GT(test::callCount("vkCreateBuffer"), 20U); // it counts
+        EXPECT_GT(test::callCount("vkCreateBuffer"), 20U); // the calls are counted
         for (const char* const function :
              {"vkQueueSubmit", "vkQueueSubmit2", "vkQueueWaitIdle", "vkDeviceWaitIdle", "vkWaitForFences",
               "vkWaitSemaphores", "vkQueuePresentKHR", "vkCreateFence", "vkCreateCommandPool", "vkBeginCommandBuffer",
@@ -88,7 +89,7 @@ TEST(ApiContract, ZvoNeitherSubmitsNorWaits)
     EXPECT_EQ(test::liveObjects(), std::vector<std::string>());
 }
 
-// What every program of these tests shows.
+// The pictures of every program of these tests.
 const std::vector<std::vector<std::uint32_t>>& expectedPictures()
 {
     static const std::vector<std::vector<std::uint32_t>> pictures = []
@@ -99,7 +100,8 @@ const std::vector<std::vector<std::uint32_t>>& expectedPictures()
     return pictures;
 }
 
-// Runs a program in which something fails; whether it did. What failed is an error, and the context goes on.
+// Runs a program in which something fails, and returns whether it did. The failure must be an Error, and the context
+// must work afterwards.
 bool failOnce(test::EmbeddingHost& host, const std::function<void()>& stopFailing)
 {
     bool has_failed = false;
@@ -122,7 +124,7 @@ TEST(ApiContract, EveryRequestForMemoryMayFail)
 {
     std::uint64_t failures = 0;
     bool has_failed = true;
-    for (std::uint64_t number = 0; has_failed; ++number) // on a new context, which holds nothing yet
+    for (std::uint64_t number = 0; has_failed; ++number) // on a new context, which has no memory yet
     {
         test::HostMemory memory;
         test::HostOptions options;
@@ -176,7 +178,7 @@ TEST(ApiContract, EveryAllocationOfTheDriverMayFail)
 
 TEST(ApiContract, AllocationsOfTheDriverMayFailWhileKernelsAreMade)
 {
-    test::Sweep sweep(61); // a new context takes its time
+    test::Sweep sweep(61); // making a context takes time
     bool was_reached = true;
     std::uint64_t failures = 0;
     for (std::uint64_t number = sweep.first(); was_reached; number += sweep.step())
@@ -282,15 +284,15 @@ TEST(ApiContract, MisuseIsAnErrorThatSaysWhat)
         [&]
         {
             VkCommandBuffer commands = host.device.begin();
-            const Recorder recorder(host.context, commands, host.last_frame); // which is done
+            const Recorder recorder(host.context, commands, host.last_frame); // the frame is done already
         },
         "must grow");
-    for (int i = 1; i <= 2; ++i) // of which only the second one can be lost
+    for (int i = 1; i <= 2; ++i) // only the second one can be lost
     {
         VkCommandBuffer commands = host.device.begin();
         const Recorder recorder(host.context, commands, host.last_frame + static_cast<std::uint64_t>(i));
     }
-    host.context.frameLost(host.last_frame + 3); // never began
+    host.context.frameLost(host.last_frame + 3); // a frame that never began
     expectUsage([&] { host.context.frameLost(host.last_frame + 1); }, "begun last");
     host.context.frameLost(host.last_frame + 2);
     expectUsage([&] { host.context.frameLost(host.last_frame + 1); }, "begun last");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host gets of models that move, and of brushes.
+// Dynamic models and brushes, as a host uses them.
 #include "api_scene.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace
 class ApiDynamic : public testing::Test
 {
 protected:
-    // Everything as one model: what a dynamic tree must equal.
+    // A picture of everything built as one model, which a dynamic tree must equal.
     std::vector<std::uint32_t> rebuilt(float x)
     {
         Scene scene = test::apiScene();
@@ -62,7 +62,7 @@ protected:
         return std::move(*tree);
     }
 
-    // Frames until what is shown is complete.
+    // Records frames until what is shown is complete.
     void update(DynamicTree& tree)
     {
         do
@@ -175,7 +175,8 @@ TEST_F(ApiDynamic, AnObjectOfALostFrameIsLostAlone)
     DynamicObjectId object = 0;
     m_host.frame([&](Recorder& recorder, VkCommandBuffer)
                  { object = tree.addObject(recorder, model, test::movedBy(2, 5, 5)); });
-    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer) { tree.update(recorder); }); // it was made before
+    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer)
+                     { tree.update(recorder); }); // the object was made in an earlier frame
     tree.setTransform(object, test::movedBy(8.25F, 5, 5));
     update(tree);
     EXPECT_EQ(m_host.picture(tree, test::apiCamera()), rebuilt(8.25F));
@@ -218,7 +219,7 @@ TEST_F(ApiDynamic, FramesInFlightKeepWhatTheyUse)
     Tracer tracer(m_host.context, m_host.kWidth, m_host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
     test::TargetImage image(m_host.device, VK_FORMAT_R8G8B8A8_UNORM, m_host.kWidth, m_host.kHeight);
     std::uint64_t frame = m_host.last_frame;
-    for (int i = 0; i < 12; ++i) // two at a time are under way
+    for (int i = 0; i < 12; ++i) // two are under way at a time
     {
         VkCommandBuffer commands = m_host.device.begin();
         {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When objects of zvo go, and what is left of those whose frame was lost, that were taken over or moved from.
+// Lifetimes of zvo's objects: when their memory is freed, and what they do after their frame is lost, or after they
+// were taken over or moved from.
 #include "api/c_handles.h"
 #include "api_scene.h"
 #include "core/file/zvo_file.h"
@@ -38,7 +39,7 @@ TreeBuildInfo buildInfo(AttributeFormat format = AttributeFormat::Bytes8)
     return {.grid = test::apiGrid(4), .format = format};
 }
 
-// A .zvo file.
+// The bytes of a .zvo file.
 const std::vector<std::byte>& treeFile()
 {
     static const std::vector<std::byte> bytes = []
@@ -53,7 +54,7 @@ const std::vector<std::byte>& treeFile()
     return bytes;
 }
 
-// Records a frame and submits it when meanwhile() is over: what is dropped there, the device still uses.
+// Records a frame, calls meanwhile(), and only then submits it: the device still uses what is dropped in meanwhile().
 void frameUnderWay(test::EmbeddingHost& host, const std::function<void(Recorder&)>& record,
                    const std::function<void()>& meanwhile)
 {
@@ -67,7 +68,7 @@ void frameUnderWay(test::EmbeddingHost& host, const std::function<void(Recorder&
     host.device.wait();
 }
 
-// Does the steps of a job up to one, in which it is dropped. False: it has none with that number.
+// Records the steps of a job up to one, in which the job is dropped. Returns false if it has no step with that number.
 template <typename Job> bool dropInStep(test::EmbeddingHost& host, std::unique_ptr<Job> job, int step)
 {
     for (int i = 0; i < step; ++i)
@@ -144,13 +145,13 @@ TEST(ApiLifetime, WhatACompressionTookOverGoesWithItsFrame)
     const std::uint64_t frame = host.last_frame;
     frameUnderWay(
         host, [](Recorder&) {}, [] {});
-    host.context.frameDone(frame); // not the one behind it
+    host.context.frameDone(frame); // but not the next one
     EXPECT_EQ(host.context.memory().used, used);
     host.context.frameDone(host.last_frame);
     EXPECT_EQ(host.context.memory().used, used);
 }
 
-// Jobs, one before each of its steps.
+// Makes jobs, one before each of its steps.
 template <typename Job, typename Make>
 std::vector<std::unique_ptr<Job>> jobsInEachStep(test::EmbeddingHost& host, const Make& make)
 {
@@ -220,7 +221,7 @@ TEST(ApiLifetime, AContextMayGoWithoutALastFrameDone)
     EXPECT_EQ(test::liveObjects(), std::vector<std::string>());
 }
 
-// A job whose source is lost with its frame, as is the job's first step with records.
+// Makes a job whose source is lost with its frame. With records, the job's first step is recorded in that frame, too.
 template <typename Job, typename Make>
 void expectNoJobWithoutSource(test::EmbeddingHost& host, const Make& make, bool records, const std::string& word)
 {
@@ -294,7 +295,7 @@ TEST(ApiLifetime, AJobResumesWhereOnlyItsStepIsLost)
 class ApiFrames : public testing::Test
 {
 protected:
-    // A host that takes times of passes, behind functions that can fail.
+    // A host that times passes and whose functions can fail.
     static test::HostOptions options()
     {
         test::failCall(UINT64_MAX);
@@ -341,7 +342,8 @@ TEST_F(ApiFrames, TimesThatCannotBeReadHoldNothingUp)
         }
         EXPECT_EQ(test::failedFunction(), "vkGetQueryPoolResults");
         test::failCall(UINT64_MAX);
-        EXPECT_EQ(m_host.context.passTimes().size(), time_count); // of an older frame, as the second one has no passes
+        EXPECT_EQ(m_host.context.passTimes().size(),
+                  time_count); // times of an older frame, as the second one has no passes
         EXPECT_FALSE(build.isDone());
         EXPECT_GT(m_host.finish(build), 0U);
         EXPECT_FALSE(m_host.context.passTimes().empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host gets of models that stand still.
+// Pictures of static models, as a host makes them.
 #include "api_scene.h"
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
@@ -39,7 +39,7 @@ TEST(ApiPicture, AllViewsAreThoseOfTheEngineOfOctreesAndDags)
         EXPECT_EQ(picture, test::pictureOf(device(), expected, static_cast<View>(view))) << view;
         different.insert(picture);
     }
-    EXPECT_GE(different.size(), 8U); // the level of all hits is the voxels'
+    EXPECT_GE(different.size(), 8U); // all hits have the voxels' level
 
     const std::vector<std::uint32_t> lit = host.picture(octree, test::apiCamera());
     TreeCompression compression(host.context, std::move(octree));
@@ -206,7 +206,7 @@ TEST(ApiPicture, DepthIsWhereTheVoxelsAre)
     Tracer tracer(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM);
     test::TargetImage color(host.device, VK_FORMAT_R8G8B8A8_UNORM, host.kWidth, host.kHeight);
     test::TargetImage depth(host.device, VK_FORMAT_D32_SFLOAT, host.kWidth, host.kHeight);
-    // Straight down on the box, whose voxels end at y = 6.25; depth is the height above that, over 20.
+    // The camera looks straight down on the box, whose voxels end at y = 6.25. Depth is the height above that, over 20.
     CameraInfo camera;
     camera.position = {4, 16.25, 4};
     camera.forward = {0, -1, 0};

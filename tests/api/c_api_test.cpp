@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C interface: what a program in C shows, how it fails, and how its structs grow.
+// The C interface: pictures of a program in C, failures, and structs that grow.
 #include "api/c_guard.h"
 #include "api_scene.h"
 #include "c_host.h"
@@ -24,7 +24,7 @@ namespace
 
 using test::device;
 
-// What c_program.c does, by the C++ interface.
+// The pictures of c_program.c, made by the C++ interface.
 std::vector<std::vector<std::uint32_t>> picturesInCpp()
 {
     test::EmbeddingHost host;
@@ -103,7 +103,7 @@ TEST(CApi, AHostsMemoryAndLogAreFunctionsInC)
     } callbacks{memory.callbacks(), {}};
     {
         test::HostOptions options;
-        options.memory = callbacks.memory; // the device enables what it takes
+        options.memory = callbacks.memory; // the device enables what this needs
         test::CEmbeddingHost host(
             options,
             [&](ZvoContextInfo& info)
@@ -139,7 +139,7 @@ TEST(CApi, AHostsMemoryAndLogAreFunctionsInC)
         EXPECT_GT(callbacks.ranges, 0U);
         EXPECT_FALSE(callbacks.messages.empty());
 
-        // Without any, an operation fails and says so.
+        // Without any memory, an operation fails with a message.
         memory.failRequests(0);
         ZvoTracer* tracer = nullptr;
         EXPECT_EQ(zvoTracerCreate(host.context, 4096, 4096, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_ERROR_MEMORY);
@@ -169,7 +169,7 @@ TEST(CApi, EveryExceptionBecomesAResult)
     const std::string before = zvoLastError();
     EXPECT_EQ(guarded("zvoTest", [] {}), ZVO_OK);
     EXPECT_EQ(zvoLastError(), before);
-    std::thread([] { EXPECT_STREQ(zvoLastError(), ""); }).join(); // another thread's
+    std::thread([] { EXPECT_STREQ(zvoLastError(), ""); }).join(); // each thread has its own
 }
 
 TEST(CApi, FilesAreReadAndBrokenOnesAreInputErrors)
@@ -219,7 +219,7 @@ TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
     ZvoTreeInfo description = ZVO_TREE_INFO_INIT;
     ZvoTreeCompression* compression = nullptr;
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, nullptr), ZVO_ERROR_USAGE);
-    EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK); // it is as it was
+    EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK); // the tree is as before
     EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_OK);
     EXPECT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_ERROR_USAGE);
     VkBool32 has_more = VK_TRUE;
@@ -233,11 +233,11 @@ TEST(CApi, WhatIsTakenOverIsGoneOnlyOnSuccess)
     EXPECT_EQ(is_broken, VkBool32{VK_FALSE});
     ASSERT_EQ(zvoTreeCompressionTake(compression, &tree), ZVO_OK);
     zvoTreeCompressionDestroy(compression);
-    EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_ERROR_USAGE); // a DAG already
+    EXPECT_EQ(zvoTreeCompressionCreate(host.context, tree, &compression), ZVO_ERROR_USAGE); // the tree is a DAG already
     EXPECT_EQ(zvoTreeInfo(tree, &description), ZVO_OK);
     EXPECT_EQ(description.structure, std::uint32_t{ZVO_TREE_STRUCTURE_SVDAG});
 
-    // Attributes of 4 bytes will not do: it stays.
+    // Dynamic trees refuse attributes of 4 bytes, and leave the tree as it is.
     ZvoDynamicTree* dynamic = nullptr;
     const ZvoDynamicTreeInfo defaults = ZVO_DYNAMIC_TREE_INFO_INIT;
     host.frame([&](ZvoRecorder* recorder)
@@ -347,7 +347,7 @@ TEST(CApi, FeaturesArePatchedOrWhatStandsInTheWayIsSaid)
         << zvoLastError();
     zvoFeatureStorageDestroy(storage);
 
-    // What was not enabled is refused.
+    // A feature that was not enabled is refused.
     test::HostOptions options;
     options.patch = false;
     const test::HostDevice device(options);

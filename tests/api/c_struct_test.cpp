@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The C interface's structs: what their sizes and members mean, and pointers that are null.
+// The C interface's structs: sizes, members, and null pointers.
 #include "api/c_convert.h"
 #include "api/c_struct.h"
 #include "c_host.h"
@@ -26,7 +26,7 @@ protected:
     static constexpr std::size_t kSize = sizeof(Struct);
     static constexpr std::size_t kSizeBytes = sizeof(std::size_t);
 
-    // A struct of this size as a host has it: every byte behind the size is value.
+    // A host's struct of this size. Every byte behind the size is value.
     static Bytes given(std::size_t size, unsigned char value)
     {
         Bytes bytes(std::max(size, kSizeBytes), value);
@@ -34,7 +34,7 @@ protected:
         return bytes;
     }
 
-    // As far as the host has it, what is reserved is 0.
+    // Sets the reserved members that the host's struct has to 0.
     static void clearReserved(Bytes& bytes)
     {
         if constexpr (requires(Struct value) { value.reserved; })
@@ -67,7 +67,7 @@ TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
     const auto defaults = this->bytesOf(initial<TypeParam>());
     for (std::size_t size = this->kSizeBytes; size <= this->kSize; size += kMemberBytes)
     {
-        auto bytes = this->given(size, 0x5A); // exactly as many: sanitizers see what is read behind them
+        auto bytes = this->given(size, 0x5A); // exactly that many, so that sanitizers see reads behind them
         this->clearReserved(bytes);
         const auto read = this->bytesOf(readStruct(this->in(bytes), "it"));
         EXPECT_TRUE(std::equal(bytes.begin() + this->kSizeBytes, bytes.end(), read.begin() + this->kSizeBytes));
@@ -108,7 +108,7 @@ TYPED_TEST(CStruct, NoSizeIsAnError)
     }
     for (const std::size_t size : sizes)
     {
-        auto bytes = this->given(this->kSize, 0); // whatever it says: nothing behind it is touched
+        auto bytes = this->given(this->kSize, 0); // whatever its size says, nothing behind it is read
         std::memcpy(bytes.data(), &size, this->kSizeBytes);
         expectUsage([&] { readStruct(this->in(bytes), "it"); }, "struct_size");
         expectUsage([&] { writeStruct(this->in(bytes), "it", initial<TypeParam>()); }, "struct_size");
@@ -137,7 +137,7 @@ TYPED_TEST(CStruct, AsMuchIsFilledAsTheHostKnowsAndTheRestIsZero)
 
 TYPED_TEST(CStruct, AnArraysFirstSizeIsItsStride)
 {
-    const std::size_t stride = this->kSize + 16; // a newer host's
+    const std::size_t stride = this->kSize + 16; // of a newer host
     typename TestFixture::Bytes bytes;
     for (unsigned char value = 1; value <= 3; ++value)
     {
@@ -152,7 +152,8 @@ TYPED_TEST(CStruct, AnArraysFirstSizeIsItsStride)
     {
         EXPECT_EQ(this->bytesOf(read[i])[this->kSizeBytes], i + 1);
     }
-    bytes[stride] = static_cast<unsigned char>(stride - 8); // the lowest byte of the second one's size, below 256
+    bytes[stride] =
+        static_cast<unsigned char>(stride - 8); // the lowest byte of the second one's size, which is below 256
     if (stride < 256)
     {
         expectUsage([&] { readStructs(this->in(bytes), 3, "it"); }, "several sizes");
@@ -161,7 +162,7 @@ TYPED_TEST(CStruct, AnArraysFirstSizeIsItsStride)
     expectUsage([] { readStructs<TypeParam>(nullptr, 1, "it"); }, "it is null");
 }
 
-// Field by field, of two structs of the C++ interface.
+// Compares two structs of the C++ interface field by field.
 
 void expectSame(const ContextInfo& a, const ContextInfo& b)
 {
@@ -350,7 +351,7 @@ TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
     EXPECT_EQ(model.info().emission_scale, ModelInfo().emission_scale);
 }
 
-// Pointers that nothing reads.
+// Pointers that are never read.
 template <typename Type> Type handle(std::uintptr_t number)
 {
     return reinterpret_cast<Type>(number);
@@ -529,8 +530,8 @@ TEST(CStructs, ArraysThatAreNullAndNotEmptyAreRefused)
     expectUsage([] { ofC(initial<ZvoDepthTarget>()); }, "ZvoDepthTarget::image is null");
 }
 
-// Calls a function with each of its pointers null in turn, the others as given: usage, not a crash. Arguments that are
-// no pointers are left alone. Returns how many pointers there were.
+// Calls a function with each of its pointers null in turn and the others as given, and expects Usage. Arguments that
+// are no pointers stay. Returns the number of pointers.
 template <typename... Parameters, std::size_t... kIndices>
 int refusesNulls(ZvoResult (*function)(Parameters...), std::index_sequence<kIndices...>, const char* name,
                  Parameters... arguments)
@@ -694,7 +695,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
                                    static_cast<const void*>(made_compression), static_cast<const void*>(made_dynamic),
                                    static_cast<const void*>(made_tracer)})
     {
-        EXPECT_EQ(made, nullptr); // what fails leaves alone what it would give back
+        EXPECT_EQ(made, nullptr); // a failure leaves its results unchanged
     }
     zvoDeviceReportDestroy(nullptr);
     zvoContextDestroy(nullptr);

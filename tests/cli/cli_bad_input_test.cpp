@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes that were made to do harm end in one line and exit code 3; what can be used of a scene is, with a warning.
+// Malicious scenes give one line and exit code 3. Where parts of a scene can be used they are, with a warning.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "io/image/image_io.h"
@@ -19,8 +19,8 @@ namespace
 struct BadScene
 {
     const char* name;
-    std::function<void(GltfBuilder&)> change; // of the cube
-    const char* word;                         // that the message contains
+    std::function<void(GltfBuilder&)> change; // changes the cube's document
+    const char* word;                         // in the message
 };
 
 void PrintTo(const BadScene& scene, std::ostream* stream)
@@ -117,7 +117,7 @@ TEST(CliBadInput, EmptySceneRendersTheBackground)
     dir.write("cube.glb", coloredCube().glb());
     const auto render = [&](const std::string& name)
     {
-        // Away from the cube: both pictures show the background alone.
+        // The camera looks away from the cube, so that both pictures show only the background.
         return runZvo(dir.path(), {"render", name + ".glb", "-o", name + ".png", "--size", "40x30", "--resolution", "8",
                                    "--camera", "0.5,0.5,4,0.5,0.5,9"});
     };

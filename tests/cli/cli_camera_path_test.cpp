@@ -65,7 +65,7 @@ TEST_F(CliCameraPath, TimesAndFramesAreThoseOfThePath)
     EXPECT_EQ(contentOf(m_dir.path() / "frame_6.png"), last);
     EXPECT_NE(contentOf(m_dir.path() / "frame_4.png"), contentOf(m_dir.path() / "frame_5.png"));
 
-    // Trees have no time of their own.
+    // A tree file has no time of its own.
     ASSERT_EQ(runZvo(m_dir.path(), {"build", "cube.glb", "-o", "cube.zvo", "--resolution", "32", "--device", "cpu"})
                   .exit_code,
               0);

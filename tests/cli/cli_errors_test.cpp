@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the program says and returns when something is wrong: one line on standard error, and the right exit code.
+// Messages and exit codes when something is wrong: one line on standard error, and the right code.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "support/temp_dir.h"
@@ -20,7 +20,7 @@ struct ErrorCase
     const char* name;
     int exit_code;
     std::vector<std::string> arguments;
-    std::vector<std::string> words; // that the message contains
+    std::vector<std::string> words; // in the message
     std::vector<std::string> environment;
 };
 
@@ -160,7 +160,7 @@ TEST(Cli, InterruptLeavesNoFile)
     for (const int signal : {SIGINT, SIGTERM})
     {
         ZvoProcess process(out.path(), {"voxelize", scene, "-o", "a.ply", "--resolution", "2048"});
-        while (filesIn(out.path()).empty()) // it starts with its output
+        while (filesIn(out.path()).empty()) // the output begins with a temporary file
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }

@@ -31,7 +31,7 @@ std::vector<std::uint8_t> asGlb(const FileMesh& mesh)
     return builder.glb();
 }
 
-/// The Morton codes that zvo voxelize writes; none, with a failure, where it does not end well.
+/// The Morton codes that zvo voxelize writes. If it fails, the test fails, and there are none.
 std::string codesOf(const TempDir& dir, std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), "voxelize");
@@ -57,7 +57,7 @@ TEST(CliFormats, OneMeshGivesTheSameVoxelsInEveryFormat)
     {
         EXPECT_EQ(codesOf(dir, {name}), codes) << name;
     }
-    EXPECT_EQ(codesOf(dir, {"mesh.obj", "text.stl", "mesh.glb"}), codes); // three times the same sheet
+    EXPECT_EQ(codesOf(dir, {"mesh.obj", "text.stl", "mesh.glb"}), codes); // three copies of the sheet
 }
 
 TEST(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
@@ -69,7 +69,7 @@ TEST(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
     {
         p = glm::vec3(p.x, -p.z, p.y);
     }
-    FileMesh millimeters = mesh; // larger by a power of two: nothing is rounded
+    FileMesh millimeters = mesh; // larger by a power of two, so that nothing is rounded
     for (glm::vec3& p : millimeters.positions)
     {
         p *= 1024.0F;
@@ -83,7 +83,7 @@ TEST(CliFormats, UpAndScaleMoveTheFilesNotTheVoxels)
     EXPECT_NE(codesOf(dir, {"lying.stl", bounds}), codes);
     EXPECT_NE(codesOf(dir, {"lying.stl", "--up=-z", bounds}), codes);
     EXPECT_EQ(codesOf(dir, {"millimetres.ply", "--scale", "0.0009765625", bounds}), codes);
-    EXPECT_EQ(codesOf(dir, {"millimetres.ply"}), codesOf(dir, {"mesh.glb"})); // the grid grows along
+    EXPECT_EQ(codesOf(dir, {"millimetres.ply"}), codesOf(dir, {"mesh.glb"})); // the grid grows with the mesh
 }
 
 TEST(CliFormats, RenderTakesSeveralFormatsAndUp)

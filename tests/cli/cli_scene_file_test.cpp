@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene files on the command line: pictures and voxels of a scene in which something moves.
+// Scene files on the command line: pictures and voxels of a scene with a dynamic object.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "io/image/image_io.h"
@@ -21,7 +21,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// A folder with cube.glb, models/slab.glb and test.scene.json, in which the cube stands and the slab slides through
+/// A folder with cube.glb, models/slab.glb and test.scene.json, in which the cube is static and the slab moves through
 /// it.
 class CliSceneFile : public testing::Test
 {
@@ -83,7 +83,7 @@ TEST_F(CliSceneFile, VoxelsAtATimeAreTheUnionOfTheObjectsInTheirPlaces)
 {
     for (const double seconds : {0.0, 0.125, 0.5, 1.0, 1.25}) // outside, half outside, beside, within
     {
-        // Everything on the lattice, so that a slab of its own has the same vertices.
+        // All vertices are on the lattice, so that a slab of its own has the same ones.
         m_dir.write("moved.glb", slab(-2.0 + 2.0 * seconds).glb());
         const json report = json::parse(run({"voxelize", "test.scene.json", "--scenes", "models", "--time",
                                              std::to_string(seconds), "-o", "all.morton", "-f", "--json", "-"})
@@ -207,7 +207,7 @@ TEST_F(CliSceneFile, WhatIsCompressedLooksTheSame)
 
 TEST_F(CliSceneFile, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
 {
-    // The slab, turned so that a green side is in front, shares voxels of the cube's blue front.
+    // The slab, rotated so that a green side is in front, shares voxels of the cube's blue front.
     std::map<std::string, std::string> pictures;
     for (const char* rule : {"average", "dynamic", "static"})
     {
@@ -229,7 +229,7 @@ TEST_F(CliSceneFile, TheSceneFilesRuleDecidesWhatOverlapsLookLike)
 
 TEST_F(CliSceneFile, TheCameraOfTheSceneFileStandsStill)
 {
-    // The slab's face towards the camera is blue and a quarter wide: find its middle.
+    // Finds the middle of the slab's face towards the camera, which is blue and a quarter wide.
     const auto middleAt = [this](const char* seconds)
     {
         run({"render", "test.scene.json", "--scenes", "models", "-o", "a.png", "-f", "--size", "512x256", "--view",
@@ -249,14 +249,15 @@ TEST_F(CliSceneFile, TheCameraOfTheSceneFileStandsStill)
         }
         return count == 0 ? -1.0 : sum / count;
     };
-    // At 0.25 s the slab spans x from -1.5 to -1.25 at z = 1.25, the cube 0 to 1 at z = 1: too far apart to touch.
+    // At 0.25 s the slab spans x from -1.5 to -1.25 at z = 1.25, the cube 0 to 1 at z = 1. So they do not touch in the
+    // picture.
     const double pixels_per_unit = 128.0 / std::tan(0.5 * 45.0 * std::numbers::pi / 180.0);
     const double slab = 255.5 + pixels_per_unit * (-1.375 - 0.5) / 7.75;
     const double cube = 255.5;
     const double slab_width = pixels_per_unit * 0.25 / 7.75;
     const double cube_width = pixels_per_unit * 1.0 / 8.0;
     EXPECT_NEAR(middleAt("0.25"), (slab * slab_width + cube * cube_width) / (slab_width + cube_width), 1.5);
-    // At 1.2 s it stands before the cube.
+    // At 1.2 s the slab is before the cube.
     EXPECT_NEAR(middleAt("1.2"), cube, 1.5);
 }
 
@@ -325,7 +326,7 @@ TEST_F(CliSceneFile, AnimationsOfAFileRunWhereTimesAreAskedFor)
 
 TEST_F(CliSceneFile, TrianglesOfWhatMovesThatMakeNoSenseAreToldOfOnce)
 {
-    // One face, of two triangles, has a corner that is no number; from 0.5 s on another object is too large.
+    // One face, of two triangles, has a corner that is NaN; from 0.5 s on another object is too large.
     GltfBuilder broken = slab(0.0);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(broken.bin.data() + 4, &nan, sizeof(nan)); // y of the first position
@@ -390,7 +391,7 @@ struct WrongUse
     const char* name;
     int exit_code;
     std::vector<std::string> arguments;
-    std::vector<std::string> words; // of the message
+    std::vector<std::string> words; // in the message
 };
 
 void PrintTo(const WrongUse& use, std::ostream* stream)

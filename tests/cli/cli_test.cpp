@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the program gives when all goes well: files, reports, tables.
+// Files, reports and tables of successful runs.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "core/base/kernels.h"
@@ -24,7 +24,7 @@ namespace zvo::test
 namespace
 {
 
-/// A folder with cube.glb, and what the library makes of it at a resolution of 32.
+/// A folder with cube.glb, and the octree that the library makes of it at a resolution of 32.
 class CliRun : public testing::Test
 {
 protected:
@@ -68,7 +68,7 @@ protected:
     Grid m_grid;
 };
 
-// The paths of fields with their types; of arrays, the first element stands for all.
+// Lists the paths of fields with their types. The first element stands for all of an array.
 void listFields(const json& value, const std::string& path, std::vector<std::string>& fields)
 {
     if (value.is_object() && !value.empty())
@@ -200,7 +200,7 @@ TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)
         }
         ASSERT_EQ(code, codes[i]);
         ASSERT_NEAR(glm::length(vectors[1]), 1.0F, 1e-5F);
-        for (int axis = 0; axis < 3; ++axis) // a voxel of one face has its normal and its colour
+        for (int axis = 0; axis < 3; ++axis) // a voxel of a single face has that face's normal and colour
         {
             if (rgb[axis] == 255 && rgb[(axis + 1) % 3] == 0 && rgb[(axis + 2) % 3] == 0)
             {
@@ -215,7 +215,7 @@ TEST_F(CliRun, PlyFileHoldsCentersNormalsAndColors)
 
 TEST_F(CliRun, GridOfAReportGivesTheSameGridBitForBit)
 {
-    // Corners that no short decimal number meets.
+    // Corners that no short decimal number represents.
     m_scene.instances[0].transform = glm::mat4(0.1F);
     m_scene.instances[0].transform[3] = glm::vec4(1.0F / 3.0F, -7.1F, 1e-4F, 1.0F);
     GltfBuilder builder = coloredCube();
@@ -337,7 +337,7 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
         if (!row["embree_user_mrays_per_s"].is_null())
         {
             expectFields(row, {"embree_user_mrays_per_s number", "embree_triangle_mrays_per_s number"});
-            // A ray along an edge may fall on either side of it.
+            // Rays along edges may hit either side.
             EXPECT_NEAR(row["embree_user_hits"].get<double>(), row["hits"].get<double>(), 16.0);
         }
     }
@@ -362,7 +362,7 @@ TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
                                                 "1",     "--json",   "bench.json",    "-f", "--passes"};
     run(arguments);
     const json whole = json::parse(file("bench.json"))["rows"][0];
-    // A limit that suffices for the octree alone: the DAG's beam grid takes 8 MiB beside it.
+    // A limit that suffices only for the octree: the DAG's beam grid takes 8 MiB beside it.
     constexpr std::uint64_t kMiB = 1 << 20;
     Outcome outcome;
     for (std::uint64_t mib = whole["peak_device_bytes"].get<std::uint64_t>() / kMiB; outcome.err.empty(); mib -= 4)
@@ -395,7 +395,7 @@ TEST_F(CliRun, BenchOfBalanceTellsEverySceneAndItsRatios)
     EXPECT_TRUE(contains(outcome.out, "\n| triangle / patch "));
     const json report = json::parse(file("balance.json"));
     expectFields(report, {"schema string", "device.name string", "coverage string", "runs number"});
-    std::map<std::string, json> fine; // rows at a resolution of 32
+    std::map<std::string, json> fine; // [scene] rows at a resolution of 32
     for (const json& row : report["rows"])
     {
         expectFields(row, {"scene string", "generated boolean", "resolution number", "triangles number",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// .zvo files by way of the program: build, inspect, validate, render, convert; and what is refused.
+// .zvo files in the program: build, inspect, validate, render, convert, and refusals.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "io/file/sha256.h"
@@ -133,7 +133,7 @@ TEST(CliTree, PicturesOfFilesAreThoseOfTheScene)
     EXPECT_EQ(report["structure"], "svdag");
 }
 
-// Both structures with packed attributes: pictures, other files and the other structure.
+// Renders and converts packed attributes of both structures.
 TEST(CliTree, PackedAttributesGoWhereOthersGo)
 {
     const TempDir dir;
@@ -275,7 +275,7 @@ TEST(CliTree, RefusalsAreOneLineWithTheirExitCode)
     }
 }
 
-// Lets files of this process and of those that it starts grow to that many bytes.
+// Limits the size of files that this process and its children write.
 class FileSizeLimit
 {
 public:
@@ -328,7 +328,7 @@ TEST(CliTree, AFullDiskLeavesTheOldFile)
     }
 }
 
-// Waits until a file beside the one of that name has so many bytes, for a minute at most.
+// Waits until a file beside the one of that name has so many bytes, but at most a minute.
 void waitForTemporaryFile(const std::filesystem::path& folder, const std::string& target, std::uintmax_t bytes)
 {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -343,7 +343,7 @@ void waitForTemporaryFile(const std::filesystem::path& folder, const std::string
     }
 }
 
-// Ended while the temporary file grows, once it has that many bytes.
+// The program is killed while it writes the temporary file, which already has that many bytes.
 TEST(CliTree, AKillInTheMiddleLeavesTheOldFile)
 {
     const TempDir dir;
@@ -372,7 +372,7 @@ TEST(CliTree, AKillInTheMiddleLeavesTheOldFile)
             {
                 EXPECT_EQ(filesIn(out.path()), std::vector<std::string>{target});
             }
-            for (const std::string& name : filesIn(out.path())) // what SIGKILL left has another name
+            for (const std::string& name : filesIn(out.path())) // the file that SIGKILL left has another name
             {
                 if (name != target)
                 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One octree, byte for byte, whatever the device's threads and subgroups. The software device takes both from the
-// environment when a process starts.
+// An octree has the same bytes for all numbers of threads and sizes of subgroups. The software device reads both from
+// the environment when a process starts.
 #include "cli/run_zvo.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
@@ -38,7 +38,7 @@ struct DeterminismCase
 {
     const char* scene;
     const char* resolution;
-    const char* grid = nullptr; // origin and voxel size; otherwise the grid is around the scene
+    const char* grid = nullptr; // origin and voxel size; null: the grid is around the scene
 };
 
 void PrintTo(const DeterminismCase& octree, std::ostream* out)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Attributes in fewer bytes: what the device packs is what the oracle packs, and what is read is what was packed.
+// Packed attributes: the device packs as the oracle does, and reading gives what was packed.
 #include "core/attributes/attribute_pack.h"
 #include "core/headless/attribute_packer.h"
 
@@ -38,7 +38,7 @@ using Words = std::vector<gpu::uint>;
 
 using test::device;
 
-// Anything: also codes that no kernel makes.
+// Arbitrary attributes, some with codes that no kernel makes.
 Attributes randomAttributes(std::size_t count, std::uint32_t seed)
 {
     std::mt19937 random(seed);
@@ -50,7 +50,7 @@ Attributes randomAttributes(std::size_t count, std::uint32_t seed)
     return attributes;
 }
 
-// What is near in space is alike: runs of equal attributes, of one that changes by little, and of two that alternate.
+// Attributes as they occur in space: runs of equal ones, of one that changes slightly, and of two that alternate.
 Attributes coherentAttributes(std::size_t count, std::uint32_t seed)
 {
     std::mt19937 random(seed);
@@ -159,7 +159,7 @@ TEST(AttributePacker, LeavesPlainAttributesAsTheyAre)
     EXPECT_TRUE(packer.words.empty());
 }
 
-// The host's reader, on every word of 16 bits of colour and on every one of 16 bits of normal.
+// Reads every word of 16 bits of colour and every one of 16 bits of normal on the host.
 TEST(UnpackAttribute, OfFourBytesIsTheOracles)
 {
     for (std::uint32_t half = 0; half < 1U << 16; ++half)
@@ -198,7 +198,7 @@ TEST(UnpackAttribute, OfABlockIsTheOracles)
     }
 }
 
-// Each channel of each grey is unpacked to the nearest value that there is, and the errors cancel out.
+// Each channel of each grey is unpacked to the nearest representable value, and the errors cancel out.
 TEST(PackAttribute4, ColorsAreTheNearestOnesAndNoBrighter)
 {
     std::array<int, 3> sums = {0, 0, 0};
@@ -289,13 +289,13 @@ TEST_P(PackAttributes, ReplacesThoseOfATree)
     EXPECT_LT(octree.attributeBytes(), plain_bytes);
     EXPECT_EQ(device().download(octree.packed.voxels), packByOracle(voxels, format));
     EXPECT_EQ(device().download(octree.packed.nodes), packByOracle(nodes, nodeFormat(format)));
-    EXPECT_TRUE(packTree(device(), format, octree).empty()); // once is enough
+    EXPECT_TRUE(packTree(device(), format, octree).empty()); // a second call has nothing to do
     DeviceTree bare = test::octreeOf(device(), test::randomCodes(6, 30, random), 6);
     EXPECT_TRUE(packTree(device(), format, bare).empty());
     EXPECT_EQ(bare.attributeFormat(), AttributeFormat::None);
 }
 
-// The attributes that a packed tree has, in 8 bytes, with their flags.
+// Replaces a packed tree's attributes by the same ones in 8 bytes, with their flags.
 void unpackTree(DeviceTree& octree)
 {
     const PackedAttributes packed = std::exchange(octree.packed, {});
@@ -327,7 +327,7 @@ std::vector<gpu::uint> pictureOf(const DeviceTree& tree, const TraceOptions& opt
     return picture.image;
 }
 
-// What kernels read of a packed tree is what the host reads; and octree and DAG are shaded alike.
+// Kernels read a packed tree as the host does, and octree and DAG are shaded equally.
 TEST_P(PackAttributes, ShowsInPictures)
 {
     for (const std::uint32_t depth : {5U, 7U})

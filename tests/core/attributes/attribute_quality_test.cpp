@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What packed attributes lose on whole scenes: colours in dB, normals in degrees, pictures in dB. The disabled test
+// Errors of packed attributes on whole scenes: colours in dB, normals in degrees, pictures in dB. The disabled test
 // makes the tables of docs/attributes.md.
 #include "core/headless/attribute_packer.h"
 #include "core/headless/pipeline.h"
@@ -45,12 +45,12 @@ double squaredDifference(std::uint32_t a, std::uint32_t b)
     return sum;
 }
 
-/// What attributes have lost.
+/// Errors of attributes.
 struct Loss
 {
     double color_db = 0;
     double mean_degrees = 0;
-    double percentile_degrees = 0; // which 99 of 100 do not exceed
+    double percentile_degrees = 0; // not exceeded by 99 of 100
     double max_degrees = 0;
 };
 
@@ -99,18 +99,18 @@ double pictureDecibels(const std::vector<gpu::uint>& a, const std::vector<gpu::u
     return decibels(squares, 3.0 * static_cast<double>(a.size()));
 }
 
-/// A scene in one format.
+/// The errors and sizes of a scene in one format.
 struct Quality
 {
     Loss voxels;
     Loss nodes;
     double picture_db = 0;
-    double bytes_per_voxel = 0; // of voxels, nodes and emission
+    double bytes_per_voxel = 0; // for voxels, nodes and emission
     double pack_ms = 0;
-    double build_ms = 0; // of all before
+    double build_ms = 0; // time of the whole build before packing
 };
 
-// Of both packed formats.
+// Measures both packed formats.
 std::vector<Quality> measure(const std::filesystem::path& path, std::uint32_t depth)
 {
     const Scene scene = loadGltf(path);
@@ -138,7 +138,7 @@ std::vector<Quality> measure(const std::filesystem::path& path, std::uint32_t de
     return qualities;
 }
 
-/// What blocks keep of a scene at 256^3: a little less than was measured.
+/// Least quality of blocks for a scene at 256^3, a little below the measured one.
 struct Bounds256
 {
     const char* scene;

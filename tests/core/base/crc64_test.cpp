@@ -12,7 +12,7 @@ namespace zvo
 namespace
 {
 
-// The definition: a bit at a time.
+// The definition, computed bit by bit.
 std::uint64_t bitwiseCrc(std::span<const std::byte> bytes)
 {
     std::uint64_t remainder = ~std::uint64_t{0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The device deforms vertices to the bits that deformVertices() gives.
+// The device deforms vertices to the same bits as deformVertices().
 #include "core/deform/deform_mesh.h"
 
 #include "core/base/kernels.h"
@@ -27,7 +27,7 @@ namespace
 
 using test::device;
 
-/// Vertices of all instances, and how the buffers of the device came about.
+/// Deformed vertices of all instances, and the names of the passes.
 struct Deformed
 {
     std::vector<gpu::vec3> positions;
@@ -35,7 +35,7 @@ struct Deformed
     std::vector<std::string> passes;
 };
 
-/// Deforms on a device again and again, always into the same buffers.
+/// Deforms repeatedly on a device, always into the same buffers.
 class Deformer
 {
 public:
@@ -74,7 +74,7 @@ private:
     vk::BufferOf<gpu::vec3> m_normals;
 };
 
-// Number of the first component that differs in a bit.
+// Index of the first component with different bits.
 std::optional<std::size_t> firstDifference(std::span<const gpu::vec3> seen, std::span<const glm::vec3> expected)
 {
     for (std::size_t i = 0; i < 3 * expected.size(); ++i)
@@ -176,7 +176,7 @@ TEST(DeformMesh, InstancesOfOneMeshDeformEachInItsWay)
     }
     Deformer deformer(device(), scene);
     const DeformMesh& mesh = deformer.mesh();
-    EXPECT_EQ(mesh.parts.size(), 7U); // the primitive with joints but without a skin is rigid
+    EXPECT_EQ(mesh.parts.size(), 7U); // the primitive with joints but no skin is rigid
     EXPECT_EQ(mesh.positions.count(), 100U + 64U + 130U) << "what is at rest is there once";
     EXPECT_EQ(mesh.position_count, 3U * 100 + 40 + 2 * 64 + 2 * 130 + 130);
     EXPECT_EQ(mesh.offsets[1].first_position, mesh.offsets[8].first_position);
@@ -314,7 +314,7 @@ TEST(DeformMesh, NumbersAroundTheSmallestThatCountEqualTheRule)
     std::mt19937 random(17);
     const auto factor = [&](int exponent)
     { return std::ldexp(std::uniform_real_distribution<float>(0.5F, 2.0F)(random), exponent); };
-    // Inputs, products of targets, and products of joints with values on both sides of 2^-100.
+    // Inputs, products of targets, and products of joints, with values on both sides of 2^-100.
     auto [scene, pose] = oneInstance(random, 4096, {false, 1, 2});
     Primitive& primitive = scene.primitives[0];
     for (MorphTarget& target : primitive.morph_targets)
@@ -355,12 +355,12 @@ TEST(DeformMesh, NormalsOfFlatAndOfExtremeMatricesEqualTheRule)
     {
         scene.primitives[0].joints[i] = {i, kVertices + i, 0, 0};
         scene.primitives[0].weights[i] = {1.0F, i % 4 == 3 ? 1.0F : 0.0F, 0.0F, 0.0F};
-        if (i % 2 == 0) // the columns lie in a plane but for their rounding, which decides the determinant's sign
+        if (i % 2 == 0) // the columns lie in a plane up to rounding, which decides the determinant's sign
         {
             joints[i][2] = joints[i][0] * 0.7F + joints[i][1] * 1.3F;
             continue;
         }
-        // The largest entry lies around the ends of what is usable, for every fourth vertex as a difference.
+        // The largest entry lies near the ends of the usable range; for every fourth vertex it is a difference.
         const int exponent = (i / 4 % 2 == 0 ? -100 : 100) + static_cast<int>(i % 5) - 2;
         for (int column = 0; column < 3; ++column)
         {
@@ -398,7 +398,7 @@ TEST(DeformMesh, WithoutDeformingInstancesItIsEmpty)
     Scene scene;
     Pose pose;
     scene.primitives.push_back(test::deformingPrimitive(random, 30, {true, 5, 0}));
-    scene.primitives.push_back(test::deformingPrimitive(random, 30, {true, 0, 2})); // of which there is no instance
+    scene.primitives.push_back(test::deformingPrimitive(random, 30, {true, 0, 2})); // no instance has it
     test::addDeforming(random, scene, pose, 0, 0);
     const std::uint64_t used = device().device().memory().usedBytes();
     const DeformMesh mesh = uploadDeformMesh(device(), scene);
@@ -431,7 +431,7 @@ TEST(DeformMesh, WhatNoDeviceCanFollowIsRefused)
     EXPECT_THROW(uploadDeformMesh(device(), scene), Error);
     scene.skins[0].joints.push_back(0);
     EXPECT_EQ(uploadDeformMesh(device(), scene).joint_count, 6U);
-    // A second instance on a skin of fewer joints.
+    // A second instance uses a skin with fewer joints.
     test::addDeforming(random, scene, pose, 0, 2);
     EXPECT_THROW(uploadDeformMesh(device(), scene), Error);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dynamic objects in command buffers, frame after frame: what waits for what, what takes memory, what is refused.
+// Dynamic objects in command buffers, frame by frame: barriers, memory, refusals.
 #include "core/deform/dynamic_object.h"
 
 #include "core/base/kernels.h"
@@ -79,7 +79,7 @@ TEST(DynamicObject, PlacesAndVoxelizesInOneCommandBuffer)
     EXPECT_GT(counters[0].voxel_count, 5000U);
     EXPECT_EQ(counters[1].voxel_count, counters[0].voxel_count);
     EXPECT_EQ(counters[1].node_count, counters[0].node_count);
-    // Between the last deformation and the first triangle stands a barrier from kernels to kernels.
+    // A barrier from kernels to kernels stands between the last deformation and the first triangle.
     const std::size_t deformed = dump.rfind("pass deform/vertices");
     const std::size_t walked = dump.find("pass voxelize/triangles");
     ASSERT_LT(deformed, walked);
@@ -119,7 +119,7 @@ TEST(DynamicObject, WhatIsNotFiniteIsCountedAndTheRestIsThere)
     pose.transforms[0][1][1] = nan;
     pose.morph_weights[8][0] = nan;
     EXPECT_GT(expectEqualsPosed(object, scene, pose), 3000U);
-    // The instances of numbers 0 and 8 are gone, that of 1 in part.
+    // The instances 0 and 8 are dropped, and a part of instance 1.
     EXPECT_GT(object.make(kGrid, Coverage::Thin).dropped["nonfinite"], 2U * 58);
     EXPECT_LT(object.make(kGrid, Coverage::Thin).dropped["nonfinite"], 3U * 58);
 }

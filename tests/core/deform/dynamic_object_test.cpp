@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What moves is voxelized from buffers that change in place: the bytes are those of a scene uploaded anew.
+// Dynamic objects are voxelized from buffers that change in place. The bytes equal those of a scene that is uploaded
+// anew.
 #include "core/deform/dynamic_object.h"
 
 #include "core/headless/pipeline.h"
@@ -51,7 +52,7 @@ TEST(DynamicObject, OfAllSortsOfInstancesEqualsAnUploadInEveryPose)
     }
 }
 
-/// A column of rings on a chain of joints that bends and twists, beside a bump that grows out of a plate on a carrier.
+/// A column of rings on a chain of joints that bends and twists, and a bump that grows out of a plate on a carrier.
 Scene bendingScene()
 {
     constexpr std::uint32_t kRings = 24;
@@ -62,7 +63,7 @@ Scene bendingScene()
     Primitive column;
     for (std::uint32_t ring = 0; ring <= kRings; ++ring)
     {
-        const float height = 3.0F * static_cast<float>(ring) / kRings; // a joint every 1
+        const float height = 3.0F * static_cast<float>(ring) / kRings; // the joints are 1 apart
         const auto joint = std::min(static_cast<std::uint32_t>(height), kJoints - 2);
         const float share = height - static_cast<float>(joint);
         for (std::uint32_t segment = 0; segment < kSegments; ++segment)
@@ -152,13 +153,13 @@ TEST(DynamicObject, FollowsAnimationsThroughTheirTime)
         shas.insert(object.make(kGrid, Coverage::Thin).sha);
     }
     EXPECT_EQ(shas.size(), 5U);
-    object.setPose(poseAt(scene, 2.0)); // where it began
+    object.setPose(poseAt(scene, 2.0)); // the initial pose
     EXPECT_EQ(object.make(kGrid, Coverage::Thin).sha,
               makeAnew(posedScene(scene, poseAt(scene, 0.0)), kGrid, Coverage::Thin).sha);
 }
 
-/// A ball without normals around the origin, of radius 1, whose vertices hang on one joint each: those above y = 0 on
-/// the first, others on the second.
+/// A ball of radius 1 around the origin, without normals. Each vertex has one joint: the first if y > 0, otherwise the
+/// second.
 Scene flatBall()
 {
     Scene scene = test::sphereScene(glm::vec3(0.0F), 1.0F, 24);
@@ -196,7 +197,7 @@ TEST(DynamicObject, WithoutNormalsOnJointsThatMirrorEqualsARigidInstance)
 
 TEST(DynamicObject, WithoutNormalsEachVertexFollowsTheSideOfItsJoints)
 {
-    // The upper half is mirrored, the lower one turned: the ball is the same, but its upper half inside out.
+    // The upper half is mirrored, the lower one rotated. So the ball is the same, but its upper half is inside out.
     const Scene scene = flatBall();
     MovedScene object(device(), scene);
     const glm::mat4 mirrored = glm::scale(glm::mat4(1.0F), glm::vec3(-2, 2, 2));
@@ -213,14 +214,14 @@ TEST(DynamicObject, WithoutNormalsEachVertexFollowsTheSideOfItsJoints)
     {
         const glm::dvec3 center = glm::dvec3(kGrid.origin) + (glm::dvec3(oracle::mortonDecode(codes[i])) + 0.5) *
                                                                  static_cast<double>(kGrid.voxel_size);
-        if (std::abs(center.y) > 0.5) // beyond the triangles that hang on both
+        if (std::abs(center.y) > 0.5) // outside of the triangles that have both joints
         {
             const double along = glm::dot(test::normalOf(attributes[i]), glm::normalize(center));
             EXPECT_GT(std::abs(along), 0.8);
             ++(along > 0 ? outward : inward)[center.y > 0 ? 1 : 0];
         }
     }
-    const int* const right = outward[0] > 0 ? outward : inward; // as the ball's own winding has it
+    const int* const right = outward[0] > 0 ? outward : inward; // the direction of the ball's own winding
     const int* const wrong = outward[0] > 0 ? inward : outward;
     EXPECT_GT(right[0], 500);
     EXPECT_GT(right[1], 500);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dynamic updates at their limits: a result that is defined, or an error that says what is wrong.
+// Dynamic updates at their limits give a defined result, or an error that says what is wrong.
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
@@ -64,7 +64,7 @@ void expectError(ErrorCode code, const std::string& message, const std::function
     }
 }
 
-// An octree, and dynamic objects by their places.
+// An octree, and dynamic objects that are named by their index.
 class World
 {
 public:
@@ -104,7 +104,7 @@ private:
 
 constexpr Item kMiddle = {0, {Kind::Inside, {1, 1, 1}}};
 
-// With less memory than an update needs, whatever it is that finds none.
+// The memory is less than an update needs; every allocation fails in turn.
 TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
 {
     vk::HeadlessDevice limited(limitedOptions(), zvoKernels());
@@ -116,7 +116,7 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
         const bool new_layer = pieces_left % 2 != 0;
         world.add(kMiddle);
         const DynamicObjectId object = world.add(kMiddle);
-        world.update(); // has one of two overlapping dynamic objects' nodes
+        world.update(); // its nodes are those of only one of two overlapping dynamic objects
         const std::vector<Cell> before = world.shown();
         const Item apart = {0, {Kind::Mirrored, {2, 0, 2}}};
         std::multiset<Item> items = {kMiddle, apart};
@@ -157,7 +157,7 @@ TEST(DynamicEdges, WithoutMemoryWhatWasShownStaysShown)
     EXPECT_TRUE(needs.contains("the voxels of a dynamic object"));
 }
 
-// Fills the room for overlays with frames in flight: the next update waits, and what is complete is shown.
+// Frames in flight fill the room for overlays. The next update waits, and the complete one is shown.
 TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
 {
     vk::HeadlessDevice limited(limitedOptions(), zvoKernels());
@@ -190,7 +190,7 @@ TEST(DynamicEdges, WithoutMemoryToGrowAnUpdateWaitsForFramesInFlight)
                                           graph.releaseToHost();
                                       })});
     }
-    --complete_count; // the last one was not
+    --complete_count; // the last one was not complete
     ASSERT_GT(complete_count, 0U);
     EXPECT_TRUE(world.octree().needsUpdate());
     EXPECT_FALSE(world.octree().isUpdating());
@@ -226,8 +226,8 @@ TEST(DynamicEdges, ObjectsThatCoverNothingShowTheStaticOctree)
     }
 }
 
-// A dynamic object of 70,000 triangles in a point covers voxels only in conservative coverage, with that many fragments
-// each.
+// A dynamic object of 70,000 triangles in a point covers voxels only in conservative coverage. These voxels have that
+// many fragments.
 TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
 {
     constexpr std::uint32_t kCount = 70'000;
@@ -275,7 +275,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         {
             ASSERT_EQ(shown[i].level, expected[i].level);
             ASSERT_EQ(shown[i].code, expected[i].code);
-            for (std::uint32_t shift = 0; shift < 24; shift += 8) // what the static sums keep is dropped in a rebuild
+            for (std::uint32_t shift = 0; shift < 24; shift += 8) // a rebuild drops bits that the static sums keep
             {
                 EXPECT_NEAR((shown[i].attribute.color >> shift) & 255U, (expected[i].attribute.color >> shift) & 255U,
                             1);
@@ -285,7 +285,7 @@ TEST(DynamicEdges, MoreFragmentsThanSumsHoldAreAveragedWithFewerBits)
         update();
         EXPECT_EQ(test::difference(test::cellsOf(device(), octree.tree()), before), "");
 
-        // Fewer fragments: from the second update on, bit for bit again.
+        // With fewer fragments, results are equal bit for bit again from the second update on.
         const Scene box = test::boxScene(glm::vec3(2.2F), glm::vec3(4.4F));
         octree.add(uploadDynamicMesh(device(), box, true, 0), {{glm::mat4(1.0F)}, {}, {}});
         update();
@@ -337,7 +337,7 @@ TEST(DynamicEdges, TheHistoryKeepsAsManyEntriesAsItMay)
         EXPECT_TRUE(world.undo());
         EXPECT_EQ(test::difference(world.shown(), shown[step]), "");
     }
-    EXPECT_TRUE(world.undo()); // the oldest is always the static octree
+    EXPECT_TRUE(world.undo()); // the oldest entry is always the static octree
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
     EXPECT_FALSE(world.undo());
     for (const std::size_t step : {5U, 6U, 7U})
@@ -395,7 +395,7 @@ TEST(DynamicEdges, WhatMakesNoSenseIsRefused)
                 });
     world.octree().remove(object);
     expectError(ErrorCode::Usage, "no dynamic object 1", [&] { world.octree().remove(object); });
-    EXPECT_EQ(world.update().entry, 0U); // nothing but the static octree
+    EXPECT_EQ(world.update().entry, 0U); // only the static octree is left
     EXPECT_EQ(test::difference(world.shown(), world.rebuilt({})), "");
 
     const DynamicSetting setting = {.depth = 3};

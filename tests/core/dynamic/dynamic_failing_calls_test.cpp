@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vulkan calls that fail while dynamic objects are added, moved and shown: an error comes out, what was shown still is,
-// and the octree goes on.
+// Vulkan calls fail while dynamic objects are added, moved and shown. An error is thrown, what was shown stays, and the
+// octree can be used further.
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "support/ballast.h"
@@ -40,12 +40,12 @@ vk::HeadlessOptions options()
 {
     vk::HeadlessOptions options = test::deviceOptions();
     options.get_instance_proc_addr = test::failingVulkan();
-    options.slices.submission_ms = 0;         // the same calls in every run, however busy the machine is
-    options.memory_budget_bytes = 512U << 20; // and small blocks of memory
+    options.slices.submission_ms = 0;         // the same calls in every run, even on a busy machine
+    options.memory_budget_bytes = 512U << 20; // makes blocks of memory small
     return options;
 }
 
-// An octree of which every frame fails at each of its calls, one after the other, before it succeeds. Everything is
+// Runs each frame of an octree once for every call in it, which then fails, until the frame succeeds. Everything is
 // compared with octrees that are made anew.
 class Session
 {
@@ -103,7 +103,7 @@ public:
         m_entries.resize(m_current + 1);
         m_entries.push_back({m_items, m_cells});
         ++m_current;
-        while (m_octree->history().undoCount() < m_current && m_current > 1) // for want of memory
+        while (m_octree->history().undoCount() < m_current && m_current > 1) // dropped for lack of memory
         {
             m_entries.erase(m_entries.begin() + 1);
             --m_current;
@@ -148,7 +148,7 @@ private:
         expectCells(m_entries.at(step).cells);
     }
 
-    // Whether call succeeds, of which one Vulkan call fails.
+    // Calls call() while the Vulkan call with this number fails. Returns whether it succeeded.
     bool succeeds(std::uint64_t number, const std::function<void()>& call)
     {
         const std::vector<vk::Buffer> full = test::freeMemoryTaken(m_device);
@@ -173,7 +173,7 @@ private:
 
     void frame(const std::function<void(vk::FrameGraph&)>& record)
     {
-        std::vector<std::vector<Cell>> seen; // once the frame has run, though it failed
+        std::vector<std::vector<Cell>> seen; // after frames that failed when they had run
         bool has_restarted = false;
         for (std::uint64_t number = m_sweep.first();; number += m_sweep.step())
         {
@@ -187,7 +187,7 @@ private:
                 {
                     break;
                 }
-                expectCells(m_cells); // it waits for memory
+                expectCells(m_cells); // the update waits for memory
                 continue;
             }
             m_octree->frameLost();
@@ -220,9 +220,9 @@ private:
     test::Sweep m_sweep;
     std::unique_ptr<DynamicOctree> m_octree;
     std::map<DynamicObjectId, Item> m_items;
-    std::vector<Cell> m_cells; // that are shown
+    std::vector<Cell> m_cells; // shown now
     std::vector<Entry> m_entries;
-    std::size_t m_current = 0; // of m_steps
+    std::size_t m_current = 0; // index in m_steps
     std::string m_failed;
     std::set<std::string> m_failed_functions;
     std::uint64_t m_error_count = 0;

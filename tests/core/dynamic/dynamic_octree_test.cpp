@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Merging dynamic objects gives what voxelizing everything anew gives.
+// Merging dynamic objects gives the same result as voxelizing everything anew.
 #include "core/dynamic/dynamic_octree.h"
 #include "support/dynamic_updates.h"
 #include "support/engine_device.h"
@@ -26,7 +26,7 @@ using test::device;
 
 constexpr float kExtent = 16.0F;
 
-// A static scene, dynamic objects, and an octree that follows them.
+// A static scene, dynamic objects, and their octree.
 class MovingWorld
 {
 public:
@@ -101,7 +101,7 @@ glm::mat4 moved(float x, float y, float z)
     return glm::translate(glm::mat4(1.0F), glm::vec3(x, y, z));
 }
 
-// What the tests compare updates by.
+// Checks the functions by which the tests compare trees.
 TEST(DynamicOctree, IsMadeOfTheCellsThatItHas)
 {
     const MovingWorld world(6);
@@ -186,7 +186,7 @@ TEST(DynamicOctree, SpreadsAnUpdateOverFramesAndShowsTheLastRootMeanwhile)
         EXPECT_EQ(test::difference(world.shown(), before), "");
         if (frame_count == 2)
         {
-            world.octree().setPose(object, world.poseAt(moved(1, 1, 1))); // counts for the update after this one
+            world.octree().setPose(object, world.poseAt(moved(1, 1, 1))); // counts for the next update
         }
         const std::uint64_t frame = world.octree().beginFrame();
         const std::vector<vk::PassTime> passes =

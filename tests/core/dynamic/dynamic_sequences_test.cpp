@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever is done to dynamic objects, in whatever order: what is shown is what voxelizing everything anew gives, undo
-// and redo show what was shown, and the static octree stays what it was. scripts/check-dynamic runs thousands of
-// sequences.
+// Random commands to dynamic objects. What is shown equals a full rebuild, undo and redo show earlier results, and the
+// static octree does not change. scripts/check-dynamic runs thousands of sequences.
 #include "core/base/kernels.h"
 #include "core/scene/deform.h"
 #include "oracle/deform.h"
@@ -36,7 +35,7 @@ constexpr std::uint32_t kBendCount = 5;
 using Kind = Placement::Kind;
 using test::device;
 
-// From low to high - 1, each as often, also in small cases, to which rc::gen::inRange gives only the lowest.
+// A number from low to high - 1, uniform also in small cases, for which rc::gen::inRange gives only the lowest.
 template <typename T> rc::Gen<T> anyBetween(T low, T high)
 {
     return rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high));
@@ -111,7 +110,7 @@ rc::Gen<DynamicSetting> anySetting()
         set(&DynamicSetting::shot, anyShot()));
 }
 
-// What rebuilds take for granted: the CPU bends meshes as double precision does, but for roundings.
+// Rebuilds rely on this: the CPU deforms meshes as double precision does, up to rounding.
 TEST(DynamicSequences, BendMeshesWithinRoundingsOfDoublePrecision)
 {
     const DynamicScenery scenery(device(), true);
@@ -170,10 +169,10 @@ TEST(DynamicSequences, ShowWhatARebuildShows)
                         });
 }
 
-// With Vulkan calls that fail wherever it is, with three frames in flight as well: those frames are lost.
+// Vulkan calls fail at every position, also with three frames in flight. Those frames are lost.
 TEST(DynamicSequences, ResumeWhateverFails)
 {
-    constexpr std::uint32_t kCallsMax = 50; // of most frames
+    constexpr std::uint32_t kCallsMax = 50; // in most frames
     vk::HeadlessOptions options = test::deviceOptions();
     options.get_instance_proc_addr = test::failingVulkan();
     test::failCall(UINT64_MAX);

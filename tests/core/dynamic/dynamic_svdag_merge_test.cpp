@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dynamic objects merged with a DAG: what is shown is what voxelizing all of it anew gives, and the DAG stays as it
-// was.
+// Dynamic objects merged with a DAG. What is shown equals a full rebuild, and the DAG does not change.
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "support/dynamic_scenery.h"
@@ -34,7 +33,7 @@ using Kind = test::Placement::Kind;
 
 using test::device;
 
-/// A scenery with a DAG for its static part.
+/// A scenery whose static part is a DAG.
 class MergedWorld
 {
 public:
@@ -103,7 +102,7 @@ TEST(DynamicSvdagMerge, AveragedObjectsGiveWhatARebuildGives)
     }
 }
 
-// Words of buffer, from element first on.
+// Appends words of buffer, from element first on.
 template <typename T>
 void addWords(std::vector<gpu::uint>& words, const vk::BufferOf<T>& buffer, std::uint64_t first, std::uint64_t count)
 {
@@ -122,7 +121,7 @@ TEST(DynamicSvdagMerge, NothingOfTheDagIsEverWritten)
     const auto bytes = [&](const DeviceTree& dag)
     {
         std::vector<gpu::uint> words;
-        addWords(words, dag.nodes, 1, node_end - 1); // behind the slot; lists included
+        addWords(words, dag.nodes, 1, node_end - 1); // behind the root's slot, lists included
         addWords(words, dag.node_attributes, 1, dag.octreeNodeCount() - 1);
         addWords(words, dag.voxel_attributes, 0, dag.voxel_count);
         addWords(words, dag.lists.before, 0, dag.lists.before.count());
@@ -173,7 +172,7 @@ TEST(DynamicSvdagMerge, UndoGivesTheSameBytes)
     EXPECT_FALSE(bytes() == before);
     EXPECT_TRUE(test::undo(device(), world.octree()));
     const std::vector<gpu::uint> after = bytes();
-    // The overlay that was undone is left behind it, where there was nothing.
+    // The overlay that was undone stays, where memory was free before.
     const RootEntry step = world.octree().history().current();
     const DeviceTree& octree = world.octree().tree();
     const std::uint64_t words_per_node = sizeof(gpu::Node) / sizeof(gpu::uint);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dynamic objects above a DAG: everything looks as if the DAG were the octree that it was made of.
+// Dynamic objects above a DAG look the same as above the octree that the DAG was made of.
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
 #include "oracle/dag.h"
@@ -30,17 +30,17 @@ namespace zvo
 namespace
 {
 
-constexpr float kBoxPart = 0.6F;                        // of the grid's edge, of the first box
-constexpr float kBoxMax = 40.0F;                        // voxels, of a box
-constexpr glm::vec3 kBoxCorner = {0.13F, 0.21F, 0.09F}; // in parts of the grid's edge, of the first box
+constexpr float kBoxPart = 0.6F;                        // of the grid's edge, for the first box
+constexpr float kBoxMax = 40.0F;                        // largest box, in voxels
+constexpr glm::vec3 kBoxCorner = {0.13F, 0.21F, 0.09F}; // of the first box, as parts of the grid's edge
 
 using test::device;
 
-/// Boxes that move in an octree, and in the DAG that is made of it.
+/// Moving boxes in an octree and in its DAG.
 class Pair
 {
 public:
-    // Voxels with arbitrary attributes that tell them apart.
+    // Voxels get arbitrary attributes, which distinguish them.
     Pair(const test::Codes& codes, std::uint32_t depth, MergeRule merge, bool attributes)
         : m_attributes(attributes), m_edge(static_cast<float>(1U << depth))
     {
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] const DynamicOctree& octree() const { return *m_octree; }
     [[nodiscard]] const DynamicOctree& dag() const { return *m_dag; }
 
-    // A box of this part of the grid, but not of more than kBoxMax voxels.
+    // Adds a box of this part of the grid, limited to kBoxMax voxels.
     void add(float part, const glm::vec3& color)
     {
         Scene box = test::boxScene(glm::vec3(0.0F), glm::vec3(std::min(part * m_edge, kBoxMax)));
@@ -66,7 +66,7 @@ public:
         m_objects.emplace_back(m_octree->add(mesh, poseAt({})), m_dag->add(mesh, poseAt({})));
     }
 
-    // Puts the corner of a box at these parts of the grid.
+    // Moves the corner of a box to these parts of the grid.
     void setPose(std::size_t object, const glm::vec3& corner)
     {
         m_octree->setPose(m_objects.at(object).first, poseAt(corner));
@@ -103,7 +103,7 @@ public:
 
     [[nodiscard]] test::TreeComparison comparison() const { return {device(), m_octree->tree(), m_dag->tree()}; }
 
-    // Near the first box, where it is placed first.
+    // A view near the first position of the first box.
     [[nodiscard]] ViewCamera closeView() const
     {
         const double size = std::min(kBoxPart * m_edge, kBoxMax);
@@ -131,10 +131,10 @@ private:
     float m_edge;
     std::unique_ptr<DynamicOctree> m_octree;
     std::unique_ptr<DynamicOctree> m_dag;
-    std::vector<std::pair<DynamicObjectId, DynamicObjectId>> m_objects; // in octree and DAG
+    std::vector<std::pair<DynamicObjectId, DynamicObjectId>> m_objects; // ids in octree and DAG
 };
 
-// Waves through the first box and around it.
+// The voxels of waves through and around the first box.
 test::Codes waves(std::uint32_t depth)
 {
     const auto edge = static_cast<float>(1U << depth);
@@ -150,7 +150,7 @@ test::Codes waves(std::uint32_t depth)
     return codes;
 }
 
-// Much and little to share, from one level of nodes to seven.
+// Sets of voxels that share much or little, from one level of nodes to seven.
 std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
 {
     std::mt19937 random(41);
@@ -171,22 +171,22 @@ std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
     };
 }
 
-// Through all that dynamic objects may do. see: what is shown.
+// Moves boxes through all cases, and calls see() for each state to be compared.
 template <typename See> void moveBoxes(Pair& pair, const See& see)
 {
     see(); // as it was made
     pair.update();
     see(); // without dynamic objects
     pair.add(kBoxPart, {0.9F, 0.2F, 0.1F});
-    pair.setPose(0, kBoxCorner); // over subtrees that stand at many places
+    pair.setPose(0, kBoxCorner); // over subtrees that occur several times
     pair.update();
     see();
     pair.add(0.3F, {0.1F, 0.8F, 0.3F});
-    pair.setPose(1, {0.33F, 0.41F, 0.29F}); // across the first
+    pair.setPose(1, {0.33F, 0.41F, 0.29F}); // overlaps the first
     pair.update();
     see();
     pair.setPose(0, {3.0F, 3.0F, 3.0F});
-    pair.setPose(1, {3.0F, 3.0F, 3.0F}); // nothing is touched
+    pair.setPose(1, {3.0F, 3.0F, 3.0F}); // touches nothing
     pair.update();
     see();
     pair.setPose(0, {0.71F, 0.01F, 0.66F}); // across the grid's border
@@ -264,7 +264,7 @@ TEST(DynamicSvdag, WithoutAttributesItLooksLikeTheOctree)
     }
 }
 
-// The nodes of levels 1 to 3 around each of kPathCells^3 cells, by going down from the root; 0 where there is none.
+// The nodes of levels 1 to 3 around each of kPathCells^3 cells, found by descent from the root; 0 if there is none.
 std::vector<std::array<std::uint32_t, gpu::kPathLevels>> pathsOf(const std::vector<gpu::Node>& nodes,
                                                                  std::uint32_t entries_per_word)
 {

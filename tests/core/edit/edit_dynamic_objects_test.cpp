@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dynamic objects above what brushes have left, case by case.
+// Dynamic objects above edited voxels, case by case.
 #include "oracle/morton.h"
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
@@ -54,7 +54,7 @@ std::vector<Cell> mergedCells(DynamicScenery& scenery, const DynamicSetting& set
         .cells();
 }
 
-// A stroke ends the dynamic objects' history: what they were merged with is another tree.
+// A stroke ends the dynamic objects' history, because they were merged with another tree.
 TEST(EditDynamicObjects, HaveAHistoryAboveEachStroke)
 {
     DynamicScenery scenery(device(), true);
@@ -99,7 +99,7 @@ TEST(EditDynamicObjects, HaveAHistoryAboveEachStroke)
     }
 }
 
-// In leaves that a brush has changed a dynamic object's voxels look like the dynamic object, in the others like the
+// In leaves that a brush has changed, a dynamic object's voxels have the object's attributes; in others they have the
 // mean.
 TEST(EditDynamicObjects, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
 {
@@ -122,7 +122,7 @@ TEST(EditDynamicObjects, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
     const std::map<std::uint64_t, Cell> fixed = voxels(scenery.rebuilt(setting, true, {})->cells);
     const std::map<std::uint64_t, Cell> moving = voxels(scenery.rebuilt(setting, false, {kMiddle})->cells);
     const std::map<std::uint64_t, Cell> means = voxels(scenery.rebuilt(setting, true, {kMiddle})->cells);
-    std::vector<std::uint64_t> shared; // whose mean differs from the dynamic object's look
+    std::vector<std::uint64_t> shared; // voxels whose mean differs from the dynamic object's attributes
     for (const auto& [code, voxel] : moving)
     {
         if (fixed.contains(code) && !(voxel == means.at(code)))
@@ -157,7 +157,7 @@ TEST(EditDynamicObjects, AreAveragedOnlyWithLeavesThatNoBrushHasChanged)
     EXPECT_GT(mean_count, 0U);
 }
 
-// A brush comes after each slice of an update.
+// Each slice of an update is followed by a brush.
 TEST(EditDynamicObjects, AnUpdateUnderWayIsGivenUpForAStroke)
 {
     DynamicScenery scenery(device(), true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vulkan calls that fail, and memory that does not suffice, while a brush is at work: an error comes out, what was
-// shown still is, and the octree goes on.
+// Vulkan calls fail, and memory does not suffice, while a brush is used. An error is thrown, what was shown stays, and
+// the octree can be used further.
 #include "core/base/kernels.h"
 #include "support/ballast.h"
 #include "support/device.h"
@@ -36,14 +36,14 @@ using test::Item;
 using Kind = test::Placement::Kind;
 
 constexpr std::uint64_t kLimitBytes = 512U << 20;
-constexpr std::uint64_t kCallsPerKernel = 3; // of module, layout and pipeline
+constexpr std::uint64_t kCallsPerKernel = 3; // module, layout and pipeline
 constexpr Item kObject = {0, {Kind::Inside, {1, 1, 1}}};
 
 vk::HeadlessOptions limitedOptions()
 {
     vk::HeadlessOptions options = test::deviceOptions();
-    options.slices.submission_ms = 0;          // the same calls in every run, however busy the machine is
-    options.memory_budget_bytes = kLimitBytes; // and small blocks of memory
+    options.slices.submission_ms = 0;          // the same calls in every run, even on a busy machine
+    options.memory_budget_bytes = kLimitBytes; // makes blocks of memory small
     return options;
 }
 
@@ -52,17 +52,17 @@ Brush sphere(BrushAction action, const gpu::ivec3& center, std::uint32_t radius)
     return {BrushShape::Sphere, action, center, radius, 0x3080F0};
 }
 
-// What becomes of a frame in which edit() or update() throws.
+// What happens to a frame in which edit() or update() throws.
 enum class AfterError
 {
     Lose,
     Submit
 };
 
-// Fails one call, or more, from that number on.
+// Lets the call with this number fail, or also later ones.
 using Fail = std::function<void(std::uint64_t)>;
 
-// Frames with edits, each of which fails at each of its calls, one after the other, before it succeeds. Everything is
+// Runs each frame with edits once for every call in it, which then fails, until the frame succeeds. Everything is
 // compared with a model.
 class Session
 {
@@ -88,7 +88,7 @@ public:
         m_items.insert(item);
     }
 
-    // In one frame: undoes strokes, then does one.
+    // Undoes strokes, then draws one, in the same frame.
     void stroke(const Brush& brush, std::size_t undo_count = 0)
     {
         bool is_done = false;
@@ -123,7 +123,7 @@ public:
         expectCells(m_line.at(m_at).cells());
     }
 
-    // Until dynamic objects are shown.
+    // Updates until dynamic objects are shown.
     void update()
     {
         do
@@ -145,7 +145,7 @@ private:
         EXPECT_EQ(test::difference(cells(), expected), "") << "after " << m_failed;
     }
 
-    // Steps that were dropped to make room, or for a frame that was lost. A dab adds one.
+    // Drops the entries that the octree dropped for room or for a lost frame. A dab has added one.
     void dropForgotten(bool is_done)
     {
         const std::size_t kept = m_octree->edits().undoCount() - (is_done ? 1 : 0);
@@ -181,7 +181,7 @@ private:
 
     void frame(const std::function<void(vk::FrameGraph&)>& record)
     {
-        std::vector<std::vector<Cell>> seen; // once a frame has run that was lost
+        std::vector<std::vector<Cell>> seen; // after lost frames that had run
         for (std::uint64_t number = m_sweep.first();; number += m_sweep.step())
         {
             const std::vector<vk::Buffer> full = test::freeMemoryTaken(m_device);
@@ -196,7 +196,8 @@ private:
                     [&](vk::FrameGraph& graph)
                     {
                         record(graph);
-                        if (!test::failedFunction().empty() && !m_has_failed) // there was another memory type
+                        if (!test::failedFunction().empty() &&
+                            !m_has_failed) // the frame went on with another memory type
                         {
                             throw Error(ErrorCode::Other, "the frame is lost");
                         }
@@ -208,7 +209,8 @@ private:
                 is_lost = true;
             }
             m_failed = test::failedFunction();
-            const std::uint64_t kernel_count = // that were made, and are kept: no calls for them the next time
+            const std::uint64_t
+                kernel_count = // kernels that were made stay, so the next attempt makes no calls for them
                 test::callCount("vkCreateComputePipelines") - (m_failed == "vkCreateComputePipelines" ? 1 : 0);
             test::failCall(UINT64_MAX);
             if (is_lost)
@@ -249,11 +251,11 @@ private:
     test::Sweep m_sweep;
     std::unique_ptr<DynamicOctree> m_octree;
     std::multiset<Item> m_items;
-    std::vector<Cell> m_cells; // that are shown
+    std::vector<Cell> m_cells; // shown now
     std::vector<EditModel> m_line;
     std::size_t m_at = 0;
     std::string m_failed;
-    bool m_has_failed = false; // in the frame
+    bool m_has_failed = false; // in this frame
     std::set<std::string> m_failed_functions;
     std::uint64_t m_error_count = 0;
     std::uint32_t m_frame_count = 0;
@@ -263,8 +265,8 @@ void play(Session& session, bool loses)
 {
     session.stroke(sphere(BrushAction::Carve, {10, 8, 6}, 2));
     session.stroke(sphere(BrushAction::Fill, {4, 5, 6}, 1));
-    session.stroke(sphere(BrushAction::Paint, {9, 9, 9}, 5)); // larger than the room there was
-    if (loses && session.undoCount() > 1)                     // submitted with an error, undo would be done twice
+    session.stroke(sphere(BrushAction::Paint, {9, 9, 9}, 5)); // larger than the room so far
+    if (loses && session.undoCount() > 1) // if a frame with an error were submitted, undo would happen twice
     {
         session.stroke(sphere(BrushAction::Fill, {8, 3, 6}, 3), 2);
     }
@@ -319,7 +321,7 @@ TEST(EditFailingCalls, AnyOneOfAFrameIsAnErrorAndTheOctreeGoesOn)
     test::expectFramesSwept(failed, error_count);
 }
 
-// With less memory than a stroke needs, whatever it is that finds none, and whatever becomes of the frame.
+// Memory is less than a stroke needs; every allocation fails in turn, and the frame is lost or submitted.
 TEST(EditFailingCalls, WithoutMemoryWhatWasShownStaysShown)
 {
     vk::HeadlessDevice limited(limitedOptions(), zvoKernels());

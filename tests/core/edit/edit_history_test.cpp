@@ -59,7 +59,7 @@ TEST(EditHistory, ADabAfterUndoDropsWhatCouldBeRedone)
     EXPECT_EQ(history.top(history.slot()).nodes, nodes + 5) << "takes the room of what was undone";
 }
 
-// As long as the frame in which it was undone may be lost.
+// The room stays in use as long as the frame of the undo may be lost.
 TEST(EditHistory, ADabAfterUndoLeavesRoomToWhatIsKept)
 {
     EditHistory history(8);
@@ -88,7 +88,7 @@ TEST(EditHistory, TheOldestEntryFallsOff)
     EXPECT_EQ(std::ranges::count(history.used(), true), 3);
 }
 
-// A frame that is lost may have written the slots that it took, and gives back those that it has freed.
+// A lost frame may have written the slots that it took, and slots that it freed are in use again.
 TEST(EditHistory, SlotsThatAFrameFreesAreNotUsedAgainInIt)
 {
     EditHistory history(2);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A thousand strokes on a scene, all of them undone and redone: the same pictures, the same static tree, and no more
-// memory than was asked for.
+// A thousand strokes on a scene, all undone and redone. Pictures and the static tree stay the same, and memory stays
+// within its limit.
 #include "core/base/morton.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
@@ -35,7 +35,7 @@ constexpr std::uint64_t kMiB = 1U << 20;
 
 using test::device;
 
-// The atrium, with strokes around voxels of it.
+// The atrium, and strokes around its voxels.
 class World
 {
 public:
@@ -106,7 +106,7 @@ public:
         return test::takePicture(device(), m_octree->tree(), m_camera, kWidth, kHeight, {}).image;
     }
 
-    // Nodes and lists, and attributes; without the slot of the root that is shown.
+    // Words of nodes, lists and attributes, without the slot of the root that is shown.
     std::vector<gpu::uint> staticWords()
     {
         std::vector<gpu::uint> words;
@@ -124,7 +124,7 @@ public:
     }
 
 private:
-    // Around a voxel of the scene; of radius 4, now and then of 8.
+    // A brush around a voxel of the scene, of radius 4, sometimes 8.
     [[nodiscard]] Brush brush(std::uint32_t number) const
     {
         std::mt19937 random(number);
@@ -180,14 +180,14 @@ TEST_P(EditLimits, AThousandStrokesAreUndoneAndRedone)
     EXPECT_EQ(world.octree().edits().redoCount(), 0U);
     EXPECT_EQ(world.picture(), last);
     EXPECT_EQ(world.staticWords(), words);
-    // A region to move to beside the one that is held, and half as much again. Where buffers grow, the old ones as
-    // well, until the frame is done.
+    // Beside the held region there may be one to move to, and half as much again. While buffers grow, the old ones
+    // stay, too, until the frame is done.
     EXPECT_LE(used, used_before + 3 * world.octree().edits().heldBytes());
     EXPECT_LE(memory.peakBytes(), 2 * used);
     EXPECT_LE(memory.usedBytes(), used) << "to show other steps takes no memory";
 }
 
-// What is shown stays, however little of its history does.
+// What is shown stays, even if little of its history does.
 TEST_P(EditLimits, WithLittleRoomEntriesAreDroppedAndMemoryStaysBounded)
 {
     constexpr std::uint64_t kBytesMax = 2 * kMiB;

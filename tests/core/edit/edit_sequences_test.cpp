@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whatever brushes do, in whatever order and with whatever room: what is shown is what a model has that edits voxel by
-// voxel, and undo and redo lead to what was there.
+// Random commands of brushes with different amounts of room. What is shown equals a model that edits voxel by voxel,
+// and undo and redo show earlier results.
 #include "support/edit_machine.h"
 #include "support/engine_device.h"
 #include "support/properties.h"
@@ -102,7 +102,7 @@ DynamicSetting anySetting()
     return setting;
 }
 
-// With little room everything moves again and again, and steps are dropped.
+// With little room, states move often, and entries are dropped.
 void play(bool objects, int cases)
 {
     DynamicScenery dark(device(), false);
@@ -132,7 +132,7 @@ TEST(EditSequences, ShowWhatAModelHas)
     play(false, 200);
 }
 
-// Wherever dynamic objects are, and however much of an update is recorded when a brush comes.
+// Dynamic objects are anywhere, and a brush may come after any slice of an update.
 TEST(EditSequences, WithDynamicObjectsShowWhatAModelHas)
 {
     play(true, 150);

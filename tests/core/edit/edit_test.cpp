@@ -40,7 +40,7 @@ TEST(Edit, ExtentIsWhatTheBrushReachesOfTheGrid)
     EXPECT_THROW((void)DabExtent::of({.radius = gpu::kBrushRadiusMax + 1}, grid), Error);
 }
 
-// From nothing, so that all voxels are the brush's.
+// The tree is empty at first, so that all voxels are the brush's.
 TEST(Edit, SpheresAndBoxesHaveTheVoxelsTheyAreDefinedBy)
 {
     for (const BrushShape shape : {BrushShape::Sphere, BrushShape::Box})
@@ -79,7 +79,7 @@ TEST(Edit, EverythingCanBeCarvedAwayAndFilledAgain)
     }
 }
 
-// What a stroke needs does not depend on the scene's size.
+// The work of a stroke does not depend on the scene's size.
 TEST(Edit, WorkFollowsTheBrush)
 {
     const Brush brush = {.center = {30, 31, 33}, .radius = 16};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What keeps a tree from the device: each fault alone, by its message, in trees that are right otherwise.
+// Faults that checkTree finds, each alone in an otherwise valid tree, with its message.
 #include "core/file/tree_check.h"
 
 #include "support/tree_samples.h"
@@ -253,7 +253,7 @@ TEST(CheckTree, FindsAnythingBehindTheLastCountBesideLists)
     EXPECT_GT(odd_count, 0U);
 }
 
-// A node's bits are all bound: by the tree's shape, or by a number.
+// All bits of a node are determined by the tree's shape or by a number.
 TEST(CheckTree, FindsEveryChangeOfANode)
 {
     for (const bool is_dag : {false, true})
@@ -270,7 +270,8 @@ TEST(CheckTree, FindsEveryChangeOfANode)
     }
 }
 
-// An entry may name another node with as much below it: then there are as many voxels, in order, in the grid.
+// An entry may refer to another node with equal counts below it. Then the voxels are as many, in order, and in the
+// grid.
 TEST(CheckTree, FindsEveryChangeOfAnEntryThatMatters)
 {
     std::size_t accepted_count = 0;
@@ -289,7 +290,7 @@ TEST(CheckTree, FindsEveryChangeOfAnEntryThatMatters)
             ASSERT_LT(codes.back(), std::uint64_t{1} << (3 * tree.grid.depth));
         }
     }
-    EXPECT_LT(accepted_count, sound.lists.size() * 32 / 10); // most of a random tree differs
+    EXPECT_LT(accepted_count, sound.lists.size() * 32 / 10); // most nodes of a random tree differ
 }
 
 } // namespace

@@ -14,7 +14,7 @@ namespace zvo::test
 namespace
 {
 
-// The binary octree of a set of voxels, and which of its subtrees differ, by maps.
+// The binary octree of a set of voxels, and its different subtrees, made with maps.
 struct BinaryTrees
 {
     std::uint64_t node_count = 0;
@@ -23,7 +23,7 @@ struct BinaryTrees
 
 BinaryTrees binaryTrees(const TreeData& tree)
 {
-    std::map<std::uint64_t, std::uint64_t> level; // from a cell's code to what is below it
+    std::map<std::uint64_t, std::uint64_t> level; // a cell's code -> what is below it
     forEachVoxel(tree, [&level](std::uint64_t code) { level[code] = 0; });
     BinaryTrees trees;
     for (std::uint32_t i = 0; i < tree.grid.depth; ++i)
@@ -82,7 +82,7 @@ TEST(TreeStats, OfAFullGridAreKnown)
     }
     const TreeStats stats = treeStats(octreeOf(codes, 4));
     EXPECT_EQ(stats.binary_node_count, 1U + 8 + 64 + 512);
-    EXPECT_EQ(stats.binary_unique_count, 4U); // one a level
+    EXPECT_EQ(stats.binary_unique_count, 4U); // one in each level
     EXPECT_EQ(stats.unique_per_level, (std::vector<std::uint64_t>{1, 1}));
 }
 

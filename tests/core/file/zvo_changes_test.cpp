@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Single bytes of a file that change: noticed by a checksum; where that was made to fit, refused or a sound tree.
+// Files with single bytes changed. A checksum detects the change; if the checksum is corrected, the file is refused or
+// holds a valid tree.
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
@@ -28,9 +29,9 @@ namespace zvo::test
 namespace
 {
 
-constexpr std::size_t kChangeCount = 10000; // of the body
+constexpr std::size_t kChangeCount = 10000; // in the body
 
-// The project's own atrium as a DAG of 128^3, its attributes in blocks: all kinds of sections.
+// The project's atrium as a DAG at 128^3 with attributes in blocks, which has all kinds of sections.
 const TreeData& atrium()
 {
     static const TreeData tree = []
@@ -45,7 +46,7 @@ const TreeData& atrium()
     return tree;
 }
 
-// The tree, or nothing where the file was refused with a reason.
+// The tree, or nothing if the file was refused with a reason.
 std::optional<TreeData> readOrRefused(std::span<const std::byte> file)
 {
     try
@@ -62,7 +63,7 @@ std::optional<TreeData> readOrRefused(std::span<const std::byte> file)
     }
 }
 
-// A byte of a file is another one for as long as this lives.
+// Changes a byte of a file until it is destroyed.
 class ByteChange
 {
 public:
@@ -79,7 +80,7 @@ private:
     std::byte m_before;
 };
 
-// Where the body begins: behind the table.
+// Length of header and table, behind which the body begins.
 std::size_t headBytes(const ZvoFile& file)
 {
     return sizeof(ZvoHeader) + file.sections.size() * sizeof(ZvoSection);
@@ -91,7 +92,7 @@ struct BodyChange
     unsigned change;
 };
 
-// Half of them anywhere, and half in any of the sections, of which some are small.
+// Half of the changes are anywhere, half in a random section, because some sections are small.
 std::vector<BodyChange> bodyChanges(const ZvoFile& file)
 {
     std::mt19937_64 random(20);
@@ -142,8 +143,8 @@ TEST(ZvoChanges, AnyByteIsNoticedByAChecksum)
     EXPECT_EQ(treeDifference(readZvo(file, "a.zvo").tree, atrium()), "");
 }
 
-// What a change of a byte of the header may do, by its place (docs/file-format.md), when the checksums fit: nothing,
-// for the number of the minor version and checksums; or what is listed here.
+// The part of the tree that may differ after a change of the header byte at this offset (docs/file-format.md) with
+// correct checksums. "": none, for the minor version and checksums; "never": the change must be refused.
 std::string headerPartAt(std::size_t at)
 {
     const bool is_ignored = (at >= 14 && at < 16) || (at >= 112 && at < 128);
@@ -184,7 +185,7 @@ TEST(ZvoChanges, OfTheHeaderWithItsChecksumsAreRefusedOrMeanWhatTheySay)
                 std::copy_n(before.begin(), sizeof(ZvoHeader), file.begin());
             }
         }
-        EXPECT_EQ(accepted_counts[""], 255 * 18); // all of them
+        EXPECT_EQ(accepted_counts[""], 255 * 18); // all changes of ignored bytes
         EXPECT_GT(accepted_counts["origin"], 255 * 11);
         EXPECT_EQ(accepted_counts["depth"], 1);
         EXPECT_GT(accepted_counts["voxel size"], 255);
@@ -192,7 +193,7 @@ TEST(ZvoChanges, OfTheHeaderWithItsChecksumsAreRefusedOrMeanWhatTheySay)
     }
 }
 
-// What tree says of its voxels and their numbers is, after the oracle, a DAG.
+// Expects that tree is a valid DAG, by the oracle.
 void expectSoundDag(const TreeData& tree)
 {
     const DeviceTree uploaded = uploadTree(device(), tree);
@@ -207,9 +208,10 @@ void expectSoundDag(const TreeData& tree)
 
 TEST(ZvoChanges, OfTheBodyWithItsChecksumsAreRefusedOrSoundTrees)
 {
-    constexpr std::size_t kTraceEach = 32; // of the changes that leave nodes as they are
+    constexpr std::size_t kTraceEach = 32; // every 32nd of the changes that keep the nodes
     constexpr std::size_t kExpandEach = 8;
-    // What another byte may change, by section: other nodes and entries may be as many and as large.
+    // The parts that a change of a byte may affect, by section. Other nodes and entries may have the same numbers and
+    // sizes.
     const std::map<std::uint32_t, std::string> parts = {
         {2, "nodes"}, {3, "lists"}, {6, "packed voxel attributes"}, {7, "packed node attributes"}, {9, "emission"}};
     Bytes file = zvoBytes(atrium());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One file, byte for byte, for a scene whose triangles and instances come in any order, in each format of attributes.
+// A file has the same bytes for any order of the scene's triangles and instances, in each format of attributes.
 #include "core/file/zvo_file.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// docs/file-format.md, and what becomes of files that are not as it says. tree_check_test has the trees.
+// The format of docs/file-format.md, and files that break it. tree_check_test.cpp has faults of trees.
 #include "core/file/zvo_file.h"
 
 #include "core/base/crc64.h"
@@ -21,7 +21,7 @@ namespace zvo::test
 namespace
 {
 
-// The message of the refusal, or "" where the file is accepted.
+// The message of the refusal, or "" if the file is accepted.
 std::string refusalOf(std::span<const std::byte> file)
 {
     try
@@ -75,7 +75,7 @@ TEST(ZvoFile, TreesComeBackAndGiveTheSameBytesAgain)
     }
 }
 
-// Byte by byte as the document has it, without the program's structs.
+// Reads byte by byte as the document says, without the program's structs.
 TEST(ZvoFile, BytesStandWhereTheDocumentSays)
 {
     const TreeData tree = sampleNamed("random_5_with_attributes_dag");
@@ -128,7 +128,7 @@ TEST(ZvoFile, EveryChangeOfAByteIsRefused)
         const Bytes file = zvoBytes(sampleNamed(name));
         for (std::size_t i = 0; i < file.size(); ++i)
         {
-            const std::uint32_t step = i < 1024 ? 1 : 23; // all values in the header and the table
+            const std::uint32_t step = i < 1024 ? 1 : 23; // all changes in the header and the table
             for (std::uint32_t change = 1; change < 256; change += step)
             {
                 Bytes changed = file;
@@ -182,7 +182,7 @@ TEST(ZvoFile, MissingFilesAndFoldersAreInputErrors)
     }
 }
 
-// A fault in a file whose checksums are right, unless the fault is theirs.
+// A fault in a file whose checksums are correct, except where they are the fault.
 struct FileFault
 {
     const char* name;
@@ -205,7 +205,7 @@ template <typename T> std::function<void(Bytes&)> set(std::size_t offset, T valu
     };
 }
 
-// Offsets in the i-th line of the section table.
+// The offset of a member in the i-th entry of the section table.
 constexpr std::size_t entryAt(std::size_t i, std::size_t offset)
 {
     return 128 + 48 * i + offset;
@@ -384,7 +384,7 @@ TEST(ZvoFile, OfALaterMinorVersionIsReadWithoutWhatIsNew)
     const ZvoFile read = readZvo(file, "later.zvo");
     EXPECT_EQ(treeDifference(read.tree, tree), "");
     EXPECT_EQ(read.sections.size(), 10U);
-    file[file.size() - 1] ^= std::byte{1}; // what is new has its checksum, too
+    file[file.size() - 1] ^= std::byte{1}; // the new section has its checksum, too
     EXPECT_NE(refusalOf(file).find("section 99 do not match"), std::string::npos);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Buffers that are too small, and memory that does not suffice: the same bytes in the end, or one clear error.
+// Buffers that are too small, and memory that does not suffice. In the end there are the same bytes, or one clear
+// error.
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/camera.h"
@@ -23,7 +24,7 @@ namespace
 
 using test::device;
 
-/// What was built, and how.
+/// A build's bytes, and its result.
 struct Built
 {
     std::string sha;
@@ -98,8 +99,8 @@ TEST(Capacity, EachListGrowsOnItsOwn)
     }
 }
 
-/// count slivers of the same shape from one side of a grid of edge voxels to the other: each has several bands, and
-/// many row blocks in each.
+/// count slivers of the same shape, from one side of a grid of edge voxels to the other. Each has several bands with
+/// many row blocks.
 Scene slivers(std::uint32_t count, float edge)
 {
     std::vector<glm::vec3> corners;
@@ -152,12 +153,12 @@ TEST(Capacity, SumsThatOverflowWithCapacitiesOfOneStillGiveTheSameBytes)
     EXPECT_GT(grown.result.retry_count, expected.result.retry_count);
 }
 
-/// A whole small run on a device of its own under a memory limit: the octree's sum, and a picture's.
+/// A whole small run on its own device under a memory limit: the digest of the octree, and a picture.
 struct LimitedRun
 {
     std::string sha;
     std::vector<gpu::uint> image;
-    std::string error; // of exit code 6; empty: it went through
+    std::string error; // message of exit code 6; empty: it succeeded
     std::uint64_t peak_bytes = 0;
 };
 
@@ -256,7 +257,8 @@ TEST(MemoryLimit, RaisedToTheSizeNeededGetsThroughInAFewSteps)
         limit = needed;
     }
     EXPECT_LT(steps, 12U) << last;
-    // The sizes were not exaggerated: the last limit is what an unlimited run holds, but for part of a block of memory.
+    // The reported sizes are not exaggerated: the last limit is what an unlimited run holds, up to a part of a block of
+    // memory.
     constexpr std::uint64_t kBlockBytes = 1 << 20;
     EXPECT_LE(limit, runUnder(std::uint64_t{1} << 40, scene, 8, true).peak_bytes + kBlockBytes);
 }

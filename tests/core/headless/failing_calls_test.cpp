@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Vulkan calls of a small run are made to fail: an error that says so, and nothing left behind. On a new device every
-// seventh one, all of them in scripts/check-sanitizers; on a device that goes on, every one.
+// Vulkan calls of a small run fail. Each gives a clear error and leaves nothing behind. On a new device every seventh
+// call fails (every one in scripts/check-sanitizers), on a device that is used further every one.
 #include "core/base/kernels.h"
 #include "core/deform/dynamic_object.h"
 #include "core/file/zvo_file.h"
@@ -40,7 +40,7 @@ namespace zvo
 namespace
 {
 
-/// What a run works on: everything that zvo does, or little, which is soon done on a new device.
+/// The input of a run: one that uses everything, or a small one for new devices.
 struct Job
 {
     Scene scene;
@@ -60,7 +60,8 @@ Job wholeJob()
     return {std::move(scene), true, {64, 1, 1 << 10}}; // grows once
 }
 
-/// The sum of the octree of gpu_scene, made of scene, when it has moved and, where it has morph targets, deformed.
+/// Returns the digest of the octree of gpu_scene, made of scene, after it has moved and been deformed, if it has morph
+/// targets.
 std::string workOnADynamicObject(vk::HeadlessDevice& device, const Scene& scene, const GpuScene& gpu_scene,
                                  const Grid& grid)
 {
@@ -74,8 +75,8 @@ std::string workOnADynamicObject(vk::HeadlessDevice& device, const Scene& scene,
     return octreeSha256(device, built.octree);
 }
 
-/// Uploads, builds, traces and downloads; returns the octree's sum and the picture, of a whole job a dynamic object's
-/// sum, too.
+/// Uploads, builds, traces and downloads. Returns the octree's digest and the picture; for a whole job also a dynamic
+/// object's digest.
 std::string work(vk::HeadlessDevice& device, const Job& job)
 {
     constexpr std::uint32_t kEdge = 24;
@@ -117,7 +118,7 @@ std::string work(vk::HeadlessDevice& device, const Job& job)
     return result;
 }
 
-/// Builds, compresses with tables that grow, packs and downloads.
+/// Builds, compresses with tables that grow, packs and downloads a DAG.
 TreeData makeDag(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid)
 {
     BuildResult built = buildOctree(device, scene, grid, {});
@@ -130,7 +131,7 @@ vk::HeadlessOptions options()
 {
     vk::HeadlessOptions options = test::deviceOptions();
     options.get_instance_proc_addr = test::failingVulkan();
-    options.slices.submission_ms = 0; // the same calls in every run, however busy the machine is
+    options.slices.submission_ms = 0; // the same calls in every run, even on a busy machine
     return options;
 }
 
@@ -140,7 +141,7 @@ std::string workOnANewDevice()
     return work(device, smallJob());
 }
 
-/// What a run in which nothing fails makes, and how many calls can fail in it.
+/// The result of a run without failures, and the number of calls that can fail in it.
 class FailingCalls : public testing::Test
 {
 protected:
@@ -151,7 +152,7 @@ protected:
         s_call_count = test::fallibleCallCount();
     }
 
-    // Nothing for a run that went through.
+    // Returns the error's code, or nothing if the run succeeded.
     static std::optional<ErrorCode> errorOf(const std::function<std::string()>& run, const std::string& expected)
     {
         try
@@ -171,7 +172,7 @@ protected:
         const std::string function = test::failedFunction();
         if (!code)
         {
-            // Names and one of two messengers are no part of the work, and memory may come from another type.
+            // The run succeeds without names and one of two messengers; memory may come from another type.
             EXPECT_TRUE(function == "vkSetDebugUtilsObjectNameEXT" || function == "vkCreateDebugUtilsMessengerEXT" ||
                         function == "vkGetPipelineCacheData" || function == "vkAllocateMemory" ||
                         function == "vkDeviceWaitIdle")
@@ -190,12 +191,13 @@ protected:
         return objects;
     }
 
-    // Runs with each call failing once; every so often, and in the end, without. No run leaves an object.
+    // Runs once for each call, which fails, and sometimes, as well as at the end, without failures. No run leaves an
+    // object.
     static void expectToResume(const std::function<std::string()>& run, std::uint64_t call_count_min)
     {
         constexpr std::uint64_t kWholeRunEach = 16;
         test::failCall(UINT64_MAX);
-        const std::string expected = run(); // kernels are made
+        const std::string expected = run(); // makes the kernels
         const std::vector<std::string> live = sortedLiveObjects();
         test::failCall(UINT64_MAX);
         EXPECT_EQ(run(), expected);
@@ -228,7 +230,7 @@ TEST_F(FailingCalls, TheRunHasManyCallsAndLeavesNothing)
 
 TEST_F(FailingCalls, EachOutOfDeviceMemoryIsAnErrorAndLeavesNothing)
 {
-    test::Sweep sweep(7); // a new device takes its time
+    test::Sweep sweep(7); // making a device takes time
     std::uint64_t run_count = 0;
     std::uint64_t error_count = 0;
     for (std::uint64_t number = sweep.first(); number < s_call_count; number += sweep.step())
@@ -282,7 +284,7 @@ TEST_F(FailingCalls, SoItDoesWhenItMakesDags)
     expectToResume([&] { return test::zvoSha256(makeDag(device, gpu_scene, grid)); }, 100);
 }
 
-// Tiles as small as these are not taken in parts when memory is short: that is an error.
+// These tiles are too small to be split when memory is short, so that is an error.
 TEST_F(FailingCalls, SoItDoesWhenItBuildsInTiles)
 {
     test::failCall(UINT64_MAX);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is shown as an octree of its own.
+// What is shown, copied to an octree of its own.
 #include "core/headless/flatten.h"
 
 #include "core/file/tree_check.h"

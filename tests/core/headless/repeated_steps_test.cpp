@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A step of a build whose recording fails half way reaches the device as far as it was recorded, and comes again: the
-// result is that of a build in which nothing failed. Kernels fail to be made, one by one, as these are made between
-// passes.
+// Recording a step of a build fails half way. The commands that were recorded reach the device, and the step is
+// repeated. The result equals a build without failures. The failures are in making kernels, one by one, because kernels
+// are made between passes.
 #include "core/base/kernels.h"
 #include "core/base/step_job.h"
 #include "core/file/zvo_file.h"
@@ -28,7 +28,7 @@ namespace zvo
 namespace
 {
 
-// Takes the steps of a build; how many recordings failed.
+// Records the steps of a build. Returns the number of recordings that failed.
 std::uint32_t takeSteps(vk::HeadlessDevice& device, StepJob& builder)
 {
     std::uint32_t failures = 0;
@@ -60,11 +60,11 @@ std::uint32_t takeSteps(vk::HeadlessDevice& device, StepJob& builder)
 struct Outcome
 {
     std::string octree;
-    std::string dag; // empty where a step of the octree has failed
+    std::string dag; // empty if a step of the octree has failed
     std::uint32_t failures = 0;
 };
 
-// Builds and compresses on a new device, on which the kernel with this number cannot be made at first.
+// Builds and compresses on a new device, whose kernel with this number cannot be made at first.
 Outcome outcome(const Scene& scene, const Grid& grid, std::uint64_t failing_kernel)
 {
     vk::HeadlessOptions options = test::deviceOptions();
@@ -91,10 +91,10 @@ TEST(RepeatedSteps, GiveTheSameBytes)
 {
     const Scene scene = test::materialsScene(10.0F, 20);
     Grid grid = Grid::around(scene.bounds(), 6);
-    grid.depth = 13; // the scene lies in a corner; keys of the brick table are of 64 bits, which leaves least room
+    grid.depth = 13; // the scene lies in a corner; the brick table has keys of 64 bits, which leave the least room
     const Outcome expected = outcome(scene, grid, UINT64_MAX);
     ASSERT_EQ(expected.failures, 0U);
-    constexpr std::uint64_t kStep = 5; // a new device takes its time; 15 is one of those that number nodes
+    constexpr std::uint64_t kStep = 5; // making a device takes time; 15 is one of the kernels that number nodes
     std::uint64_t number = 0;
     for (std::uint32_t failures = 1; failures == 1; number += kStep)
     {

@@ -17,13 +17,13 @@ namespace zvo
 namespace
 {
 
-/// Everything that a run makes.
+/// All results of a run.
 struct Made
 {
     std::string sha;
     std::vector<gpu::uint> image;
     std::map<std::string, std::size_t> pass_counts; // by name
-    std::uint32_t most_submissions = 0;             // of one call of run()
+    std::uint32_t most_submissions = 0;             // in one call of run()
 };
 
 void count(std::map<std::string, std::size_t>& counts, const std::vector<vk::PassTime>& passes)
@@ -43,7 +43,7 @@ Made make(const vk::SliceOptions& slices, const Scene& scene, std::uint32_t dept
     const GpuScene gpu_scene = uploadScene(device, scene, options.attributes);
     const Grid grid = Grid::around(scene.bounds(), depth);
     Made made;
-    for (int round = 0; round < rounds; ++round) // what was learned from the first round applies in the second
+    for (int round = 0; round < rounds; ++round) // the second round uses what was learned in the first
     {
         made = {};
         const BuildResult result = buildOctree(device, gpu_scene, grid, options);
@@ -127,7 +127,8 @@ TEST(Slicing, AWarmDeviceMakesTheSameBytesEveryTime)
     vk::HeadlessDevice device(test::deviceOptions(), zvoKernels());
     const GpuScene gpu_scene = uploadScene(device, scene, true);
     const Grid grid = Grid::around(scene.bounds(), 6);
-    for (int round = 0; round < 6; ++round) // unknown costs first, later whole passes beside pieces of others
+    for (int round = 0; round < 6;
+         ++round) // at first costs are unknown, later whole passes stand beside pieces of others
     {
         EXPECT_EQ(octreeSha256(device, buildOctree(device, gpu_scene, grid, {}).octree), expected) << round;
     }
@@ -143,7 +144,7 @@ TEST(Slicing, EveryPassIsReportedHoweverItWasSplit)
     {
         const auto found = sliced.pass_counts.find(name);
         ASSERT_NE(found, sliced.pass_counts.end()) << name;
-        EXPECT_LE(found->second, times) << name; // equal neighbours may have become one
+        EXPECT_LE(found->second, times) << name; // neighbours of equal name may be one
     }
 }
 

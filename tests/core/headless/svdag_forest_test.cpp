@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// DAGs of tiles become, byte for byte, the DAG of the whole.
+// DAGs of tiles are joined to the DAG of the whole, byte for byte.
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
@@ -85,14 +85,14 @@ TEST(SvdagForest, OfTilesIsTheDagOfTheWhole)
     expectTilesMakeTheWhole(scene, 7, 6, true);
 }
 
-// So many nodes that parts are merged on the way.
+// There are so many nodes that parts are merged on the way.
 TEST(SvdagForest, MergesOnTheWay)
 {
     expectTilesMakeTheWhole(test::sphereScene({0, 0, 0}, 1.0F, 64), 10, 8, true);
     expectTilesMakeTheWhole(test::randomTriangles(7, 300, 1.0F), 9, 6, true);
 }
 
-// Tiles of which each is one node, below several levels.
+// Each tile is a single node, below several levels.
 TEST(SvdagForest, OfTheSmallestTilesIsTheDagOfTheWhole)
 {
     expectTilesMakeTheWhole(test::sphereScene({0, 0, 0}, 1.0F, 16), 5, 2, true);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A DAG that was built tile by tile is the DAG of the whole: nodes, lists, attributes, averages, emission.
+// A DAG that is built tile by tile equals the DAG of the whole: nodes, lists, attributes, averages, emission.
 #include "core/base/kernels.h"
 #include "core/headless/attribute_packer.h"
 #include "core/headless/compress.h"
@@ -79,7 +79,7 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
             {
                 if (attributes == AttributeFormat::None && tile_depth == 4)
                 {
-                    continue; // many tiles: once is enough
+                    continue; // there are many tiles, so one case is enough
                 }
                 double last = -1;
                 TiledOptions options = {Coverage::Thin, attributes, tile_depth,
@@ -98,7 +98,7 @@ TEST(TiledBuild, IsTheWholeWhateverTheTiles)
     }
 }
 
-// Memory for no more than a part of the grid, or a part of a part: tiles are split until they fit.
+// Memory suffices only for a part of the grid, or a part of a part. Tiles are split until they fit.
 TEST(TiledBuild, TakesSmallerTilesWhereMemoryIsShort)
 {
     const Scene scene = test::sphereScene({0, 0, 0}, 1.0F, 48);

@@ -137,7 +137,7 @@ TEST(OverlayArena, BuffersMayHaveAsManyElementsAs32BitsCount)
     EXPECT_EQ(full.allocate(0, 1), std::nullopt);
 }
 
-// One word for every node, or voxel, that says which region it belongs to.
+// A word for every node, or voxel: the region that has it.
 class Line
 {
 public:
@@ -149,7 +149,7 @@ public:
         std::fill_n(m_owners.begin(), static_count, kStatic);
     }
 
-    // The lowest multiple of step from which on count are free.
+    // The lowest multiple of step at which count free ones begin.
     [[nodiscard]] std::optional<std::uint32_t> find(std::uint64_t count, std::uint32_t step) const
     {
         for (std::uint64_t first = 0; first + count <= m_owners.size(); first += step)
@@ -210,7 +210,7 @@ TEST(OverlayArena, DoesWhatMarkingEveryNodeAndVoxelDoes)
             space.node_capacity = space.static_nodes + *rc::gen::inRange<std::uint32_t>(0, 100);
             space.static_voxels = *rc::gen::inRange<std::uint32_t>(0, 100);
             space.voxel_capacity = space.static_voxels + *rc::gen::inRange<std::uint32_t>(0, 1000);
-            // (what; nodes, voxels; which region)
+            // (operation; nodes, voxels; number of a region)
             const auto operations =
                 *rc::gen::container<std::vector<std::tuple<Act, std::uint32_t, std::uint32_t, std::size_t>>>(
                     rc::gen::tuple(rc::gen::weightedElement<Act>(

@@ -59,10 +59,10 @@ TEST_F(RootHistoryTest, ALostFrameLeavesTheLineFromBeforeIt)
     push(history);
     const std::uint64_t before = frames.begin();
     history.undo();
-    const std::uint64_t pending = pushPending(history); // instead of 3
+    const std::uint64_t pending = pushPending(history); // replaces 3
     const std::uint64_t lost = frames.begin();
-    pushPending(history); // 1 falls off, ...
-    pushPending(history); // ... and 2
+    pushPending(history); // drops 1
+    pushPending(history); // drops 2
     history.undo();
     EXPECT_EQ(history.undoCount(), 2u);
     frames.lost();
@@ -102,8 +102,8 @@ TEST_F(RootHistoryTest, UpdatesOfEarlierFramesMayFailBeforeAFrameIsLost)
 
 TEST_F(RootHistoryTest, AHundredThousandFramesDoNotTakeMoreMemoryThanTheFirstOnes)
 {
-    // Three frames in flight; a dynamic object whose overlay changes its size; the guess of a size is that of the frame
-    // before and half as much again.
+    // There are three frames in flight. A dynamic object's overlay changes its size, which is guessed as half as much
+    // again as in the frame before.
     constexpr std::uint32_t kMost = 1000;
     constexpr std::uint32_t kEntries = 16;
     OverlayArena arena({.static_nodes = 1,

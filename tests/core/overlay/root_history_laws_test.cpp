@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whatever happens to a history, in whatever order: it is what a model that does it the long way round says.
+// Random operations on a history, which always equals a simpler model.
 #include "core/overlay/root_history.h"
 
 #include "support/history_machine.h"
@@ -51,7 +51,7 @@ TEST(RootHistory, WhatTheDeviceMayUseIsNeverGivenToAnother)
             setup.bounds.entries_max = *rc::gen::inRange<std::size_t>(1, 8);
             setup.bounds.bytes_max = *rc::gen::weightedOneOf<std::uint64_t>(
                 {{1, rc::gen::just(UINT64_MAX)}, {1, rc::gen::inRange<std::uint64_t>(0, 400)}});
-            // (what; nodes, voxels, how much of it is needed)
+            // (operation; nodes, voxels, how much of it is used)
             const auto operations = *rc::gen::scale(
                 4.0,
                 rc::gen::container<std::vector<std::tuple<Act, std::uint32_t, std::uint32_t, std::uint32_t>>>(

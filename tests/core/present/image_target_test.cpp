@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures and depth in a host's images: what was made in a buffer arrives where it was asked for, and nothing else
+// Pictures and depth in a host's images. What was made in a buffer arrives at the requested position, and nothing else
 // changes.
 #include "core/base/kernels.h"
 #include "core/present/image_target.h"
@@ -41,7 +41,8 @@ constexpr std::uint32_t kLayers = 2;
 
 using test::device;
 
-// Sizes that are no multiples of a tile, up to the far corner of a mip level, or all of it.
+// Position and size of a picture in an image: sizes that are no multiples of a tile, up to the far corner of a mip
+// level, or the whole level.
 struct Place
 {
     PictureSize size;
@@ -59,7 +60,7 @@ ImageTarget targetAt(const HostImage& image, VkFormat format, VkImageLayout layo
     return {image.handle(), format, layout, place.offset, place.mip_level, place.array_layer};
 }
 
-// Words of all mip levels and layers.
+// The words of all mip levels and layers.
 class Contents
 {
 public:
@@ -74,7 +75,7 @@ public:
         }
     }
 
-    // Puts a picture where a copy should.
+    // Puts a picture into the expected words, where a copy should put it.
     void place(const HostImage& image, const Place& place, const Words& picture)
     {
         const std::size_t words = image.texelWords();
@@ -97,7 +98,7 @@ private:
     std::array<std::array<Words, kLayers>, kMipLevels> m_words;
 };
 
-// Fills all of an image with words that are no picture's; as floats, they lie in [0, 1].
+// Fills an image with words that differ from those of pictures; as floats, they lie in [0, 1].
 void fillWithOthers(HostImage& image)
 {
     for (std::uint32_t mip_level = 0; mip_level < kMipLevels; ++mip_level)
@@ -120,7 +121,7 @@ class ImageTargets : public testing::Test
 protected:
     ImageTargets() : m_octree(test::octreeOf(device(), test::sphereShell(5, 14.0), 5)), m_beam(device().device()) {}
 
-    // A picture and its depth; then, in the same submission, what record records.
+    // Traces a picture and its depth, then records further work into the same submission.
     void trace(TraceBuffers& buffers, vk::BufferOf<float>& depth, const std::function<void(vk::FrameGraph&)>& record)
     {
         const ViewCamera view =
@@ -254,7 +255,7 @@ TEST_F(ImageTargets, StencilStays)
     EXPECT_EQ(device().download(after), stencils);
 }
 
-// Records with record, which must throw before it has recorded anything. Returns the message.
+// Calls record, which must throw before it has recorded anything. Returns the message.
 std::string refusal(const std::function<void(vk::FrameGraph&)>& record, ErrorCode code = ErrorCode::Usage,
                     vk::Device& on = device().device())
 {
@@ -319,7 +320,7 @@ TEST_F(ImageTargets, PlacesThatCannotBeAreRefused)
                 {"9 x 7", "depth"});
 }
 
-// The machine's Vulkan, but no queue family draws.
+// The machine's Vulkan without queue families that draw.
 PFN_vkGetInstanceProcAddr g_instance_proc_addr = nullptr;
 
 VKAPI_ATTR void VKAPI_CALL familiesThatOnlyCompute(VkPhysicalDevice physical, std::uint32_t* count,

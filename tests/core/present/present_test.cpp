@@ -34,7 +34,7 @@ TEST(ScalePicture, EveryPixelIsTheOneInWhichItsCenterLies)
             {
                 for (std::uint32_t x = 0; x < to.width; ++x)
                 {
-                    // Centres in double precision: these quotients are exact, or far enough from a whole number.
+                    // Pixel centres in double precision. These quotients are exact, or far enough from a whole number.
                     const auto column = static_cast<std::uint32_t>((x + 0.5) * from.width / to.width);
                     const auto row = static_cast<std::uint32_t>((y + 0.5) * from.height / to.height);
                     ASSERT_EQ(scaled[y * to.width + x], pixels[row * from.width + column]) << x << ", " << y;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures in all texel formats: the same picture, as exactly as each format can hold it.
+// The same picture in all texel formats, as exactly as each format can hold it.
 #include "core/trace/trace.h"
 #include "support/engine_device.h"
 #include "support/pictures.h"
@@ -23,7 +23,7 @@ constexpr std::uint32_t kTexelsWide = 83; // no multiples of a tile
 constexpr std::uint32_t kTexelsHigh = 61;
 constexpr View kTexelViews[] = {View::Color,      View::Albedo, View::Normal, View::Depth, View::Level,
                                 View::Iterations, View::Voxel,  View::Bricks, View::Origin};
-// Of a half float, half a step, or one where a device rounds down; and some single precision.
+// Relative error of a half float: half a step, or a whole one on devices that round down; and some single precision.
 constexpr double kHalfError = 1.0 / 1024 + 1e-5;
 
 using test::device;
@@ -75,14 +75,15 @@ double encodeSrgb(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015, after the factor that he gives for the original's brightness.
+// Tone mapping after K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015, with the factor that he gives for the
+// original's brightness.
 double toneMap(double radiance)
 {
     const double x = 0.6 * radiance;
     return std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-// A shell in all attributes, lit from the side, with sky around it.
+// A shell with all attributes, lit from the side, and sky around it.
 DeviceTree coloredSphere()
 {
     DeviceTree octree = test::octreeOf(device(), test::sphereShell(6, 25.0), 6);
@@ -121,7 +122,7 @@ TEST(TexelFormat, TenBitsShowWhatEightDo)
         options.view = view;
         const Words eight = show(octree, sphereView(), TexelFormat::Rgba8, options).image;
         const Words ten = show(octree, sphereView(), TexelFormat::Rgb10, options).image;
-        // Half a code by rounding; what is lit is dithered by up to half a code more.
+        // Rounding changes a value by half a code; dither changes lit ones by up to half a code more.
         const double codes = view == View::Color ? 1.0 : 0.5;
         std::size_t finer_count = 0;
         for (std::size_t i = 0; i < eight.size(); ++i)
@@ -159,7 +160,7 @@ TEST(TexelFormat, HalfFloatsToneMappedAreTheCodesOfThePicture)
         ASSERT_EQ(half.w, 1.0);
         for (int c = 0; c < 3; ++c)
         {
-            // A code is the nearest one to what it shows plus up to half a code of dither.
+            // A code is the nearest one to the value plus up to half a code of dither.
             const double least = encodeSrgb(toneMap(half[c] * (1.0 - kHalfError)));
             const double most = encodeSrgb(toneMap(half[c] * (1.0 + kHalfError)));
             ASSERT_GE(code[c], least - 1.0 / 255.0 - 1e-6) << "pixel " << i;
@@ -192,7 +193,8 @@ TEST(TexelFormat, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
             ASSERT_EQ(half.w, 1.0);
             for (int c = 0; c < 3; ++c)
             {
-                // Half a code by rounding; steps of half floats are finer than 1 / 3 of a code everywhere.
+                // Rounding changes a value by half a code; steps of half floats are finer than 1 / 3 of a code
+                // everywhere.
                 ASSERT_NEAR(encodeSrgb(half[c]), code[c], (0.5 + 1.0 / 3.0) / 255.0) << "pixel " << i;
             }
             if (halfs.hits[i].index == gpu::kHitMiss && view != View::Iterations)
@@ -205,7 +207,7 @@ TEST(TexelFormat, HalfFloatsOfOtherViewsAreTheLinearValuesOfTheCodes)
     }
 }
 
-// Of shaders/lib/sky.glsl and trace/shade.comp, in double precision.
+// The sky and sun of shaders/lib/sky.glsl and trace/shade.comp, in double precision.
 const glm::dvec3 kSunColor(1.0, 0.93, 0.82);
 
 glm::dvec3 skyAmbient(const glm::dvec3& normal)
@@ -222,7 +224,7 @@ void expectNear(const glm::dvec4& half, const glm::dvec3& expected)
     EXPECT_EQ(half.w, 1.0);
 }
 
-// A wall that fills the picture, seen from the front, of one colour, all of it emissive.
+// The picture shows a wall from the front, of one colour, all of it emissive.
 TEST(TexelFormat, HalfFloatsAreExposedRadiance)
 {
     const test::Codes codes = test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; });
@@ -266,7 +268,8 @@ TEST(TexelFormat, HalfFloatsAreExposedRadiance)
 TEST(TexelFormat, HalfFloatsOfTheSkyAreExposedRadiance)
 {
     const DeviceTree octree = test::octreeOf(device(), {}, 4);
-    const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2; // sizes are odd: the ray along forward
+    const std::size_t middle =
+        kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2; // sizes are odd: this ray goes straight forward
     TraceOptions options;
     options.exposure = 0.5F;
     options.to_sun = {-1.0, 0.6, 0.0};
@@ -275,10 +278,10 @@ TEST(TexelFormat, HalfFloatsOfTheSkyAreExposedRadiance)
         const ViewCamera view = ViewCamera::lookAt(glm::dvec3(0.0), direction, 0.9);
         return halfsOf(show(octree, view, TexelFormat::Half, options).image, middle);
     };
-    const double above = 1.0 - 0.4 * 0.4; // of the way from horizon to zenith at 0.6 up
+    const double above = 1.0 - 0.4 * 0.4; // part of the way from horizon to zenith, at 0.6 up
     const glm::dvec3 sky = glm::mix(glm::dvec3(0.72, 0.80, 0.90), glm::dvec3(0.16, 0.34, 0.70), above);
     expectNear(towards({0.0, 0.6, 0.8}), 0.5 * sky);
-    options.to_sun = {0.0, 0.6, 0.8}; // the disc's middle
+    options.to_sun = {0.0, 0.6, 0.8}; // the middle of the sun's disc
     options.sun = 30.0F;
     expectNear(towards({0.0, 0.6, 0.8}), 0.5 * (sky + 4.0 * 30.0 * kSunColor));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Interpolation between keys against formulas other than the ones in use: rotation matrices from an axis and an angle,
-// Hermite splines as Bezier curves.
+// Interpolation between keys against other formulas: rotation matrices from an axis and an angle, Hermite splines as
+// Bezier curves.
 #include "core/scene/animation.h"
 
 #include "animation_scenes.h"
@@ -22,7 +22,7 @@ namespace
 
 constexpr double kPi = std::numbers::pi;
 
-/// By Rodrigues' formula. axis: of length 1.
+/// The rotation matrix by Rodrigues' formula. axis: of length 1.
 glm::mat4 rotationBy(const glm::dvec3& axis, double angle)
 {
     glm::dmat4 matrix(1.0);
@@ -37,7 +37,7 @@ glm::mat4 rotationBy(const glm::dvec3& axis, double angle)
     return glm::mat4(matrix);
 }
 
-/// x, y, z, w of that rotation.
+/// The quaternion x, y, z, w of a rotation.
 std::vector<float> quaternionOf(const glm::dvec3& axis, double angle, double length = 1.0)
 {
     const glm::dvec3 xyz = axis * (std::sin(angle / 2) * length);
@@ -103,7 +103,7 @@ TEST(Animation, LinearRunsStraightBetweenKeys)
     expectAt(1.25, {2, 0, 4}, {0.375F, 1.625F, 0.84375F});
     expectAt(2, {5, 6, 7}, {0, 2, 0.75F});
     expectAt(3, {1, 3, 7.5F}, {-0.5F, 2.5F, 0.625F});
-    expectAt(6, {-3, 0, 8}, {-2, 4, 0.25F}); // after the last key of one, between those of the other
+    expectAt(6, {-3, 0, 8}, {-2, 4, 0.25F}); // after the last key of one channel, between those of the other
 }
 
 TEST(Animation, RotationsTakeTheShorterArcAtConstantSpeed)
@@ -114,11 +114,11 @@ TEST(Animation, RotationsTakeTheShorterArcAtConstantSpeed)
     {
         const glm::dvec3 axis = glm::normalize(glm::dvec3(number(random), number(random), number(random) + 1e-3));
         const double from = number(random) * kPi;
-        // Less than half a turn apart; every tenth time nearly or wholly equal.
+        // The rotations differ by less than half a turn; every tenth pair is nearly or wholly equal.
         const double turn = i % 10 == 0 ? number(random) * 1e-7 : i % 10 == 1 ? 0.0 : number(random) * 3.14;
         Channel channel = {
             .path = ChannelPath::Rotation, .interpolation = Interpolation::Linear, .times = {0, 2, 3}, .values = {}};
-        const double sign = i % 2 == 0 ? 1.0 : -1.0; // the same rotation
+        const double sign = i % 2 == 0 ? 1.0 : -1.0; // both signs give the same rotation
         append(channel.values, quaternionOf(axis, from, 1.0 + 0.5 * number(random)));
         append(channel.values, quaternionOf(axis, from + turn, sign * (1.0 + 0.5 * number(random))));
         append(channel.values, {0, 0, 0, 0});
@@ -132,7 +132,7 @@ TEST(Animation, RotationsTakeTheShorterArcAtConstantSpeed)
 
 TEST(Animation, RotationsOfHalfATurnGoSomeWayRound)
 {
-    // Both ways are equally short; the rule is that the one to the quaternion as written counts.
+    // Both ways are equally short. By the rule, the one to the quaternion as written counts.
     const Scene scene = movedBy({.path = ChannelPath::Rotation,
                                  .interpolation = Interpolation::Linear,
                                  .times = {0, 1, 2},
@@ -185,14 +185,15 @@ TEST(Animation, CubicSplinesAreHermiteCurves)
                         bezier(value(1, kValue, axis), value(1, kOut, axis), value(2, kValue, axis),
                                value(2, kIn, axis), 0.25, fraction),
                         2e-6);
-            EXPECT_EQ(transformAt(scene, 0.0)[3][axis], channel.values[3 + axis]); // without the tangents beside it
+            EXPECT_EQ(transformAt(scene, 0.0)[3][axis],
+                      channel.values[3 + axis]); // the value itself, not the tangents beside it
         }
     }
 }
 
 TEST(Animation, CubicRotationsAreNormalized)
 {
-    // Tangents of 0: halfway the quaternion is the mean of both, whose direction is the middle rotation.
+    // With tangents of 0, the quaternion half way is the mean of both, whose direction is the middle rotation.
     std::vector<float> values(24);
     const std::vector<float> from = quaternionOf({0, 1, 0}, 0.4);
     const std::vector<float> to = quaternionOf({0, 1, 0}, 1.4);
@@ -203,7 +204,7 @@ TEST(Animation, CubicRotationsAreNormalized)
                                  .times = {0, 2},
                                  .values = values});
     expectNear(transformAt(scene, 1.0), rotationBy({0, 1, 0}, 0.9), 1e-6F);
-    // A quarter along the curve weighs 27/32 and 5/32.
+    // A quarter along the curve, the weights are 27/32 and 5/32.
     const double x = 27.0 / 32.0 * std::sin(0.2) + 5.0 / 32.0 * std::sin(0.7);
     const double w = 27.0 / 32.0 * std::cos(0.2) + 5.0 / 32.0 * std::cos(0.7);
     expectNear(transformAt(scene, 0.5), rotationBy({0, 1, 0}, 2.0 * std::atan2(x, w)), 1e-6F);

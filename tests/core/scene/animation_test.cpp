@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Poses against values that were worked out by hand; animation_curves_test.cpp has what happens between keys.
+// Poses against values that were computed by hand. animation_curves_test.cpp tests interpolation between keys.
 #include "core/scene/animation.h"
 
 #include "animation_scenes.h"
@@ -21,7 +21,7 @@ namespace
 
 TEST(Animation, NodesFollowTheirParents)
 {
-    // A quarter turn of the root takes the child's x to y; the leaf stands on it.
+    // A quarter turn of the root moves the child from x to y, and the leaf with it.
     Scene scene = movedBy({.path = ChannelPath::Rotation,
                            .interpolation = Interpolation::Step,
                            .times = {0, 1, 2},
@@ -48,7 +48,7 @@ TEST(Animation, WhatNothingMovesKeepsItsTransformBitForBit)
     Scene scene = movedBy({.path = ChannelPath::Translation, .times = {0}, .values = {0, 0, 0}});
     scene.nodes.emplace_back().translation = {0.1F, 0.2F, 0.3F};
     scene.instances.push_back({0, glm::mat4(0.1F, -0.0F, 1e-40F, 0, 7, 1e30F, 0, 0, 0, 0, 0, 0, -0.0F, 0, 0, 1), 1});
-    scene.instances.push_back({0, glm::mat4(3.0F)}); // of no node
+    scene.instances.push_back({0, glm::mat4(3.0F)}); // without a node
     const Pose pose = poseAt(scene, 1.0);
     for (const std::size_t i : {1U, 2U})
     {
@@ -75,7 +75,7 @@ TEST(Animation, SkinnedMeshesFollowTheirJointsAlone)
 {
     const Scene scene = armDocument().load();
     const Pose rest = poseAt(scene, 0);
-    EXPECT_EQ(rest.transforms.at(0), glm::mat4(1.0F)); // not the node's
+    EXPECT_EQ(rest.transforms.at(0), glm::mat4(1.0F)); // not that of the node
     ASSERT_EQ(rest.joint_matrices.at(0).size(), 2U);
     EXPECT_EQ(rest.joint_matrices[0][0], glm::mat4(1.0F));
     EXPECT_EQ(rest.joint_matrices[0][1], glm::mat4(1.0F));
@@ -101,7 +101,7 @@ TEST(Animation, ScenesAreTurnedToTheirPlaceInTheWorld)
 
 TEST(Animation, TransformsThatOverflowAreNotFiniteButAffine)
 {
-    constexpr float kInfinite = std::numeric_limits<float>::infinity(); // a file's 1e300
+    constexpr float kInfinite = std::numeric_limits<float>::infinity(); // stands for 1e300 in a file
     for (const auto& [node_count, scale] : {std::pair(2U, 3e38F), std::pair(20U, 3e38F), std::pair(2U, kInfinite)})
     {
         Scene scene = movedBy({.path = ChannelPath::Scale, .times = {0}, .values = {3e38F, 1, 1}});
@@ -151,10 +151,10 @@ TEST(Animation, AnimatedIsWhatAChannelReaches)
     const std::vector<Case> cases = {
         {{0, any, 0}, false}, // a node above the one that moves
         {{0, any, 1}, true},      {{0, any, 2}, true},    {{0, any, 3}, false},
-        {{0, any, kNone}, false}, {{1, any, 4, 0}, true}, // a joint hangs below node 1
+        {{0, any, kNone}, false}, {{1, any, 4, 0}, true}, // a joint is below node 1
         {{1, any, 4, 1}, false},  {{1, any, 2, 1}, true}, // its node moves, which a skinned mesh does not follow
         {{2, any, 5}, true},                              // its weights change
-        {{2, any, 4}, false},                             // nobody changes its weights
+        {{2, any, 4}, false},                             // nothing changes its weights
         {{0, any, 5}, false},                             // it has no targets
     };
     scene.instances.clear();
@@ -179,7 +179,7 @@ TEST(Animation, PosedMeshesAreWhereTheirJointsTakeThem)
     ASSERT_EQ(posed.instances.size(), 1U);
     EXPECT_EQ(posed.instances[0].transform, glm::mat4(1.0F));
     const std::vector<glm::vec3>& positions = posed.primitives.at(posed.instances[0].primitive).positions;
-    // The third vertex turns with the elbow; the last one is a quarter of the way from where it was.
+    // The third vertex rotates with the elbow; the last one is at a quarter of its path.
     const std::vector<glm::vec3> wanted = {{0, 0, 0}, {0, 1, 0}, {-1, 1, 0}, {0.75F, 1.25F, 0}};
     ASSERT_EQ(positions.size(), 4U);
     for (std::size_t i = 0; i < 4; ++i)
@@ -201,7 +201,7 @@ TEST(Animation, PosedMeshesAreMorphed)
     const Scene scene = builder.load();
     const Scene posed = posedScene(scene, poseAt(scene, 0));
     ASSERT_EQ(posed.instances.size(), 2U);
-    EXPECT_EQ(posed.instances[0].transform[3], glm::vec4(7, 0, 0, 1)); // the morph happens before the transform
+    EXPECT_EQ(posed.instances[0].transform[3], glm::vec4(7, 0, 0, 1)); // the morph comes before the transform
     const Primitive& morphed = posed.primitives.at(posed.instances[0].primitive);
     EXPECT_EQ(morphed.positions, (std::vector<glm::vec3>{{0, 0, 0.5F}, {5, 0, 0.5F}, {0, 1, 0.5F}}));
     for (const glm::vec3& normal : morphed.normals)
@@ -217,7 +217,7 @@ TEST(Animation, PosedMeshesAreMorphed)
 TEST(Animation, PosedScenesShareWhatDoesNotDeform)
 {
     Scene scene = movedBy({.path = ChannelPath::Translation, .times = {0}, .values = {1, 2, 3}});
-    scene.primitives[0].joints.assign(3, glm::u16vec4(0)); // without a skin they do nothing
+    scene.primitives[0].joints.assign(3, glm::u16vec4(0)); // without a skin they have no effect
     scene.primitives[0].weights.assign(3, glm::vec4(1, 0, 0, 0));
     scene.instances.push_back(scene.instances[0]);
     scene.cameras.emplace_back();
@@ -270,7 +270,8 @@ TEST(Animation, TheWheelsOfTheTruckTurnAndItsBodyStands)
     int wheel_count = 0;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
     {
-        const bool is_wheel = scene.nodes.at(scene.instances[i].node).parent != kNone; // they hang on the body
+        const bool is_wheel =
+            scene.nodes.at(scene.instances[i].node).parent != kNone; // wheels are children of the body
         EXPECT_EQ(isAnimated(scene, i), is_wheel);
         const glm::mat4& rest = scene.instances[i].transform;
         if (!is_wheel)
@@ -283,7 +284,7 @@ TEST(Animation, TheWheelsOfTheTruckTurnAndItsBodyStands)
         const glm::mat4 turned = poseAt(scene, 0.3).transforms[i];
         EXPECT_EQ(turned[3], rest[3]);
         EXPECT_GT(glm::distance(turned[1], rest[1]), 0.1F);
-        // A turn leaves lengths and angles as they are.
+        // A rotation keeps lengths and angles.
         const glm::mat3 linear(turned);
         const glm::mat3 product = glm::transpose(linear) * linear;
         const glm::mat3 wanted = glm::transpose(glm::mat3(rest)) * glm::mat3(rest);

@@ -26,7 +26,7 @@ void expectOrthonormal(const ViewCamera& camera)
     EXPECT_NEAR(glm::dot(camera.right, camera.up), 0.0, 1e-12);
 }
 
-/// Where a world point appears, in half picture heights right and up of the middle.
+/// The position of a world point in the picture, in half picture heights right and up of the middle.
 glm::dvec2 project(const ViewCamera& camera, const glm::dvec3& point)
 {
     const glm::dvec3 offset = point - camera.position;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rule of docs/deformation.md on the CPU: by hand, and against double precision.
+// The rule of docs/deformation.md on the CPU, against values computed by hand and in double precision.
 #include "core/scene/deform.h"
 #include "oracle/deform.h"
 #include "support/deforming_scenes.h"
@@ -26,7 +26,7 @@ std::uint32_t bitsOf(float value)
     return std::bit_cast<std::uint32_t>(value);
 }
 
-/// One vertex, on four joints as weights say.
+/// A primitive of one vertex, with four joints and these weights.
 Primitive oneVertex(const glm::vec3& position, const glm::vec3& normal, const glm::vec4& weights)
 {
     Primitive primitive;
@@ -71,7 +71,7 @@ TEST(Deform, MorphTargetsAddInTheirOrder)
     EXPECT_EQ(moved.positions[0], glm::vec3(2, 1, 1));
     EXPECT_EQ(moved.normals[0], glm::vec3(-1, 0, 2));
 
-    // 1 is lost behind 2^24 where it comes second, and not where it comes last.
+    // 1 is lost after 2^24 if it is added second, but not if it is added last.
     primitive.positions = {{0, 0, 0}};
     primitive.morph_targets = {{{{1.0F, 0x1p24F, 0}}, {}}, {{{0x1p24F, 1.0F, 0}}, {}}, {{{-0x1p24F, -0x1p24F, 0}}, {}}};
     const DeformedVertices ordered = deformVertices(primitive, std::vector{1.0F, 1.0F, 1.0F}, {});
@@ -170,7 +170,7 @@ TEST(Deform, AJointOfWeightZeroAddsNothing)
     const DeformedVertices expected = deformVertices(primitive, {}, fourJoints());
     EXPECT_EQ(deformVertices(primitive, {}, joints).positions, expected.positions);
     EXPECT_EQ(deformVertices(primitive, {}, joints).normals, expected.normals);
-    primitive.joints[0] = {0, 60000, 2, 60000}; // joints that are not there
+    primitive.joints[0] = {0, 60000, 2, 60000}; // joints that do not exist
     EXPECT_EQ(deformVertices(primitive, {}, joints).positions, expected.positions);
 }
 
@@ -214,7 +214,7 @@ TEST(Deform, WhatIsNotFiniteIsOneNan)
         EXPECT_EQ(bitsOf(weighed.positions[0].x), kNanBits);
         EXPECT_EQ(weighed.normals[0], glm::vec3(0));
     }
-    // Overflow on the way counts, even where what follows would make up for it.
+    // An overflow in between counts, even if later terms would make up for it.
     const std::vector<glm::mat4> huge(4, glm::scale(glm::mat4(1.0F), glm::vec3(1e30F)));
     const Primitive primitive = oneVertex({1e10F, 2, 3}, {1, 0, 0}, {1e-30F, 0, 0, 0});
     EXPECT_EQ(bitsOf(deformVertices(primitive, {}, huge).positions[0].x), kNanBits);
@@ -222,7 +222,7 @@ TEST(Deform, WhatIsNotFiniteIsOneNan)
 
 TEST(Deform, WhatIsTinyIsZero)
 {
-    // Just under and at 2^-100, as an input, as a product and as a sum.
+    // Values just below 2^-100 and equal to it, as an input, as a product and as a sum.
     const float below = std::nextafter(0x1p-100F, 0.0F);
     Primitive primitive = oneVertex({below, 0x1p-100F, -below}, {0, 1, 0}, {});
     primitive.morph_targets = {{{{0, 0, 0}}, {}}, {{{-0.0F, -0x1.8p-100F, 1}}, {}}};
@@ -241,8 +241,8 @@ TEST(Deform, WhatIsTinyIsZero)
     EXPECT_EQ(small.positions[0].z, 0x1p-50F);
 }
 
-/// Expects that vertices are those of primitive within the bounds of single precision; returns how many normals had
-/// one.
+/// Expects that vertices equal those of primitive within the bounds of single precision. Returns the number of normals
+/// that had a bound.
 std::size_t expectNearDoubles(const Primitive& primitive, std::span<const float> weights,
                               std::span<const glm::mat4> joints, const DeformedVertices& vertices)
 {

@@ -97,7 +97,8 @@ TEST(Motion, OrbitTurnsThePlacedObjectAboutItsCenter)
     orbit.home = {4.0, 0.5, 2.0};
     for (const double seconds : {0.0, 0.1, 0.77, 1.0, 3.9})
     {
-        // About y, counterclockwise from above: a point at angle phi, x = r cos(phi), z = -r sin(phi), goes to phi + a.
+        // The rotation about y is counterclockwise from above: a point at angle phi, x = r cos(phi), z = -r sin(phi),
+        // moves to phi + a.
         const double angle = 2.0 * kPi * 0.3 * seconds;
         const glm::dvec3 point(2.5, -1.0, 7.0);
         const double radius = std::hypot(point.x - 1.0, point.z + 2.0);
@@ -189,8 +190,8 @@ TEST(Motion, OneKeyIsAPlace)
     }
 }
 
-/// Checks that no point leaves the box around the sweep's places by more than it says, and that it gets that far but
-/// for slack (world units): a sweep that claims too much is wrong too.
+/// Checks that no point leaves the box around the sweep's positions by more than the sweep's bound, and that points
+/// come within slack (world units) of it: the bound should not be too large either.
 void expectSweepHolds(const Motion& motion, double seconds, double slack)
 {
     const MotionSweep sweep = sweepOf(motion, seconds, 16);

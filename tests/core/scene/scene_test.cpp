@@ -97,7 +97,7 @@ TEST(Scene, AppendShiftsEveryIndex)
 
 TEST(Scene, TransformRoundsEveryOperationInOrder)
 {
-    // (2^24 + 1) is not representable: the sum is rounded to even after the first two terms, so the ones are lost.
+    // 2^24 + 1 is not representable. The sum is rounded to even after the first two terms, so the ones are lost.
     constexpr float kBig = 16777216.0F;
     glm::mat4 transform(0.0F);
     transform[0][0] = kBig;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compression against the oracle, byte for byte: so the result does not depend on threads, subgroups or tables either.
+// Compression against the oracle, byte for byte. So the result does not depend on threads, subgroups or tables.
 #include "core/tree/device_tree.h"
 
 #include "core/base/kernels.h"
@@ -37,7 +37,7 @@ using test::Codes;
 
 using test::device;
 
-/// octree compressed, checked against what the oracle makes of it.
+/// Compresses octree, and compares the result with the oracle's.
 CompressResult compressedAsExpected(DeviceTree octree, const CompressOptions& options = {})
 {
     const DeviceTree expected = test::svdagOf(device(), octree, options.entries_per_word);
@@ -52,7 +52,7 @@ CompressResult compressedAsExpected(DeviceTree octree, const CompressOptions& op
     return result;
 }
 
-/// The same, without attributes and with arbitrary ones.
+/// Compares the same without attributes and with arbitrary ones.
 void expectCompressed(const Codes& codes, std::uint32_t depth)
 {
     compressedAsExpected(test::octreeOf(device(), codes, depth));
@@ -61,7 +61,7 @@ void expectCompressed(const Codes& codes, std::uint32_t depth)
     compressedAsExpected(std::move(octree));
 }
 
-/// dag holds the voxels of octree (which has not been compressed) with their ranks, and all nodes.
+/// Expects that dag has the voxels of octree, in the same ranks, and all nodes.
 void expectExpandsTo(const DeviceTree& dag, const std::vector<std::uint64_t>& codes)
 {
     const oracle::DagContents contents = test::dagContentsOf(device(), dag);
@@ -165,7 +165,7 @@ TEST(Svdag, OfMoreThan65536NodesHasThreeEntriesAWord)
 {
     for (const std::uint64_t leaf_count : {65536, 70000})
     {
-        // Every leaf has its own number as its voxels: all differ.
+        // The voxels of each leaf are the leaf's number, so that all leaves differ.
         Codes codes;
         for (std::uint64_t leaf = 0; leaf < leaf_count; ++leaf)
         {
@@ -200,7 +200,7 @@ TEST(Svdag, OfAnyEntriesAWordIsTheOracles)
             CompressResult result = compressedAsExpected(std::move(octree), options);
             EXPECT_EQ(result.dag.lists.entries_per_word, entries);
             expectExpandsTo(result.dag, codes);
-            // A DAG of it has four again.
+            // A DAG made of the DAG has four again.
             const DeviceTree again = compress(device(), std::move(result.dag)).dag;
             EXPECT_EQ(again.lists.entries_per_word, 4U);
             expectExpandsTo(again, codes);
@@ -210,8 +210,8 @@ TEST(Svdag, OfAnyEntriesAWordIsTheOracles)
 
 TEST(Svdag, OfLeavesThatDifferInOneVoxelKeepsThemApart)
 {
-    // Each leaf lacks one of 64 voxels, and the leaves stand in all orders: masks and children differ as little as can
-    // be.
+    // Each leaf lacks one of 64 voxels, and the leaves come in all orders: masks and children differ as little as
+    // possible.
     const std::uint32_t depth = 6;
     std::mt19937 random(3);
     Codes codes;
@@ -233,7 +233,7 @@ TEST(Svdag, OfLeavesThatDifferInOneVoxelKeepsThemApart)
 
 TEST(Svdag, OfEqualBlocksIsOneOfThem)
 {
-    // The same 16^3 voxels everywhere: noise within, so that nothing in it is equal.
+    // The same block of 16^3 voxels everywhere, filled with noise, so that nothing in it is equal.
     std::mt19937 random(4);
     std::vector<bool> block(16 * 16 * 16);
     std::generate(block.begin(), block.end(), [&] { return (random() >> 9 & 1U) != 0; });
@@ -248,7 +248,7 @@ TEST(Svdag, OfEqualBlocksIsOneOfThem)
     }
     expectCompressed(codes, depth);
     const DeviceTree dag = compress(device(), test::octreeOf(device(), codes, depth)).dag;
-    EXPECT_EQ(dag.node_count, 1U + 1 + 1 + 64); // leaves, the block, eight of them in 64, four of those
+    EXPECT_EQ(dag.node_count, 1U + 1 + 1 + 64); // the root, a node of blocks, the block, its leaves
 }
 
 TEST(Svdag, OfShapesIsTheOracles)
@@ -272,8 +272,8 @@ TEST(Svdag, TablesOfOneSlotGrowAndGiveTheSameBytes)
 
 TEST(Svdag, NodesWhoseHashesCollideAreToldApart)
 {
-    // Blocks of 16^3 voxels with full leaves, but for one leaf that lacks a voxel, at another place in each; none in
-    // the first one. So some blocks differ from it in their last leaf alone.
+    // Blocks of 16^3 voxels with full leaves. In all but the first block, one leaf lacks a voxel, at a different
+    // position in each; some blocks differ from the first one only in their last leaf.
     const std::uint32_t depth = 6;
     Codes codes;
     for (std::uint64_t code = 0; code < std::uint64_t{1} << (3 * depth); ++code)
@@ -297,7 +297,7 @@ TEST(Svdag, NodesWhoseHashesCollideAreToldApart)
 
 TEST(Svdag, NodesOfWhichMoreCollideThanAreProbedAreGivenUp)
 {
-    // Whatever the table's size: a hash without bits has one place.
+    // For any size of the table, a hash without bits leaves a single slot.
     const Codes codes = test::sphereShell(8, 120.0);
     try
     {
@@ -310,7 +310,7 @@ TEST(Svdag, NodesOfWhichMoreCollideThanAreProbedAreGivenUp)
     }
 }
 
-/// The DAG of octree's nodes that shares nothing: every node has a list of its own children.
+/// The DAG of octree's nodes without sharing, in which every node has a list of its own children.
 DeviceTree listedOctree(const DeviceTree& octree)
 {
     std::vector<gpu::Node> pool = device().download(octree.nodes);
@@ -330,7 +330,7 @@ DeviceTree listedOctree(const DeviceTree& octree)
         {
             words.push_back(node.base_lo + child);
         }
-        if (i % 3 != 0) // the others stay direct: both occur in one DAG
+        if (i % 3 != 0) // the others stay direct, so that one DAG has both
         {
             node.base_lo = gpu::kChildList | word;
             node.base_hi = node.base_lo + static_cast<gpu::uint>(std::popcount(node.mask_lo));
@@ -423,8 +423,9 @@ TEST(Svdag, OfAnOctreeWithoutLevelsIsRefused)
     EXPECT_THROW(compress(device(), std::move(octree)), Error);
 }
 
-/// Whether the octree of codes with attributes could be made and compressed under a memory limit. What was too much is
-/// an error of exit code 6 that names a size beyond the limit; failures counts the steps of compression it came from.
+/// Compresses the octree of codes with attributes under a memory limit. Returns whether that succeeded. Otherwise the
+/// error has exit code 6 and names a size beyond the limit; failures counts the steps of compression in which it
+/// occurred.
 bool compressesUnder(std::uint64_t limit, const Codes& codes, std::uint32_t depth, const DeviceTree& expected,
                      std::map<std::string, int>& failures)
 {
@@ -495,7 +496,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SvdagOfScenes,
                                          SceneCase{"knot.glb", 9}, SceneCase{"bunny.glb", 9},
                                          SceneCase{"dragon.glb", 9}, SceneCase{"sponza.glb", 9}),
                          sceneCaseName);
-// Takes a while: scripts/check-svdag.
+// Takes long; run by scripts/check-svdag.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Scenes, SvdagOfScenes,
                          testing::Values(SceneCase{"bunny.glb", 10}, SceneCase{"dragon.glb", 10},
                                          SceneCase{"sponza.glb", 10}),
