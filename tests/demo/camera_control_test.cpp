@@ -39,7 +39,7 @@ void drag(CameraControl& camera, MouseButton button, double dx, double dy, bool 
     camera.handle(MouseButtonEvent{button, true, modifiers}, has_tool, kHeight);
     camera.handle(MouseMoveEvent{100 + dx, 100 + dy}, has_tool, kHeight);
     camera.handle(MouseButtonEvent{button, false, modifiers}, has_tool, kHeight);
-    camera.handle(MouseMoveEvent{300, 300}, has_tool, kHeight); // after it was let go
+    camera.handle(MouseMoveEvent{300, 300}, has_tool, kHeight); // after the button was released
 }
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance = 1e-9)
@@ -112,7 +112,7 @@ TEST(CameraControl, TheRightButtonLooksAroundFromWhereItStands)
     expectNear(camera.camera().position, {0, 0, 5});
     expectNear(camera.camera().forward, {1, 0, 0});
     expectUpright(camera.camera());
-    drag(camera, MouseButton::Right, 0, -10 * kHeight); // up, but never quite
+    drag(camera, MouseButton::Right, 0, -10 * kHeight); // up, but never quite vertical
     EXPECT_GT(camera.camera().forward.y, 0.999);
     expectUpright(camera.camera());
     drag(camera, MouseButton::Right, 0, 20 * kHeight);
@@ -147,7 +147,7 @@ TEST(CameraControl, TheMiddleButtonMovesWhatIsAtThePivotWithThePointer)
 {
     CameraControl camera = control();
     drag(camera, MouseButton::Middle, 50, 25);
-    // A tenth and a twentieth of the height that is seen at the pivot.
+    // A tenth and a twentieth of the visible height at the pivot.
     const double seen = 2 * 5 * std::tan(0.4);
     expectNear(camera.camera().position, {-seen * 0.1, seen * 0.05, 5});
 }
@@ -194,7 +194,7 @@ TEST(CameraText, IsWhatTheCommandLineTakes)
     expectNear(ours->position, camera.position, 1e-6);
     expectNear(ours->forward, camera.forward, 1e-6);
     EXPECT_NEAR(ours->vertical_fov, camera.vertical_fov, 1e-6);
-    // What was pasted is copied as it was, as far as single precision goes.
+    // A pasted camera is copied unchanged, up to single precision.
     const std::optional<ViewCamera> again = cameraOfText(*cameraText(*ours, 2.5));
     expectNear(again->forward, ours->forward, 1e-6);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parts of the demo window that need no window: keys, settings, statistics, time, resolution, shaders' sources.
+// Parts of the demo that need no window: keys, settings, statistics, time, resolution, shader sources.
 #include "demo/app/settings.h"
 #include "demo/app/shader_sources.h"
 #include "demo/input/elapsed.h"
@@ -233,7 +233,7 @@ TEST(ResolutionLadder, GoesDownWhereFramesTakeTooLongAndNoFurtherThanTheLastStep
 
 TEST(ResolutionLadder, GoesUpWhereTheNextStepFitsAndStaysThere)
 {
-    // A device on which a frame of the whole window takes 300 ms, and nothing else does.
+    // On this device a frame takes 300 ms at the window's size, and time grows with the pixels.
     const auto timeAt = [](double scale) { return 300 * scale * scale; };
     for (const std::size_t first : {std::size_t{0}, ResolutionLadder::kScales.size() - 1})
     {
@@ -323,7 +323,7 @@ TEST(ShaderSources, IncludesAreFound)
     EXPECT_TRUE(includesOf("#include \"open\n").empty());
 }
 
-/// A folder of two kernels, one of which includes a file that includes another one.
+/// A folder of two kernels; one of them includes a file that includes another one.
 class SourceFolder
 {
 public:
@@ -344,7 +344,7 @@ public:
         std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
     }
 
-    /// As if it was written after everything else.
+    /// Writes a file with a time later than that of all others.
     void change(const std::string& file, const std::string& text)
     {
         write(file, text);
@@ -369,7 +369,7 @@ TEST(ShaderSources, ChangesAreThoseOfIncludedFilesToo)
     folder.change("op/b.comp", "#version 460\n");
     EXPECT_EQ(sources.takeChanged(kNames), Names{"op/b"});
     EXPECT_EQ(sources.takeChanged(kNames), Names{}) << "once";
-    folder.change("lib/y.glsl", "#include \"lib/x.glsl\"\nconst int kTwo = 3;\n"); // in a circle
+    folder.change("lib/y.glsl", "#include \"lib/x.glsl\"\nconst int kTwo = 3;\n"); // the includes are circular
     EXPECT_EQ(sources.takeChanged(kNames), Names{"op/a"});
     EXPECT_FALSE(ShaderSources("/nowhere/shaders").exist());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Brush and hand in the demo window: what they do can be undone to the first picture, and what was saved is what was
+// Brush and hand in the demo window: edits can be undone back to the first picture, and saved files have what was
 // shown.
 #include "demo/demo_window.h"
 
@@ -15,7 +15,7 @@ namespace
 constexpr Modifiers kControl = {false, true, false};
 constexpr Modifiers kControlShift = {true, true, false};
 
-/// The left button goes down at the first point, moves on by one point a frame, and goes up. Returns the frame behind.
+/// Presses the left button at the first point, moves by one point a frame, and releases it. Returns the next frame.
 std::uint64_t drag(Script& script, std::uint64_t frame, const std::vector<MouseMoveEvent>& points)
 {
     script.add(frame, points.front()).add(frame, MouseButtonEvent{MouseButton::Left, true, {}});
@@ -24,7 +24,7 @@ std::uint64_t drag(Script& script, std::uint64_t frame, const std::vector<MouseM
         script.add(++frame, points[i]);
     }
     script.add(++frame, MouseButtonEvent{MouseButton::Left, false, {}});
-    return frame + 2; // what was under the pointer last is known a frame later
+    return frame + 2; // the pixel under the pointer is known a frame later
 }
 
 class DemoEditing : public DemoWindow
@@ -91,11 +91,11 @@ TEST_F(DemoEditing, CarvesFillsAndPaintsAndUndoesToTheFirstPicture)
 TEST_F(DemoEditing, WhatMovesGoesOnThroughWhatWasEdited)
 {
     const std::vector<std::string> scene_file = {"moving.scene.json", "--camera", "3,2.5,4,0.5,0.5,0.5,40"};
-    // Four pictures: at first, carved, moved on, undone; or the same without the stroke.
+    // Four pictures: the first, carved, moved on, and undone; or the same without the stroke.
     const auto pictures = [&](bool edits)
     {
         Script script;
-        script.add(keyStroke(1, Key::Space)); // stop
+        script.add(keyStroke(1, Key::Space)); // stops
         script.add(keyStroke(2, Key::F12)).add(keyStroke(3, Key::B));
         Script stroke;
         const std::uint64_t frame = drag(edits ? script : stroke, 5, kAcross);
@@ -139,7 +139,7 @@ TEST_F(DemoEditing, TheHandDragsWhatMovesAndNothingElse)
     };
     const std::string before = lastAfter({{5, 5}, {20, 20}, {40, 40}}); // the sky cannot be dragged
     std::set<std::string> pictures;
-    for (int x = 85; x < 125; x += 6) // somewhere here is the slab that moves
+    for (int x = 85; x < 125; x += 6) // the moving slab is somewhere here
     {
         const auto at = static_cast<double>(x);
         pictures.insert(lastAfter({{at, 94}, {at, 80}, {at, 60}}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which voxels under the pointer become dabs, when they are known some frames late.
+// Which voxels under the pointer become dabs, when looks are answered late.
 #include "demo/input/pointer_ray.h"
 #include "demo/world/stroke.h"
 
@@ -50,12 +50,12 @@ TEST(Stroke, ADabForEachPlaceOfThePointerAndOneEnd)
         Stroke stroke;
         LateAnswers answers(late);
         answers.frame(stroke);
-        stroke.move(); // while the button is up
+        stroke.move(); // while the button is released
         answers.frame(stroke);
         EXPECT_TRUE(answers.dabs.empty());
         stroke.press();
         answers.frame(stroke);
-        answers.frame(stroke); // without a move: no other dab
+        answers.frame(stroke); // no move, so no other dab
         stroke.move();
         stroke.move();
         answers.frame(stroke);

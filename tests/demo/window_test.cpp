@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The demo window, run as a user would, under an X server of its own: what it shows is what `zvo render` shows,
-// whatever happens to the window, and the validation layers have nothing to say.
+// The demo window, run under its own X server. It shows what `zvo render` shows, whatever happens to the window, and
+// the validation layers report nothing.
 #include "common/view.h"
 #include "demo/demo_window.h"
 
@@ -33,7 +33,7 @@ TEST_F(DemoWindow, OtherPicturesAreThoseOfZvoRenderToo)
         {"--structure", "svdag", "--occlusion", "4"},
         {"--exposure", "0.5", "--sun", "1,1,0.2", "--detail", "3"},
         {"--attributes", "none", "--coverage", "conservative"},
-        {}, // with the scene's own camera
+        {}, // with the scene's camera
     };
     for (const std::vector<std::string>& options : kOptions)
     {
@@ -115,7 +115,7 @@ TEST_F(DemoWindow, AUserFliesResizesMinimizesAndComesBackToTheSamePicture)
     script.add(2, MouseMoveEvent{100, 70}).add(2, MouseButtonEvent{MouseButton::Right, true, {}});
     script.add(keyStroke(3, Key::W)).add(3, MouseMoveEvent{130, 60}).add(3, demo::WheelEvent{0, 1});
     script.add(5, MouseButtonEvent{MouseButton::Right, false, {}}).add(keyStroke(5, Key::D, {true, false, false}));
-    script.add(keyStroke(7, Key::F12)); // zvo-0002.png, elsewhere
+    script.add(keyStroke(7, Key::F12)); // zvo-0002.png, from another position
     script.add(8, demo::ResizeEvent{333, 201}).add(keyStroke(9, Key::F12));
     script.add(10, demo::ResizeEvent{0, 0}).add(keyStroke(11, Key::V)).add(keyStroke(13, Key::V, {true, false, false}));
     script.add(16, demo::ResizeEvent{64, 480}).add(18, demo::MinimizeEvent{true}).add(20, demo::MinimizeEvent{false});
@@ -153,7 +153,7 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
         script.add(keyStroke(5 + 2 * i, Key::V))
             .add(5 + 2 * i, MouseMoveEvent{300.0 + 10.0 * static_cast<double>(i), 200});
     }
-    // Clicks into the panels: headers close and open.
+    // Clicks in panels close and open headers.
     for (std::uint64_t i = 0; i < 10; ++i)
     {
         const double y = 20.0 + 25.0 * static_cast<double>(i);
@@ -199,7 +199,7 @@ TEST_F(DemoWindow, PanelsShowEveryViewWithoutAWordFromTheLayers)
         false);
 }
 
-// The reason that a program gives, without its name.
+// The reason in an error message, without the program's name.
 std::string reasonOf(const std::string& err)
 {
     const std::size_t at = err.find(": error: ");
@@ -233,13 +233,13 @@ TEST_F(DemoWindow, GoodFilesThatAreDroppedAreShownAndBadOnesAreNot)
     EXPECT_EQ(file("last.png"), render(std::vector<std::string>{"cube.glb", "slab.glb", "--resolution", "64"} + kSize));
 }
 
-// In time with the clock, scenes are made while the old one is shown: whichever was dropped last is shown in the end.
+// Without fixed steps, worlds are made while the old one is shown. In the end, the last dropped one is shown.
 TEST_F(DemoWindow, ScenesAreMadeInTheBackground)
 {
     Script script;
     script.add(2, demo::DropEvent{{"broken.glb"}}).add(4, demo::DropEvent{{"slab.glb"}});
     script.add(5, demo::DropEvent{{"moving.scene.json"}}).add(6, demo::DropEvent{{"slab.glb"}});
-    script.add(6, demo::ResizeEvent{300, 200}).add(keyStroke(7, Key::S, {false, true, false})); // not now
+    script.add(6, demo::ResizeEvent{300, 200}).add(keyStroke(7, Key::S, {false, true, false})); // refused now
     m_dir.write("script.json", script.text());
     const Outcome outcome =
         runDemo(kCube + kSize +
@@ -254,7 +254,7 @@ TEST_F(DemoWindow, ScenesAreMadeInTheBackground)
               render(std::vector<std::string>{"slab.glb", "--resolution", "64", "--size", "300x200"}));
 }
 
-// It quits while something is made, and is not held up by what was to come after it.
+// The program quits while a world is made, and does not wait for further ones.
 TEST_F(DemoWindow, QuitsWhileAWorldIsMade)
 {
     for (const std::uint64_t quit : {3U, 4U, 6U})
@@ -267,7 +267,7 @@ TEST_F(DemoWindow, QuitsWhileAWorldIsMade)
     }
 }
 
-// A copy of the project's shaders in which one was changed a moment from now, so that every F5 takes it for changed.
+// A copy of the project's shaders. One of them has a time in the future, so that every F5 compiles it.
 class ChangedShaders
 {
 public:
@@ -345,7 +345,7 @@ TEST_F(DemoWindow, SettingsAreKeptButForRunsOfSoManyFrames)
     EXPECT_EQ(kept["window"]["width"], 240);
     EXPECT_EQ(kept["view"]["view"], "albedo");
     EXPECT_EQ(kept["keys"], true);
-    show(kCube + play); // in a window of that size, from that view to the next
+    show(kCube + play); // in a window of that size, flying from that view to the next
     EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["window"]["width"], 240);
     EXPECT_EQ(json::parse(file("config/zvo/demo.json"))["view"]["view"], "normal");
     m_dir.write("config/zvo/demo.json", std::string_view("{\"schema\": 7"));

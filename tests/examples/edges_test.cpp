@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The edges of a host's images are the host's: with both, the layers are silent; without one of them, they speak.
+// The barriers before and after zvo's work on a host's images are the host's. With both, the layers report nothing;
+// without one of them, they do.
 #include "api/api_scene.h"
 #include "support/embedding_host.h"
 
@@ -41,7 +42,7 @@ TEST_P(ImageEdges, TheLayersSpeakWhereOneIsMissing)
     constexpr VkFormat kDepth = VK_FORMAT_R32_SFLOAT; // any queue that computes may copy to it
     test::HostOptions options;
     options.validation = true;
-    options.message_counter = nullptr; // messages are what is expected
+    options.message_counter = nullptr; // messages are expected here
     test::EmbeddingHost host(options);
     const test::HostModel description(test::boxScene(glm::vec3(2), glm::vec3(6)));
     const Tree tree = host.build(host.upload(description.info()), {.grid = test::apiGrid(4)});

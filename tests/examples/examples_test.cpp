@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The examples, run as a shell would: what they show is what the command line shows.
+// Runs the examples as a shell would. They show what the command line shows.
 #include "cli/run_zvo.h"
 #include "common/mesh.h"
 #include "examples/composite.h"
@@ -28,7 +28,7 @@ using test::Picture;
 
 const std::string kCamera = "1.5,2,3.5,0,0,0,26";
 
-// A PPM file of the examples.
+// Reads a PPM file of the examples.
 Picture readPpm(const std::filesystem::path& path)
 {
     const std::string bytes = test::contentOf(path);
@@ -63,7 +63,7 @@ Picture readPng(const std::filesystem::path& path)
 class Examples : public testing::Test
 {
 protected:
-    // Runs an example to its end; with validation where the tests' devices have it, silent all the same.
+    // Runs an example to its end, with validation if the tests' devices have it. It must print no errors.
     void run(const std::string& name, std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), name);
@@ -78,7 +78,7 @@ protected:
         EXPECT_EQ(outcome.err, "") << name;
     }
 
-    // What the command line makes of a file, with the examples' camera.
+    // The command line's picture of a file, with the examples' camera.
     Picture render(const std::vector<std::string>& scene, const std::vector<std::string>& more = {})
     {
         std::vector<std::string> arguments = {"render", "-f",      "-o",       "cli.png",
@@ -162,7 +162,7 @@ TEST_F(Examples, TwoContextsShowTheSame)
     EXPECT_EQ(ppm("b_bare.ppm"), expected);
 }
 
-// What moved through many frames looks like what is made at once, by another program.
+// After many frames of updates, a dynamic tree looks like one that another program builds at once.
 TEST_F(Examples, FramesInFlightEndWhereARebuildDoes)
 {
     writeKnot();
@@ -195,8 +195,8 @@ TEST_F(Examples, FramesInFlightEndWhereARebuildDoes)
     EXPECT_NE(previous, knot);
 }
 
-// The raster example's ring, as the test draws it: which of ring and knot is nearer is computed in double precision,
-// from the ring's triangles and the voxels of the oracle.
+// The ring of the raster example, drawn by the test. Whether ring or knot is nearer is computed in double precision,
+// from the ring's triangles and the oracle's voxels.
 TEST_F(Examples, TheNearerOfMeshAndVoxelIsSeen)
 {
     writeKnot();
@@ -210,7 +210,7 @@ TEST_F(Examples, TheNearerOfMeshAndVoxelIsSeen)
     std::size_t wrong_count = 0;
     for (std::size_t i = 0; i < picture.rgb.size(); ++i)
     {
-        // One or the other, never a mixture, also where it is open which.
+        // Each pixel shows one or the other, never a mixture, even if it is open which.
         EXPECT_TRUE(is_ring(picture.rgb[i]) || picture.rgb[i] == traced.rgb[i]) << i;
         const bool is_wrong =
             winners[i] != test::Winner::Open && is_ring(picture.rgb[i]) != (winners[i] == test::Winner::Mesh);
@@ -221,14 +221,14 @@ TEST_F(Examples, TheNearerOfMeshAndVoxelIsSeen)
     EXPECT_GT(count(test::Winner::Mesh), 4000);
     EXPECT_GT(count(test::Winner::VoxelBeforeMesh), 1000);
     EXPECT_LT(count(test::Winner::Open), 64); // of 64,000
-    // Silhouettes: ring beside voxels that are before it, both sides known.
+    // There are silhouettes where voxels are before the ring, with both sides known.
     EXPECT_GT(test::edgeCount(winners), 100U);
 
     run("embed_raster", {"bare.ppm", "--no-optional"});
     EXPECT_EQ(ppm("bare.ppm"), picture);
 }
 
-// What they promise to whoever reads them.
+// The rules that the examples promise to their readers.
 TEST(ExampleSources, AreShortAndSeePublicHeadersOnly)
 {
     const std::filesystem::path root = ZVO_EXAMPLES_SOURCE_DIR;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// zvo/trace.glsl takes no names from a host: all of its own have a prefix.
+// zvo/trace.glsl declares only names with its prefix, so that a host can use all others.
 #include "glsl/host_kernels.h"
 #include "support/temp_dir.h"
 
@@ -45,7 +45,7 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
     return found;
 }
 
-// The shaders that zvo/trace.glsl is made of: the entry, and what it and others include.
+// The shaders that make up zvo/trace.glsl: its entry, and all that these include.
 std::vector<std::filesystem::path> sources()
 {
     std::vector<std::filesystem::path> files = {"host/trace.glsl"};
@@ -63,13 +63,13 @@ std::vector<std::filesystem::path> sources()
     return files;
 }
 
-// What text declares outside of any braces: functions, structs, blocks, constants and variables.
+// The names that text declares outside of braces: functions, structs, blocks, constants and variables.
 Names declaredNames(const std::string& text)
 {
     static const std::regex comment("//[^\n]*");
     static const std::regex directive("#(?:[^\n]*\\\\\n)*[^\n]*");
     const std::string code = std::regex_replace(std::regex_replace(text, comment, ""), directive, "");
-    std::string outside; // of braces and parentheses, a declaration a line
+    std::string outside; // text outside of braces and parentheses, with a declaration in each line
     int braces = 0;
     int parentheses = 0;
     for (const char c : code)
@@ -81,7 +81,7 @@ Names declaredNames(const std::string& text)
             outside += c == ';' || c == '{' ? '\n' : c == '\n' || c == ')' ? ' ' : c;
         }
     }
-    // The name is the last word before a value or the length of an array.
+    // The name is the last word before a value or an array's length.
     static const std::regex declared("(?:^|\n)[^\n=\\[]*?(\\w+) *(?=[\n=\\[])");
     Names names;
     for (const std::string& name : matches(outside, declared))
@@ -105,7 +105,7 @@ bool hasPrefix(const std::string& name)
     return name.starts_with("zvo_") || name.starts_with("ZVO_");
 }
 
-// What the compiler says against a shader of a host; "" for nothing. stage: the ending of its file.
+// The compiler's message about a host's shader, or "". stage: the file's extension.
 std::string compile(const std::string& text, const std::string& stage = "comp")
 {
     const test::TempDir folder;
@@ -129,7 +129,7 @@ void main()
 }
 )";
 
-// Names that zvo's shaders declare and zvo/trace.glsl must not have.
+// Names in zvo's shaders that zvo/trace.glsl must not declare.
 Names namesOfSources()
 {
     Names names;
@@ -227,7 +227,7 @@ TEST(HostGlslNames, AHostMayDeclareThemAllWithoutThePrefix)
     EXPECT_EQ(compile(kBegin + kEnd), "");
     EXPECT_EQ(compile(kBegin + declarations + kEnd), "");
     EXPECT_EQ(compile(kBegin + macros + kEnd), "");
-    // The check sees what it is for.
+    // The check reports a name that is taken.
     EXPECT_NE(compile(kBegin + "const int zvo_traverse = 0;\n" + kEnd), "");
     EXPECT_NE(compile(kBegin + "#define zvo_kHitMiss { not to be used }\n" + kEnd), "");
 }
@@ -248,7 +248,7 @@ TEST(HostGlslNames, OneFileIsAllThatIsIncluded)
     {
         EXPECT_EQ(text.find(directive), std::string::npos) << directive;
     }
-    // Once is enough, and twice does no harm.
+    // Including it twice is allowed.
     EXPECT_EQ(compile(kBegin + "#define ZVO_DETAIL\n#include \"zvo/trace.glsl\"\n" + kEnd), "");
 }
 

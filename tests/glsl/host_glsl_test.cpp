@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels of a host that trace with zvo/trace.glsl (tests/glsl) see what zvo's own kernels see.
+// Kernels of a host that trace with zvo/trace.glsl (tests/glsl) give the same results as zvo's own kernels.
 #include "core/base/kernels.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/attribute_packer.h"
@@ -37,9 +37,9 @@ namespace
 
 constexpr std::uint32_t kWidth = 53;
 constexpr std::uint32_t kHeight = 41;
-constexpr double kNear = 0.01; // of the cameras that depths are for
+constexpr double kNear = 0.01; // for cameras with depth
 
-// What tests/glsl/picture.glsl declares.
+// The struct of tests/glsl/picture.glsl.
 struct Frame
 {
     gpu::CameraRays camera;
@@ -73,7 +73,7 @@ struct PicturePush
     gpu::Ptr<Pixel> pixels;
 };
 
-// What tests/glsl/host/rays.comp declares.
+// The struct of tests/glsl/host/rays.comp.
 struct WorldRay
 {
     glm::vec3 origin;
@@ -99,7 +99,7 @@ struct RaysPush
     float detail;
 };
 
-// What tests/glsl/host/steps.comp declares.
+// The struct of tests/glsl/host/steps.comp.
 struct Both
 {
     std::array<gpu::Hit, 2> hits;
@@ -136,7 +136,7 @@ vk::BufferOf<gpu::TreeTable> tableOf(const DeviceTree& tree)
     return device().makeBuffer<gpu::TreeTable>("tree table", std::vector{treeTable(tree)});
 }
 
-// What the pass reads through the table.
+// Declares the buffers that the pass reads through the table.
 void readTree(vk::AnyPass& pass, const DeviceTree& tree)
 {
     pass.read(tree.nodes);
@@ -168,7 +168,7 @@ std::vector<Pixel> hostPicture(const DeviceTree& tree, const char* kernel, const
     return device().download(pixels);
 }
 
-// A reversed depth of a camera that looks as view does, 1 at kNear, 0 infinitely far away.
+// A matrix with reversed depth for the camera of view: 1 at kNear, 0 at infinity.
 glm::mat4 reversedDepth(const ViewCamera& view)
 {
     glm::mat4 projection(0.0F);
@@ -208,7 +208,7 @@ private:
     float m_scale;
 };
 
-// Where the pixel's point is, by the ray in double precision and the cell's box.
+// Compares the pixel's point with the ray in double precision and the cell's box.
 void expectPosition(const Pixel& pixel, const Grid& grid, const TraceCamera& camera, std::size_t i)
 {
     const test::DeviceHit hit = *test::unpack(pixel.hit);
@@ -246,14 +246,14 @@ void expectPosition(const Pixel& pixel, const Grid& grid, const TraceCamera& cam
 struct HostVariant
 {
     const char* kernel;
-    bool by_levels = false; // specialized for one tree
+    bool by_levels = false; // specialized for the number of levels of one tree
 };
 
 constexpr HostVariant kAnyTree = {"host/picture"};
 constexpr std::array kVariants = {kAnyTree, HostVariant{"host/picture_group"},
                                   HostVariant{"host/picture_levels", true}};
 
-// What zvo's own kernels show of a tree, which the host's are compared with.
+// The pictures of a tree by zvo's own kernels, to which the host's are compared.
 class ZvoPicture
 {
 public:
@@ -270,7 +270,7 @@ public:
 
     [[nodiscard]] std::uint32_t hitCount() const { return test::hitCount(m_albedo); }
 
-    // The host's picture is the same, pixel by pixel.
+    // Expects that the host's picture is the same at every pixel.
     void expectSame(const HostVariant& variant) const
     {
         SCOPED_TRACE(variant.kernel);
@@ -320,7 +320,7 @@ private:
         }
         ASSERT_NO_FATAL_FAILURE(expectPosition(pixel, m_tree.grid, m_camera, i));
         const double distance = glm::dot(glm::dvec3(pixel.position) - m_view.position, m_view.forward);
-        const double reach = glm::length(m_view.position) + distance; // single precision rounds them
+        const double reach = glm::length(m_view.position) + distance; // single precision rounds these lengths
         if (distance > 1e-4 * reach)
         {
             const double depth = kNear / distance;
@@ -344,7 +344,7 @@ struct CodeSet
     test::Codes codes;
 };
 
-// Sets of voxels with much and with little to share, of one level of nodes and of many.
+// Sets of voxels that share much or little, with one or many levels of nodes.
 std::vector<CodeSet> codeSets()
 {
     std::mt19937 random(71);
@@ -361,7 +361,7 @@ std::vector<CodeSet> codeSets()
     };
 }
 
-// Of a set, one after the other: in perspective from outside and from inside, orthographic.
+// Views in perspective from outside and from inside, and an orthographic one.
 std::array<ViewCamera, 3> threeViews(const Grid& grid)
 {
     const std::vector<ViewCamera> views = test::manyCameras(grid);
@@ -486,7 +486,7 @@ TEST(HostGlsl, LevelsOfDetailStopAtTheSameNodes)
                 options.detail_pixels = level == UINT32_MAX ? 6.0F : 0.0F;
                 const ViewCamera view = test::manyCameras(octree.grid).at(level == 1 ? 12 : 0);
                 SCOPED_TRACE("depth " + std::to_string(set.depth) + ", level " + std::to_string(level));
-                // Attributes of a DAG's nodes stand in another order, which pictures do not show.
+                // The attributes of a DAG's nodes have another order, which pictures do not show.
                 for (const DeviceTree* shown : std::array<const DeviceTree*, 2>{&octree, &dag})
                 {
                     const DeviceTree& tree = *shown;
@@ -522,7 +522,7 @@ INSTANTIATE_TEST_SUITE_P(Trees, HostGlslOverlays,
                                     (test_case.param.attributes ? "" : "WithoutAttributes");
                          });
 
-// A box that was merged, and a dab of a brush.
+// A merged box, and a dab of a brush.
 TEST_P(HostGlslOverlays, AreSeen)
 {
     const auto& [depth, compressed, attributes] = GetParam();
@@ -579,7 +579,7 @@ TEST(HostGlsl, AnEmptyTreeIsMissed)
     }
 }
 
-// World-space rays from around the grid to points in voxels, or past them.
+// Rays in world space, from around the grid to points in voxels or past them.
 std::vector<WorldRay> worldRays(const Grid& grid, const test::Codes& codes, std::uint32_t count)
 {
     std::mt19937 random(count);
@@ -622,7 +622,7 @@ std::vector<Met> meet(const DeviceTree& tree, const std::vector<WorldRay>& rays,
     return device().download(results);
 }
 
-// The ray in unit space, rounded as shaders round it.
+// The ray in unit space, rounded as in shaders.
 oracle::Ray unitRay(const Grid& grid, const WorldRay& ray)
 {
     const float edge = grid.voxel_size * static_cast<float>(grid.rootResolution());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Structs that C++ and GLSL share lie in memory alike.
+// Structs that C++ and GLSL share have the same memory layout.
 #include "attributes/attributes.h"
 #include "core/base/kernels.h"
 #include "deform/deform.h"
@@ -39,9 +39,9 @@ const std::map<std::string, Offsets>& hostOffsets()
     return offsets;
 }
 
-constexpr std::string_view kHostPrefix = "zvo_"; // of names in shaders of hosts
+constexpr std::string_view kHostPrefix = "zvo_"; // prefix of names in hosts' shaders
 
-// Notes which shared structs the kernels have.
+// Compares the structs of the kernels with those of C++, and notes which were seen.
 void expectHostOffsets(std::span<const vk::EmbeddedKernel> kernels, std::string_view prefix,
                        std::set<std::string>& seen)
 {
@@ -51,7 +51,7 @@ void expectHostOffsets(std::span<const vk::EmbeddedKernel> kernels, std::string_
         {
             const auto host =
                 name.starts_with(prefix) ? hostOffsets().find(name.substr(prefix.size())) : hostOffsets().end();
-            if (host == hostOffsets().end()) // the kernel's own, or a buffer block around a shared one
+            if (host == hostOffsets().end()) // a struct of the kernel's own, or a buffer block around a shared one
             {
                 continue;
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The brick table under as much contention as a table can have.
+// The brick table under the greatest contention.
 #include "kernels/test/insert_bricks.h"
 #include "vk/kernels.h"
 
@@ -24,7 +24,7 @@ constexpr std::uint32_t kNoEntry = ~0U;
 struct Table
 {
     std::vector<gpu::BrickEntry> entries;
-    std::vector<gpu::uvec2> inserted; // of each key: entry, 1 if its thread claimed it
+    std::vector<gpu::uvec2> inserted; // [key] entry, and 1 if its thread claimed it
     std::vector<gpu::uvec2> found;
 };
 
@@ -51,7 +51,8 @@ Table insertAndFind(const std::vector<gpu::uvec2>& keys, std::uint32_t capacity,
     return {device.download(bricks), device.download(inserted), device.download(found)};
 }
 
-// Every key is in one entry, which all its threads got and one of them claimed; nothing else is in the table.
+// Expects that every key has one entry, which all its threads found and one of them claimed, and that the table has no
+// others.
 void expectIsTheSetOf(const std::vector<gpu::uvec2>& keys, const Table& table, bool wide)
 {
     std::map<Key, std::uint32_t> entry_of;
@@ -86,7 +87,7 @@ void expectIsTheSetOf(const std::vector<gpu::uvec2>& keys, const Table& table, b
     EXPECT_EQ(occupied_count, entry_of.size());
 }
 
-// Each of the keys many times, in random order.
+// Copies of each key, in random order.
 std::vector<gpu::uvec2> shuffledCopies(const std::set<Key>& keys, std::uint32_t copy_count, std::mt19937& random)
 {
     std::vector<gpu::uvec2> copies;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes that live: brushes, offsets, and those that come with zvo, as time goes by: updated octrees and their pictures
-// against ones built anew. By default some frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and ZVO_TEST_STAGE_FRAMES ask
-// for more (scripts/check-dynamic).
+// Live scenes: strokes, offsets, and the project's animated scenes over time. Updated octrees and their pictures are
+// compared with rebuilds. By default there are a few frames in a coarse grid; ZVO_TEST_STAGE_DEPTH and
+// ZVO_TEST_STAGE_FRAMES set more (scripts/check-dynamic).
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "runtime/live_scene.h"
@@ -54,8 +54,7 @@ template <typename T> void append(std::vector<std::byte>& bytes, const std::vect
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-// Everything static: nodes and lists with the copy of the root behind them, the nodes' averages, and the voxels'
-// attributes.
+// The bytes of the static part: nodes and lists with the copy of the root behind them, attributes of nodes and voxels.
 std::vector<std::byte> staticBytes(const DeviceTree& tree)
 {
     const std::uint32_t root = tree.overlays.static_root;
@@ -69,7 +68,7 @@ std::vector<std::byte> staticBytes(const DeviceTree& tree)
 constexpr Grid kGrid64 = {.origin = glm::vec3(0.0F), .voxel_size = 0.25F, .depth = 6};
 constexpr Brush kCarve = {BrushShape::Sphere, BrushAction::Carve, gpu::ivec3(20, 20, 20), 9, 0};
 
-// A box that stands still, and one that may move.
+// A static box, and one that may move.
 AnimatedScene boxes(const glm::dvec3& offset)
 {
     AnimatedScene animated;
@@ -140,7 +139,7 @@ TEST(LiveScene, MergesNothingWithPackedAttributes)
     EXPECT_FALSE(LiveScene(device()).canEdit());
 }
 
-// By name, and what is fixed as an octree or a DAG.
+// By name, with an octree or a DAG as the static part.
 class AnimatedScenes : public testing::TestWithParam<std::tuple<std::string, TreeStructure>>
 {
 };

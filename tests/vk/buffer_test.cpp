@@ -67,7 +67,7 @@ TEST(Buffer, MoreThanTheBudgetIsAMemoryErrorThatNamesTheBuffer)
 {
     vk::HeadlessOptions options = test::deviceOptions();
     options.memory_budget_bytes = 1 << 20;
-    options.overrides.buffer_slack = 0; // to the byte
+    options.overrides.buffer_slack = 0; // bytes
     vk::HeadlessDevice small(options, testKernels());
     const vk::Buffer half(small.device(), "half", 1 << 19);
     try

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Devices that somebody else owns: what zvo asks of them, and how it behaves on them.
+// Devices of a host: their requirements, and zvo's behaviour on them.
 #include "vk/device.h"
 
 #include "support/errors.h"
@@ -29,7 +29,7 @@ bool contains(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-// A physical device of Vulkan 1.1 that has nothing that zvo needs.
+// A physical device of Vulkan 1.1 that lacks everything that zvo needs.
 PFN_vkVoidFunction fakeInstanceProcAddr(VkInstance, const char* name)
 {
     const PFN_vkGetPhysicalDeviceProperties properties = [](VkPhysicalDevice, VkPhysicalDeviceProperties* out)
@@ -66,7 +66,7 @@ PFN_vkVoidFunction fakeInstanceProcAddr(VkInstance, const char* name)
 
 TEST(Query, ListsEveryReasonOfADeviceThatLacksEverything)
 {
-    const auto instance = reinterpret_cast<VkInstance>(std::uintptr_t{8}); // that nobody looks into
+    const auto instance = reinterpret_cast<VkInstance>(std::uintptr_t{8}); // never read
     const auto physical_device = reinterpret_cast<VkPhysicalDevice>(std::uintptr_t{16});
     const vk::DeviceReport report = vk::query(fakeInstanceProcAddr, instance, physical_device);
     EXPECT_FALSE(report.usable());
@@ -155,7 +155,7 @@ TEST(VkCheck, ThrowsWithResultCallAndPlace)
     messageOf([] { VK_CHECK(fakeCall(VK_ERROR_OUT_OF_DEVICE_MEMORY)); }, ErrorCode::Memory);
 }
 
-// The real driver, but for the functions that a test replaces.
+// The real driver, with some functions replaced by the test's.
 struct Interception
 {
     PFN_vkGetInstanceProcAddr real_instance = nullptr;
@@ -181,13 +181,13 @@ PFN_vkVoidFunction interceptedInstanceProcAddr(VkInstance instance, const char* 
     return real;
 }
 
-// The shared device's handles with one function replaced.
+// The shared device's handles, with one function replaced.
 vk::DeviceHandles intercept(const char* name, PFN_vkVoidFunction replacement)
 {
     vk::DeviceHandles handles = device().device().handles();
     g_interception = {handles.get_instance_proc_addr, nullptr, name, replacement};
     handles.get_instance_proc_addr = interceptedInstanceProcAddr;
-    handles.functions = nullptr; // those of the shared device
+    handles.functions = nullptr; // these would be those of the shared device
     return handles;
 }
 
@@ -237,7 +237,7 @@ TEST(Device, AQueueFamilyThatDoesNotExistIsRefused)
     messageOf([&] { const vk::Device refused(handles, testKernels()); }, ErrorCode::Device);
 }
 
-// Records into a command buffer of its own, as a host does, submits it and waits.
+// Records into a command buffer as a host does, submits it and waits.
 void submitAsHost(vk::Device& target, const std::function<void(VkCommandBuffer)>& record)
 {
     const vk::Functions& fn = target.fn();
@@ -319,7 +319,7 @@ TEST(HostDevice, SeesWhatZvoSubmitsAndWaitsForAndNotItsOwn)
     test::failCall(UINT64_MAX);
 }
 
-// Says that the silence of the layers in all other tests means something.
+// Shows that the layers' silence in all other tests has a meaning.
 TEST(Validation, SpeaksWhenABarrierIsMissing)
 {
     vk::HeadlessOptions options = test::deviceOptions();
@@ -353,7 +353,7 @@ TEST(Validation, SpeaksWhenAKernelWritesPastABuffer)
     std::atomic<std::uint32_t> messages = 0;
     options.message_counter = &messages;
     vk::HeadlessDevice faulty(options, testKernels());
-    // In the same block of memory, so that what the kernel does hits nobody.
+    // A buffer in the same block of memory, so that the kernel's write does no harm.
     vk::BufferOf<gpu::uint> values(faulty.device(), "values", 64);
     faulty.run(
         [&](vk::FrameGraph& graph)

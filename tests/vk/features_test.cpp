@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What zvo adds to the features that a host enables, and what it says of features that are not enabled.
+// Features that zvo adds to those of a host, and messages about features that are not enabled.
 #include "support/errors.h"
 #include "support/host_device.h"
 #include "vk/kernels.h"
@@ -26,7 +26,7 @@ template <typename Struct> Struct typed(VkStructureType type)
     return structure;
 }
 
-/// One of every struct that a host may chain.
+/// One struct of each type that a host may chain.
 struct Structs
 {
     VkPhysicalDeviceFeatures enabled{};
@@ -61,7 +61,7 @@ struct Structs
         typed<VkDevicePrivateDataCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_PRIVATE_DATA_CREATE_INFO);
 };
 
-/// Puts a struct at the end of the chain.
+/// Appends a struct to the chain.
 template <typename Struct> void append(VkDeviceCreateInfo& info, Struct& structure)
 {
     const void** end = &info.pNext;
@@ -83,7 +83,7 @@ std::vector<const VkBaseInStructure*> chainOf(const VkDeviceCreateInfo& info)
     return chain;
 }
 
-/// All that patchFeatures could change.
+/// The bytes of everything that patchFeatures could change.
 std::string bytesOf(const VkDeviceCreateInfo& info, const Structs& structs)
 {
     std::string bytes(sizeof(info) + sizeof(structs), '\0');
@@ -92,7 +92,7 @@ std::string bytesOf(const VkDeviceCreateInfo& info, const Structs& structs)
     return bytes;
 }
 
-/// What a chain enables: the features that zvo may ask for, by a reading of its own.
+/// The features that a chain enables, of those that zvo may need, read independently.
 std::set<std::string> featuresOf(const VkDeviceCreateInfo& info)
 {
     std::set<std::string> names;
@@ -147,8 +147,8 @@ std::set<std::string> featuresOf(const VkDeviceCreateInfo& info)
     return names;
 }
 
-/// Whether Vulkan allows the chain: VUID-VkDeviceCreateInfo-pNext-00373, -02829, -02830, -06532 and sType-unique, as
-/// far as the structs of this test go.
+/// Whether Vulkan allows the chain: VUID-VkDeviceCreateInfo-pNext-00373, -02829, -02830, -06532 and sType-unique, for
+/// the structs of this test.
 bool isLegal(const VkDeviceCreateInfo& info)
 {
     static const Structs types;
@@ -173,7 +173,7 @@ bool isLegal(const VkDeviceCreateInfo& info)
 const std::set<std::string> kRequired = {"shaderInt64", "bufferDeviceAddress", "scalarBlockLayout", "synchronization2",
                                          "maintenance4"};
 
-/// Every subset of the structs, legal or not.
+/// Tests every subset of the structs, legal or not.
 TEST(PatchFeatures, EveryMixOfStructsIsCompletedOrRefusedAsAWhole)
 {
     constexpr std::uint32_t kStructCount = 14;
@@ -338,7 +338,7 @@ TEST(PatchFeatures, OptionalFeaturesAreAddedWhereAsked)
     }
 }
 
-/// A way in which hosts enable what they need themselves.
+/// A way in which hosts enable their own features.
 struct HostChain
 {
     const char* name;
@@ -346,7 +346,7 @@ struct HostChain
     const char* extension = nullptr;
 };
 
-/// GoogleTest calls it; without, it prints bytes.
+/// GoogleTest prints parameters with it; otherwise it would print bytes.
 void PrintTo(const HostChain& chain, std::ostream* out)
 {
     *out << chain.name;
@@ -428,7 +428,7 @@ const HostChain kHostChains[] = {
          append(info, structs.vulkan13);
      },
      "VK_EXT_custom_border_color"},
-    // Vulkan12Features of zvo's own would have to enable what this extension stands for.
+    // If zvo added a Vulkan12Features, it would have to enable this extension's feature there.
     {"AnExtensionThatVulkan12Decides", [](VkDeviceCreateInfo&, Structs&) {}, "VK_KHR_draw_indirect_count"},
 };
 
@@ -478,13 +478,13 @@ TEST_P(HostChains, MakeADeviceThatTheLayersAcceptAndZvoRunsOn)
         EXPECT_TRUE(device.isEnabled("hostQueryReset"));
         EXPECT_FALSE(device.isEnabled("subgroupSizeControl"));
         expectThatItWorks(host, device);
-        vk::Device guest(device.handles(), testKernels()); // what a device hands on is a declaration, too
+        vk::Device guest(device.handles(), testKernels()); // the handles that a device returns are a valid declaration
         expectThatItWorks(host, guest);
     }
     EXPECT_EQ(host.messageCount(), 0u);
 }
 
-/// Says that the silence of the layers above means something.
+/// Shows that the layers' silence above has a meaning.
 TEST(HostDevice, ValidationSpeaksOfAForbiddenMix)
 {
     if (!test::hasValidationLayer())
@@ -558,7 +558,7 @@ TEST(Declaration, AnInstanceForAnOlderVulkanIsRefused)
     vk::DeviceHandles handles = host.handles();
     handles.instance_api_version = VK_API_VERSION_1_2;
     EXPECT_NE(refusalOf(handles).find("Vulkan 1.2, zvo needs 1.3"), std::string::npos) << refusalOf(handles);
-    handles.instance_api_version = 0; // says nothing: Vulkan takes it for 1.0
+    handles.instance_api_version = 0; // unknown; Vulkan treats it as 1.0
     EXPECT_NE(refusalOf(handles).find("Vulkan 1.0, zvo needs 1.3"), std::string::npos) << refusalOf(handles);
 }
 
@@ -589,7 +589,7 @@ TEST(Declaration, WhatItPointsToMayGoOnceTheDeviceIsMade)
     vk::DeviceHandles handles = host.handles();
     handles.enabled_features = &structs->core;
     vk::Device device(handles, testKernels());
-    *structs = Structs{}; // what a pointer that was kept would find
+    *structs = Structs{}; // overwritten, in case zvo has kept a pointer
     structs.reset();
     EXPECT_FALSE(device.isEnabled("hostQueryReset"));
     vk::Device guest(device.handles(), testKernels());

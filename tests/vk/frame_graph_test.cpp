@@ -81,7 +81,7 @@ TEST(FrameGraph, IndirectDispatchRunsAsManyGroupsAsAPassWrote)
 TEST(FrameGraph, DumpShowsPassesResourcesAndBarriers)
 {
     vk::HeadlessOptions options = test::deviceOptions();
-    options.slices.submission_ms = 0; // one submission, however slow the device
+    options.slices.submission_ms = 0; // one submission, even on a slow device
     vk::HeadlessDevice whole(options, testKernels());
     Words a(whole.device(), "a", 100);
     Words b(whole.device(), "b", 100);

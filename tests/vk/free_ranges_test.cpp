@@ -62,7 +62,7 @@ TEST(FreeRanges, NumbersMayReachTheEndOf64Bits)
     EXPECT_EQ(ranges.take(9), UINT64_MAX - 9);
 }
 
-// The same as one bit a number.
+// The same ranges, with a bit for each number.
 class Bitmap
 {
 public:
@@ -117,7 +117,7 @@ TEST(FreeRanges, DoWhatABitmapDoes)
         []
         {
             const auto size = *rc::gen::inRange<std::size_t>(0, 200);
-            // (take, rather than give back; how much, or which; alignment)
+            // (take or give back; amount, or which one; alignment)
             const auto operations =
                 *rc::gen::container<std::vector<std::tuple<bool, std::uint64_t, std::uint64_t>>>(rc::gen::tuple(
                     rc::gen::weightedElement<bool>({{3, true}, {2, false}}), rc::gen::inRange<std::uint64_t>(1, 60),
@@ -139,7 +139,7 @@ TEST(FreeRanges, DoWhatABitmapDoes)
                 }
                 else if (!held.empty())
                 {
-                    // All of it, or its tail.
+                    // Gives back the whole range, or its tail.
                     auto& [offset, length] = held[number % held.size()];
                     const std::uint64_t kept = number % 3 == 0 ? length / 2 : 0;
                     ranges.give(offset + kept, length - kept);

@@ -126,8 +126,8 @@ TEST(HazardTracker, TheHostWaitsForEveryWrite)
     EXPECT_TRUE(next(tracker, {{1, Access::HostRead, ""}}).needed());
 }
 
-// A brute-force model of the Vulkan specification's memory dependencies ("Synchronization and Cache Control"): looks at
-// every pair of conflicting accesses and follows the barriers between them. Shares nothing with the tracker.
+// A brute-force model of the Vulkan specification's memory dependencies ("Synchronization and Cache Control"). It
+// checks every pair of conflicting accesses and follows the barriers between them, independently of the tracker.
 struct Use
 {
     std::uint64_t stage;

@@ -112,7 +112,7 @@ TEST(Headless, ARunThatThrowsLeavesTheDeviceUsable)
     EXPECT_EQ(device().download(iota(device(), 27)), counting(27));
 }
 
-// Something else is drawn while something long is made.
+// Another picture is drawn while something long is made.
 TEST(Headless, PausesBetweenSubmissionsCanSubmit)
 {
     constexpr std::uint64_t kCount = 1 << 16;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Devices whose host hands out the device's memory, or the driver's host memory, and runs out of it.
+// Devices whose host allocates device memory for zvo, or host memory for the driver, when allocations fail.
 #include "support/errors.h"
 #include "support/host_allocator.h"
 #include "support/host_memory.h"
@@ -22,7 +22,7 @@ using namespace zvo;
 using test::kMiB;
 using test::messageOf;
 
-/// Makes what zvo makes on a device: small and big buffers of each kind, an image, kernels; and runs these.
+/// Makes everything that zvo makes on a device: small and big buffers of each kind, an image, kernels; and runs these.
 void work(test::HostDevice& host, vk::Device& device)
 {
     constexpr std::uint32_t kCount = 3000;
@@ -45,7 +45,7 @@ void work(test::HostDevice& host, vk::Device& device)
         test::scale(graph, values, scaled, 5);
         graph.releaseToHost();
     };
-    // Nothing is submitted when recording fails.
+    // If recording fails, nothing is submitted.
     VkCommandBuffer commands = host.begin();
     record(commands);
     host.submit(commands);
@@ -57,7 +57,7 @@ void work(test::HostDevice& host, vk::Device& device)
     }
 }
 
-/// A host that hands out its memory.
+/// A host that allocates device memory for zvo.
 struct MemoryHost
 {
     explicit MemoryHost(std::uint64_t budget_bytes = UINT64_MAX)
@@ -106,7 +106,7 @@ TEST(MemoryCallbacks, AreCountedAgainstTheBudget)
 
 TEST(MemoryCallbacks, WhatIsTooMuchWithWholeGranulesIsOverTheBudget)
 {
-    constexpr std::uint64_t kBytes = 40 * kMiB + 4; // hosts are asked for whole granules, of more than 4 bytes
+    constexpr std::uint64_t kBytes = 40 * kMiB + 4; // requests to hosts are for whole granules of more than 4 bytes
     MemoryHost world(kBytes);
     vk::Device device(world.host->ownerHandles(), testKernels());
     const std::string message = messageOf([&] { const vk::Buffer most(device, "most", kBytes); }, ErrorCode::Memory);
@@ -148,7 +148,7 @@ TEST(MemoryCallbacks, AShortHostGetsSmallerBlocks)
 
 TEST(MemoryCallbacks, EveryRequestMayFail)
 {
-    // One alone: a smaller block, or another memory type, may do. All from one on: they do not.
+    // If one request fails, a smaller block or another memory type may do. If all later ones fail, nothing does.
     for (const std::uint64_t count : {std::uint64_t{1}, UINT64_MAX})
     {
         MemoryHost world;
@@ -156,7 +156,7 @@ TEST(MemoryCallbacks, EveryRequestMayFail)
         bool failed = true;
         for (std::uint64_t number = 0; failed; ++number)
         {
-            vk::Device device(world.host->ownerHandles(), testKernels()); // without blocks yet
+            vk::Device device(world.host->ownerHandles(), testKernels()); // it has no blocks yet
             world.memory.failRequests(number, count,
                                       number % 2 == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY : VK_ERROR_OUT_OF_HOST_MEMORY);
             bool thrown = false;
@@ -226,7 +226,7 @@ TEST(MemoryCallbacks, NeedBothFunctions)
     EXPECT_NE(message.find("release"), std::string::npos) << message;
 }
 
-/// Makes what zvo makes on a device, and runs nothing.
+/// Makes everything that zvo makes on a device, and runs nothing.
 void create(vk::Device& device)
 {
     const vk::Buffer small(device, "small", 1000);
@@ -238,7 +238,10 @@ void create(vk::Device& device)
     device.kernels().get("test/scale");
 }
 
-/// A host with an allocator of its own for what the driver allocates on the host, in what zvo creates.
+/// A host with an allocator for the driver's host memory, which only zvo's objects use. lavapipe (Mesa 22.3.6) does not
+/// support one in vkCreateDevice: vkCreatePipelineLayout, which uses the device's allocator, crashes when that fails,
+/// and vkQueueSubmit frees memory that was not allocated by it (of pipelines, which vkDestroyPipeline leaves to the
+/// next submission).
 //
 // Only there: lavapipe (Mesa 22.3.6) does not bear one that is given to vkCreateDevice. vkCreatePipelineLayout, which
 // takes its memory from the device's, then crashes where that fails, and vkQueueSubmit frees memory that it did not
@@ -276,7 +279,7 @@ TEST(AllocationCallbacks, AreUsedForEverythingAndGetEverythingBack)
 TEST(AllocationCallbacks, EveryAllocationMayFail)
 {
     AllocatorHost world;
-    std::set<std::string> failures; // the calls that were said to have failed
+    std::set<std::string> failures; // functions that reported failures
     bool failed = true;
     for (std::uint64_t number = 0; failed; ++number)
     {

@@ -14,7 +14,7 @@
 namespace zvo
 {
 
-/// What the headers below tests/kernels declare.
+/// The kernels that the headers below tests/kernels declare.
 std::vector<vk::KernelDeclaration> testKernelDeclarations();
 
 namespace
@@ -22,7 +22,7 @@ namespace
 
 using gpu::test::Specialized;
 
-// What compiles.
+// Concepts that tell which declarations compile.
 template <typename Value>
 concept ValueTakes = requires(Value value)
 {
@@ -86,7 +86,7 @@ TEST(KernelDeclaration, OfTheTestsAreThoseOfTheirModules)
     EXPECT_EQ(vk::differences(testKernelDeclarations(), testKernels()), std::vector<std::string>{});
 }
 
-// What differs once wrong has made one kernel's declaration another one.
+// The differences reported after wrong has changed the declaration of a kernel.
 template <typename Kernel, typename Wrong> std::vector<std::string> differencesOnceWrong(const Wrong& wrong)
 {
     std::vector<vk::KernelDeclaration> declarations = testKernelDeclarations();

@@ -61,7 +61,7 @@ TEST(Kernel, OneChoiceOfConstantsIsOnePipeline)
     EXPECT_EQ(kernels.get("test/specialized", {16}).interface.local_size[0], 16u);
 }
 
-// The words of a kernel that is embedded.
+// The words of an embedded kernel.
 std::vector<std::uint32_t> wordsOf(std::string_view name)
 {
     const auto kernels = testKernels();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a host is told.
+// Messages to a host.
 #include "support/host_device.h"
 #include "vk/kernels.h"
 #include "zvo/error.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Devices that look smaller than they are, and passes that a host spreads over pieces.
+// Devices with reduced limits, and passes that a host splits into pieces.
 #include "vk/kernels.h"
 
 #include "zvo/error.h"

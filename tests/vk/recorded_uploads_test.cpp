@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What goes to the device, and comes back, with a frame.
+// Uploads and readbacks that are part of a frame.
 #include "support/device.h"
 #include "vk/deletion_queue.h"
 #include "vk/kernels.h"
@@ -49,7 +49,7 @@ TEST(RecordedUploads, ArriveWithTheFrameInTheirOrder)
                     EXPECT_EQ(&later, &deletion_queue);
                     g.copy(buffer, 0, copy, 0, copy.bytes());
                 });
-            EXPECT_EQ(device().device().memory().usedBytes(), used); // staging stays until the frame is done
+            EXPECT_EQ(device().device().memory().usedBytes(), used); // staging memory stays until the frame is done
             uploads.attach(nullptr);
         });
     deletion_queue.frameDone(1);
@@ -89,7 +89,7 @@ TEST(RecordedUploads, RefuseWhatDoesNotFit)
     BufferOf<gpu::uint> buffer(device().device(), "small", 4);
     EXPECT_THROW(uploads.upload(buffer, std::span<const gpu::uint>(countedFrom(0, 4)), 1), Error);
     EXPECT_THROW(uploads.upload(buffer, std::span<const gpu::uint>(countedFrom(0, 1)), UINT64_MAX / 8), Error);
-    uploads.upload(buffer, std::span<const gpu::uint>(), 4); // nothing, at the end
+    uploads.upload(buffer, std::span<const gpu::uint>(), 4); // an empty upload at the end
 }
 
 TEST(Readback, HoldsPartsOfSeveralBuffers)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How long submissions become, simulated: the planner knows neither device nor clock.
+// Simulations of submissions' durations. The planner knows neither device nor clock.
 #include "vk/slice_planner.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace
 using namespace zvo;
 using vk::SlicePlanner;
 
-/// Submits work whose units cost what cost_ms says; notes how long submissions took.
+/// Submits work whose units cost cost_ms, and notes how long submissions took.
 class Simulation
 {
 public:
@@ -153,7 +153,7 @@ TEST(SlicePlanner, CostsMeasuredByTheBoundAreForgottenWhenTheCountIsSeen)
     SlicePlanner planner({.submission_ms = 100});
     planner.beginRun();
     ASSERT_TRUE(planner.admitUnseen(1, 256));
-    planner.endSubmission(std::vector<double>{10.0}, 10.0); // of 256 at most, perhaps of one
+    planner.endSubmission(std::vector<double>{10.0}, 10.0); // at most 256 units, perhaps one
     planner.beginRun();
     ASSERT_FALSE(planner.admitUnseen(1, 1'000'000));
     planner.learnCount(1, 1'000'000, 10'000);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Work that is submitted without waiting for it.
+// Submissions that are not waited for at once.
 #include "vk/kernels.h"
 
 #include "support/failing_vulkan.h"
@@ -43,7 +43,7 @@ std::vector<std::string> names(const std::vector<vk::PassTime>& times)
     return result;
 }
 
-/// A frame with memory of its own: what it shows is read without another submission.
+/// A frame with its own memory, so that its picture is read without another submission.
 struct Frame
 {
     explicit Frame(vk::HeadlessDevice& device)
@@ -65,7 +65,7 @@ struct Frame
     Words values;
     Words scaled;
     Words shown;
-    vk::Submission submission; // last: it waits before the buffers go
+    vk::Submission submission; // last, because it waits before the buffers are destroyed
 };
 
 vk::Submission submitFrame(vk::HeadlessDevice& device, Frame& frame, gpu::uint factor)
@@ -128,7 +128,7 @@ TEST(Submission, PassTimesAreThoseOfItsOwnPassesHoweverOftenTheyAreAskedFor)
     EXPECT_EQ(names(one.wait()), std::vector<std::string>{"test/iota"});
     EXPECT_TRUE(nothing.wait().empty());
     EXPECT_GT(times.at(1).ms, one.wait().at(0).ms) << "65,536 times as much work";
-    for (int i = 0; i < 4; ++i) // others take its timers
+    for (int i = 0; i < 4; ++i) // later submissions use its timers
     {
         device().submit([&](vk::FrameGraph& graph) { graph.fill(small, 1); }).wait();
     }
@@ -146,7 +146,7 @@ TEST(Submission, WorkSeesWhatWasSubmittedBefore)
     submissions.push_back(device().submit([&](vk::FrameGraph& graph) { iota(graph, a); }));
     for (gpu::uint i = 0; i < 200; ++i)
     {
-        const gpu::uint factor = 2 * i + 3; // odd: no bit of the first values is lost
+        const gpu::uint factor = 2 * i + 3; // odd, so that the first values lose no bits
         std::for_each(expected.begin(), expected.end(), [&](gpu::uint& value) { value *= factor; });
         const auto record = [&](vk::FrameGraph& graph)
         { scale(graph, i % 2 == 0 ? a : b, i % 2 == 0 ? b : a, factor); };
@@ -160,7 +160,7 @@ TEST(Submission, WorkSeesWhatWasSubmittedBefore)
         }
         if (i % 50 == 49)
         {
-            EXPECT_EQ(device().download(a), expected) << i; // nobody has waited
+            EXPECT_EQ(device().download(a), expected) << i; // without waiting for them
         }
     }
     const std::vector<gpu::uint> ones(kCount, 1);
@@ -213,7 +213,7 @@ TEST(Submission, NothingWaitsUntilAsManyAreInFlightAsMayBe)
         }
         EXPECT_EQ(test::callCount("vkQueueSubmit2"), most + 3);
         EXPECT_EQ(test::callCount("vkDeviceWaitIdle"), 0U);
-        submissions[2].wait(); // the oldest ones were waited for
+        submissions[2].wait(); // this waits for the oldest ones, too
         const std::uint64_t waits = waitCount();
         submissions[0].wait();
         submissions[1].wait();
@@ -229,7 +229,7 @@ TEST(Submission, DoneSaysWhetherItIsStillUnderWay)
     EXPECT_TRUE(vk::Submission().wait().empty());
     Words values(device().device(), "values", 1 << 24);
     bool seen_under_way = false;
-    for (int i = 0; i < 100 && !seen_under_way; ++i) // the device may be done before the host asks
+    for (int i = 0; i < 100 && !seen_under_way; ++i) // the device may be done before the host checks
     {
         vk::Submission submission = device().submit(
             [&](vk::FrameGraph& graph)
@@ -263,7 +263,7 @@ TEST(Submission, DestroyingOneWaits)
     EXPECT_EQ(frame.result(), multiples(7));
     frame.submission = submitFrame(shimmed, frame, 9);
     EXPECT_EQ(waitCount(), 1U);
-    frame.submission = vk::Submission(); // so does replacing it
+    frame.submission = vk::Submission(); // replacing it waits, too
     EXPECT_EQ(waitCount(), 2U);
     EXPECT_EQ(frame.result(), multiples(9));
     vk::Submission moved = submitFrame(shimmed, frame, 11);
@@ -331,7 +331,7 @@ TEST(Submission, RecordingThatThrowsLeavesNothingInFlight)
     EXPECT_EQ(third.result(), multiples(7));
 }
 
-// Nothing when it does not throw.
+// The error's code, or nothing if call does not throw.
 template <typename Call> std::optional<ErrorCode> errorOf(const Call& call)
 {
     try
@@ -383,7 +383,7 @@ TEST(Submission, AFailureIsToldByTheOneThatFailed)
     Frame second(shimmed);
     submitFrame(shimmed, first, 3).wait();
     first.submission = submitFrame(shimmed, first, 5);
-    test::failCall(0, VK_ERROR_OUT_OF_HOST_MEMORY); // waiting for the first
+    test::failCall(0, VK_ERROR_OUT_OF_HOST_MEMORY); // the wait for the first one fails
     second.submission = submitFrame(shimmed, second, 7);
     EXPECT_EQ(test::failedFunction(), "vkWaitForFences");
     second.submission.wait();
@@ -395,7 +395,7 @@ TEST(Submission, EveryCallThatFailsIsAnErrorAndLeavesADeviceThatGoesOn)
 {
     {
         vk::HeadlessDevice shimmed(shimmedOptions(2), testKernels());
-        // Returns whether the three frames were made, and expects them to be right then.
+        // Returns whether the three frames were made. If so, they must be right.
         const auto work = [&]
         {
             std::deque<Frame> frames;
@@ -410,7 +410,7 @@ TEST(Submission, EveryCallThatFailsIsAnErrorAndLeavesADeviceThatGoesOn)
                 EXPECT_EQ(frames[i].result(), multiples(i + 3)) << "in spite of " << test::failedFunction();
             }
         };
-        work(); // kernels and flights are made
+        work(); // makes kernels and flights
         test::failCall(UINT64_MAX);
         work();
         const std::uint64_t call_count = test::fallibleCallCount();
@@ -477,7 +477,7 @@ TEST(Submission, WaitsForSemaphoresAndSignalsThem)
     {
         Frame first(own);
         Frame second(own);
-        // Validation speaks where a binary semaphore is waited for that nothing has signalled, or is signalled twice.
+        // The validation layers would report waits for a binary semaphore without a signal, and double signals.
         for (gpu::uint turn = 1; turn <= 3; ++turn)
         {
             const vk::Submission one =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images of a window: what becomes of them when it is resized, late or lost.
+// Images of a window when it is resized, late or lost.
 #include "vk/swapchain.h"
 
 #include "support/fake_surfaces.h"
@@ -52,7 +52,7 @@ protected:
             std::make_unique<vk::Swapchain>(device, test::makeFakeSurface, vk::SwapchainOptions{mode, kFramesInFlight});
     }
 
-    /// Shows a frame as a program does; whether there was an image for it.
+    /// Shows a frame as a program does. Returns whether there was an image for it.
     bool show(VkExtent2D framebuffer = kExtent)
     {
         while (m_flights.size() >= kFramesInFlight)

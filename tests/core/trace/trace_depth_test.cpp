@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Depth of pictures in a host's convention, against projections in double precision, and composited with planes.
+// Depth of pictures in a host's convention, against projections in double precision, and in compositions with planes.
 #include "core/trace/trace_depth.h"
 #include "support/engine_device.h"
 #include "support/errors.h"
@@ -21,24 +21,24 @@ namespace zvo
 namespace
 {
 
-constexpr double kUnit = 1.0 / (1 << 24);       // a rounding's share of a single precision number
-constexpr double kDepthError = 1.0 / (1 << 19); // what core/trace/trace_depth.h states
+constexpr double kUnit = 1.0 / (1 << 24);       // relative rounding of single precision
+constexpr double kDepthError = 1.0 / (1 << 19); // as core/trace/trace_depth.h states
 
 using test::device;
 
-/// A host's projection, built as hosts do.
+/// A host's projection, made as hosts do.
 struct Projection
 {
     const char* name;
     bool orthographic;
     bool reversed;
     double near;
-    double far; // INFINITY: none
+    double far; // INFINITY: no far plane
 
-    // World to clip space of a picture with this aspect, y down as Vulkan has it.
+    // From world to clip space, for a picture with this aspect. y points down, as in Vulkan.
     [[nodiscard]] glm::dmat4 matrix(const ViewCamera& view, double aspect) const
     {
-        glm::dmat4 to_view(1.0); // the viewer looks along -z, y is up
+        glm::dmat4 to_view(1.0); // the viewer looks along -z, with y up
         for (int i = 0; i < 3; ++i)
         {
             to_view[i][0] = view.right[i];
@@ -76,7 +76,7 @@ struct Projection
 
     [[nodiscard]] float miss() const { return reversed ? 0.0F : 1.0F; }
 
-    // By how much rounding of numbers below 1 is magnified where the near plane is far away.
+    // The factor by which rounding of numbers below 1 is magnified if the near plane is far away.
     [[nodiscard]] double magnification() const { return std::isinf(far) ? 1.0 : std::max(1.0, far / (far - near)); }
 };
 
@@ -98,10 +98,10 @@ constexpr Projection kProjections[] = {
 struct Ray
 {
     glm::dvec3 origin;
-    glm::dvec3 direction; // as long as one unit along the view's axis
+    glm::dvec3 direction; // one unit along the view's axis
 };
 
-// The ray through a pixel's centre, after ViewCamera's definition and nothing else.
+// The ray through a pixel's centre, from ViewCamera's definition alone.
 Ray rayOf(const ViewCamera& view, std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height)
 {
     const double half_height = view.orthographic ? view.half_height : std::tan(0.5 * view.vertical_fov);
@@ -113,7 +113,7 @@ Ray rayOf(const ViewCamera& view, std::uint32_t x, std::uint32_t y, std::uint32_
 
 struct DepthPicture
 {
-    std::vector<gpu::Hit> hits; // misses in dead tiles, too
+    std::vector<gpu::Hit> hits; // in dead tiles: misses
     std::vector<float> depth;
 };
 
@@ -149,7 +149,7 @@ ViewCamera viewFor(const Projection& projection, const glm::dvec3& eye, const gl
     return view;
 }
 
-// Where an exact ray comes into the voxel, or node, that a hit names, by the face that it names: no t is asked for.
+// The point at which an exact ray enters the voxel, or node, of a hit, through the hit's face. The hit's t is not used.
 struct Entry
 {
     int axis;
@@ -214,7 +214,7 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
         const Grid& grid = octree.grid;
         const double edge = static_cast<double>(grid_case.voxel_size) * grid.resolution();
         const glm::dvec3 corner(grid_case.origin);
-        Projection projection = GetParam(); // for things 64 units large
+        Projection projection = GetParam(); // for scenes 64 units large
         projection.near *= edge / 64.0;
         projection.far *= edge / 64.0;
         const ViewCamera view = viewFor(projection, corner + edge * glm::dvec3(1.2, 1.0, 1.4),
@@ -238,8 +238,8 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
                 }
                 const Ray ray = rayOf(view, x, y, kWidth, kHeight);
                 const Entry entry = entryOf(grid, hit, ray);
-                // Rays are made in single precision: the origin in unit space, the direction by three roundings. What
-                // that moves the point along the ray grows where the face is seen edge-on.
+                // Rays are made in single precision: the origin in unit space, the direction by three roundings. The
+                // error along the ray grows if the face is seen edge-on.
                 const double unit_edge = double(grid_case.voxel_size) * grid.rootResolution();
                 const double origin_size = glm::length((ray.origin - corner) / unit_edge) + 2.0;
                 const double moved = kUnit *
@@ -252,7 +252,7 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
                 ASSERT_NEAR(picture.depth[i], expected, slope * moved + rounding)
                     << "pixel " << x << ", " << y << ", axis " << entry.axis;
 
-                // The picture's rays are those of the host's matrix: the point is at the pixel's centre.
+                // The picture's rays agree with the host's matrix: the point is projected to the pixel's centre.
                 const glm::dvec4 clip = matrix * glm::dvec4(entry.point, 1.0);
                 ASSERT_NEAR(clip.x / clip.w, (2.0 * x + 1.0) / kWidth - 1.0, 1e-9);
                 ASSERT_NEAR(clip.y / clip.w, (2.0 * y + 1.0) / kHeight - 1.0, 1e-9);
@@ -263,7 +263,7 @@ TEST_P(TraceDepthProjections, IsThatOfTheFaceThroughWhichTheRayEntersItsVoxel)
     }
 }
 
-// What the pixel's ray meets first, exactly, or a host's depth test decides.
+// The first thing on a pixel's ray, computed exactly, or by a host's depth test.
 enum class Winner
 {
     Background,
@@ -271,7 +271,7 @@ enum class Winner
     Voxels
 };
 
-// Boxes and a round piece of a plane in world space.
+// Boxes, and a disc of a plane, in world space.
 struct Geometry
 {
     struct Box
@@ -284,7 +284,8 @@ struct Geometry
     glm::dvec3 middle;
     double radius;
 
-    // Where a ray enters the first box, all of them grown by as much in all directions; infinite: nowhere.
+    // The distance at which a ray enters the first box; infinite if it misses. grown: added to the boxes in all
+    // directions.
     [[nodiscard]] double boxDistance(const Ray& ray, double grown = 0.0) const
     {
         double nearest = INFINITY;
@@ -300,7 +301,7 @@ struct Geometry
         return nearest;
     }
 
-    // The same for the plane, shifted along its normal.
+    // The distance at which a ray meets the disc, which is shifted along its normal.
     [[nodiscard]] std::optional<double> planeDistance(const Ray& ray, double shifted = 0.0) const
     {
         const double distance = (glm::dot(normal, middle - ray.origin) + shifted) / glm::dot(normal, ray.direction);
@@ -314,19 +315,19 @@ Winner nearer(double box, std::optional<double> plane)
     return box < plane.value_or(INFINITY) ? Winner::Voxels : plane ? Winner::Plane : Winner::Background;
 }
 
-// A host draws a plane and puts the picture over it, pixel by pixel, where its depth test passes.
+// A host draws a plane, and the picture over it at the pixels that pass its depth test.
 void expectComposited(const DeviceTree& octree, const Geometry& geometry, const Projection& projection)
 {
     constexpr std::uint32_t kWidth = 163;
     constexpr std::uint32_t kHeight = 123;
-    // Units by which surfaces may be off: 5e-5 by the rays' rounding at these distances, and by rounding of depth 5e-4
-    // where it is coarsest: 100 away with the near plane at 4. A pixel is 0.4 wide there.
+    // Tolerated error of surfaces, in units. The rays' rounding gives 5e-5 at these distances; rounding of depth gives
+    // up to 5e-4, at 100 away with the near plane at 4. A pixel is 0.4 wide there.
     constexpr double kTolerance = 1e-3;
     const ViewCamera view = viewFor(projection, {75.0, 61.0, 88.0}, {30.0, 29.0, 31.0});
     const glm::dmat4 matrix = projection.matrix(view, double(kWidth) / kHeight);
     const DepthPicture picture = take(octree, view, ClipDepth::of(matrix, projection.miss()), kWidth, kHeight);
     std::vector<Winner> expected(picture.depth.size());
-    std::size_t open_count = 0; // pixels at which moving an edge by the tolerance changes the answer
+    std::size_t open_count = 0; // pixels whose answer changes when an edge moves by the tolerance
     for (std::uint32_t y = 0; y < kHeight; ++y)
     {
         for (std::uint32_t x = 0; x < kWidth; ++x)
@@ -351,7 +352,7 @@ void expectComposited(const DeviceTree& octree, const Geometry& geometry, const 
                 << "pixel " << x << ", " << y << ": depth " << picture.depth[i] << ", the plane's " << drawn;
         }
     }
-    // There are silhouettes before the plane and before nothing, and lines along which voxels and the plane meet.
+    // There are silhouettes before the plane and the background, and lines where voxels and the plane meet.
     std::size_t edge_count = 0;
     std::size_t before_nothing = 0;
     for (std::size_t i = 1; i < expected.size(); ++i)
@@ -366,7 +367,7 @@ void expectComposited(const DeviceTree& octree, const Geometry& geometry, const 
     EXPECT_LT(open_count, 1 + edge_count / 10);
 }
 
-// Every voxel's box.
+// The boxes of voxels.
 std::vector<Geometry::Box> boxesWhere(std::uint32_t depth, const std::function<bool(const glm::ivec3&)>& inside)
 {
     std::vector<Geometry::Box> boxes;
@@ -406,7 +407,7 @@ TEST_P(TraceDepthProjections, ABoxIsCompositedWithAPlaneAsExactGeometrySays)
 
 TEST_P(TraceDepthProjections, ASphereIsCompositedWithAPlaneAsItsVoxelsSay)
 {
-    constexpr std::uint32_t kDepth = 4; // few voxels: each pixel looks at all of them
+    constexpr std::uint32_t kDepth = 4; // few voxels, since each pixel tests all of them
     const auto inside = [](const glm::ivec3& voxel)
     {
         const double distance = glm::length(glm::dvec3(voxel) + 0.5 - glm::dvec3(8.0));
@@ -427,7 +428,7 @@ TEST_P(TraceDepthProjections, ASphereIsCompositedWithAPlaneAsItsVoxelsSay)
     expectComposited(octree, geometry, GetParam());
 }
 
-// Rows that have nothing to do with the camera, so that z and w change with the pixel, too.
+// The rows of the transform are independent of the camera, so that z and w change with the pixel, too.
 TEST(TraceDepth, TakesAnyTransform)
 {
     constexpr std::uint32_t kWidth = 67;
@@ -452,7 +453,7 @@ TEST(TraceDepth, TakesAnyTransform)
                 {
                     const Entry entry = entryOf(octree.grid, picture.hits[i], rayOf(view, x, y, kWidth, kHeight));
                     const glm::dvec4 point(entry.point, 1.0);
-                    // 1e-5: faces may be seen so much edge-on that the point moves by 1e-3.
+                    // 1e-5: on faces that are seen edge-on the point may move by 1e-3
                     ASSERT_NEAR(picture.depth[i], glm::dot(clip.z, point) / glm::dot(clip.w, point), 1e-5);
                     ++hit_count;
                 }
@@ -464,7 +465,7 @@ TEST(TraceDepth, TakesAnyTransform)
 
 TEST(TraceDepth, PointsBeforeTheNearPlaneAndBehindTheFarOneHaveTheirDepth)
 {
-    // A wall at z = 3 to 4, seen from z = 24: 20 away.
+    // A wall at z = 3 to 4, seen from z = 24, which is 20 away.
     const DeviceTree octree =
         test::octreeOf(device(), test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; }), 4);
     const ViewCamera view = ViewCamera::lookAt({8, 8, 24}, {8, 8, 0}, 0.2);

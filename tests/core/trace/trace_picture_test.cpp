@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures: what may change how they are made but not what they show.
+// Options that change how pictures are made do not change what they show.
 #include "core/base/kernels.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_passes.h"
@@ -32,7 +32,7 @@ Picture takeAny(const DeviceTree& octree, const TraceCamera& camera, std::uint32
     return test::takePicture(device(), octree, camera, width, height, options);
 }
 
-/// A picture all of whose rays got an answer.
+/// Takes a picture, and expects that all of its rays got an answer.
 Picture take(const DeviceTree& octree, const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
              const TraceOptions& options)
 {
@@ -159,7 +159,7 @@ TEST(TracePicture, ThePrivateStackIsForCpusAlone)
 
 TEST(TracePicture, EveryStackSurvivesRaysThatLeaveAndReturn)
 {
-    // Deep enough that rays begin below the root, which they come back to on their way out.
+    // The octree is so deep that rays begin below the root, to which they return on their way out.
     std::mt19937 random(8);
     DeviceTree octree = test::octreeOf(device(), test::randomCodes(9, 4000, random), 9);
     test::addAttributes(device(), octree);
@@ -243,7 +243,7 @@ TEST(TracePicture, SizesThatDoNotFillTilesLeaveNothingUnwritten)
 
 TEST(TracePicture, MoreLiveTilesThanOneRowOfWorkgroupsAreAllTraced)
 {
-    // Inside a shell every tile lives. The tiles past the first row of workgroups do not fill the last one.
+    // Inside a shell every tile is live. The tiles past the first row of workgroups do not fill the last row.
     const DeviceTree octree = test::octreeOf(device(), test::sphereShell(5, 14.0), 5);
     const ViewCamera view = ViewCamera::lookAt(glm::dvec3(16.0), glm::dvec3(17.0, 16.5, 16.2), 1.0);
     constexpr std::uint32_t kWidth = 8 * 331;
@@ -275,7 +275,7 @@ TEST(TracePicture, EveryViewOfAnEmptyOctreeIsBackground)
 
 TEST(TracePicture, ViewsShowWhatTheyAreNamedAfter)
 {
-    // One wall of voxels across the grid, seen from the front, that fills the picture.
+    // A wall of voxels across the grid fills the picture, seen from the front.
     const test::Codes codes = test::codesWhere(4, [](const glm::uvec3& voxel) { return voxel.z == 3; });
     DeviceTree octree = test::octreeOf(device(), codes, 4);
     const std::vector<gpu::Attribute> attributes(codes.size(), {200U | 100U << 8 | 50U << 16, 0U}); // normal +z
@@ -290,8 +290,8 @@ TEST(TracePicture, ViewsShowWhatTheyAreNamedAfter)
     };
     EXPECT_EQ(pixel(front, View::Albedo), 200U | 100U << 8 | 50U << 16);
     EXPECT_EQ(pixel(front, View::Normal), 128U | 128U << 8 | 255U << 16);
-    EXPECT_EQ(pixel(back, View::Normal), 128U | 128U << 8 | 0U << 16); // two-sided: turned towards the viewer
-    // The wall's face is 20 voxels away, the grid's are 8 and 24.
+    EXPECT_EQ(pixel(back, View::Normal), 128U | 128U << 8 | 0U << 16); // two-sided, so it is turned towards the viewer
+    // The wall's face is 20 voxels away, the grid's faces are at 8 and 24.
     const auto depth = static_cast<gpu::uint>(255.0 * (1.0 - 0.9 * (20.0 - 8.0) / (24.0 - 8.0)) + 0.5);
     EXPECT_EQ(pixel(front, View::Depth), depth * (1U + (1U << 8) + (1U << 16)));
     EXPECT_NE(pixel(front, View::Iterations), 0U);
@@ -299,7 +299,7 @@ TEST(TracePicture, ViewsShowWhatTheyAreNamedAfter)
 
 TEST(TracePicture, AWallShadesWhatIsBehindIt)
 {
-    // A floor, and a roof over half of it; the sun is straight above.
+    // A floor, with a roof over half of it; the sun is straight above.
     const test::Codes codes =
         test::codesWhere(5, [](const glm::uvec3& voxel) { return voxel.y == 0 || (voxel.y == 12 && voxel.x < 16); });
     const DeviceTree octree = test::octreeOf(device(), codes, 5);
@@ -316,7 +316,7 @@ TEST(TracePicture, AWallShadesWhatIsBehindIt)
 
 TEST(TracePicture, OcclusionDarkensCorners)
 {
-    // A floor and a wall behind it, seen from above, in the shade.
+    // A floor and a wall behind it, in the shade, seen from above.
     const DeviceTree octree = test::octreeOf(
         device(), test::codesWhere(6, [](const glm::uvec3& v) { return v.y == 0 || (v.z == 0 && v.y < 30); }), 6);
     const TraceCamera camera = traceCamera(ViewCamera::lookAt({32, 60, 33}, {32, 0, 32}, 0.9), octree.grid, 64);
@@ -369,7 +369,7 @@ TEST(TracePicture, OcclusionRaysOfAPixelShareItsIterations)
     options.shadows = false;
     options.occlusion_reach = 1.0F;
     options.occlusion_rays = 1;
-    options.iterations_max = 100; // enough for any ray, not for all of a pixel
+    options.iterations_max = 100; // enough for each ray, but not for all rays of a pixel
     const Picture one = take(octree, camera, 64, 64, options);
     options.occlusion_rays = 64;
     const Picture capped = takeAny(octree, camera, 64, 64, options);

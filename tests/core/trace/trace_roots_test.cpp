@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Roots that a dynamic update makes: their nodes stand behind those of the octree that it changed, or there are none.
+// Roots of dynamic updates: their nodes stand behind those of the octree that was changed, or there are none.
 #include "core/trace/trace.h"
 #include "oracle/morton.h"
 #include "support/engine_device.h"
@@ -26,7 +26,7 @@ using test::Picture;
 using test::Relocated;
 using test::takePicture;
 
-constexpr std::uint32_t kFar = 100000; // nodes: more than 16 bits can number
+constexpr std::uint32_t kFar = 100000; // nodes; does not fit 16 bits
 constexpr std::array kRootViews = {View::Color, View::Albedo,     View::Normal, View::Depth,
                                    View::Level, View::Iterations, View::Voxel,  View::Bricks};
 constexpr std::array kStacks = {TraceStack::Registers, TraceStack::Private, TraceStack::Shared};
@@ -40,7 +40,7 @@ DeviceTree withAttributes(const test::Codes& codes, std::uint32_t depth)
     return octree;
 }
 
-// nodes: the hits are nodes where a level of detail stopped, unless they are voxels.
+// nodes: hits are nodes at which a level of detail stopped, or voxels.
 void expectSameHit(const gpu::Hit& expected, const gpu::Hit& hit, const Relocated& relocated)
 {
     ASSERT_EQ(hit.index == gpu::kHitMiss, expected.index == gpu::kHitMiss);
@@ -80,7 +80,7 @@ std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
     };
 }
 
-// What an update may leave: nothing changed but the root, everything changed, and both ways of numbering level 2.
+// Layouts of updates: only the root changed, everything changed, and both numberings of level 2.
 std::vector<test::RelocateOptions> updates()
 {
     return {
@@ -107,7 +107,7 @@ std::string traceOf(const DeviceTree& octree, std::size_t update, std::size_t nu
            std::to_string(number);
 }
 
-// Takes a picture of octree and of each of its relocations.
+// Compares pictures of octree and of its relocations.
 void expectSamePictures(const DeviceTree& octree, const std::vector<Relocated>& relocated, const ViewCamera& view,
                         std::uint32_t width, std::uint32_t height, const TraceOptions& options, std::size_t number)
 {
@@ -205,14 +205,14 @@ TEST(TraceRoots, LevelsOfDetailStopAtTheSameNodes)
     }
 }
 
-/// What beam.paths holds for a cell.
+/// The entry of beam.paths for a cell.
 struct Path
 {
     std::array<std::uint32_t, gpu::kPathLevels> nodes;
     bool operator==(const Path&) const = default;
 };
 
-// The nodes that contain each of kPathCells^3 cells, by going down from the root; 0 where there is none.
+// The nodes that contain each of kPathCells^3 cells, found by descent from the root; 0 if there is none.
 std::vector<Path> pathsOf(const std::vector<gpu::Node>& nodes)
 {
     std::vector<Path> paths;
@@ -240,7 +240,7 @@ std::vector<Path> pathsOf(const std::vector<gpu::Node>& nodes)
     return paths;
 }
 
-// As shaders/trace/trace.h describes them.
+// The paths on the device, decoded as shaders/trace/trace.h describes them.
 std::vector<Path> devicePathsOf(const DeviceTree& octree, const std::vector<gpu::Node>& nodes)
 {
     BeamGrid beam(device().device());
@@ -285,7 +285,7 @@ TEST(TraceRoots, RaysBeginAboveNodesThatPathsCannotName)
     std::uint32_t cut_count = 0;
     for (Path& path : expected)
     {
-        if (path.nodes[1] > kFar) // level 2 stands too far behind level 1
+        if (path.nodes[1] > kFar) // level 2 is too far behind level 1
         {
             path = {{path.nodes[0], 0, 0}};
             ++cut_count;
@@ -317,7 +317,7 @@ TEST(TraceRoots, LevelsOfTheOctreeThatWasChangedMayStay)
 
 TEST(TraceRoots, HalvesOfARootMayStandApart)
 {
-    // Nothing in the format says that the children of both halves are neighbours.
+    // The format allows the children of a node's two halves to be apart.
     std::mt19937 random(16);
     const DeviceTree octree = withAttributes(test::randomCodes(8, 20000, random), 8);
     Relocated relocated = test::relocate(device(), octree, {.touched_percent = 0});
@@ -350,11 +350,11 @@ TEST(TraceRoots, ARootThatWasEmptyInBetweenIsTheSame)
         DeviceTree octree = withAttributes(codes, depth);
         const DeviceTree nothing = test::octreeOf(device(), {}, depth);
         const gpu::Node root = device().download(octree.nodes, 0, 1).at(0);
-        // The bases of an empty root say nothing.
+        // The bases of an empty root have no meaning.
         const gpu::Node empty = {.mask_lo = 0, .base_lo = 12345, .mask_hi = 0, .base_hi = ~0U};
         BeamGrid beam(device().device());
         TraceBuffers buffers(device().device(), 99, 70);
-        // So close that tiles are narrower than the beam grid's cells.
+        // The camera is so close that tiles are narrower than the beam grid's cells.
         const glm::dvec3 voxel = glm::dvec3(oracle::mortonDecode(codes.front())) + 0.5;
         const glm::dvec3 eye = voxel + static_cast<double>(octree.grid.resolution()) * glm::dvec3(-0.4, -0.7, -2.5);
         const TraceCamera camera = traceCamera(ViewCamera::lookAt(eye, voxel, 0.008), octree.grid, 70);
@@ -397,7 +397,7 @@ TEST(TraceRoots, AnOctreeOfAnEmptyRootIsNeverHit)
         const gpu::Node empty = {.mask_lo = 0, .base_lo = 12345, .mask_hi = 0, .base_hi = ~0U};
         octree.nodes = device().makeBuffer("nodes", std::span(&empty, 1));
         octree.node_count = 1;
-        const test::Codes codes = test::randomCodes(depth, 20, random); // where rays aim at
+        const test::Codes codes = test::randomCodes(depth, 20, random); // where rays aim
         std::vector<gpu::Ray> rays;
         for (int i = 0; i < 500; ++i)
         {

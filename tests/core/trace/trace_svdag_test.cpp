@@ -56,7 +56,7 @@ struct Pair
     }
 };
 
-// Sets of voxels with much and with little to share, of one level of nodes and of several.
+// Sets of voxels that share much or little, with one or several levels of nodes.
 std::vector<std::pair<std::uint32_t, test::Codes>> codeSets()
 {
     std::mt19937 random(31);
@@ -80,7 +80,7 @@ bool showsAttributes(View view)
            view == View::Origin;
 }
 
-// with_index: hits know which attributes are theirs.
+// with_index: hits have the indices of their attributes.
 void expectSameHits(const std::vector<gpu::Hit>& expected, const std::vector<gpu::Hit>& hits,
                     const oracle::ReferenceDag& reference, std::uint32_t levels, bool with_index)
 {
@@ -102,7 +102,7 @@ void expectSameHits(const std::vector<gpu::Hit>& expected, const std::vector<gpu
     }
 }
 
-// Takes a picture of both trees.
+// Compares pictures of both trees.
 void expectSamePictures(const DeviceTree& octree, const DeviceTree& dag, const oracle::ReferenceDag& reference,
                         const TraceCamera& camera, std::uint32_t width, std::uint32_t height,
                         const TraceOptions& options, bool must_hit, bool table = true)

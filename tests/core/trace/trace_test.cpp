@@ -117,7 +117,7 @@ TEST(Trace, RaysThatUseUpTheirIterationsResumeToTheSameHits)
 
 TEST(Trace, RaysWithoutAnAnswerAreCounted)
 {
-    // A floor along x: rays just above it look into every cell, up to a wall at the end.
+    // A floor along x, and rays just above it, which test every cell up to a wall at the end.
     constexpr std::uint32_t kDepth = 7;
     const test::Codes codes = test::codesWhere(kDepth, [](const glm::uvec3& v) { return v.y == 64 || v.x == 127; });
     const DeviceTree octree = test::octreeOf(device(), codes, kDepth);
@@ -131,9 +131,9 @@ TEST(Trace, RaysWithoutAnAnswerAreCounted)
     }
     TraceOptions options;
     const std::vector<gpu::Hit> expected = traceOnDevice(octree, rays, options);
-    options.iterations_max = 16; // more than a sixteenth of what they need
+    options.iterations_max = 16; // more than a sixteenth of what the rays need
     const std::vector<gpu::Hit> in_rounds = traceOnDevice(octree, rays, options);
-    options.iterations_max = 10; // less
+    options.iterations_max = 10; // less than that
     const std::vector<gpu::Hit> hits = test::traceOnDevice(device(), octree, rays, options, 90);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {
@@ -145,7 +145,7 @@ TEST(Trace, RaysWithoutAnAnswerAreCounted)
 
 TEST(Trace, RaysAlongTheDeepestGridAreAnswered)
 {
-    // As above, but of single voxels: more than four times as many iterations as an invocation has.
+    // The same with single voxels, so that rays need more than four times an invocation's iterations.
     constexpr std::uint32_t kLast = (1U << Grid::kDepthMax) - 1;
     test::Codes codes;
     for (std::uint32_t x = 0; x <= kLast; ++x)
@@ -189,7 +189,7 @@ TEST(Trace, NoRayLeaksThroughAClosedSphere)
     for (int i = 0; i < 200000; ++i)
     {
         glm::vec3 direction(normal(random), normal(random), normal(random));
-        if (i % 3 == 0) // through many edges: small integer directions from corners of voxels
+        if (i % 3 == 0) // through many edges: small integer directions from voxel corners
         {
             direction = glm::vec3(glm::ivec3(random() % 9, random() % 9, random() % 9) - 4);
         }
@@ -234,7 +234,7 @@ TEST(Trace, InvalidRaysMiss)
     const std::size_t bad_count = rays.size();
     rays.push_back(good);
     rays.push_back(good);
-    rays.back().t_min = -5.0F; // taken as the smallest start
+    rays.back().t_min = -5.0F; // counts as the smallest start
     const std::vector<gpu::Hit> hits = traceOnDevice(octree, rays);
     for (std::size_t i = 0; i < hits.size(); ++i)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Views that show how voxels are stored, and what is told of one pixel.
+// Views of how voxels are stored, and reports on single pixels.
 #include "core/dynamic/dynamic_objects.h"
 #include "core/dynamic/dynamic_octree.h"
 #include "core/headless/compress.h"
@@ -95,10 +95,10 @@ TEST(TraceViews, EveryVoxelHasAColorOfItsOwn)
         different.insert(color);
     }
     ASSERT_GT(colors.size(), 1000U);
-    EXPECT_GT(different.size(), colors.size() * 98 / 100); // of 2^24, with some faces that are darker
+    EXPECT_GT(different.size(), colors.size() * 98 / 100); // of 2^24; some faces are darker
 }
 
-// What View::Bricks draws a hit's pixel with: 0 nothing, 1 to 3 the borders of leaves and larger nodes.
+// The border that View::Bricks draws at a hit's pixel: 0 none, 1 to 3 those of leaves and larger nodes.
 int borderOf(const DeviceHit& hit)
 {
     int rank = 0;
@@ -146,7 +146,7 @@ TEST(TraceViews, BricksAreAlbedoWithTheBordersOfNodes)
     }
 }
 
-/// A box that stands still, in the left half of the grid, and another one that moves into the right half.
+/// A static box in the left half of the grid, and another one that moves into the right half.
 class TwoBoxes
 {
 public:
@@ -194,7 +194,7 @@ private:
     std::unique_ptr<DynamicOctree> m_octree;
 };
 
-// Pixels that are grey, and those that are orange.
+// The numbers of grey and of orange pixels.
 std::array<int, 2> originCounts(const Picture& picture, bool object_is_right)
 {
     std::array<int, 2> counts{};
@@ -208,7 +208,7 @@ std::array<int, 2> originCounts(const Picture& picture, bool object_is_right)
         const std::array<int, 3> color = rgb(picture.image[i]);
         const bool is_orange = color[0] > color[1] + 20 && color[1] > color[2] + 20;
         EXPECT_TRUE(is_orange || (color[0] == color[1] && color[1] == color[2]));
-        const std::uint32_t middle = 1U << (2 * hit->level - 1); // of the grid's cells at that level
+        const std::uint32_t middle = 1U << (2 * hit->level - 1); // half the grid, in cells of that level
         EXPECT_EQ(is_orange, object_is_right && hit->cell.x >= middle) << "pixel " << i;
         ++counts[is_orange ? 1 : 0];
     }
@@ -228,7 +228,7 @@ TEST(TraceViews, WhatAnUpdateMadeIsOrange)
         const std::array<int, 2> counts = originCounts(take(boxes.tree(), camera, View::Origin), true);
         EXPECT_GT(counts[0], 100);
         EXPECT_GT(counts[1], 100);
-        // Leaves that a level of detail stops at: this box shares none with the other one.
+        // A level of detail stops at leaves, none of which the two boxes share.
         const std::array<int, 2> coarse = originCounts(take(boxes.tree(), camera, View::Origin, 4.0F), true);
         EXPECT_GT(coarse[0], 100);
         EXPECT_GT(coarse[1], 100);
@@ -288,7 +288,7 @@ TEST(InspectPixel, TellsWhatThePictureShows)
                 const gpu::Attribute& look = (is_voxel ? voxels : averages).at(hit->index);
                 EXPECT_EQ(report.look.color, look.color);
                 EXPECT_EQ(report.look.normal, look.normal);
-                // In an octree a node's child, or its voxel, has the index that the hit has.
+                // In an octree, a hit's index is that of the node's child or voxel.
                 const gpu::Node& node = nodes.at(report.node);
                 const auto bit = [&hit](int axis, std::uint32_t place) { return hit->cell[axis] >> place & 1U; };
                 const std::uint32_t child =

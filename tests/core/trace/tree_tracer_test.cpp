@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tracer that programs and hosts use, against the functions underneath.
+// The tracer of programs and hosts, compared with the functions below it.
 #include "core/trace/tree_tracer.h"
 
 #include "core/dynamic/dynamic_octree.h"
@@ -30,13 +30,13 @@ DeviceTree tracedShell(double radius)
     return octree;
 }
 
-// Pictures of one tracer.
+// Pictures by one tracer.
 class TracedPictures
 {
 public:
     TracedPictures() { tracer.resize(kTracedEdge, kTracedEdge); }
 
-    // Whether the picture took a beam grid. It must be the one that new buffers give.
+    // Whether the picture made a beam grid, which must equal one in new buffers.
     bool makesBeam(const DeviceTree& tree)
     {
         const std::uint32_t height = tracer.buffers().height;
@@ -121,7 +121,7 @@ TEST(TreeTracer, NoticesWhatADynamicOctreeShows)
     EXPECT_TRUE(pictures.makesBeam(dynamic.tree()));
     dynamic.frameLost();
     EXPECT_TRUE(pictures.makesBeam(dynamic.tree()));
-    dynamic.frameLost(); // nothing more has been recorded
+    dynamic.frameLost(); // nothing more was recorded
     EXPECT_FALSE(pictures.makesBeam(dynamic.tree()));
 }
 

@@ -54,7 +54,7 @@ TEST(SvdagLists, UnpackedAreWhatWasPacked)
 
 TEST(SvdagLists, EntriesFitIntoTheBaseOfANode)
 {
-    const std::uint64_t most = (std::uint64_t{1} << 31) - 8; // places, of nodes and entries
+    const std::uint64_t most = (std::uint64_t{1} << 31) - 8; // positions of nodes and entries
     EXPECT_TRUE((ListPacking{1000, most - 4000, 2}.fits()));
     EXPECT_FALSE((ListPacking{1000, most - 4000 + 8, 2}.fits()));
     EXPECT_TRUE((ListPacking{most / 4, 0, 2}.fits()));

@@ -37,7 +37,7 @@ TEST(TreeData, PoolsEndInZeros)
         const DeviceTree uploaded = uploadTree(device(), sample.tree);
         if (uploaded.isDag())
         {
-            std::vector<gpu::uint> entries; // of 16 bits: the samples are small
+            std::vector<gpu::uint> entries; // of 16 bits, as the samples are small
             for (const gpu::Node& node : device().download(uploaded.nodes, sample.tree.nodes.size()))
             {
                 for (const gpu::uint word : {node.mask_lo, node.base_lo, node.mask_hi, node.base_hi})

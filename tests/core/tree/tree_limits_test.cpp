@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is too large for the indices of kernels is refused.
+// Trees too large for the indices of kernels are refused.
 #include "core/tree/tree_limits.h"
 
 #include "core/tree/tree_data.h"

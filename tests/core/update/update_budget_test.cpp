@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How updates are spread over frames, simulated: the budget knows neither device nor clock.
+// Simulations of updates that are spread over frames. The budget knows neither device nor clock.
 #include "core/update/update_budget.h"
 
 #include "support/properties.h"
@@ -31,7 +31,7 @@ UpdateSlice slice(const std::string& name, std::size_t stage, std::uint64_t firs
     return {name, stage, first, count};
 }
 
-// Tells budget that units of name took ms.
+// Reports to budget that units of name took ms.
 void teach(UpdateBudget& budget, const std::string& name, std::uint64_t units, double ms)
 {
     UpdateSlice measured = slice(name, 0, 0, units);
@@ -57,7 +57,7 @@ TEST(UpdateBudget, WithoutABudgetEverythingIsOneFrames)
 
 TEST(UpdateBudget, ANewUpdateGoesByItsGuesses)
 {
-    // A millisecond a unit; divisible steps take what they guess to fit an eighth of the budget.
+    // A unit takes a millisecond. Divisible stages take what is guessed to fit an eighth of the budget.
     const std::vector<UpdateStage> stages{
         {"a", 3, false, 1.0}, {"b", 100, true, 1.0}, {"c", 6, false, 1.0}, {"d", 1, false, 1.0}};
     const UpdateBudget budget;
@@ -146,11 +146,11 @@ TEST(UpdateBudget, SlicesOfOneKindInAFrameAreMeasuredTogether)
 {
     UpdateBudget budget;
     std::vector<UpdateSlice> slices{slice("a", 0, 0, 1), slice("b", 1, 0, 10), slice("a", 2, 0, 9)};
-    slices[0].first_pass = 1; // the first pass is somebody else's
+    slices[0].first_pass = 1; // the first pass is not the budget's
     slices[0].pass_end = 3;
     slices[1].first_pass = 3; // recorded nothing
     slices[1].pass_end = 3;
-    slices[2].first_pass = 4; // one more of somebody else's
+    slices[2].first_pass = 4; // another foreign pass
     slices[2].pass_end = 5;
     budget.learn(slices, std::vector<PassTime>{{"x", 1000}, {"p", 1}, {"q", 2}, {"x", 1000}, {"p", 7}});
     EXPECT_DOUBLE_EQ(budget.predictMs({"a"}, 1), 1.0);
@@ -166,7 +166,7 @@ TEST(UpdateBudget, WhatWasNotTimedTeachesNothing)
     untimed.pass_end = 3;
     for (const std::vector<PassTime>& passes : std::vector<std::vector<PassTime>>{
              {},
-             {{"p", 1}, {"p", 1}}, // the timers were full
+             {{"p", 1}, {"p", 1}}, // the timers had no room for more
              {{"p", 1}, {"p", kNan}, {"p", 1}},
              {{"p", 1}, {"p", 1}, {"p", -1}},
              {{"p", 1}, {"p", kInfinity}, {"p", 1}},
@@ -188,20 +188,20 @@ TEST(UpdateBudget, WorkTooCheapToMeasureIsTakenWhole)
     EXPECT_EQ(budget.plan(stages, progress, 1).size(), 2u);
 }
 
-// A device that takes this long for a slice of some work.
+// The times of slices on a device.
 struct Cost
 {
     double fixed_ms = 0;
     double ms_per_unit = 0;
 };
 
-// Updates one after the other on a device whose times are known some frames later.
+// Runs updates in a row on a device that reports its times some frames later.
 class Simulation
 {
 public:
     explicit Simulation(std::size_t latency) : m_latency(latency) {}
 
-    /// One update; what each of its frames took.
+    /// Runs one update. Returns the time of each of its frames.
     std::vector<double> update(const std::vector<UpdateStage>& stages, const std::map<std::string, Cost>& costs,
                                double budget_ms)
     {
@@ -244,7 +244,7 @@ private:
     std::deque<Frame> m_in_flight;
 };
 
-// Two layers voxelized, their union, then the tree from the root down: 9.3 ms in all.
+// Two layers are voxelized and united, then the tree is made from the root down: 9.3 ms in all.
 const std::vector<UpdateStage> kUpdate{
     {"voxelize", 40'000, true}, {"voxelize", 20'000, true}, {"union", 3'000, true},       {"expand", 64},
     {"expand", 2'000},          {"expand", 3'000},          {"attributes", 50'000, true}, {"finish", 1}};
@@ -293,7 +293,8 @@ TEST(UpdateBudget, SteadyWorkKeepsToTheBudgetInAboutAsFewFramesAsThereCanBe)
 
 TEST(UpdateBudget, AWrongGuessCostsEachKindOfWorkTheFramesUntilItIsMeasured)
 {
-    // 32 times as slow as guessed. Of "expand", steps of 10 and 15 ms, not divisible, exceed the budget at any rate.
+    // All costs are 32 times as high as guessed. In "expand", slices of 10 and 15 ms exceed the budget in any case, as
+    // they cannot be divided.
     std::map<std::string, Cost> slow = kCosts;
     for (auto& [name, cost] : slow)
     {
@@ -324,7 +325,7 @@ TEST(UpdateBudget, ASuddenlySlowDeviceGetsShorterFramesAsSoonAsItIsKnown)
         EXPECT_EQ(countOver(frames, 2 * (1 + 1e-9)), latency + 1);
         EXPECT_LE(*std::max_element(frames.begin(), frames.end()), 16.0 * (1 + 1e-9));
         EXPECT_EQ(countOver(simulation.update(stages, times(fast, 8), 2), 2 * (1 + 1e-9)), 0u);
-        // And fast again: back to the five frames that it takes, in some updates' time.
+        // When the device is fast again, updates return to five frames within a few updates.
         std::vector<double> again;
         for (int i = 0; i < 3; ++i)
         {
@@ -342,7 +343,7 @@ TEST(UpdateBudget, OneLongFrameIsForgottenInTime)
     Simulation simulation(0);
     simulation.update(stages, usual, 2);
     const std::size_t before = simulation.update(stages, usual, 2).size();
-    simulation.update({{"a", 100, true}}, times(usual, 50), 2); // somebody else used the device
+    simulation.update({{"a", 100, true}}, times(usual, 50), 2); // another program used the device
     EXPECT_GT(simulation.update(stages, usual, 2).size(), before);
     simulation.update(stages, usual, 2);
     EXPECT_LE(simulation.update(stages, usual, 2).size(), before + 1);
@@ -350,7 +351,7 @@ TEST(UpdateBudget, OneLongFrameIsForgottenInTime)
 
 TEST(UpdateBudget, CostsThatSlicingCannotShortenDoNotMakeSlicesShrinkToNothing)
 {
-    // Every slice costs 3 ms, the budget is 2.
+    // Every slice costs 3 ms, but the budget is 2.
     const std::vector<UpdateStage> stages{{"a", 1'000'000, true}};
     Simulation simulation(0);
     for (int i = 0; i < 10; ++i)
@@ -391,7 +392,7 @@ TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
             }
 
             UpdateProgress progress;
-            UpdateProgress expected; // where the next slice begins
+            UpdateProgress expected; // beginning of the next slice
             const auto skipEmpty = [&]
             {
                 while (expected.stage < stages.size() && expected.unit == stages[expected.stage].units)
@@ -432,7 +433,7 @@ TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
                 RC_ASSERT(progress == expected);
                 if (expected.stage < stages.size())
                 {
-                    // No more would have fitted, but for the caution that new work asks for.
+                    // The slice could not have been larger, except for the caution with new work.
                     const UpdateStage& next = stages[expected.stage];
                     const std::uint64_t parts = (next.units + UpdateBudget::kParts - 1) / UpdateBudget::kParts;
                     const std::uint64_t least = !next.divisible || expected.unit != 0 ? 1 : std::min(parts, next.units);

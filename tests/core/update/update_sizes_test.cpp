@@ -70,7 +70,7 @@ TEST(UpdateSizes, CapacitiesStayWhileTheySuffice)
     EXPECT_GT(sizes.fitting(first).records, first.records);
 }
 
-// What is far too large goes, but not for a dynamic object that comes and goes.
+// Capacities that are far too large shrink, but not for a dynamic object that comes and goes.
 TEST(UpdateSizes, CapacitiesShrinkWhenLittleMovesForLong)
 {
     UpdateSizes sizes(false);
@@ -109,7 +109,7 @@ TEST(UpdateSizes, WhatFailedGetsMore)
     sizes.learn(failed(zvo::gpu::kFailedNodes, 5, 0), region, 1);
     EXPECT_GE(sizes.likelyNodes(), 5U);
     EXPECT_EQ(sizes.likelyVoxels(), 1U);
-    region.node_capacity = 1000; // counted below it: a level was not reached
+    region.node_capacity = 1000; // counted below the region's capacity, as a level was not reached
     sizes.learn(failed(zvo::gpu::kFailedNodes, 5, 0), region, 1);
     EXPECT_GE(sizes.likelyNodes(), 2000U);
     sizes.learn(failed(zvo::gpu::kFailedVoxels, 5, 640), region, 1);

@@ -27,7 +27,7 @@ using test::mixedScene;
 
 using test::device;
 
-/// Emission of every emissive voxel, by Morton code.
+/// The emission of every emissive voxel, by Morton code.
 std::map<std::uint64_t, gpu::uint> emissionOf(const DeviceTree& octree)
 {
     std::map<std::uint64_t, gpu::uint> result;
@@ -75,7 +75,7 @@ TEST(EmissionScale, OfSeveralScenesGivesTheBytesOfTheirUnion)
     }
     EXPECT_NE(emissionOf(build(dim, std::nullopt)), seen);
 
-    // A scene that does not emit is the same bytes but for the scale that it names.
+    // A scene without emission has the same bytes, except for its scale.
     const Scene dark = test::boxScene(glm::vec3(-3.0F), glm::vec3(-1.0F));
     EXPECT_TRUE(emissionOf(build(dark, 30.0F)).empty());
     EXPECT_EQ(device().download(build(dark, 30.0F).nodes).size(), device().download(build(dark, {}).nodes).size());

@@ -125,7 +125,7 @@ TEST(VoxelNormals, OfABoxPointOutwardsAlongTheAxes)
 {
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 4};
     Scene floor = test::triangleSoup({{0, 5, 0}, {0, 5, 16}, {16, 5, 16}, {0, 5, 0}, {16, 5, 16}, {16, 5, 0}});
-    for (const bool mirrored : {false, true}) // mirrored in x: the winding turns around, the normal stays
+    for (const bool mirrored : {false, true}) // mirroring in x reverses the winding, but not the normal
     {
         if (mirrored)
         {
@@ -171,7 +171,7 @@ TEST(VoxelNormals, OfASpherePointAwayFromItsCenter)
             outward = std::max(outward, angle);
             inward = std::max(inward, 180 - angle);
         }
-        // Flat normals follow the winding, which points all of them the same way; smooth ones were given.
+        // Flat normals follow the winding, which is the same for all; smooth ones are given.
         const double worst = smooth ? outward : std::min(outward, inward);
         EXPECT_LT(worst, smooth ? 3.0 : 6.0);
     }
@@ -219,7 +219,7 @@ TEST(NodeAttributes, AreTheMeansOfTheirChildren)
 TEST(Emission, IsTheMeanOverAllFragmentsOfAVoxel)
 {
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 4};
-    // A lamp, and a dark sheet that shares half of its voxels, in the same layer.
+    // A lamp, and a dark sheet in the same layer that shares half of its voxels.
     Scene scene =
         test::triangleSoup({{0, 5.5F, 0}, {0, 5.5F, 16}, {16, 5.5F, 16}, {0, 5.5F, 0}, {16, 5.5F, 16}, {16, 5.5F, 0}});
     scene.materials[0].emission = {20.0F, 10.0F, 5.0F};
@@ -249,13 +249,14 @@ TEST(Emission, IsTheMeanOverAllFragmentsOfAVoxel)
         const gpu::uint packed = emission[rank++];
         const double scale = std::exp2(static_cast<double>(packed >> 27) - 24) * built.octree.emission_scale;
         const glm::dvec3 radiance(scale * (packed & 511), scale * (packed >> 9 & 511), scale * (packed >> 18 & 511));
-        // A fragment of each triangle that touches the voxel: the lamp's share is between a third and one.
+        // Each triangle that touches the voxel gives a fragment, so the lamp's share is between a third and one.
         const double share = radiance.r / 20.0;
         EXPECT_GT(share, 0.3);
         EXPECT_LT(share, 1.01);
         EXPECT_NEAR(radiance.g, radiance.r / 2, 0.05);
         EXPECT_NEAR(radiance.b, radiance.r / 4, 0.05);
-        if ((codes[i] >> 9 & 1) != 0 && (codes[i] & 0b1001001) != 0) // x > 8: lamp only (the sheet's edge touches 8)
+        if ((codes[i] >> 9 & 1) != 0 &&
+            (codes[i] & 0b1001001) != 0) // x > 8 has only the lamp (the sheet's edge touches 8)
         {
             EXPECT_NEAR(radiance.r, 20.0, 0.1);
         }

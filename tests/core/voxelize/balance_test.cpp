@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much work big triangles are, in columns of the row blocks that are listed for them: counted, not timed.
+// The work of large triangles, counted as columns of their row blocks.
 #include "core/base/kernels.h"
 #include "core/voxelize/voxelize.h"
 #include "support/device.h"
@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Coverages, BalanceBothCoverages, testing::Values(Covera
 
 TEST_P(BalanceBothCoverages, TriangleOfAMillionVoxelsListsBlocksForItsAreaNotForItsBox)
 {
-    // Half of a box of 1448^2 columns: 1024^2 of them.
+    // Half of a box of 1448^2 columns, which is 1024^2.
     const std::uint64_t blocks = countBlocks({{1, 1, 10}, {1449, 1, 300}, {1, 1449, 200}}, 11, GetParam());
     EXPECT_GE(blocks * kBlockVoxels, 1024ULL * 1024) << "less than the triangle has";
     EXPECT_LE(blocks * kBlockVoxels, 1024ULL * 1024 * 5 / 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Coverage where the numbers become largest.
+// Coverage with the largest numbers.
 #include "core/base/kernels.h"
 #include "stress/compare_coverage.h"
 #include "support/device.h"
@@ -13,9 +13,9 @@ namespace zvo
 namespace
 {
 
-constexpr int kEnd = 1 << 29; // of the lattice
+constexpr int kEnd = 1 << 29; // end of the lattice
 
-/// count triangles whose coordinates are all drawn from values, for a grid of this depth.
+/// count triangles with coordinates drawn from values, for a grid of this depth.
 stress::Batch batchOf(std::uint32_t depth, std::size_t count, const std::vector<int>& values, std::mt19937& random)
 {
     stress::Batch batch{stress::Shape::Huge, depth, false, {}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Laws of the device's voxel sets (docs/voxelization.md, "Laws").
+// The laws of voxel sets (docs/voxelization.md, "Laws"), tested on the device.
 #include "io/gltf/gltf_loader.h"
 #include "oracle/snap.h"
 #include "runtime/octree_sha256.h"
@@ -33,7 +33,7 @@ VoxelSet voxelsOf(std::span<const LatticeTriangle> triangles, std::uint32_t dept
     return test::deviceVoxels(device(), triangles, depth, coverage);
 }
 
-/// What the laws are tried on: the triangles of one grid.
+/// Triangles of one grid, on which the laws are tested.
 struct Sample
 {
     std::string name;
@@ -46,9 +46,9 @@ std::vector<Sample> randomSamples(std::size_t count_max)
     std::vector<Sample> samples;
     for (std::uint32_t shape = 0; shape < stress::kShapeCount; ++shape)
     {
-        if (static_cast<Shape>(shape) == Shape::Huge) // mirrored coordinates that single precision does not hold
+        if (static_cast<Shape>(shape) == Shape::Huge) // single precision does not hold their mirrored coordinates
             continue;
-        // A pile on one grid and, but for Border, triangles that have no voxel in common.
+        // For each grid a pile and, except for Border, triangles without common voxels.
         for (const std::uint64_t number : {0, 1})
         {
             stress::Batch batch = stress::makeBatch(77, static_cast<Shape>(shape), number, count_max);
@@ -59,7 +59,7 @@ std::vector<Sample> randomSamples(std::size_t count_max)
     return samples;
 }
 
-/// A model on the lattice of the grid around it, or nothing where it is not there.
+/// A model on the lattice of the grid around it; nothing if the file is missing.
 std::optional<Sample> modelSample(const char* file, std::uint32_t depth)
 {
     const auto path = test::findScene(file);
@@ -134,10 +134,11 @@ TEST_P(CoverageLaws, TranslationByWholeVoxelsShiftsTheSet)
             glm::ivec3 shift{};
             for (int axis = 0; axis < 3; ++axis)
             {
-                const int reach = i == 0 ? 1 : resolution / 2; // bricks are cut differently in most cases
+                const int reach = i == 0 ? 1 : resolution / 2; // changes how bricks are cut, in most cases
                 shift[axis] = static_cast<int>(random() % static_cast<std::uint32_t>(2 * reach + 1)) - reach;
             }
-            // The one exception to the thin rule belongs to the grid's upper face, which does not move.
+            // Triangles in the grid's upper face are left out: the thin rule has an exception there, which does not
+            // move with them.
             LatticeTriangles triangles = sample.triangles;
             std::erase_if(triangles,
                           [&](const LatticeTriangle& t)
@@ -157,7 +158,8 @@ TEST_P(CoverageLaws, TranslationByWholeVoxelsShiftsTheSet)
             const VoxelSet before = voxelsOf(triangles, sample.depth, GetParam());
             const VoxelSet after = voxelsOf(moved(triangles, [&](const glm::ivec3& p) { return p + 256 * shift; }),
                                             sample.depth, GetParam());
-            // What moved out of the grid is gone, and what moved in was not in the first set: compare what both see.
+            // Voxels that move out of the grid are lost, and those that move in were not in the first set. So only the
+            // common part is compared.
             const VoxelSet there = test::mapped(before, sample.depth, [&](const glm::ivec3& v) { return v + shift; });
             const VoxelSet back = test::mapped(after, sample.depth, [&](const glm::ivec3& v) { return v - shift; });
             const VoxelSet again = test::mapped(back, sample.depth, [&](const glm::ivec3& v) { return v + shift; });
@@ -184,7 +186,7 @@ TEST(CoverageLaw, ConservativeSetHasThe48SymmetriesOfItsTriangles)
     }
 }
 
-/// The rule that symmetry makes of the thin rule.
+/// The thin rule with the conventions that symmetry turns the default into.
 ThinRule ruleUnder(const Symmetry& symmetry)
 {
     ThinRule rule;
@@ -210,7 +212,7 @@ VoxelSet oracleThin(const LatticeTriangles& triangles, std::uint32_t depth, cons
     return voxels;
 }
 
-/// Whether no convention decides: the major axis is the only largest one, and no column's centre has the plane at a
+/// Whether no convention matters: the major axis is the only largest one, and at no column's centre the plane is at a
 /// border between layers.
 bool isGeneric(const LatticeTriangle& triangle, std::uint32_t resolution)
 {
@@ -271,11 +273,11 @@ TEST(CoverageLaw, ThinSetHasThe48SymmetriesOfItsTrianglesWhereNoConventionDecide
 
 TEST(CoverageLaw, ThinSetOfAnImageIsTheImageUnderTheMirroredRule)
 {
-    std::size_t changed_count = 0; // images that differ from those of the set
+    std::size_t changed_count = 0; // images that differ from the set's
     for (Sample& sample : samples(150))
     {
         SCOPED_TRACE(sample.name);
-        sample.triangles.resize(std::min<std::size_t>(sample.triangles.size(), 600)); // the oracle takes its time
+        sample.triangles.resize(std::min<std::size_t>(sample.triangles.size(), 600)); // the oracle is slow
         const int resolution = 1 << sample.depth;
         const VoxelSet original = oracleThin(sample.triangles, sample.depth, {});
         for (const Symmetry& symmetry : test::symmetries())
@@ -292,7 +294,7 @@ TEST(CoverageLaw, ThinSetOfAnImageIsTheImageUnderTheMirroredRule)
     EXPECT_GT(changed_count, 100U) << "the samples have few borders and ties";
 }
 
-/// Each triangle cut in two at the middle of its first edge, which is on the lattice.
+/// Triangles, each cut in two at the middle of its first edge, which is on the lattice.
 struct Halves
 {
     LatticeTriangles whole;
@@ -329,7 +331,7 @@ TEST(CoverageLaw, HalvesOfATriangleCoverItsConservativeSet)
     }
 }
 
-/// Whether the triangle has a point over the centre of the voxel's column along its major axis.
+/// Whether the triangle covers the centre of the voxel's column along its major axis.
 bool overColumnCenter(const LatticeTriangle& triangle, const glm::uvec3& voxel)
 {
     const oracle::Triangle t = stress::exact(triangle);
@@ -355,7 +357,7 @@ TEST(CoverageLaw, HalvesOfATriangleDifferFromItsThinSetOnlyBesideIt)
     std::size_t differing_count = 0;
     for (const Shape shape : {Shape::Random, Shape::Sliver, Shape::Needle, Shape::Tiny, Shape::Aligned})
     {
-        for (const std::uint64_t number : {1, 2, 4}) // no voxel in common
+        for (const std::uint64_t number : {1, 2, 4}) // without common voxels
         {
             const stress::Batch batch = stress::makeBatch(78, shape, number, 3000);
             ASSERT_TRUE(batch.disjoint);
@@ -422,7 +424,7 @@ TEST_P(CoverageLaws, PartsOfAMeshUniteToTheWhole)
             parts[random() % parts.size()].push_back(triangle);
         }
         VoxelSet sum;
-        Scene instances; // the same parts as primitives of one scene
+        Scene instances; // the same parts, as primitives of one scene
         for (const LatticeTriangles& part : parts)
         {
             sum = test::united(sum, voxelsOf(part, sample.depth, GetParam()));

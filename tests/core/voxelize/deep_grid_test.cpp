@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grids of depth 13 to 17, sparsely filled: brick keys of two words, lattice coordinates up to 2^25, long rows.
+// Sparse grids of depth 13 to 17, with brick keys of two words, lattice coordinates up to 2^25, and long rows.
 #include "core/headless/pipeline.h"
 #include "oracle/morton.h"
 #include "runtime/octree_sha256.h"
@@ -29,7 +29,7 @@ Grid unitGrid(std::uint32_t depth)
     return {.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
 }
 
-/// Small triangles of all shapes, of a 64th of a voxel to 60 voxels: all over the grid, along its faces and in its
+/// Small triangles of all shapes, from a 64th of a voxel to 60 voxels: all over the grid, along its faces, and in its
 /// first and last corner.
 Scene scatteredTriangles(std::uint32_t depth, std::size_t count)
 {
@@ -70,7 +70,7 @@ Scene scatteredTriangles(std::uint32_t depth, std::size_t count)
     return test::triangleSoup(corners);
 }
 
-/// Needles less than a voxel thick from one end of the grid to the other, and beyond.
+/// Needles, less than a voxel thick, that reach beyond both ends of the grid.
 Scene needles(std::uint32_t depth, std::size_t count)
 {
     const float end = std::ldexp(1.0F, static_cast<int>(depth));
@@ -89,7 +89,7 @@ Scene needles(std::uint32_t depth, std::size_t count)
     return test::triangleSoup(corners);
 }
 
-/// Triangles of millions of voxels that meet the grid in its corners alone.
+/// Triangles as large as millions of voxels, which meet the grid only in its corners.
 Scene cutCorners(std::uint32_t depth)
 {
     const float end = std::ldexp(1.0F, static_cast<int>(depth));
@@ -102,7 +102,7 @@ Scene cutCorners(std::uint32_t depth)
                        {onPlane(middle + 1.2e6F, middle - 5e5F, sum), onPlane(middle - 6e5F, middle + 1.1e6F, sum),
                         onPlane(middle - 6e5F, middle - 6e5F, sum)});
     }
-    // A corner of a long triangle that lies outside otherwise.
+    // The corner of a long triangle, the rest of which lies outside.
     corners.insert(corners.end(), {{end - 9, end - 7, end - 5}, {2e6F, 1.9e6F, end}, {1.9e6F, 2e6F, 1.5e6F}});
     return test::triangleSoup(corners);
 }
@@ -173,7 +173,7 @@ TEST(DeepGrids, CrampedBuffersGiveTheSameOctree)
 
 TEST(DeepGrids, VoxelsAFewThousandApartShareWordsOfTheirKeysAndStayApart)
 {
-    // Bricks at every multiple of 1024 bricks have the same lower word, those of one block the same upper word.
+    // Bricks at multiples of 1024 bricks have equal lower words; those of one block have equal upper words.
     std::vector<std::uint64_t> expected;
     std::vector<glm::vec3> corners;
     const auto add = [&](const glm::uvec3& voxel)
@@ -199,7 +199,8 @@ TEST(DeepGrids, VoxelsAFewThousandApartShareWordsOfTheirKeysAndStayApart)
     EXPECT_EQ(contents.codes, expected);
 }
 
-// Corners on the lattice of every depth, off the lower faces; vertex colours, light, and a blended surface.
+// Triangles with corners on the lattice of every depth, off the lower faces, and with vertex colours, emission and a
+// blended surface.
 Scene colorfulTriangles()
 {
     Scene scene = test::randomTriangles(6, 400, 256.0F);
@@ -253,7 +254,7 @@ TEST(DeepGrids, MovedByWholeVoxelsTheAttributesAreThoseOfAShallowGrid)
     }
 }
 
-// Rays through the voxels that device makes of scene equal the reference.
+// Expects that rays through the device's voxels of scene equal the reference.
 void expectRaysEqualTheReference(const Scene& scene, std::uint32_t depth, std::uint32_t ray_count)
 {
     const GpuScene gpu_scene = uploadScene(device(), scene, false);

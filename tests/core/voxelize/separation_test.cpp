@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Voxels of closed surfaces keep inside and outside apart: no path along faces of uncovered voxels leads through.
+// Voxels of closed surfaces separate inside and outside: no path through faces of uncovered voxels connects them.
 #include "io/gltf/gltf_loader.h"
 #include "oracle/winding.h"
 #include "support/engine_device.h"
@@ -22,16 +22,16 @@ using test::LatticeTriangles;
 
 using test::device;
 
-/// Triangles with shared corners, so that rounding the corners keeps it closed.
+/// Triangles with shared corners, so that the surface stays closed when corners are rounded.
 struct Solid
 {
     std::vector<glm::dvec3> points;
     std::vector<glm::uvec3> triangles;
-    /// Sure to be inside (1), sure to be outside (0), or too close to the surface to say (-1).
+    /// Whether a point is inside: 1 yes, 0 no, -1 too close to the surface.
     std::function<int(const glm::dvec3&)> inside = [](const glm::dvec3&) { return -1; };
 };
 
-/// A grid of columns x rows quads that closes on itself along both, or along columns with caps; outside is
+/// Adds a grid of columns x rows quads that is closed in both directions, or along columns with caps. The outside is
 /// right-handed.
 void addQuads(Solid& solid, std::uint32_t columns, std::uint32_t rows,
               const std::function<std::uint32_t(std::uint32_t column, std::uint32_t row)>& index)
@@ -74,7 +74,7 @@ Solid sphere(std::uint32_t rings)
              [&](std::uint32_t column, std::uint32_t row) {
                  return row == 0 ? 0 : row == rings ? 1 : 2 + (row - 1) * segments + column;
              });
-    const double sure = 1 - 12.0 / (rings * rings); // below what the faces cut off
+    const double sure = 1 - 12.0 / (rings * rings); // the faces cut off less than that
     solid.inside = [sure](const glm::dvec3& p) { return glm::length(p) < sure ? 1 : glm::length(p) > 1.001 ? 0 : -1; };
     return solid;
 }
@@ -122,7 +122,7 @@ Solid cube()
     return solid;
 }
 
-/// A model that is closed; its corners are shared by their places. Scaled into the unit sphere.
+/// A closed model, scaled into the unit sphere. Corners with the same position are shared.
 Solid model(const std::filesystem::path& path)
 {
     const Scene scene = loadGltf(path);
@@ -158,7 +158,7 @@ glm::dmat3 randomRotation(std::mt19937& random)
     return {x, glm::cross(z, x), z};
 }
 
-/// Where a solid stands in its grid: p becomes centre + size * rotation * p, in lattice units.
+/// The position of a solid in its grid: p becomes centre + size * rotation * p, in lattice units.
 struct Placement
 {
     glm::dmat3 rotation{1.0};
@@ -181,7 +181,7 @@ LatticeTriangles placed(const Solid& solid, const Placement& placement)
     return triangles;
 }
 
-/// A dense grid of bytes, x fastest.
+/// A grid with a byte for each voxel, x fastest.
 struct Field
 {
     std::uint32_t resolution;
@@ -203,7 +203,7 @@ constexpr std::uint8_t kFree = 0;
 constexpr std::uint8_t kCovered = 1;
 constexpr std::uint8_t kReached = 2;
 
-/// Marks everything that a path from outside of the grid along faces of free voxels reaches.
+/// Marks everything that a path from outside of the grid through faces of free voxels reaches.
 void flood(Field& field)
 {
     std::vector<glm::ivec3> open;
@@ -263,8 +263,8 @@ void expectSeparates(const Solid& solid, const Placement& placement, std::uint32
     const glm::dmat3 back = glm::transpose(placement.rotation);
     std::size_t inside_count = 0;
     std::size_t leaks = 0;
-    std::size_t steps_through = 0; // between free neighbours of different winding numbers
-    std::size_t misjudged = 0;     // winding numbers against what is sure about the solid
+    std::size_t steps_through = 0; // between free neighbours with different winding numbers
+    std::size_t misjudged = 0;     // winding numbers that contradict the solid
     for (glm::ivec3 v{0}; v.z < end; ++v.z)
     {
         for (v.y = 0; v.y < end; ++v.y)
@@ -315,7 +315,7 @@ void expectSeparatesInManyPlaces(const Solid& solid, std::uint32_t depth, int co
         {
             placement.rotation = randomRotation(random);
         }
-        else // faces on borders and centres of voxels, corners on both
+        else // faces on borders and on centres of voxels, corners on both
         {
             placement.center = glm::dvec3(edge / 2 + 128.0 * (i / 4 % 2));
             placement.size = 256.0 * std::floor(placement.size / 256);
@@ -330,7 +330,7 @@ TEST(Separation, OfSpheres)
 {
     expectSeparatesInManyPlaces(sphere(8), 5, 16);
     expectSeparatesInManyPlaces(sphere(48), 7, 4);  // triangles of a few voxels
-    expectSeparatesInManyPlaces(sphere(128), 6, 4); // and smaller than voxels
+    expectSeparatesInManyPlaces(sphere(128), 6, 4); // triangles smaller than voxels
 }
 
 TEST(Separation, OfCubes)
@@ -347,8 +347,8 @@ TEST(Separation, OfTori)
 
 TEST(Separation, OfSliversAndNeedles)
 {
-    // A sphere drawn out along an axis: its triangles are needles, and its sides are less than a voxel apart near the
-    // ends.
+    // A sphere stretched along an axis. Its triangles are needles, and near the ends its sides are less than a voxel
+    // apart.
     Solid solid = sphere(24);
     for (glm::dvec3& point : solid.points)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tiles of a grid are slices of it: voxels and attributes, bit for bit.
+// Tiles have the same voxels and attributes as the whole grid, bit for bit.
 #include "core/headless/pipeline.h"
 #include "support/engine_device.h"
 #include "support/materials_scene.h"
@@ -20,7 +20,7 @@ namespace
 
 using test::device;
 
-/// What one can see of an octree, in Morton order.
+/// The voxels of an octree and their attributes, in Morton order.
 struct Contents
 {
     std::vector<std::uint64_t> codes;
@@ -94,7 +94,7 @@ TEST_P(Tiles, OfEveryMaterialMakeTheWhole)
     }
 }
 
-// Large triangles, parts of them beyond the grid; wide keys.
+// Large triangles, partly beyond the grid, and wide keys.
 TEST_P(Tiles, OfLargeTrianglesMakeTheWhole)
 {
     const Scene scene = test::materialsScene(100.0F, 3);
@@ -102,7 +102,7 @@ TEST_P(Tiles, OfLargeTrianglesMakeTheWhole)
     expectTilesMakeTheWhole(scene, grid, 9, GetParam());
 }
 
-// Triangles without area have no major axis: which one is taken depends on what the window leaves of their boxes.
+// Triangles without area have no major axis. The axis taken depends on the part of their boxes that a tile has.
 TEST_P(Tiles, OfSegmentsAndPointsMakeTheWhole)
 {
     std::vector<glm::vec3> corners;
@@ -111,12 +111,12 @@ TEST_P(Tiles, OfSegmentsAndPointsMakeTheWhole)
         const glm::vec3 a(i * 7 % 61, i * 11 % 59, i * 13 % 53);
         const glm::vec3 b(i * 17 % 63, i * 5 % 57, i % 3 == 0 ? a.z : static_cast<float>(i * 23 % 47));
         corners.insert(corners.end(), {a, i % 5 == 0 ? a : b, 0.5F * (a + b)});
-        corners.insert(corners.end(), {a, a + glm::vec3(0.4F, 0.0F, 0.1F), b}); // some with area, for both coverages
+        corners.insert(corners.end(), {a, a + glm::vec3(0.4F, 0.0F, 0.1F), b}); // some have area, for both coverages
     }
     expectTilesMakeTheWhole(test::triangleSoup(corners), {glm::vec3(-1.0F), 1.0F, 6}, 4, GetParam());
 }
 
-// A root node of which only an octant is the grid, and tiles that are not whole nodes.
+// The grid is an octant of the root node, and tiles are not whole nodes.
 TEST_P(Tiles, OfAnOddDepthMakeTheWhole)
 {
     const Scene scene = test::materialsScene(1.0F);

@@ -90,7 +90,7 @@ TEST_P(VoxelizeBothCoverages, LongSegmentsInAllDirectionsEqualTheOracle)
 {
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 10};
     std::vector<glm::vec3> corners;
-    for (int direction = 1; direction < 27; ++direction) // every sum of axes, shortened along some
+    for (int direction = 1; direction < 27; ++direction) // each sum of axes, some of them shortened
     {
         const glm::vec3 extent(static_cast<float>(direction % 3) * 511.5F,
                                static_cast<float>(direction / 3 % 3) * 511.5F,

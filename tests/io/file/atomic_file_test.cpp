@@ -152,7 +152,7 @@ TEST(AtomicFile, PipeIsWrittenDirectly)
     const test::TempDir dir;
     const auto path = dir.path() / "pipe";
     ASSERT_EQ(mkfifo(path.c_str(), S_IRUSR | S_IWUSR), 0);
-    std::fstream reader(path); // both directions, so that opening does not wait
+    std::fstream reader(path); // open for reading and writing, so that opening does not wait
     writeFileAtomically(path, asBytes("through\n"), Overwrite::Refuse);
     std::string line;
     std::getline(reader, line);

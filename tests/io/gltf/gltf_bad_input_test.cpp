@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that somebody made to do harm: nothing leaves the document's folder, unfolds without end or runs out of stack.
-// gltf_errors_test.cpp has the mistakes that happen.
+// Malicious files: none reads outside of the document's folder, unpacks without end or exhausts the stack.
+// gltf_errors_test.cpp has ordinary mistakes.
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
 #include "gltf_builder.h"
@@ -17,7 +17,7 @@ namespace zvo::test
 namespace
 {
 
-/// A triangle with indices, texture coordinates and a picture.
+/// A triangle with indices, texture coordinates and an image.
 GltfBuilder texturedTriangle()
 {
     GltfBuilder builder = triangleDocument();
@@ -32,7 +32,7 @@ GltfBuilder texturedTriangle()
     return builder;
 }
 
-/// Loads what must either load or be refused in one line.
+/// Expects that the file either loads or is refused in one line.
 void expectSceneOrInputError(const std::filesystem::path& path, const std::string& what)
 {
     try
@@ -77,7 +77,7 @@ TEST(GltfBadInput, ABitOfEveryByteMayBeFlipped)
     }
 }
 
-/// A folder with a document in it, and a buffer that fits it outside.
+/// A folder with a document, and a buffer outside that would fit it.
 class GltfFolder : public testing::Test
 {
 protected:
@@ -87,7 +87,7 @@ protected:
 
     void writeBuffer(const std::string& name) const { m_dir.write(name, triangleDocument().bin); }
 
-    /// The triangle, with its buffer behind that URI.
+    /// Writes the triangle with its buffer at that URI.
     [[nodiscard]] std::filesystem::path writeDocument(const std::string& uri) const
     {
         GltfBuilder builder = triangleDocument();
@@ -207,7 +207,7 @@ TEST(GltfBadInput, InstancesAreCountedBeforeTheyAreMade)
 {
     GltfBuilder builder = triangleDocument();
     json& primitives = builder.document["meshes"][0]["primitives"];
-    constexpr std::size_t kEach = 4097; // squared, just beyond the limit
+    constexpr std::size_t kEach = 4097; // its square is just above the limit
     static_assert(kEach * kEach > kInstancesMax && (kEach - 1) * (kEach - 1) <= kInstancesMax);
     primitives = std::vector<json>(kEach, primitives[0]);
     builder.document["nodes"] = std::vector<json>(kEach, json{{"mesh", 0}});
@@ -227,7 +227,7 @@ TEST(GltfBadInput, TrianglesAreCountedBeforeTheyAreRead)
 TEST(GltfBadInput, MeshesThatShareOneBufferMayNotFillTheMemory)
 {
     constexpr std::size_t kVertices = 1 << 16;
-    constexpr std::size_t kPrimitiveBytes = kVertices * 16; // 12 a vertex, 12 a triangle
+    constexpr std::size_t kPrimitiveBytes = kVertices * 16; // 12 for each vertex, 12 for each triangle
     GltfBuilder builder;
     const json primitive = {{"attributes", {{"POSITION", builder.addPositions(std::vector<float>(3 * kVertices))}}}};
     builder.add("nodes", {{"mesh", 0}});
@@ -274,7 +274,7 @@ TEST(GltfBadInput, LongChainsOfNodesNeedNoStack)
 
 TEST(GltfBadInput, NestingUpToTheLimitNeedsLittleStack)
 {
-    // What tinygltf walks recursively: extras and extensions of every kind of object.
+    // tinygltf reads extras and extensions of every kind of object recursively.
     json nest = 1;
     for (int depth = 0; depth < 240; ++depth)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KHR_draco_mesh_compression: what Draco's encoder packs loads as the same triangles.
+// KHR_draco_mesh_compression: files of Draco's encoder load with the same triangles.
 #include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
@@ -32,7 +32,7 @@ struct Corner
 
 using Soup = std::vector<std::array<Corner, 3>>;
 
-/// A field of hills with seams: normals are a face's, and every other square has texture coordinates of its own.
+/// A terrain of hills with seams: normals are those of faces, and every other square has its own texture coordinates.
 Soup hills(std::uint32_t edge)
 {
     std::mt19937 random(5); // NOLINT: the same hills on every run
@@ -81,7 +81,7 @@ struct Packed
 {
     std::vector<std::uint8_t> bytes;
     std::uint32_t point_count = 0;
-    json attribute_ids; // glTF's names
+    json attribute_ids; // by glTF's names
 };
 
 Packed pack(const Soup& soup, const Packing& packing)
@@ -127,7 +127,7 @@ Packed pack(const Soup& soup, const Packing& packing)
     return packed;
 }
 
-/// A document whose only primitive is packed, its accessors without buffer views.
+/// A document whose only primitive is packed. Its accessors have no buffer views.
 GltfBuilder packedDocument(const Packed& packed, std::size_t triangle_count)
 {
     GltfBuilder builder;
@@ -163,14 +163,14 @@ Soup soupOf(const Primitive& primitive)
     return soup;
 }
 
-/// The place of a corner on the lattice that all hills lie on, whatever quantization has done to it.
+/// The lattice point of a corner, which is the same after quantization.
 std::array<int, 3> latticePoint(const Corner& corner)
 {
     const glm::ivec3 point(glm::round(corner.position * 8.0F));
     return {point.x, point.y, point.z};
 }
 
-/// In an order that does not depend on how a codec sorts faces and turns their corners.
+/// Sorts triangles and rotates their corners, independently of the codec's order.
 Soup sorted(Soup soup)
 {
     const auto less = [](const Corner& a, const Corner& b) { return latticePoint(a) < latticePoint(b); };
@@ -195,7 +195,7 @@ void expectSame(const Soup& loaded, const Soup& wanted, float tolerance)
         {
             EXPECT_LE(glm::distance(a[i][k].position, b[i][k].position), 40.0F * tolerance) << i;
             EXPECT_LE(glm::distance(a[i][k].uv, b[i][k].uv), 2.0F * tolerance) << i;
-            // Normals become unit length again, in double precision.
+            // The loader normalizes in double precision.
             EXPECT_LE(glm::distance(a[i][k].normal, b[i][k].normal), std::max(4.0F * tolerance, 2e-7F)) << i;
             EXPECT_EQ(a[i][k].color, b[i][k].color) << i;
         }
@@ -234,7 +234,7 @@ TEST(GltfDraco, OneTriangleMayBePacked)
 
 TEST(GltfDraco, JointsAndWeightsMayBePacked)
 {
-    // Both tell the vertex, as Draco may number vertices anew.
+    // Both identify the vertex, as Draco may renumber vertices.
     const auto jointsAt = [](const glm::vec3& place)
     { return glm::u16vec4(place.x, 300.0F + place.x, place.z, 1000.0F - place.z); };
     const auto weightsAt = [](const glm::vec3& place)
@@ -370,7 +370,7 @@ TEST(GltfDraco, WhatDoesNotGoTogetherIsRefused)
 
 TEST(GltfDraco, CountsOutOfProportionToTheDataAreRefused)
 {
-    // Header, version 2.2, mesh, method, flags; then counts of 2^31 - 1, which no data follows.
+    // Header, version 2.2, mesh, method, flags; then counts of 2^31 - 1, without the data.
     const std::vector<std::uint8_t> many = {0xFF, 0xFF, 0xFF, 0xFF, 0x07};
     const auto bomb = [&](std::uint8_t method, std::initializer_list<std::vector<std::uint8_t>> parts)
     {
@@ -402,7 +402,7 @@ TEST(GltfDraco, CountsOutOfProportionToTheDataAreRefused)
     {
         attributes.insert(attributes.end(), {4, draco::DT_FLOAT64, 255, 0, 0});
     }
-    attributes.resize(attributes.size() + 100); // how each is encoded
+    attributes.resize(attributes.size() + 100); // encodings of the attributes
     bomb(0, {face_count, point_count, indices, attributes});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every way in which a file can be broken has an error that says what, where and what to do.
+// Every way to break a file gives an error that says what is wrong, where, and what to do.
 #include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
@@ -17,7 +17,7 @@ namespace
 
 constexpr const char* kHint = "export it again";
 
-/// Expects an error with the parts when the triangle document is changed that way and loaded as .glb.
+/// Changes the triangle document, loads it as .glb, and expects an error with the parts.
 void expectBroken(const std::function<void(GltfBuilder&)>& change, std::initializer_list<std::string> parts)
 {
     GltfBuilder builder = triangleDocument();
@@ -328,7 +328,7 @@ TEST(GltfErrors, DamagedBytesGiveASceneOrAnInputError)
         std::vector<std::uint8_t> damaged = whole;
         for (std::size_t k = 0; k <= random() % 3; ++k)
         {
-            // Mostly digits and brackets, which leave the JSON readable.
+            // Mostly digits and brackets, which often keep the JSON readable.
             constexpr std::string_view kLikely = "0123456789-[]{}\",:e";
             const bool likely = random() % 4 != 0;
             damaged[random() % damaged.size()] =

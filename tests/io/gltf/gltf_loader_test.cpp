@@ -19,7 +19,7 @@ using Triangles = std::vector<glm::uvec3>;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// Five vertices of a strip or fan, and a primitive of that mode.
+/// Loads five vertices as a primitive of that mode.
 Scene fiveVertices(Mode mode)
 {
     GltfBuilder builder;
@@ -48,7 +48,7 @@ Primitive withAttribute(const std::string& name, const std::string& type, int co
     return builder.load().primitives.at(0);
 }
 
-/// The world transform of a triangle shown by these nodes, of which the last has the mesh and the first is the root.
+/// The world transform of a triangle in a chain of nodes, from the root to the one with the mesh.
 glm::mat4 transformOf(const std::vector<json>& chain)
 {
     GltfBuilder builder;
@@ -153,7 +153,7 @@ TEST(GltfLoader, VertexColorsMayHaveThreeOrFourComponentsOfThreeTypes)
 {
     const std::vector<glm::vec4> opaque = {{0, 0.2F, 1, 1}, {1, 1, 1, 1}, {0.4F, 0, 0, 1}};
     EXPECT_EQ(withAttribute<float>("COLOR_0", "VEC3", kF32, {0, 0.2F, 1, 1, 1, 1, 0.4F, 0, 0}, false).colors, opaque);
-    // Three bytes padded to four: elements start at multiples of four.
+    // Elements of three bytes, padded to four.
     const std::vector<std::uint8_t> bytes = {0, 51, 255, 99, 255, 255, 255, 99, 102, 0, 0};
     EXPECT_EQ(withAttribute("COLOR_0", "VEC3", kU8, bytes, true, 4).colors, opaque);
     const std::vector<std::uint16_t> words = {0, 13107, 65535, 9, 65535, 65535, 65535, 9, 26214, 0, 0};
@@ -241,7 +241,7 @@ TEST(GltfLoader, TransformsMultiplyFromTheRootInDoublePrecision)
         transformOf({{{"scale", {2, 2, 2}}}, {{"translation", {1, 0, 0}}}, {{"scale", {1, 3, 1}}}});
     EXPECT_EQ(matrix[3], glm::vec4(2, 0, 0, 1));
     EXPECT_EQ(matrix[1], glm::vec4(0, 6, 0, 0));
-    // In single precision the small translation would be lost in the large one.
+    // In single precision, the small translation would be lost in the large one.
     const glm::mat4 far = transformOf(
         {{{"translation", {1e9, 0, 0}}}, {{"translation", {0.125, 0, 0}}}, {{"translation", {-1e9, 0, 0}}}});
     EXPECT_EQ(far[3].x, 0.125F);

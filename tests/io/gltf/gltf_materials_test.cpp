@@ -14,7 +14,7 @@ namespace zvo::test
 namespace
 {
 
-/// A triangle with material 0, texture coordinates in two sets, and a PNG of one pixel as image and texture 0.
+/// A triangle with material 0 and two sets of texture coordinates; texture 0 is a PNG of one pixel.
 GltfBuilder texturedTriangle(const json& material)
 {
     GltfBuilder builder;
@@ -105,7 +105,7 @@ TEST(GltfMaterials, SamplerSaysHowCoordinatesWrap)
 
 TEST(GltfMaterials, OnlyImagesThatAreNeededAreDecoded)
 {
-    // Image 1 is no image at all: as a normal map, as an emissive texture without emission, or unused, nobody minds.
+    // Image 1 is damaged. It may be so as a normal map, as an emissive texture without emission, or if it is unused.
     json material = baseColorTexture({{"index", 0}});
     material["normalTexture"] = {{"index", 1}};
     material["emissiveTexture"] = {{"index", 1}};
@@ -150,7 +150,7 @@ TEST(GltfMaterials, EmissionWithOtherCoordinatesIsLeftOutWithAWarning)
 
 TEST(GltfMaterials, TextureTransformMovesTheCoordinates)
 {
-    // The extension's example: the lower left quadrant of the image, turned by 90 degrees.
+    // The extension's example: the lower left quadrant of the image, rotated by 90 degrees.
     const json transform = {{"offset", {0, 1}}, {"rotation", std::numbers::pi / 2}, {"scale", {0.5, 0.5}}};
     const json texture = {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
     const std::vector<glm::vec2> uvs = texturedTriangle(baseColorTexture(texture)).load().primitives[0].uvs;
@@ -181,7 +181,7 @@ TEST(GltfMaterials, DiffuseOfSpecularGlossinessIsTheBaseColor)
     EXPECT_EQ(scene.materials[0].base_color_texture, 0U);
     EXPECT_EQ(scene.primitives[0].uvs[0], glm::vec2(5.5F, 5.25F));
     EXPECT_TRUE(scene.warnings.empty());
-    // Without members: white, even where the metallic-roughness colour is another one.
+    // Without members the colour is white, whatever the metallic-roughness colour is.
     material["extensions"]["KHR_materials_pbrSpecularGlossiness"] = json::object();
     EXPECT_EQ(materialOf(material).base_color, glm::vec4(1.0F));
     EXPECT_FALSE(materialOf(material).base_color_texture.has_value());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// EXT_meshopt_compression: what meshoptimizer's encoders pack loads as it was, or within what the filter rounds.
+// EXT_meshopt_compression: data of meshoptimizer's encoders loads unchanged, or within the rounding of its filters.
 #include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
@@ -74,7 +74,7 @@ std::vector<std::uint8_t> packSequence(const std::vector<std::uint32_t>& indices
     return packed;
 }
 
-/// A view whose unpacked data lies in buffer 1, which has none; an accessor of all of it.
+/// Adds a view whose unpacked data lies in buffer 1, which has none, and an accessor for all of it.
 std::size_t addPacked(GltfBuilder& builder, const std::vector<std::uint8_t>& packed, std::size_t count,
                       std::size_t stride, const char* mode, const char* filter, const json& accessor_type)
 {
@@ -101,7 +101,7 @@ std::size_t addPacked(GltfBuilder& builder, const std::vector<std::uint8_t>& pac
     return builder.add("accessors", accessor);
 }
 
-/// Buffer 0 holds what is packed; buffer 1 has no bytes.
+/// Adds buffer 0 with the packed data, and buffer 1 without bytes.
 void addBuffers(GltfBuilder& builder)
 {
     builder.document["extensionsRequired"] = {kExtension, "KHR_mesh_quantization"};
@@ -126,7 +126,7 @@ GltfBuilder packedTerrain(const Terrain& terrain)
     return builder;
 }
 
-/// The positions that a loader makes of packed ones.
+/// The positions that the loader reads from packed ones.
 std::vector<glm::vec3> unpackPositions(const std::vector<std::uint8_t>& packed, std::size_t count, std::size_t stride,
                                        const char* filter, const json& type)
 {
@@ -137,7 +137,7 @@ std::vector<glm::vec3> unpackPositions(const std::vector<std::uint8_t>& packed, 
     return builder.load().primitives.at(0).positions;
 }
 
-/// The corners of triangles in a canonical order: the codec may rotate a triangle.
+/// The corners of triangles in a canonical order, as the codec may rotate triangles.
 std::vector<glm::uvec3> rotated(const std::vector<std::uint32_t>& indices)
 {
     std::vector<glm::uvec3> triangles;
@@ -236,7 +236,7 @@ TEST(GltfMeshopt, ExponentialFilterKeepsTheMantissa)
         unpackPositions(packVertices(filtered.data(), count, 12), count, 12, "EXPONENTIAL", kFloat3);
     for (std::size_t i = 0; i < count; ++i)
     {
-        // One exponent for a vector: its largest component has the bits, half a step is rounded away.
+        // A vector has one exponent, by its largest component; the error is half a step.
         const glm::vec3& wanted = terrain.positions[i];
         const float largest = std::max({wanted.x, wanted.y, wanted.z, 1e-6F});
         const float step = std::exp2(std::floor(std::log2(largest)) + 2.0F - kBits);
@@ -303,7 +303,7 @@ TEST(GltfMeshopt, FallbackDataIsNotNeeded)
     GltfBuilder builder = packedTerrain(Terrain(3));
     builder.document["buffers"][1]["uri"] = "absent.bin";
     EXPECT_EQ(builder.load().triangleCount(), 8U);
-    builder.document["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 4}}); // not packed: it is needed
+    builder.document["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 4}}); // not packed, so it is needed
     expectInputError([&] { static_cast<void>(builder.load()); }, {"buffers[1].uri", "absent.bin"});
     builder.document["buffers"][1].erase("uri");
     builder.document["accessors"][0]["bufferView"] = builder.document["bufferViews"].size() - 1;
@@ -321,7 +321,7 @@ TEST(GltfMeshopt, WhatContradictsItselfIsRefused)
     };
     const auto set = [](const char* member, const json& value)
     { return [=](json& view) { view["extensions"][kExtension][member] = value; }; };
-    constexpr std::size_t kPositions = 1; // views 0 and 2 are the packed bytes
+    constexpr std::size_t kPositions = 1; // views 0 and 2 have the packed bytes
     constexpr std::size_t kIndices = 3;
     expectBroken(kPositions, set("byteLength", 9999), {"bufferViews[1].extensions", "takes 9999 bytes at 0"});
     expectBroken(kPositions, set("byteOffset", ~0ULL), {"bufferViews[1]", "takes"});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Skins, morph targets and animations with mistakes in them: what does not make sense is left out with a warning, and
-// the mesh stands as it was modelled; what contradicts the file's own structure is an error, as everywhere.
+// Skins, morph targets and animations with mistakes. Parts that cannot be used are left out with a warning, and the
+// mesh stays as it was modelled. Contradictions in the file's structure are errors.
 #include "io/gltf/gltf_loader.h"
 
 #include "core/scene/scene_size.h"
@@ -22,12 +22,12 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 using Change = std::function<void(GltfBuilder&)>;
 
-/// An arm and a triangle with morph targets (node 3), which an animation moves as well.
+/// An arm, and a triangle with morph targets (node 3) that an animation moves, too.
 GltfBuilder everything()
 {
     GltfBuilder builder = armDocument();
     GltfBuilder morph = morphDocument({0.5F, 0});
-    // The same arrays as in morphDocument(), in this document.
+    // The arrays of morphDocument(), in this document.
     const std::size_t first = builder.document["accessors"].size();
     for (json view : morph.document["bufferViews"])
     {
@@ -58,7 +58,7 @@ GltfBuilder everything()
     return builder;
 }
 
-/// The scene loads with these warnings and no others, and its triangles are all there.
+/// Expects that the scene loads with these warnings and no others, with all of its triangles.
 Scene expectWarnings(const Change& change, const std::vector<std::string>& parts)
 {
     GltfBuilder builder = everything();
@@ -235,7 +235,7 @@ TEST(GltfRigErrors, JointsThatTheSkinDoesNotHaveLeaveTheMeshAsItIs)
                                        });
     EXPECT_EQ(scene.instances.at(0).skin, kNone);
     EXPECT_TRUE(contains(scene.rest_warnings.at(0), "morph")) << "nothing is missing where no skin is";
-    // Where their weight is 0 they do not matter.
+    // With a weight of 0 they are harmless.
     const Scene harmless = expectWarnings(
         [](GltfBuilder& b)
         {
@@ -273,7 +273,7 @@ TEST(GltfRigErrors, SkinsThatMakeNoSenseAreLeftOut)
     expectLeftOut(matrices("MAT4", kF32, 2, kInfinite), kMatrices);
     expectLeftOut(matrices("MAT4", kU16, 2, 1.0F), kMatrices);
     expectLeftOut(matrices("VEC4", kF32, 2, 1.0F), kMatrices);
-    // A bad one that no joint uses.
+    // An unusable matrix that no joint needs.
     GltfBuilder builder = everything();
     builder.add("skins", {{"joints", json::array()}});
     EXPECT_TRUE(builder.load().warnings.empty());
@@ -328,7 +328,7 @@ TEST(GltfRigErrors, ChannelsThatMakeNoSenseAreLeftOut)
     {
         const Scene scene = expectWarnings(change, {"animation channel left out, as " + why + " (animations[" +
                                                     std::to_string(animation) + "].channels[0])"});
-        EXPECT_EQ(scene.animations.size(), 2U); // an animation without channels is none
+        EXPECT_EQ(scene.animations.size(), 2U); // an animation without channels is dropped
     };
     const auto times = [](const std::vector<float>& values)
     { return [=](GltfBuilder& b) { sampler(b, 0)["input"] = addNumbers(b, "SCALAR", values.size(), values); }; };
@@ -358,7 +358,7 @@ TEST(GltfRigErrors, ChannelsThatMakeNoSenseAreLeftOut)
         [](GltfBuilder& b)
         {
             b.document["accessors"][sampler(b, 2)["output"].get<std::size_t>()]["type"] = "VEC3";
-            channelTarget(b, 2)["path"] = "translation"; // which must be of floats
+            channelTarget(b, 2)["path"] = "translation"; // its values must be floats
         },
         kTypes);
     expectLeftOut(
@@ -432,7 +432,7 @@ TEST(GltfRigErrors, ABitOfEveryByteMayBeFlipped)
             EXPECT_EQ(error.code(), ErrorCode::Input) << error.what();
         }
     }
-    EXPECT_GT(loaded_count, 500); // most of the numbers in the buffer
+    EXPECT_GT(loaded_count, 500); // most changed numbers in the buffer load
 }
 
 TEST(GltfRigErrors, DamagedDataGivesWholeScenes)
@@ -465,7 +465,7 @@ TEST(GltfRigErrors, MorphTargetsThatShareDataMayNotFillTheMemory)
 
 TEST(GltfRigErrors, PosesOfManyMeshesMayNotFillTheMemory)
 {
-    // A joint matrix for each of them.
+    // A pose has a matrix for each joint of each instance.
     GltfBuilder builder = everything();
     constexpr std::size_t kJoints = 1 << 14;
     builder.document["skins"][0] = {{"joints", std::vector<int>(kJoints, 1)}};
@@ -481,7 +481,7 @@ TEST(GltfRigErrors, PosesOfManyMeshesMayNotFillTheMemory)
         nodes.push_back(node);
     }
     expectInputError([&] { static_cast<void>(builder.load()); }, {"half of this machine's memory"});
-    // And morph weights.
+    // A pose has morph weights for each instance, too.
     GltfBuilder morph = morphDocument({});
     json& targets = morph.document["meshes"][0]["primitives"][0]["targets"];
     constexpr std::size_t kTargets = 1 << 16;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Nodes, skins, morph targets and animations as they are loaded; gltf_rig_errors_test.cpp has what is wrong with them.
+// How nodes, skins, morph targets and animations are loaded. gltf_rig_errors_test.cpp has mistakes in them.
 #include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
@@ -20,7 +20,7 @@ using Joints = std::vector<glm::u16vec4>;
 using Weights = std::vector<glm::vec4>;
 using Vectors = std::vector<glm::vec3>;
 
-/// A triangle whose vertices have these joints and weights.
+/// Loads a triangle whose vertices have these joints and weights.
 template <typename Joint, typename Weight>
 Primitive loadBound(int joint_type, const std::vector<Joint>& joints, int weight_type,
                     const std::vector<Weight>& weights, bool normalized = true)
@@ -36,7 +36,7 @@ Primitive loadBound(int joint_type, const std::vector<Joint>& joints, int weight
     return scene.primitives.at(0);
 }
 
-/// What a channel of those values comes down to; node 0 has two morph targets.
+/// Loads a channel with these values, for node 0, which has two morph targets.
 template <typename T>
 Channel loadChannel(const std::string& path, const std::string& interpolation, const std::vector<float>& times,
                     const std::string& type, int component_type, std::size_t count, const std::vector<T>& values)
@@ -118,7 +118,7 @@ TEST(GltfRig, WeightsAreFloatsOrNormalizedAndTheirSumIsOne)
             EXPECT_NEAR(primitive.weights[i / 4][i % 4], wanted[i / 4][i % 4], 1e-7F) << i;
         }
     };
-    for (const bool normalized : {true, false}) // in truth they always are
+    for (const bool normalized : {true, false}) // they count as normalized in both cases
     {
         expectWanted(loadBound<std::uint8_t, std::uint8_t>(kU8, joints, kU8, {255, 0, 0, 0, 51, 204, 0, 0, 9, 9, 9, 9},
                                                            normalized));
@@ -147,7 +147,7 @@ TEST(GltfRig, SkinsHaveTheirJointsAndInverseBindMatrices)
     EXPECT_EQ(scene.skins[0].inverse_bind.at(1)[3], glm::vec4(0, -1, -5, 1));
     ASSERT_EQ(scene.instances.size(), 1U);
     EXPECT_EQ(scene.instances[0].skin, 0U);
-    EXPECT_EQ(scene.instances[0].transform[3], glm::vec4(100, 0, 0, 1)); // at rest it stands as it was modelled
+    EXPECT_EQ(scene.instances[0].transform[3], glm::vec4(100, 0, 0, 1)); // without a pose it is as modelled
     ASSERT_EQ(scene.rest_warnings.size(), 1U);
     EXPECT_TRUE(contains(scene.rest_warnings[0], "scene.glb: skins are not applied")) << scene.rest_warnings[0];
     EXPECT_TRUE(contains(scene.rest_warnings[0], "nodes[0]")) << scene.rest_warnings[0];
@@ -255,7 +255,7 @@ TEST(GltfRig, WeightsAtRestAreTheNodesOrTheMeshesOrZero)
     ASSERT_EQ(scene.rest_warnings.size(), 1U);
     EXPECT_TRUE(contains(scene.rest_warnings[0], "morph targets are not applied")) << scene.rest_warnings[0];
     EXPECT_TRUE(contains(scene.rest_warnings[0], "nodes[0] and 1 more")) << scene.rest_warnings[0];
-    EXPECT_TRUE(morphDocument({0, 0}).load().rest_warnings.empty()); // nothing is missing
+    EXPECT_TRUE(morphDocument({0, 0}).load().rest_warnings.empty()); // no warnings
 }
 
 TEST(GltfRig, ChannelsOfEveryPathAreLoaded)
@@ -312,7 +312,7 @@ TEST(GltfRig, AnimationsLastAsLongAsTheirLongestChannel)
     json& animation = builder.document["animations"][0];
     const std::size_t times = builder.addAccessor<float>("SCALAR", kF32, 1, {4.25F});
     const std::size_t scales = builder.addAccessor<float>("VEC3", kF32, 1, {1, 1, 1});
-    animation["samplers"].push_back({{"input", times}, {"output", scales}}); // LINEAR where nothing is said
+    animation["samplers"].push_back({{"input", times}, {"output", scales}}); // the default is LINEAR
     animation["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "scale"}}}});
     animation["name"] = "both";
     const Scene scene = builder.load();

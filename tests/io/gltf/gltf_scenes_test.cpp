@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Real scenes, where they are at hand: counts and boxes as their makers measured them.
+// Real scenes, if they are there: counts and boxes that were measured independently.
 #include "io/gltf/gltf_loader.h"
 
 #include "support/scenes.h"
@@ -46,7 +46,7 @@ constexpr RealScene kScenes[] = {
     {"duck/Duck.gltf", 4212, 1, 1, {-0.692985, 0.0992937, -0.613282}, {0.961799, 1.6397, 0.539252}},
 };
 
-/// Whether value, written with six digits, may give printed; largest: the box's largest coordinate, in whose last bits
+/// Whether value, rounded to six digits, may give printed. largest: the box's largest coordinate, in whose last bits
 /// single precision rounds.
 bool agrees(float value, float printed, float largest)
 {

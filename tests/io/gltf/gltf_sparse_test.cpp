@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sparse accessors, against the same values written out in full.
+// Sparse accessors, compared with the same values in dense ones.
 #include "io/gltf/gltf_loader.h"
 
 #include "gltf_builder.h"
@@ -13,7 +13,7 @@ namespace zvo::test
 namespace
 {
 
-/// Makes an accessor sparse: values go to the places that indices name.
+/// Makes an accessor sparse, with values at the given indices.
 template <typename Index, typename Value>
 void addSparse(GltfBuilder& builder, std::size_t accessor, int index_type, const std::vector<Index>& indices,
                const std::vector<Value>& values)

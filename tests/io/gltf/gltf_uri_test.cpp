@@ -36,7 +36,7 @@ std::string base64(const std::vector<std::uint8_t>& bytes)
     return text;
 }
 
-/// The triangle document as text, its buffer behind that URI.
+/// The text of the triangle document, with its buffer at that URI.
 std::string gltfText(const std::string& uri, std::size_t byte_length)
 {
     GltfBuilder builder = triangleDocument();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Images that would harm their decoder are refused before it sees them.
+// Images that would harm the decoder are refused before decoding.
 #include "io/image/image_check.h"
 
 #include "io/gltf/gltf_builder.h"
@@ -18,7 +18,7 @@ namespace
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Offsets in a PNG: the header follows signature, length and type; it opens with width and height, big-endian.
+// Offsets in a PNG. The header follows signature, length and type, and begins with width and height, big-endian.
 constexpr std::size_t kWidthOffset = 16;
 constexpr std::size_t kHeightOffset = 20;
 
@@ -30,7 +30,7 @@ void setBigEndian(Bytes& bytes, std::size_t offset, std::uint32_t value)
     }
 }
 
-/// A flat picture as PNG whose header says another size.
+/// A PNG of one colour whose header announces another size.
 Bytes pngThatAnnounces(std::uint32_t width, std::uint32_t height, std::uint32_t real_edge = 1)
 {
     Bytes png = encodePng(real_edge, real_edge, Bytes(std::size_t{real_edge} * real_edge * 4, 255));
@@ -57,7 +57,7 @@ constexpr std::uint8_t kTables = 196;
 constexpr std::uint8_t kScan = 218;
 constexpr std::uint8_t kQuantization = 219;
 
-/// A Huffman table of class 0 with the symbols 0, 1, 2, ..., all with codes of code_length bits.
+/// A Huffman table of class 0 with the symbols 0, 1, 2, ..., whose codes all have code_length bits.
 Bytes huffmanTable(std::size_t symbol_count, std::size_t code_length)
 {
     Bytes table(17, 0);
@@ -74,7 +74,7 @@ Bytes huffmanTable(std::size_t symbol_count, std::size_t code_length)
     return table;
 }
 
-/// A progressive JPEG of grey with that table and that many scans of the first coefficients.
+/// A progressive grey JPEG with that table and number of scans of the first coefficients.
 Bytes progressiveJpeg(std::uint16_t width, std::uint16_t height, const Bytes& table, std::size_t scan_count)
 {
     const auto high = [](std::uint16_t value) { return static_cast<std::uint8_t>(value / 256); };
@@ -124,10 +124,10 @@ TEST(ImageCheck, TablesAreFoundBehindPaddingAndPixels)
     EXPECT_NE(findImageFault(padded), "");
     Bytes behind = progressiveJpeg(8, 8, huffmanTable(2, 4), 1);
     behind.resize(behind.size() - 2);
-    append(behind, {1, 2, 255, 0, 3, 255, 208, 4}); // a byte 255 of pixel data, a restart marker
+    append(behind, {1, 2, 255, 0, 3, 255, 208, 4}); // a byte 255 in pixel data, and a restart marker
     append(behind, bad);
     EXPECT_NE(findImageFault(behind), "");
-    Bytes inside = {255, 216}; // in a comment, it is no table
+    Bytes inside = {255, 216}; // in a comment it is no table
     append(inside, segment(254, bad));
     EXPECT_EQ(findImageFault(inside), "");
 }
@@ -175,7 +175,7 @@ TEST(ImageCheck, MorePixelsThanTheBytesCanHoldAreRefusedBeforeDecoding)
     expectRefused(pngThatAnnounces(1, kImageEdgeMax, 3), "more than its");
     expectRefused(progressiveJpeg(16384, 16384, huffmanTable(2, 4), 1), "more than its");
     expectRefused(progressiveJpeg(1000, 1000, huffmanTable(2, 4), 1), "more than its");
-    // A flat picture takes as few bytes as there can be.
+    // A picture of one colour has the least possible bytes.
     constexpr std::uint32_t kEdge = 2048;
     const Bytes flat = encodePng(kEdge, kEdge, Bytes(std::size_t{kEdge} * kEdge * 4, 77));
     EXPECT_EQ(decodeImage(flat, "", "here").rgba.size(), std::size_t{kEdge} * kEdge * 4);

@@ -129,7 +129,8 @@ TEST(ImageIo, LosslessWebpKeepsEveryVisibleByte)
     Image image = checkerboard(50, 41);
     for (std::size_t i = 3; i < image.rgba.size(); i += 4)
     {
-        image.rgba[i] = std::max<std::uint8_t>(image.rgba[i], 1); // the encoder changes colours that nobody sees
+        image.rgba[i] =
+            std::max<std::uint8_t>(image.rgba[i], 1); // the encoder changes the colours of transparent pixels
     }
     const Image decoded = decodeImage(encodeWebp(image, true), "name", "here");
     EXPECT_EQ(decoded.name, "name");
@@ -178,7 +179,7 @@ TEST(ImageIo, TooLongEdgeIsAnInputError)
 {
     const std::vector<std::uint8_t> just_right = encodePng(kImageEdgeMax, 1, checkerboard(kImageEdgeMax, 1).rgba);
     EXPECT_EQ(decodeImage(just_right, "", "here").width, kImageEdgeMax);
-    // The same file with one pixel more in its header: big-endian width after signature, length and type.
+    // The same file with one pixel more in its header: width, big-endian, follows signature, length and type.
     constexpr std::size_t kPngWidthOffset = 16;
     std::vector<std::uint8_t> too_wide = just_right;
     too_wide[kPngWidthOffset + 3] = 1;

@@ -31,7 +31,7 @@ Scene loadIn(const TempDir& dir, const std::string& name)
     return loadScene(std::span(&path, 1));
 }
 
-/// The corners of all triangles, one behind the other.
+/// The corners of all triangles in sequence.
 std::vector<glm::vec3> cornersOf(const Scene& scene)
 {
     std::vector<glm::vec3> corners;
@@ -147,7 +147,7 @@ TEST(MeshImport, ObjHasTheMaterialsOfItsMtlFile)
     EXPECT_EQ(materialOf(0).base_color, glm::vec4(0.75F, 0.25F, 0.125F, 0.5F));
     EXPECT_EQ(materialOf(0).alpha_mode, AlphaMode::Blend);
     EXPECT_EQ(scene.primitives[0].normals, std::vector<glm::vec3>(3, {0, 0, 1}));
-    EXPECT_EQ(materialOf(1).base_color, glm::vec4(1.0F)); // black under a texture means the texture
+    EXPECT_EQ(materialOf(1).base_color, glm::vec4(1.0F)); // black would hide the texture
     EXPECT_EQ(materialOf(1).alpha_mode, AlphaMode::Opaque);
     ASSERT_TRUE(materialOf(1).base_color_texture);
     const Texture& texture = scene.textures.at(*materialOf(1).base_color_texture);
@@ -192,11 +192,11 @@ TEST(MeshImport, MtlFileIsReadOnceHoweverOftenItIsNamed)
         lines += "mtllib a.mtl\n";
     }
     dir.write("a.mtl", "newmtl m\nKd 0.5 0.25 1\n" + std::string(1U << 20U, '#') + "\n");
-    dir.write("b.mtl", std::string_view("newmtl m\nKd 0 0 0\n")); // that of the scene's name, which nobody asked for
+    dir.write("b.mtl", std::string_view("newmtl m\nKd 0 0 0\n")); // no line of the scene names it
     dir.write("b.obj", lines + kTriangle + "usemtl m\nf 1 2 3\n");
     const std::clock_t start = std::clock();
     const Scene scene = loadIn(dir, "b.obj");
-    EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, 5); // 20 GB otherwise
+    EXPECT_LT((std::clock() - start) / CLOCKS_PER_SEC, 5); // otherwise 20 GB are read
     EXPECT_EQ(scene.materials.at(scene.primitives.at(0).material).base_color, glm::vec4(0.5F, 0.25F, 1.0F, 1.0F));
     EXPECT_TRUE(scene.warnings.empty());
 }
@@ -291,7 +291,7 @@ TEST(MeshImport, PlyPointsAreAWarning)
 
 TEST(MeshImport, TextCoordinatesAreRoundedOnce)
 {
-    // Just above the middle between 1 and the next number: through double precision it would be rounded down.
+    // Just above the middle between 1 and the next number. Rounding by way of double precision would round it down.
     const std::string above = "1.000000059604644775390626";
     const std::string text = "solid a\nfacet normal 0 0 0\nouter loop\nvertex " + above +
                              " 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Animated scenes of files with animations: which of them play, and what of a file is a dynamic object.
+// Animated scenes from files with animations: which animations play, and which parts of a file become dynamic objects.
 #include "io/scene/animated_scene.h"
 
 #include "animated_scene_fixture.h"
@@ -13,8 +13,8 @@ namespace zvo::test
 namespace
 {
 
-/// Two triangles and a camera: the first node goes from x = 0 to x = 4 within two seconds, the second one, at z = 5,
-/// and the third, at z = 9, stand still. All but the third show the same mesh; the third has a textured one.
+/// Two triangles and a camera. The first node moves from x = 0 to x = 4 within two seconds; the second one, at z = 5,
+/// and the third, at z = 9, do not move. The first two show the same mesh, the third a textured one.
 GltfBuilder animatedDocument()
 {
     GltfBuilder builder = triangleDocument();
@@ -84,7 +84,7 @@ TEST_F(AnimatedSceneTest, AnimationsOfObjectsRunUnlessTheyAreStatic)
     EXPECT_EQ(whole.objects[0].scene.triangleCount(), 3U);
     EXPECT_EQ(whole.fixed.cameras.size(), 1U) << "its place does not move";
 
-    // The motion comes after the animation.
+    // The motion is applied after the animation.
     const AnimatedScene both = load(R"({"objects": [{"file": "animated.glb", "place": {"scale": 2}, "motion": {"orbit":
         {"axis": [0, 0, 1], "turns": 1}}}]})");
     EXPECT_EQ(corners(sceneAt(both, 1.0)).at(0), glm::vec3(0, 4, 0)) << "2 to the right, scaled, a quarter turn";
@@ -92,8 +92,8 @@ TEST_F(AnimatedSceneTest, AnimationsOfObjectsRunUnlessTheyAreStatic)
     EXPECT_TRUE(both.fixed.cameras.empty());
 }
 
-/// animatedDocument with more animations: 0 "go" is the one it has, 1 moves nothing, 2 "rise" takes the first node up
-/// to y = 6 within three seconds and 3, without a name, the second one to x = 1.
+/// animatedDocument with more animations: 0 "go" as before, 1 moves nothing, 2 "rise" moves the first node up to y = 6
+/// within three seconds, and 3, without a name, moves the second one to x = 1.
 GltfBuilder manyAnimationsDocument()
 {
     GltfBuilder builder = animatedDocument();
@@ -176,7 +176,7 @@ TEST_F(AnimatedSceneTest, WhatStandsAtRestIsToldOf)
 {
     GltfBuilder builder = animatedDocument();
     const std::size_t deltas = builder.addPositions({0, 0, 1, 0, 0, 1, 0, 0, 1});
-    json& mesh = builder.document["meshes"][1]; // of the node that nothing moves
+    json& mesh = builder.document["meshes"][1]; // the mesh of the static node
     mesh["primitives"][0]["targets"] = json::array({{{"POSITION", deltas}}});
     mesh["weights"] = {1.0};
     m_dir.write("scenes/morphed.glb", builder.glb());

@@ -51,7 +51,7 @@ TEST_F(AnimatedSceneTest, FilesThatLeaveTheFoldersAreRefused)
         expectInputError([&] { loadFileOf(file); }, {"test.scene.json: objects[0].file is \"", "leaves the folder"});
         expectInputError([&] { loadFileOf(file, false); }, {"leaves the folder"});
     }
-    // "../scenes/triangle.glb" goes out and comes back: it lies in the folder.
+    // "../scenes/triangle.glb" leads back into the folder.
     EXPECT_EQ(loadFileOf("../scenes/triangle.glb").fixed.triangleCount(), 1U);
 }
 
@@ -104,7 +104,7 @@ TEST_F(AnimatedSceneTest, ObjectsAreFixedOrMove)
                                                                {20, 40, 65},
                                                                {24, 40, 65},
                                                                {20, 44, 65}}));
-    // The fixed object's camera goes along, the moving one's does not come.
+    // The fixed object's camera is loaded, the moving one's is not.
     ASSERT_EQ(animated.fixed.cameras.size(), 1U);
     EXPECT_EQ(animated.fixed.cameras[0].transform[3], glm::vec4(0, 0, 7, 1));
     EXPECT_EQ(animated.fixed.cameras[0].half_height, 6.0F);
@@ -131,7 +131,7 @@ TEST_F(AnimatedSceneTest, TransformsAreComposedInDoublePrecisionAndRoundedOnce)
     const glm::dvec3 axis = glm::normalize(glm::dvec3(0.2, 1, 0));
     for (const double seconds : {0.3, 1.7, 3.99})
     {
-        // GLM's own rotations and products, in double precision throughout.
+        // GLM's rotations and products, all in double precision.
         glm::dmat4 expected = glm::translate(glm::dmat4(1.0), glm::dvec3(1e3, 0, 3));
         expected = glm::rotate(expected, 2.0 * std::numbers::pi * seconds / 4.0, axis);
         expected = glm::translate(expected, glm::dvec3(-1e3, 0, -3));
@@ -143,7 +143,7 @@ TEST_F(AnimatedSceneTest, TransformsAreComposedInDoublePrecisionAndRoundedOnce)
         const glm::mat4 transform = sceneAt(animated, seconds).instances.at(0).transform;
         for (int i = 0; i < 16; ++i)
         {
-            // Half a unit in the last place, and what double precision leaves of numbers around 1e3.
+            // Half a unit in the last place, and the rounding of double precision for numbers around 1e3.
             const double exact = expected[i / 4][i % 4];
             EXPECT_NEAR(transform[i / 4][i % 4], exact, std::abs(exact) * 0x1p-24 + 1e-11);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Flights of a camera: what they pass, and files of them.
+// Camera paths: the points that they pass, and files of them.
 #include "io/scene/camera_path.h"
 
 #include "zvo/error.h"
@@ -52,7 +52,7 @@ TEST(CameraPath, TwoKeysAreAStraightFlightAtOneSpeed)
 
 TEST(CameraPath, IsSmoothAtKeysAndReproducesQuadraticFlights)
 {
-    // Tangents of chords are exact for a parabola with keys at equal distances.
+    // Tangents of chords are exact for a parabola with equidistant keys.
     std::vector<CameraKey> keys;
     for (int i = 0; i <= 6; ++i)
     {
@@ -60,7 +60,7 @@ TEST(CameraPath, IsSmoothAtKeysAndReproducesQuadraticFlights)
         keys.push_back({s, {s, s * s, 0}, {s, s * s, -1}, 50});
     }
     const CameraPath path(keys);
-    for (double s = 1.0; s < 5.0; s += 0.0625) // not at the ends, where there is only one chord
+    for (double s = 1.0; s < 5.0; s += 0.0625) // not at the ends, which have only one chord
     {
         EXPECT_NEAR(path.at(s).position.y, s * s, 1e-12);
     }
@@ -85,7 +85,7 @@ TEST(CameraPath, FieldsOfViewStayBetweenThoseOfTheKeys)
 
 TEST(CameraPath, WhereEyeAndTargetMeetTheDirectionStays)
 {
-    // Half way they are the same point.
+    // Half way, eye and target are the same point.
     const CameraPath path({{0, {0, 0, 0}, {0, 0, -2}, 50}, {1, {0, 0, -2}, {0, 0, 0}, 50}});
     EXPECT_EQ(path.at(0.5).forward, glm::dvec3(0, 0, -1));
 }
@@ -103,7 +103,7 @@ TEST(CameraPath, AFileMayLeaveTheFieldOfViewOut)
     EXPECT_EQ(path.keys().at(0).fov_degrees, 45);
 }
 
-// The message that a file gives, or nothing.
+// The message about a file, or nothing.
 std::string faultOf(const std::string& text)
 {
     try

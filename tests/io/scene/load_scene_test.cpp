@@ -39,7 +39,7 @@ TEST(LoadScene, ContentTellsTheFormatWhereTheNameDoesNot)
         expectInputError([&] { loadNamed(name, "Dear reader"); }, {name, "neither glTF 2.0 nor OBJ"});
         expectInputError([&] { loadNamed(name, ""); }, {name, "neither"});
     }
-    // A clear content stands before a wrong name; extensions may be in capitals.
+    // The content decides, even if the name differs; extensions may be upper case.
     EXPECT_EQ(loadNamed("mesh.obj", glbText()).triangleCount(), 1U);
     EXPECT_EQ(loadNamed("mesh.stl", asPly(mesh, PlyEncoding::Text)).triangleCount(), 8U);
     EXPECT_EQ(loadNamed("MESH.OBJ", asObj(mesh)).triangleCount(), 8U);
@@ -71,12 +71,12 @@ TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)
         const glm::mat4& turn = scene.instances[0].transform;
         EXPECT_EQ(transformPoint(turn, up), glm::vec3(0, 1, 0));
         EXPECT_EQ(glm::determinant(turn), 1.0F);
-        for (int i = 0; i < 3; ++i) // a permutation with signs: nothing is rounded
+        for (int i = 0; i < 3; ++i) // a permutation of axes with signs, so nothing is rounded
         {
             EXPECT_EQ(glm::length(glm::vec3(turn[i])), 1.0F);
         }
     }
-    // The usual one: what lies in front of a z-up model lies in front of a y-up one.
+    // The usual convention: the front of a z-up model is the front of a y-up one.
     Scene scene;
     scene.instances.push_back({0, glm::mat4(1.0F)});
     place(scene, {UpAxis::Z, 1.0F});

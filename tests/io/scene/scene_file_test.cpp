@@ -22,7 +22,7 @@ SceneFile parse(const std::string& content)
     return parseSceneFile(content, "folder/test.scene.json");
 }
 
-/// A file of one object with these members.
+/// The text of a file with one object that has these members.
 std::string objectText(const std::string& members)
 {
     return R"({"objects": [{"file": "a.glb", )" + members + "}]}";
@@ -89,7 +89,7 @@ TEST(SceneFile, PlaceScalesThenTurnsThenMoves)
 {
     const SceneFileObject object = parseObject(R"("up": "z", "place": {"translation": [10, 20, 30],
         "rotation": {"axis": [0, 2, 0], "degrees": 90}, "scale": [2, 3, 4]})");
-    // z up becomes y up: (1, 2, 3) is (1, 3, -2); scaled (2, 9, -8); a quarter about y takes x to -z, z to x.
+    // z up becomes y up: (1, 2, 3) is (1, 3, -2), scaled (2, 9, -8). A quarter turn about y moves x to -z and z to x.
     EXPECT_EQ(object.transform * glm::dvec4(1, 2, 3, 1), glm::dvec4(10 - 8, 20 + 9, 30 - 2, 1));
     const SceneFileObject uniform = parseObject(R"("place": {"scale": 0.5})");
     EXPECT_EQ(uniform.transform, glm::dmat4(glm::dmat3(0.5)));
@@ -157,7 +157,7 @@ TEST(SceneFile, KeysAreReadAndTurnTheShorterWay)
     EXPECT_EQ(keys.times, (std::vector<double>{0, 1, 4}));
     EXPECT_EQ(keys.translations.at(2), glm::dvec3(1, 1, 0));
     EXPECT_EQ(keys.scales, (std::vector<glm::dvec3>{{1, 1, 1}, {1, 2, 3}, {2, 2, 2}}));
-    // 30 degrees on the way to 120; then from 120 on to 270, which is what 450 the other way around comes to.
+    // 30 degrees on the way to 120; then from 120 to 270, which equals 450 the other way around.
     for (const auto& [seconds, degrees, scale] : {std::array{0.25, 30.0, 1.0}, std::array{2.5, 195.0, 1.5}})
     {
         const glm::dvec4 point = motionAt(keys, seconds) * glm::dvec4(1, 0, 0, 0);
@@ -170,7 +170,7 @@ struct WrongFile
 {
     const char* name;
     std::string content;
-    std::vector<std::string> parts; // of the message
+    std::vector<std::string> parts; // in the message
 };
 
 void PrintTo(const WrongFile& file, std::ostream* stream)

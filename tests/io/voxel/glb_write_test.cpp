@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes of voxels, taken apart without the loader: each face between a voxel and an empty cell once, and no other.
+// Meshes of voxels, read without the loader. They have each face between a voxel and an empty cell once, and no others.
 #include "io/voxel/glb_write.h"
 
 #include "core/base/morton.h"
@@ -38,9 +38,9 @@ template <typename T> T at(const std::string& bytes, std::size_t offset)
     return value;
 }
 
-using Face = std::tuple<int, int, int, int, int>; // axis, direction, and the cell that it belongs to
+using Face = std::tuple<int, int, int, int, int>; // axis, direction, and the cell
 
-// The faces of voxels that look into empty cells, with colours.
+// The faces of voxels towards empty cells, with colours.
 std::map<Face, std::uint32_t> expectedFaces(const TreeData& tree)
 {
     std::map<std::array<int, 3>, std::uint32_t> voxels;

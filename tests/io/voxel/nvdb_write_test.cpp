@@ -7,7 +7,7 @@
 #include "support/tree_samples.h"
 #include "zvo/error.h"
 
-#include <iostream> // which GridValidator.h lacks
+#GridValidator.h does not include it
 
 #include <nanovdb/util/GridValidator.h>
 #include <nanovdb/util/IO.h>
@@ -113,7 +113,7 @@ TEST(NvdbWrite, GivesTheSameBytesForEqualVoxels)
     EXPECT_GT(dag_count, 3);
 }
 
-// What this process can allocate from here on.
+// Limits the memory that this process can allocate.
 class MemoryLimit
 {
 public:
@@ -135,7 +135,7 @@ private:
     struct rlimit m_before = {};
 };
 
-// One processor, on which NanoVDB starts no threads.
+// Limits the process to one processor, on which NanoVDB starts no threads.
 class OneProcessor
 {
 public:

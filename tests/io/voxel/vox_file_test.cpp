@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MagicaVoxel's files: made here chunk by chunk as the format's author documents it, and read back.
+// MagicaVoxel's files, made here chunk by chunk as the format's author documents them, and read back.
 #include "io/voxel/vox_file.h"
 
 #include "core/base/morton.h"
@@ -112,7 +112,7 @@ std::string writtenVox(const TreeData& tree)
     return bytes;
 }
 
-// World coordinates of MagicaVoxel, with colours.
+// Colours at MagicaVoxel's world coordinates.
 std::map<std::array<int, 3>, std::uint32_t> worldOf(const VoxVoxels& voxels)
 {
     std::map<std::array<int, 3>, std::uint32_t> world;
@@ -144,7 +144,7 @@ TEST(VoxFile, DefaultPaletteEndsInRamps)
         voxels += std::string{static_cast<char>(i - 1), '\0', '\0', static_cast<char>(i)};
     }
     const auto world = worldOf(read(voxFile(model(256, 1, 1, voxels))));
-    // Of the format's table: 0xAABBGGRR.
+    // Colours of the format's palette are 0xAABBGGRR.
     EXPECT_EQ((world.at({0, 0, 0})), 0xffffffU);
     EXPECT_EQ((world.at({6, 0, 0})), 0xffccffU);
     EXPECT_EQ((world.at({36, 0, 0})), 0xffffccU);
@@ -158,12 +158,12 @@ TEST(VoxFile, DefaultPaletteEndsInRamps)
 
 TEST(VoxFile, ModelsGoWhereTheirNodesSay)
 {
-    // Two places of one model of 3 x 1 x 1: moved, and turned so that x becomes -y.
+    // Two instances of a model of 3 x 1 x 1: one moved, one rotated so that x becomes -y.
     const std::string voxels("\0\0\0\1\2\0\0\2", 8);
     const std::string file = voxFile(model(3, 1, 1, voxels) + transform(0, 1, {}) + group(1, {2, 4}) +
                                      transform(2, 3, {{"_t", "10 20 -5"}}) + shape(3, 0) +
                                      transform(4, 5, {{"_r", "33"}, {"_t", "0 0 2"}}) + shape(5, 0));
-    // 33 = 0b0100001: row 0 has its 1 at y, row 1 its -1 at x, row 2 at z.
+    // 33 = 0b0100001: row 0 has 1 at y, row 1 has -1 at x, row 2 has 1 at z.
     const std::map<std::array<int, 3>, std::uint32_t> expected = {
         {{9, 20, -5}, kFirstColor}, {{11, 20, -5}, kSecondColor}, {{0, 0, 2}, kFirstColor}, {{0, -2, 2}, kSecondColor}};
     EXPECT_EQ(worldOf(read(file)), expected);
@@ -332,7 +332,7 @@ TEST(TreeBuild, HasVoxelKnowsAllAndNoOthers)
     }
 }
 
-// A full block: faces look outwards, the middle of each face straight.
+// In a full block, faces have outward normals, which are exact in the middle of each face.
 TEST(TreeBuild, NormalsLookOutwards)
 {
     std::vector<std::uint64_t> codes(1 << 9);
