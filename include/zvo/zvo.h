@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
-// All of zvo for programs in C, in other languages, and of other C++ compilers than the library's: C11, and C++. What
-// each function does, which errors it knows, and what is recorded between which stages stands at the class of the same
-// name in the C++ headers (zvo/zvo.hpp); docs/c-interface.md has the rules of this one and an example.
+// The C interface (C11 and C++), for programs in C, in other languages, and in C++ of other compilers than the library's.
+// Effects, errors and stages of a function are documented in the C++ headers (zvo/zvo.hpp), at the class of the same
+// name. docs/c-interface.md has the rules of this interface and an example.
 //
-// Structs have their size first, which ZVO_..._INIT sets along with every default: begin with it, those that zvo fills
-// too. A size over 4096 bytes, or no multiple of 4, is ZVO_ERROR_USAGE. A smaller size, of an older header: members
-// that are missing are as ZVO_..._INIT sets them. A larger one, of a newer header: whatever is beyond the members that
-// the library knows must be 0, and is made 0 where zvo fills the struct. Members called reserved are 0, else
-// ZVO_ERROR_USAGE. In an array all elements have the size of the first, which is the distance from one to the next.
+// A struct begins with its size. ZVO_..._INIT sets the size and all defaults; every struct must be initialized by it,
+// those that zvo fills, too. A size over 4096 bytes, or no multiple of 4, is ZVO_ERROR_USAGE. If a struct is smaller than
+// the library's, as with an older header, missing members have their defaults. If it is larger, as with a newer header,
+// the bytes that the library does not know must be 0; in structs that zvo fills it sets them to 0. Members called
+// reserved must be 0, else the call is ZVO_ERROR_USAGE. All elements of an array have the size of the first one, which
+// is also the distance between two of them.
 //
-// Functions return ZVO_OK or why they failed, and then zvoLastError() says more. What is given back comes last, and is
-// left alone where a function fails. Pointers may be null where it says so, and in the functions that destroy.
+// Functions return ZVO_OK or an error code; zvoLastError() then has the message. Outputs are the last parameters; a
+// function that fails does not change them. A pointer may be null only where its description says so, and in functions
+// that destroy.
 #pragma once
 
 #include "zvo/export.h"

@@ -7,7 +7,7 @@
 #include "support/tree_samples.h"
 #include "zvo/error.h"
 
-#GridValidator.h does not include it
+#include <iostream> // GridValidator.h does not include it
 
 #include <nanovdb/util/GridValidator.h>
 #include <nanovdb/util/IO.h>
