@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The C interface (C11 and C++), for programs in C, in other languages, and in C++ of other compilers than the library's.
-// Effects, errors and stages of a function are documented in the C++ headers (zvo/zvo.hpp), at the class of the same
-// name. docs/c-interface.md has the rules of this interface and an example.
+// The C interface (C11 and C++), for programs in C, in other languages, and in C++ of another compiler than the
+// library's. Effects, errors and stages of a function are documented in the C++ headers (zvo/zvo.hpp), at the class of
+// the same name. docs/c-interface.md has the rules of this interface and an example.
 //
 // A struct begins with its size. ZVO_..._INIT sets the size and all defaults; every struct must be initialized by it,
-// those that zvo fills, too. A size over 4096 bytes, or no multiple of 4, is ZVO_ERROR_USAGE. If a struct is smaller than
-// the library's, as with an older header, missing members have their defaults. If it is larger, as with a newer header,
-// the bytes that the library does not know must be 0; in structs that zvo fills it sets them to 0. Members called
-// reserved must be 0, else the call is ZVO_ERROR_USAGE. All elements of an array have the size of the first one, which
-// is also the distance between two of them.
+// those that zvo fills, too. A size over 4096 bytes, or no multiple of 4, is ZVO_ERROR_USAGE. If a struct is smaller
+// than the library's, as with an older header, missing members have their defaults. If it is larger, as with a newer
+// header, the bytes that the library does not know must be 0; in structs that zvo fills it sets them to 0. Members
+// called reserved must be 0, else the call is ZVO_ERROR_USAGE. All elements of an array have the size of the first one,
+// which is also the distance between two of them.
 //
 // Functions return ZVO_OK or an error code; zvoLastError() then has the message. Outputs are the last parameters; a
 // function that fails does not change them. A pointer may be null only where its description says so, and in functions
