@@ -1,9 +1,10 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Colours of 16 voxels in 8 bytes: two of them in 5, 6 and 5 bits, and for each voxel which of these or of the two
-// between them it has (the form is that of S3TC's DXT1). Four pairs are tried, and the one with the smallest sum of
-// squared errors stays: the one that meets the mean best, the corners of the colours' box on the diagonal along which
-// they spread, and twice the least squares for the voxels' choices in the pair before. All in integers.
+// Packs the colours of 16 voxels into 8 bytes: two colours in 5, 6 and 5 bits, and for each voxel an index that chooses
+// one of these or of the two colours between them (the form of S3TC's DXT1). Four pairs are tried, and the one with the
+// smallest sum of squared errors stays: the pair that is nearest to the mean; the corners of the colours' box on the
+// diagonal along which they spread; and, twice, the least squares for the voxels' choices in the pair before. All in
+// integers.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
 #include "attributes/color_pair.glsl"
@@ -17,7 +18,7 @@ layout(push_constant, scalar) uniform Push
 
 const uint kRefinements = 2u;
 
-// The pair whose colour next to the first is nearest to one colour: of the codes around it, channel by channel.
+// Of the pairs of codes around a colour, the one whose colour next to the first is nearest to it, channel by channel.
 Pair pairAround(uvec3 color)
 {
     uvec3 low = color * kChannelMax / 255u;
@@ -40,8 +41,8 @@ Pair pairAround(uvec3 color)
     return pairOf(best_first, best_second);
 }
 
-// Corners of the box around all colours: those on the diagonal along which most of them lie, as their covariance with
-// the channel that varies most tells.
+// Corners of the box around all colours, on the diagonal along which most of them lie. Their covariances with the
+// channel that varies most decide which one that is.
 Pair pairOfBox(uvec3 sum)
 {
     uvec3 low = uvec3(255u);

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Normals of 16 voxels in 16 bytes: two scales of octahedral coordinates, of which each voxel has one of eight steps
-// (as BC5 has them). An octahedral map is torn below its equator, and a block there would need its whole scale; so each
-// block has a frame of its own: one of six poles, and coordinates along the axes or along the diagonals, whichever
+// Packs the normals of 16 voxels into 16 bytes: two scales of octahedral coordinates, of which each voxel has one of
+// eight steps (the form of BC5). An octahedral map is torn below its equator, where a block would need its whole scale.
+// So each block has its own frame: one of six poles, and coordinates along the axes or along the diagonals, whichever
 // gives the smallest sum of squared distances on the octahedron. A scale goes from the least to the greatest
 // coordinate, or is the least squares for the voxels' steps on that one. All in integers, with 1 as 4095.
 #extension GL_GOOGLE_include_directive : require
@@ -26,7 +26,7 @@ ivec3 loadNormal(uint index)
     return unfoldNormal(sign(p) * ((abs(p) * kOne + kNormalOne / 2) / kNormalOne), kOne);
 }
 
-// From the axes of the grid to a frame's pole as z.
+// Rotates v from the axes of the grid to a frame whose pole is z.
 ivec3 turned(ivec3 v, uint frame)
 {
     uint axis = frame & kFrameAxis;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Two colours between which the 16 of a block lie.
+// Pairs of colours for the 16 voxels of a block.
 #include "attributes/color.glsl"
 #include "lib/attribute_formats.glsl"
 
 const uvec3 kChannelMax = uvec3((1u << kRedBits) - 1u, (1u << kGreenBits) - 1u, (1u << kBlueBits) - 1u);
 
-uvec3 colors[kBlockVoxels]; // what the pairs are for
+uvec3 colors[kBlockVoxels]; // of the block's voxels
 
-/// Two colours, and what comes of them.
+/// A pair of colours, the voxels' choices, and their error.
 struct Pair
 {
     uint ends;
@@ -26,7 +26,7 @@ uint distance2(uvec3 a, uvec3 b)
     return uint(d.r * d.r + d.g * d.g + d.b * d.b);
 }
 
-// Chooses the nearest colour for each voxel, the first of several.
+// Chooses the nearest colour for each voxel; of several, the first.
 void choose(inout Pair pair)
 {
     uvec3 first = unpackColor565(pair.ends);
@@ -54,7 +54,7 @@ uvec3 endOf(ivec3 numerator, uint denominator)
     return min((2u * scaled + whole) / (2u * whole), kChannelMax);
 }
 
-// The pair with the smallest error if voxels keep their choices; the same pair where all have chosen alike.
+// The pair with the smallest error if voxels keep their choices; if all have chosen the same, the pair itself.
 Pair leastSquares(Pair pair)
 {
     uint aa = 0u; // of weights a of the first and b of the second colour

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Two scales of coordinates for the 16 points of a block: x and y at once, each on its own. In integers; 1 is 4095.
+// Pairs of scales for the coordinates of a block's 16 points, x and y at once. In integers; 1 is 4095.
 #include "lib/attribute_formats.glsl"
 
 const uint kStep = 65u;                      // from one end to the next
@@ -7,9 +7,9 @@ const int kOne = kNormalEnd * int(kStep);    // 1 in coordinates and vectors
 const uint kInverseBits = 18u;               // of kNormalIndexMax / length of a scale
 const uint kCoordinateMax = kEndMax * kStep; // coordinates are counted from -1
 
-uvec2 points[kBlockVoxels]; // what the scales are for
+uvec2 points[kBlockVoxels]; // of the block's voxels
 
-/// The scales of x and y, and what comes of them.
+/// The scales of x and y, the voxels' steps, and their errors.
 struct Scales
 {
     uvec2 first; // ends
@@ -25,7 +25,7 @@ uvec2 pointAt(Scales scales, uvec2 steps)
     return (sum * kStep + kNormalIndexMax / 2u) / kNormalIndexMax;
 }
 
-// What blockIndices finds for that voxel.
+// The bits that blockIndices reads for that voxel.
 uvec3 planesOf(uvec2 steps, uint voxel)
 {
     const uvec3 bits = uvec3(0u, 1u, 2u);
@@ -49,7 +49,7 @@ void choose(inout Scales scales)
     }
 }
 
-// From the least coordinates to the greatest.
+// The scales from the least to the greatest coordinates.
 Scales fullScales()
 {
     uvec2 least = points[0];
@@ -75,7 +75,7 @@ uvec2 endOf(ivec2 numerator, uvec2 denominator)
     return min((coordinate + kStep / 2u) / kStep, uvec2(kEndMax));
 }
 
-// The scales with the smallest error if voxels keep their steps; the same where all have one.
+// The scales with the smallest error if voxels keep their steps; where all have the same one, the scale itself.
 Scales leastSquares(Scales scales)
 {
     uvec2 aa = uvec2(0u); // of weights a of the first and b of the second end
@@ -104,7 +104,7 @@ Scales leastSquares(Scales scales)
     return scales;
 }
 
-// Of each coordinate the better scale; the first of two that are as good.
+// The better scale for each coordinate; of equally good ones, the first.
 Scales better(Scales a, Scales b)
 {
     bvec2 is_b = lessThan(b.error, a.error);

@@ -2,7 +2,7 @@
 // Arithmetic that gives the same bits on every device: single rounded operations, and no subnormal numbers.
 #include "deform/deform.h"
 
-// v with 0 in place of components below 2^-100.
+// v with components below 2^-100 replaced by 0.
 vec3 dropTiny(vec3 v)
 {
     return mix(v, vec3(0.0), lessThan(floatBitsToUint(v) << 1, uvec3(kTinyExponent << 24)));
@@ -46,7 +46,7 @@ bool isDirection(vec3 v)
     return exponent >= kDirectionExponentMin && exponent <= kDirectionExponentMax;
 }
 
-// The bits to write: zeros are positive, and whatever is not finite is the same NaN, since devices differ in both.
+// The bits to write: zeros are positive, and all values that are not finite are one NaN, since devices differ in both.
 uvec3 canonicalBits(vec3 v)
 {
     uvec3 bits = floatBitsToUint(v);

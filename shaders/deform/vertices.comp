@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Push
     DeformParams params;
 };
 
-// value with the deltas of count terms from first on added.
+// Adds to value the deltas of count terms, from first on.
 vec3 addTerms(vec3 value, uint first, uint count, uint vertex)
 {
     for (uint i = 0u; i < count; ++i)
@@ -27,7 +27,7 @@ vec3 addTerms(vec3 value, uint first, uint count, uint vertex)
     return value;
 }
 
-// What the joints make of a vertex.
+// Position and matrix of a vertex, blended over its joints.
 struct Blend
 {
     vec3 position;
@@ -46,8 +46,8 @@ void addJoint(inout Blend blend, uint joint, float weight, vec3 rest)
             blend.linear[column] = sum(blend.linear[column], counts ? product(m[column], weight) : vec3(0.0));
 }
 
-// normal through the cofactors of linear, scaled by a power of two, turned round where linear mirrors. Without a
-// direction, what tells whether the triangle's normal is to be turned round.
+// Transforms normal by the cofactors of linear, scaled by a power of two, and reverses it if linear mirrors. If that
+// has no direction, the result only tells whether the triangle's normal is to be reversed.
 vec3 turnedNormal(mat3 linear, vec3 normal)
 {
     uvec3 sizes = max(max(floatBitsToUint(linear[0]) << 1, floatBitsToUint(linear[1]) << 1),

@@ -1,7 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Gives changed cells room for their children, or voxels, one behind the other in the order of cells, by one workgroup
-// that walks over them.
+// Allocates the children, or voxels, of changed cells, in the order of cells. One workgroup walks over the cells.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 #define SCAN_GROUP kScanGroup
@@ -20,7 +19,7 @@ void main()
     EditState from = params.states.data[params.from];
     EditState kept = params.states.data[params.kept];
     uint node_top = max(from.node_top, kept.node_top);
-    // Words of the emission table belong to one dab.
+    // A word of the emission table belongs to a single dab.
     uint voxel_top = (max(from.voxel_top, kept.voxel_top) + 31u) & ~31u;
     for (uint first = 0u; first < params.cell_count; first += kScanGroup)
     {

@@ -2,7 +2,7 @@
 // The cells of a dab (edit/edit.h), and which voxels its brush covers.
 #include "edit/edit.h"
 
-// How far the coordinates of voxels are shifted to those of a level's cells.
+// The shift from coordinates of voxels to those of a level's cells.
 uint levelShift(EditBox box, uint level)
 {
     return 2u * (box.level_count - level);
@@ -75,12 +75,12 @@ bool isUnderBrush(Brush brush, uvec3 voxel)
     ivec3 away = abs(ivec3(voxel) - brush.center);
     int radius = int(brush.radius);
     bool in_box = max(away.x, max(away.y, away.z)) <= radius;
-    ivec3 near = min(away, radius + 1); // squares of what is far away would overflow
+    ivec3 near = min(away, radius + 1); // squares of large distances would overflow
     int square = near.x * near.x + near.y * near.y + near.z * near.z;
     return in_box && (brush.shape == kBrushBox || square <= radius * (radius + 1));
 }
 
-// The direction of a voxel's surface that a brush makes: away from its centre, of a box across the nearest side.
+// The direction of the surface that a brush makes at a voxel: away from its centre; for a box, across the nearest side.
 ivec3 brushNormal(Brush brush, uvec3 voxel)
 {
     ivec3 away = ivec3(voxel) - brush.center;

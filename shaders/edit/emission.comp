@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// What the emissive voxels of changed leaves emit: as before.
+// Copies the emission of the emissive voxels of changed leaves.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/voxels.glsl"
 #include "lib/emission.glsl"

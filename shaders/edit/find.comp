@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Push
 
 const bool kRanks = kEntriesPerWord != 0u && kAttributes;
 
-// The base tree's node of a cell; kNoEditNode where it has none.
+// The base tree's node of a cell, or kNoEditNode.
 RankedNode baseNode(uint level, uvec3 cell)
 {
     RankSource source =
@@ -38,7 +38,7 @@ RankedNode baseNode(uint level, uvec3 cell)
     return at;
 }
 
-// The leaf's mask after the dab, and whether that, or a voxel, changes.
+// Computes the leaf's mask after the dab, and whether the mask or a voxel changes.
 void dab(Node base, uvec3 leaf, inout EditCell cell)
 {
     uvec2 mask = uvec2(base.mask_lo, base.mask_hi);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts of what is kept, by blocks of kScanBlock elements: nodes, or words of voxels.
+// Counts of kept elements (nodes, or words of voxels) in blocks of kScanBlock.
 #include "edit/compact.h"
 #include "lib/dispatch.glsl"
 #define SCAN_GROUP kScanGroup

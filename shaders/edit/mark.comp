@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push
     EditMarkParams params;
 };
 
-// All threads that mark a node write the same: a node has one level.
+// Several threads may mark the same node; they write the same, because a node has one level.
 void markNodes(uint base, uint count)
 {
     if (base - params.first_node >= params.node_count) // or less than first_node

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sets the states of the slots in the new region: how far up their copies reach.
+// Sets the states of the slots in the new region, with the ends of their copies there.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/compact.h"
 #include "lib/dispatch.glsl"
@@ -11,10 +11,10 @@ layout(push_constant, scalar) uniform Push
     EditMoveStatesParams params;
 };
 
-// Nodes kept before the i-th of the old region, which may be the one behind its last.
+// Number of kept nodes before node i of the old region; i may be one past its last.
 uint nodesBefore(uint i)
 {
-    uint last = min(i, params.node_count) - 1u; // at least the root of slot 0 stands before
+    uint last = min(i, params.node_count) - 1u; // slot 0 has at least its root before
     return params.numbers.data[last] + (i > last && params.marks.data[last] != 0u ? 1u : 0u);
 }
 

@@ -25,7 +25,7 @@ Node copyOf(EditCell cell)
     return Node(cell.mask_lo, cell.first, cell.mask_hi, cell.first + bitCount(cell.mask_lo));
 }
 
-// A child that the dab does not change, with its look.
+// A child that the dab does not change; copies its attributes.
 Node unchangedChild(EditCell parent, uint bit, bool is_leaf, uint index)
 {
     RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,

@@ -64,7 +64,8 @@
 #include "lib/surface_normal.glsl"
 #include "shared/tree_table.h"
 
-// What is a constant in zvo's kernels (lib/traverse.glsl). Trees differ: setTree() sets what is a variable here.
+// These are constants in zvo's kernels (lib/traverse.glsl). Here trees differ, so setTree() sets those that are
+// variables.
 #ifdef ZVO_NODE_LEVELS
 const uint kNodeLevels = ZVO_NODE_LEVELS;
 #else
@@ -95,9 +96,9 @@ const uint kIterationsMax = ZVO_ITERATIONS_MAX;
 #include "lib/traverse.glsl"
 #include "lib/ranks.glsl"
 
-const vec3 kPlainColor = vec3(0.6); // of trees without attributes
+const vec3 kPlainColor = vec3(0.6); // used for trees without attributes
 
-// What a hit looks like. Vectors are in world space.
+// The appearance of a hit. Vectors are in world space.
 struct zvo_Surface
 {
     vec3 base_color;  // linear, 0 to 1
@@ -112,7 +113,7 @@ struct zvo_Surface
     bool is_dynamic;  // in a leaf, or a node, that a dynamic object or a brush has changed; false without attributes
 };
 
-// Edge of the root's cube in world units: what is 1 in unit space.
+// Edge of the root's cube in world units, which is 1 in unit space.
 float zvo_unitEdge(TreeTable_ConstPtr tree)
 {
     return tree.data[0].voxel_size * float(1u << (2u * tree.data[0].node_levels));
@@ -135,15 +136,15 @@ Ray zvo_unitRay(vec3 origin, vec3 direction, float t_min, float t_max)
     return Ray(origin, t_min, inverseDirection(direction), t_max);
 }
 
-// A world-space ray in unit space; t stays what it is.
+// Converts a world-space ray to unit space; t is unchanged.
 Ray toUnitRay(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float t_min, float t_max)
 {
     precise vec3 unit_direction = direction / zvo_unitEdge(tree);
     return zvo_unitRay(zvo_toUnit(tree, origin), unit_direction, t_min, t_max);
 }
 
-// Where the ray of a pixel begins, and where it goes, in unit space, as zvo's pictures have it. pixel: from the top
-// left of a picture of that size.
+// Origin and direction of a pixel's ray in unit space, as in zvo's pictures. pixel: from the top left of a picture of
+// that size.
 vec3 zvo_pixelOrigin(CameraRays camera, bool orthographic, uvec2 pixel, uvec2 size)
 {
     vec3 offset = rayOffset(pixelOffset(pixel, size), camera.step_x, camera.step_y);
@@ -158,7 +159,7 @@ vec3 zvo_pixelDirection(CameraRays camera, bool orthographic, uvec2 pixel, uvec2
     return direction;
 }
 
-// Rays go through this tree from now on.
+// Selects the tree for the rays that follow.
 void setTree(TreeTable_ConstPtr tree)
 {
     g_halves = uint64_t_ConstPtr(uint64_t(tree.data[0].source.pool));
@@ -170,7 +171,7 @@ void setTree(TreeTable_ConstPtr tree)
 #endif
 }
 
-// An invalid ray, or one through a tree without nodes, goes through as one that ends before it starts.
+// An invalid ray, or one through a tree without nodes, is replaced by one that ends before it starts.
 Traversal traverseTree(TreeTable_ConstPtr tree, Ray ray, vec2 detail, uvec3 from)
 {
     setTree(tree);
@@ -179,8 +180,8 @@ Traversal traverseTree(TreeTable_ConstPtr tree, Ray ray, vec2 detail, uvec3 from
                     valid ? ray.t_max : 0.0, detail, from, kIterationsMax);
 }
 
-// From what a traversal of a DAG knows of a hit, the number of a voxel in its leaf, to the index of its attributes, as
-// trace/ranks finds it.
+// Computes the index of a hit's attributes from the number of the voxel in its leaf, which is all that a traversal of a
+// DAG knows; as trace/ranks does.
 uint rankOf(TreeTable_ConstPtr tree, Traversal met)
 {
     RankSource source = RankSource(tree.data[0].source.pool, tree.data[0].source.before,
@@ -240,7 +241,7 @@ bool zvo_occludedRay(TreeTable_ConstPtr tree, Ray ray)
     return traverseTree(tree, ray, vec2(0.0), uvec3(0u)).hit;
 }
 
-// Of the same ray; best in another dispatch: some devices count the iterations of an invocation.
+// Resumes the same ray. Best done in another dispatch, as some devices count the iterations of an invocation.
 Hit zvo_resume(TreeTable_ConstPtr tree, Ray ray, Hit hit)
 {
     return toHit(tree, traverseTree(tree, ray, vec2(0.0), limitsAfter(hit.t, hitFace(hit))));
@@ -277,7 +278,7 @@ float cellEdge(TreeTable_ConstPtr tree, Hit hit)
     return tree.data[0].voxel_size * float(1u << (2u * (tree.data[0].node_levels - hitLevel(hit))));
 }
 
-// The point of a hit in world space: on the face that the ray came in through, exactly; inside of the voxel if it began
+// The point of a hit in world space: exactly on the face by which the ray entered, or inside of the voxel if it began
 // there. origin, direction: of the ray in world space.
 vec3 zvo_position(TreeTable_ConstPtr tree, Hit hit, vec3 origin, vec3 direction)
 {
@@ -300,8 +301,8 @@ vec3 emissionOf(TreeTable_ConstPtr tree, uint voxel)
     return radiance;
 }
 
-// direction: of the ray that hit, in world or unit space, any length. Without attributes, or at a node in a tree that
-// has none of nodes, the colour is a grey and the normal the face's.
+// direction: of the ray that hit, in world or unit space, of any length. Without attributes, or at a node of a tree
+// without attributes of nodes, the colour is grey and the normal is the face's.
 zvo_Surface zvo_surface(TreeTable_ConstPtr tree, Hit hit, vec3 direction)
 {
     zvo_Surface surface;
@@ -331,8 +332,8 @@ zvo_Surface zvo_surface(TreeTable_ConstPtr tree, Hit hit, vec3 direction)
     return surface;
 }
 
-// The depth that a rasterizer gives a point in world space, for viewports with a depth range of 0 to 1: whatever the
-// matrix makes of it, from near to far or reversed. The point must be in front of the camera.
+// The depth that a rasterizer gives a point in world space, for viewports with a depth range of 0 to 1. The matrix
+// decides the convention, from near to far or reversed. The point must be in front of the camera.
 float zvo_depth(mat4 view_projection, vec3 position)
 {
     vec4 clip = view_projection * vec4(position, 1.0);

@@ -25,14 +25,14 @@ Attribute unpackAttribute4(uint word)
     return Attribute(color.r | (color.g << 8) | (color.b << 16), normalCode(normal));
 }
 
-// From a block's coordinates, in which 1 is `one`, to its pole as z.
+// Converts coordinates of a block, in which 1 is `one`, to a vector with the pole as z.
 ivec3 blockVector(ivec2 p, uint frame, int one)
 {
     ivec2 turned = clamp(ivec2(p.x + p.y, p.x - p.y), ivec2(-one), ivec2(one));
     return unfoldNormal((frame & kFrameDiagonal) != 0u ? turned : p, one);
 }
 
-// From a block's pole as z to the axes of the grid.
+// Rotates a vector from a block's frame, with the pole as z, to the axes of the grid.
 ivec3 unturned(ivec3 v, uint frame)
 {
     v.z = (frame & kFrameNegative) != 0u ? -v.z : v.z;
@@ -40,7 +40,7 @@ ivec3 unturned(ivec3 v, uint frame)
     return axis == 0u ? v.zxy : (axis == 1u ? v.yzx : v);
 }
 
-// The index that 16 voxels have in three words, a bit in each: of x, and 16 bits above, of y.
+// The indices of a voxel: three words hold a bit of each, the lower 16 bits for x, the upper ones for y.
 uvec2 blockIndices(uvec3 planes, uint voxel)
 {
     uvec3 x = (planes >> voxel) & 1u;

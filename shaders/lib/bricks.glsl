@@ -3,13 +3,13 @@
 // The includer defines before:
 //   BRICKS_CONSTANT_ID    constant_id of kWideKeys
 //
-// Why a wide key needs no 64-bit atomic, and why nobody waits. An insert takes an entry's two words one after the
-// other: it puts its lower word where the first is 0, and goes on to the next entry if another one stands there; then
-// the same with the upper words. A word is written at most once, so whatever a thread acts on is final: it passes an
-// entry exactly if the entry's words, in the end, are not its own, and stops at the first whose words are. All threads
-// with the same key therefore stop at the same entry, in any order, and the one that wrote the second word has claimed
-// it. An entry never stays half full: who wrote the first word goes on to the second, which is its own or another's of
-// the same lower word.
+// Why wide keys need neither 64-bit atomics nor waiting. An insert takes an entry's two words in order: it writes its
+// lower word where the first is 0, and goes on to the next entry if that holds another one; then it does the same with
+// the upper words. A word is written at most once, so each value that a thread acts on is final: it passes an entry
+// exactly if the entry's final words are not its own, and stops at the first entry whose words are. So all threads with
+// the same key stop at the same entry, in any order, and the one that wrote the second word has claimed it. No entry
+// stays half full: the thread that wrote the first word goes on to the second, which becomes its own, or that of
+// another key with the same lower word.
 #include "lib/morton.glsl"
 #include "shared/bricks.h"
 
@@ -42,18 +42,19 @@ bool isSameKey(uvec2 a, uvec2 b)
     return a.x == b.x && (!kWideKeys || a.y == b.y);
 }
 
-// First entry to look at. Keys that differ in the lowest bits only stand side by side.
+// First entry to probe. Keys that differ only in the lowest bits stand side by side.
 uint brickHome(uvec2 key, uint mask)
 {
     uint run = key.x >> kBrickRunLog2;
     if (kWideKeys)
-        run += key.y * 2246822519u; // an odd number with as many zeros as ones: any will do
+        run += key.y * 2246822519u; // any odd number with as many ones as zeros
     run *= 2654435761u;             // Knuth's multiplicative hash
     run ^= run >> 15;
     return ((run << kBrickRunLog2) | (key.x & ((1u << kBrickRunLog2) - 1u))) & mask;
 }
 
-// The entry of key, claimed when there is none. kNoEntry when the probes ran out. claimed: this call put the key there.
+// The entry of key, which is claimed if there is none; kNoEntry if the probes ran out. claimed: this call inserted the
+// key.
 uint brickFindOrInsert(BrickEntry_Ptr bricks, uint mask, uvec2 key, out bool claimed)
 {
     uint entry = brickHome(key, mask);

@@ -25,7 +25,8 @@ vec3 toneMap(vec3 radiance)
     return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
 }
 
-// Half a step of codes from 0 to steps up or down by an ordered pattern, so that gradients show no bands.
+// Adds an ordered pattern of up to half a step in either direction, for codes from 0 to steps, so that gradients show
+// no bands.
 float dither(uvec2 pixel, float steps)
 {
     uint x = pixel.x ^ pixel.y;
@@ -33,7 +34,7 @@ float dither(uvec2 pixel, float steps)
     return (float(rank) - 7.5) / (16.0 * steps);
 }
 
-// From radiance to what is shown, encoded, for codes from 0 to steps.
+// From radiance to encoded values, for codes from 0 to steps.
 vec3 develop(vec3 radiance, float exposure, uvec2 pixel, float steps)
 {
     return clamp(encodeSrgb(toneMap(exposure * radiance)) + dither(pixel, steps), 0.0, 1.0);

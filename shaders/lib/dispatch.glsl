@@ -7,8 +7,8 @@ uint workgroupIndex()
     return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
 }
 
-// Number of this thread in dispatch order; may lie past the thread count that was asked for. A macro, because glslang
-// takes gl_WorkGroupSize for 1 without a word in functions that stand before the kernel's local size.
+// Number of this thread in dispatch order; it may be past the requested thread count. This is a macro, because glslang
+// silently takes gl_WorkGroupSize for 1 in functions before the kernel's local size.
 #define threadIndex()                                                                                                  \
     (workgroupIndex() * (gl_WorkGroupSize.x * gl_WorkGroupSize.y * gl_WorkGroupSize.z) + gl_LocalInvocationIndex)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds the occupied entries of a brick table, kCollectItems for each thread of workgroups of kCollectGroup, and counts
-// their voxels. Whoever lists them takes room for a whole subgroup with one atomic; there are no barriers.
+// their voxels. To list them, a kernel takes room for a whole subgroup by one atomic; there are no barriers.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 

@@ -10,7 +10,7 @@ uint listEntry(uint64_t_ConstPtr pool, uint index, uint per_word)
 {
     if (per_word != 3u)
     {
-        // By half words: shifts of 64 bits are dear.
+        // Reads half words, because shifts of 64 bits are slow.
         uint half_word = uint_ConstPtr(uint64_t(pool)).data[per_word == 4u ? index >> 1 : index];
         return per_word == 4u ? bitfieldExtract(half_word, int(16u * (index & 1u)), 16) : half_word;
     }

@@ -9,11 +9,11 @@ struct LitPoint
     float edge;  // of the voxel, in unit space
 };
 
-// Lifted along both normals, so that neither the voxel nor the steps of the surface around it are in the way.
+// The origin is lifted along both normals, so that neither the voxel nor the steps of the surface around it occlude.
 const float kLiftFace = 0.75; // voxels
 const float kLiftNormal = 0.75;
 
-// direction: of the ray that hit; format: of attributes. Without any, nor for a miss, the pointers are not used.
+// direction: of the ray that hit; format: of attributes. The pointers are not used without attributes, nor for a miss.
 LitPoint litPoint(Hit hit, vec3 direction, uint format, Attribute_ConstPtr voxels, Attribute_ConstPtr nodes)
 {
     vec3 face_normal = faceNormal(hitFace(hit), direction);

@@ -84,13 +84,13 @@ MergedVoxel mergedVoxel(MergedLeaf leaf, uint n)
     return voxel;
 }
 
-// Whether the fragments that a voxel of the base tree was made of are known.
+// Whether the sums over the fragments of a base tree's voxel are kept.
 bool hasBaseSums(MergedVoxel voxel)
 {
     return voxel.base != kNoVoxel && voxel.base < params.view.data[0].base_voxel_count;
 }
 
-// What a layer has at the position of a voxel.
+// A layer's voxel at the same position.
 struct LayerVoxel
 {
     Layer layer;

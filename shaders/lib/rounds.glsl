@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays that used up the iterations of an invocation. The includer includes trace/trace.h before.
 
-// Has the next round, number `round`, run over the same workgroups (lib/dispatch.glsl tells them their numbers). If
-// there is no other round, counts the ray as capped.
+// Schedules the next round, number `round`, over the same workgroups (numbered by lib/dispatch.glsl). If there is none,
+// counts the ray as capped.
 void endUnfinished(bool more, DispatchArgs_Ptr rounds, uint round, uint groups, TraceStatus_Ptr status)
 {
     if (!more)

@@ -31,7 +31,7 @@
 //   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
 //   TRAVERSE_VARIABLES                 optional: then the includer declares what the five constants stand for, by their
 //                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
-//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, which must be defined where that is a variable:
+//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, to be defined where that is a variable:
 //                                      for the registers of kStackRegisters
 
 #ifndef TRAVERSE_VARIABLES
@@ -61,7 +61,7 @@ const uint kSavedMax = 8u; // levels of nodes above a leaf
 struct Traversal
 {
     bool hit;
-    bool unfinished; // gave up after its last iteration: (t, face) is the last event, from which it can resume
+    bool unfinished; // out of iterations: (t, face) is the last event, from which the ray can resume
     uint iterations; // loop bodies
     float t;         // of a hit: of the entry, or t_min; of the last event otherwise
     uint index;      // of a hit: attribute index of the voxel, of a DAG its number in the leaf; node where a level of
@@ -79,7 +79,7 @@ uint g_saved[kSavedMax]; // nodes above the current one, by level
 shared uint s_saved[kStack == kStackShared ? kSavedMax * TRAVERSE_GROUP : 1u];
 #endif
 
-// When the planes with these bits as coordinates are crossed.
+// The times at which the planes with these bits as coordinates are crossed.
 vec3 planeTimes(uvec3 planes, vec3 origin, vec3 inverse)
 {
     precise vec3 distances = uintBitsToFloat(planes) - origin;
@@ -126,8 +126,8 @@ uint savedNode(uint shift)
 }
 
 #ifdef TRAVERSE_PATHS
-// A node that contains the cell which the event behind limits leads to, as low as paths go: that cell is guessed from
-// the ray's position, and counts only if the ray did enter it and did not leave it.
+// Finds a node that contains the cell after the event behind limits, as low as paths go. That cell is guessed from the
+// ray's position; it counts only if the ray did enter it and did not leave it.
 void beginBelowRoot(vec3 origin, vec3 inverse, uint mirror, uvec3 limits, inout uvec3 corner, inout uint shift,
                     inout uint node)
 {
@@ -215,7 +215,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         if (kStack == kStackRegisters)
             saveNode(shift, node);
 
-        // Which cell of the node the last event led to.
+        // Find the cell of the node that the last event led to.
         vec3 crossed = uintBitsToFloat(limits);
         uint size = 1u << shift;
         uvec3 middle = corner + (size << 1);
@@ -232,7 +232,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
         uint child = half_node.y + bitCount(up_to_cell << 1);
         bool octant_empty = ((half_node.x >> (c & 24u)) & 255u) == 0u;
 
-        // Where the ray leaves the cell, its octant if that is empty, or all of the half node.
+        // The planes at which the ray leaves the cell, its octant if that is empty, or the whole half node.
         bvec3 far = bvec3(odd.x || octant_empty, odd.y || octant_empty, odd.z || octant_empty);
         bvec2 farther = bvec2(half_node.x == 0u && !upper.x, half_node.x == 0u && !upper.y);
         uvec3 leave = quarter + mix(uvec3(0u), uvec3(size), far);
@@ -261,7 +261,7 @@ Traversal traverse(vec3 ray_origin, vec3 ray_inverse, float t_min, float t_max, 
 
         if (kEntriesPerWord != 0u)
         {
-            // Loaded by every ray, needed or not: on lavapipe, a load that some lanes skip costs more.
+            // Every ray loads it, needed or not: on lavapipe, a load that some lanes skip costs more.
             bool listed = occupied && int(child) < 0;
             uint named = loadEntry(listed ? child & ~kChildList : 0u, kEntriesPerWord);
 #ifdef TRAVERSE_ENTRIES

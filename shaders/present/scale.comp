@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// A picture in another size: each pixel is the one in which its centre lies.
+// Scales a picture: each pixel copies the one that contains its centre.
 #extension GL_GOOGLE_include_directive : require
 #include "present/present.h"
 #include "lib/dispatch.glsl"
@@ -11,8 +11,8 @@ layout(push_constant, scalar) uniform Push
     ScaleParams params;
 };
 
-// The pixel of a line of from_size in which the centre of one of to_size lies: (2 pixel + 1) from_size / (2 to_size),
-// rounded down, and what is left of the division. In integers, so that all devices show the same.
+// The pixel, in a line of from_size, that contains the centre of a pixel in a line of to_size: (2 pixel + 1) from_size
+// / (2 to_size), rounded down, and the remainder. In integers, so that all devices show the same.
 uvec2 nearest(uint pixel, uint to_size, uint from_size)
 {
     uint product = (2u * pixel + 1u) * from_size;
@@ -29,7 +29,7 @@ void main()
     uint last = min(first + kScaleRows, params.to_size.y);
     uint from_column = nearest(column, width, params.from_size.x).x;
 
-    // Row by row by additions: divisions are dear.
+    // Rows are stepped by additions, because divisions are slow.
     uint divisor = 2u * params.to_size.y;
     uint step_quotient = 2u * params.from_size.y / divisor;
     uint step_rest = 2u * params.from_size.y - step_quotient * divisor;

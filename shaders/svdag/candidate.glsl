@@ -10,7 +10,7 @@ uint childCount(Node node)
     return bitCount(node.mask_lo) + bitCount(node.mask_hi);
 }
 
-// What names the child with so many before it in the node: its number, or kChildList and the index of an entry.
+// The reference to the child with so many before it in the node: its number, or kChildList and the index of an entry.
 uint childIndexAfter(Node node, uint before)
 {
     uint low = bitCount(node.mask_lo);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hashes of what a class of nodes has in common. Equality is never decided by them.
+// Hashes of nodes' contents. They never decide equality.
 
 // A bijection in which every bit of the input changes half of the output's (C. Wellons, Prospecting for Hash Functions,
 // 2018: lowbias32).

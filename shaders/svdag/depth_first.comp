@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Takes the attributes of an octree's nodes from breadth-first to depth-first order: those of the children of a level's
-// nodes. Levels go from the root down; the root's rank is 0.
+// Copies attributes of an octree's nodes from breadth-first to depth-first order, for the children of a level's nodes.
+// Levels go from the root down; the root's rank is 0.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #define LISTS_CONSTANT_ID 0

@@ -25,7 +25,7 @@ void main()
     for (uint i = 0u; i < count; ++i)
     {
         uint child_class = params.classes.data[childAt(node, params.nodes, i)];
-        // Two chains that no common change of several children leaves alone.
+        // Two chains, so that no common change of several children leaves both unchanged.
         hash.x = mixBits(hash.x + child_class);
         hash.y = (hash.y ^ child_class) * 0x01000193u;
         hash.y ^= hash.y >> 15;

@@ -1,9 +1,9 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Puts every node of a level into the table of classes, unless one equal to it is there; the slot keeps the first of
-// the class. Lock-free and exact: a slot that is taken stays with its class, so whoever passes a slot passes it for
-// good, and all nodes of a class stop at the same one, in any order of threads. Which slot that is depends on the
-// order; the class does not.
+// Puts every node of a level into the table of classes, unless an equal one is there; the slot keeps the first node of
+// the class. Lock-free and exact: a taken slot stays with its class, so a thread that passes a slot passes it for good,
+// and all nodes of a class stop at the same slot, in any order of threads. The slot depends on that order; the class
+// does not.
 #extension GL_GOOGLE_include_directive : require
 #include "svdag/svdag.h"
 #define LISTS_CONSTANT_ID 0
@@ -19,7 +19,7 @@ layout(push_constant, scalar) uniform Push
     ClassInsertParams params;
 };
 
-// Of inner nodes with equal masks.
+// Compares the children of inner nodes. equal: their masks are equal.
 bool haveEqualChildren(Node a, Node b, bool equal)
 {
     uint count = equal ? childCount(a) : 0u;
@@ -62,7 +62,7 @@ void main()
     if (searching)
     {
         atomicAdd(params.sizes.data[0].overflow_counts[params.level], 1u);
-        slot = (slot - 1u) & params.slot_mask; // joins a class, if a wrong one: no more classes than slots
+        slot = (slot - 1u) & params.slot_mask; // joins some class, so that there are no more classes than slots
     }
     else if (self < first)
     {

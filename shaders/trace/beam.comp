@@ -34,7 +34,8 @@ const float kBeamOriginMax = 1000.0;
 const float kCellDepthMax = 1.8 * kCoarseEdge;      // more than a ray's depth grows inside a cell
 const float kTileReach = float(kTileEdge - 1u); // from the middle of a tile to its outer pixels, in half pixels
 
-// Until when all rays of a tile, and what they take for occupied nodes, are within an edge of the middle one.
+// The time up to which all rays of a tile, and the nodes that they take as occupied, are within an edge of the middle
+// ray.
 float endWithin(float edge)
 {
     vec3 reach = kTileReach * (abs(params.camera.step_x) + abs(params.camera.step_y));
@@ -60,7 +61,7 @@ float tileStart(uvec2 tile)
     vec3 from = abs(params.camera.origin);
     bool near = max(from.x, max(from.y, from.z)) <= kBeamOriginMax;
     float end = near ? endWithin(kCoarseEdge) : 0.0;
-    // Coarse cells that the ray would leave too late for fine ones end it.
+    // If the ray leaves a coarse cell too late for fine ones, the coarse cell ends it.
     float fine_end = endWithin(kFineEdge) - kCellDepthMax;
     vec2 detail = fine_end > kTraceTimeMin ? vec2(1.0 / (float(kBeamCells) * fine_end), 0.0)
                                            : vec2(0.0, 1.0 / float(kBeamCells));
@@ -71,8 +72,8 @@ float tileStart(uvec2 tile)
     return beam.hit ? beam.t : past;
 }
 
-// The tile of a thread, or one outside: blocks follow each other at a distance, so that every part of the live list is
-// equally hard.
+// The tile of a thread, or one outside. Consecutive blocks are far apart, so that all parts of the live list take
+// equally long.
 uvec2 tileOfThread(uvec2 tiles)
 {
     uvec2 blocks = (tiles + kBlockEdge - 1u) / kBlockEdge;

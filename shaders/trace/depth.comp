@@ -37,7 +37,8 @@ void main()
     Hit hit = loadHit(params.hits, i);
     vec2 offset = pixelOffset(pixel, size);
     float depth = clipAlongRay(params.clip_z, offset, hit.t) / clipAlongRay(params.clip_w, offset, hit.t);
-    // Nearer than the near plane, down to the eye where w is 0, and beyond the far one: depth images take [0, 1] only.
+    // Depth images allow only [0, 1], so points before the near plane, up to the eye, where w is 0, and beyond the far
+    // one are clamped.
     if (!isMiss(hit))
         params.depth.data[i] = depth > 0.0 ? min(depth, 1.0) : 0.0;
 }

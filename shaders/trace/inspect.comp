@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Reports everything about what one pixel's ray meets. The ray is traced once more from the root, so that the number of
-// iterations is that of the ray alone.
+// Reports on the hit of one pixel's ray. The ray is traced once more from the root, so that the number of iterations is
+// that of the ray alone.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute_formats.glsl"

@@ -29,7 +29,7 @@ layout(push_constant, scalar) uniform Push
 
 const float kGoldenAngle = 2.39996323;
 
-// What a ray counts for that starts inside of a voxel, in a crevice narrower than the lift: nothing is known there.
+// The light of a ray that starts inside of a voxel, in a crevice narrower than the lift, for which nothing is known.
 const float kInsideShare = 0.4;
 
 // Axes orthogonal to a normal (T. Duff et al., Building an Orthonormal Basis, Revisited, 2017).

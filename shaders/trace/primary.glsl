@@ -49,8 +49,8 @@ uvec2 loadPath(uint cell)
 #include "lib/node.glsl"
 #include "lib/ranks.glsl"
 
-// The rank of what was hit; for a miss, any number. All loads but those on the way down are made for misses, too;
-// lib/traverse.glsl tells why.
+// The rank of the hit; for a miss, any number. Misses make all loads, too, except those of the descent;
+// lib/traverse.glsl says why.
 uint rankOf(Traversal hit)
 {
     RankSource source = RankSource(params.nodes, params.before, params.voxels_before_leaf, params.first_short_entry);

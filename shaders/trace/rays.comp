@@ -34,14 +34,14 @@ void main()
             return;
         from = limitsAfter(last.t, hitFace(last));
     }
-    Ray ray; // by members: GPU-assisted validation takes the struct for larger than it is
+    Ray ray; // read by members: GPU-assisted validation takes the struct for larger than it is
     ray.origin = params.rays.data[i].origin;
     ray.t_min = params.rays.data[i].t_min;
     ray.inverse_direction = params.rays.data[i].inverse_direction;
     ray.t_max = params.rays.data[i].t_max;
     bool valid = isTraceable(ray);
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
-    // An invalid ray goes through as one that ends before it starts.
+    // An invalid ray is replaced by one that ends before it starts.
     Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0),
                                 valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail, from, kIterationsMax);
     if (result.unfinished)

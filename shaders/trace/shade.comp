@@ -28,7 +28,7 @@ layout(push_constant, scalar) uniform Push
 
 #include "trace/surface.glsl"
 
-const float kBounced = 0.12; // of the sky's light that reaches even a closed corner, by way of other surfaces
+const float kBounced = 0.12; // part of the sky's light that other surfaces reflect even into closed corners
 
 vec3 emissionAt(uint voxel)
 {

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Which hits the sun reaches, one workgroup a live tile. Rays that use up their iterations resume in another round:
-// until then, light holds the time of the last event, a float greater than all light.
+// Traces shadow rays from hits to the sun, one workgroup for each live tile. Rays that use up their iterations resume
+// in another round. Until then, light holds the time of the last event, which is greater than any light.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
 #include "lib/attribute_formats.glsl"
@@ -43,7 +43,8 @@ void main()
     uvec3 from = uvec3(0u);
     if (kResume)
     {
-        // From before the event, whose axis is not known. Few events share a time: the sun's direction has length 1.
+        // Resume just before the event, whose axis is not stored. Few events share a time, as the sun's direction has
+        // length 1.
         from = uvec3(params.light.data[i]);
         if (from.x <= kLightAll)
             return;

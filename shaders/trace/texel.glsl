@@ -8,7 +8,7 @@ float texelSteps(uint texels)
     return texels == kTexelRgb10 ? 1023.0 : 255.0;
 }
 
-// What a picture shows of radiance: codes in [0, 1], or in half floats the exposed radiance itself.
+// The texel's values for radiance: codes in [0, 1], or for half floats the exposed radiance itself.
 vec3 developTexel(uint texels, vec3 radiance, float exposure, uvec2 pixel)
 {
     if (texels == kTexelHalf)
@@ -26,7 +26,7 @@ uint packCodes(uint texels, vec3 color)
     return packColor8(color);
 }
 
-// Half floats do not become infinite: what is brighter than the largest one is the largest one.
+// Values above the largest half float become that, not infinite.
 uint64_t packHalfs(vec3 color)
 {
     vec3 finite = clamp(color, 0.0, kHalfMax);

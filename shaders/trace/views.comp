@@ -26,10 +26,10 @@ layout(push_constant, scalar) uniform Push
 
 #include "trace/surface.glsl"
 
-const float kDepthContrast = 0.9; // what is farthest away is not as black as the background
+const float kDepthContrast = 0.9; // the farthest point is less black than the background
 
-// Any numbers that look like chance (M. O'Neill, PCG: A Family of Simple Fast Space-Efficient Statistically Good
-// Algorithms for Random Number Generation, 2014).
+// Numbers that look random (M. O'Neill, PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for
+// Random Number Generation, 2014).
 uint scramble(uint x)
 {
     uint state = x * 747796405u + 2891336453u;
@@ -37,7 +37,7 @@ uint scramble(uint x)
     return (word >> 22) ^ word;
 }
 
-// Never dark, a little darker on some faces than on others.
+// A colour for each voxel: never dark, a little darker on some faces.
 vec3 voxelColor(Hit hit)
 {
     uvec3 cell = hitCell(hit);
@@ -46,7 +46,7 @@ vec3 voxelColor(Hit hit)
     return face * (0.3 + 0.7 * unpackUnorm4x8(number).rgb);
 }
 
-// Voxels at a node's lower borders, as the face shows them: white for leaves, then yellow, then red for what is larger.
+// Colours voxels at the lower borders of nodes in the face: white for leaves, yellow and red for larger nodes.
 vec3 brickColor(Hit hit, vec3 color)
 {
     uvec3 cell = hitCell(hit);

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes the children of each touched node: merged with the base tree's where a layer touches them, else copies of
-// those. A touched child notes how many children of its own it is to have.
+// Writes the children of each touched node. Where a layer touches a child, it is merged with the base tree's; others
+// are copied from there. A touched child stores how many children it will have.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #define BRICKS_CONSTANT_ID 0
@@ -34,8 +34,8 @@ uvec2 childKey(uvec2 key, uint cell)
            kBrickKeyTag;
 }
 
-// The child of a touched node's base node in a cell where it has one. rank: of the base octree's node, where attributes
-// need it; of an octree, the node.
+// The child of a touched node's base node, which must exist, in a cell. rank: of the base octree's node, where
+// attributes need it; in an octree, its number.
 RankedNode baseChild(TouchedNode parent, uint cell)
 {
     RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,
@@ -96,7 +96,7 @@ void main()
             params.node_attributes.data[child + params.attribute_offset] =
                 params.node_attributes.data[base.node >= params.static_root ? base.node + params.attribute_offset
                                                                             : base.rank];
-        if (kRanks && kLeaves) // as an octree's leaf
+        if (kRanks && kLeaves) // written as an octree's leaf
         {
             merged.base_lo += base.voxels;
             merged.base_hi += base.voxels;

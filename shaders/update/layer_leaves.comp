@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Lists the leaves in a layer's brick table and gives each room for its voxels' sums. Their order is arbitrary: sums
-// are added up, whatever the order. Leaves without room lose their voxels, so that nothing is written past the end; the
-// layer is of no use then.
+// Lists the leaves in a layer's brick table and gives each room for its voxels' sums. Their order is arbitrary, as sums
+// do not depend on it. If a leaf has no room, its voxels are dropped, so that nothing is written past the end; the
+// layer cannot be used then.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #define BRICKS_CONSTANT_ID 0
@@ -46,7 +46,7 @@ void main()
             params.bricks.data[entry].mask_lo = kWideKeys && has_slot ? first.x : 0u;
         if (!kWideKeys)
             params.bricks.data[entry].base = fits ? first.y : 0u;
-        else if (!has_slot) // half a key, which nobody finds
+        else if (!has_slot) // half a key, which is never found
             params.bricks.data[entry].base = 0u;
         ++first.x;
         first.y = end;

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Lists the row blocks of big triangles, one thread a band of rows. Blocks that the triangle's outline, or its plane
-// inside the grid, does not reach are left out: what is listed is about what is covered, not the bounding box.
+// Lists the row blocks of big triangles, one thread for each band of rows. Blocks that the triangle's outline, or its
+// plane inside the grid, does not reach are left out, so the work follows the covered area and not the bounding box.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/constants.glsl"
 #define EDGE_INT int64_t

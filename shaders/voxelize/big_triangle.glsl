@@ -24,8 +24,8 @@ RasterTriangle setupBigTriangle(BigTriangle big, out i64vec3 normal)
     return setupTriangle(big.v0, big.v1, big.v2, normal, majorAxis(normal, low, high), low, high, gridResolution());
 }
 
-// Shrinks an interval of columns to where value + step * column >= 0, estimated in floating point and widened by a
-// column: numbers of columns are below 2^18, so that the estimate is right to a small part of one.
+// Shrinks an interval of columns to those with value + step * column >= 0, estimated in floating point, and widened by
+// a column. Numbers of columns are below 2^18, so the estimate's error is a small part of a column.
 void clipColumns(float value, float step, inout vec2 interval)
 {
     float crossing = -value / step;
@@ -38,7 +38,7 @@ void clipColumns(float value, float step, inout vec2 interval)
 }
 
 // Columns that can lie inside the outline in the (u, v) projection, as offsets from the cell's column, in any of
-// row_count rows from the cell's on: where each edge function, linear in both, is not negative in the row for it.
+// row_count rows from the cell's on: those for which each edge function, linear in both, is not negative in the row.
 vec2 outlineColumns(RasterTriangle t, RasterCell cell, int column_count, int row_count)
 {
     vec2 interval = vec2(0.0, float(column_count - 1));
@@ -50,8 +50,7 @@ vec2 outlineColumns(RasterTriangle t, RasterCell cell, int column_count, int row
     return interval;
 }
 
-// Likewise the columns whose layers can lie inside the grid. The plane rises or falls by at most a layer a column and
-// a row.
+// Columns whose layers can lie inside the grid. The plane rises or falls by at most a layer for each column and row.
 vec2 layerColumns(RasterTriangle t, RasterCell cell, vec2 interval, int row_count)
 {
     const float margin = 3.0; // layers: a conservative column's range, and rounding

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is done with a fragment, by kMode: it sets a bit in the brick table, or is added to the voxel's sums.
+// Uses of a fragment, chosen by kMode: it sets a bit in the brick table, or is added to the voxel's sums.
 
-// The leaf that the last fragment of this thread fell into: neighbours mostly share it.
+// The leaf of this thread's last fragment, which neighbours mostly share.
 struct BrickCursor
 {
     uvec2 key;
@@ -99,7 +99,7 @@ void addEmission(Surface surface, uint voxel, uvec3 weights)
     }
 }
 
-// What a fragment looks like, as far as kMode needs it.
+// The attributes of a fragment that kMode needs.
 struct Fragment
 {
     uvec3 weights;
@@ -135,7 +135,7 @@ void addFragment(Surface surface, Fragment fragment, BrickCursor cursor, uint ce
         addEmission(surface, voxelIndex(cursor, cell), fragment.weights);
 }
 
-// The triangle covers this voxel.
+// Called for each voxel that the triangle covers.
 void emitFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, uvec3 voxel, inout BrickCursor cursor)
 {
     Fragment fragment = shadeFragment(triangle, surface, corners, voxel);

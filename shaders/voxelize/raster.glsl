@@ -28,7 +28,7 @@ struct RasterTriangle
     int layer_top; // no layer above: keeps a triangle in the grid's upper face inside
 };
 
-// The walk's state at one voxel: edge functions, and where the plane crosses the column.
+// The state of the walk at one voxel: edge functions, and the crossing of plane and column.
 struct RasterCell
 {
     EDGE_IVEC3 uv; // edge functions in the (u, v) projection, support added: inside when >= 0
@@ -120,7 +120,7 @@ int columnLayer(RasterTriangle t, ivec2 column, EDGE_INT addend_high, int addend
     return layer;
 }
 
-// Where the first row block of a triangle starts whose box begins at low: tiles stand on leaves.
+// Where the first row block of a triangle begins, whose box begins at low: tiles are aligned to leaves.
 ivec2 blockOrigin(ivec2 low)
 {
     return kCoverage == kCoverageThin ? low & ~3 : low;

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Rasterizes big triangles, one thread a row of at most kBlockColumns columns, or tiles of the same block, in 64-bit
-// integers. The work follows the rows that the triangle really crosses: columns outside of its outline in the (u, v)
-// projection are left out.
+// Rasterizes big triangles in 64-bit integers, one thread for each row of at most kBlockColumns columns, or for tiles
+// of the same block. Columns outside of the triangle's outline in the (u, v) projection are left out, so the work
+// follows the rows that it really crosses.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/constants.glsl"
 #define EDGE_INT int64_t

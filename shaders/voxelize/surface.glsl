@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Fetches the data of a triangle that its fragments need.
+// Loads the data of a triangle that its fragments need.
 
 // vertices: indices within the draw. normal: of the lattice points, by winding; corner_area: |n_w|.
 Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)

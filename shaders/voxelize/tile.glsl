@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Thin coverage by tiles: the 4x4 columns that stand on one leaf. A plane crosses at most kTileLeaves leaves above a
-// tile (its height changes by at most one layer from column to column). So for up to 16 voxels the brick table is
-// searched only that often, and their bits are set together. The rest is arithmetic in a thread's own registers.
+// Thin coverage by tiles: the 4x4 columns above one leaf. A plane crosses at most kTileLeaves leaves in a tile, because
+// its height changes by at most one layer from column to column. So the brick table is searched at most that often for
+// up to 16 voxels, whose bits are set together. The rest is arithmetic in a thread's own registers.
 
 const uint kTileLeaves = 3u; // 7 layers
 
@@ -12,7 +12,7 @@ struct Tile
     uvec2 masks[kTileLeaves]; // covered voxels of the leaves, from the one that holds w_low up
 };
 
-// A RasterCell as far as thin coverage needs it.
+// The members of a RasterCell that thin coverage needs.
 struct TileCell
 {
     EDGE_IVEC3 uv;

@@ -19,7 +19,7 @@
 
 layout(local_size_x = kChunkTriangles) in;
 
-// Why a triangle is left out.
+// Reasons to leave a triangle out.
 const uint kKept = 0u;
 const uint kNonfinite = 1u;
 const uint kOutOfRange = 2u;
@@ -100,8 +100,8 @@ void listBigTriangle(SnappedTriangle t, uint draw, uint triangle, uint axis)
             params.big_triangles.data[first + band] = BigTriangle(t.v0, t.v1, t.v2, draw, triangle, band);
 }
 
-// Thin coverage, at most one voxel a column: first finds the covered columns, then takes these alone. Where branches
-// are not skipped, an empty column costs as little as that, and a fragment is dear.
+// Thin coverage, with at most one voxel a column: first finds the covered columns, then rasterizes only these. On
+// devices that do not skip branches an empty column is then as cheap as the test, while a fragment is expensive.
 void rasterizeThin(RasterTriangle t, Surface surface, uvec2 extent, bool selected)
 {
     uint covered = 0u; // bit i: column i, row by row

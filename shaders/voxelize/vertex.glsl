@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a draw's triangle to the lattice. Every operation here is a single rounded addition or product, so that the
+// Snaps a draw's triangle to the lattice. Every operation here is a single rounded addition or product, so that the
 // result is the same on every device.
 #include "lib/finite.glsl"
 

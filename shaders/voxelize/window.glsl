@@ -11,7 +11,7 @@ int gridResolution()
     return 1 << gridDepth();
 }
 
-// Clips the voxels low to high that a triangle touches to the window; low > high where it touches none of it.
+// Clips the voxels low to high that a triangle touches to the window; low > high if it touches none of it.
 void clipToWindow(inout ivec3 low, inout ivec3 high)
 {
     int depth = int(bitfieldExtract(params.window, int(kWindowDepthBits), int(kWindowDepthBits)));
