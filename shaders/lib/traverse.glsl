@@ -31,8 +31,8 @@
 //   TRAVERSE_CONSTANT_ID               first of five constant_ids, 0 by default
 //   TRAVERSE_VARIABLES                 optional: then the includer declares what the five constants stand for, by their
 //                                      names; kNodeLevels and kEntriesPerWord may be variables, set before each ray
-//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, to be defined where that is a variable:
-//                                      for the registers of kStackRegisters
+//   TRAVERSE_LEVELS                    a constant, at least kNodeLevels, for the registers of kStackRegisters; must be
+//                                      defined if kNodeLevels is a variable
 
 #ifndef TRAVERSE_VARIABLES
 #ifndef TRAVERSE_CONSTANT_ID

@@ -9,10 +9,10 @@ import pathlib
 import re
 
 SUFFIXES = {".h", ".hpp", ".c", ".cpp", ".glsl", ".comp"}
-# Where includes are looked for, by the folder that the including file is in; before that, beside the file.
+# Folders of includes, by the folder of the including file; the file's own folder comes first.
 SEARCHED = {"include": ["include"], "shaders": ["shaders"], "src": ["src", "shaders", "include"],
             "apps": ["apps", "src", "shaders", "include"]}
-# Headers of the system, which count as no library; those of C++ have no extension.
+# Headers of the system, which do not count as a library. Those of C++ have no extension.
 SYSTEM = {"dlfcn.h", "fcntl.h", "spawn.h", "stddef.h", "stdint.h", "sys/stat.h", "sys/wait.h", "unistd.h"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 
