@@ -60,8 +60,8 @@ void descendToLeaf(RankSource source, uint cell, bool with_rank, inout RankedNod
 }
 
 // From a node of a base tree, which may have been edited (edit/edit.h), to the child in a cell, which must exist.
-// ranked: ranks are kept, as for a DAG with attributes. Otherwise, in an octree, a node's rank is its number, and voxels
-// stay 0.
+// ranked: ranks are kept, as for a DAG with attributes. Otherwise, in an octree, a node's rank is its number, and
+// voxels stay 0.
 void descendBase(RankSource source, BeforeChild_ConstPtr overlay_ranks, uint cell, bool to_leaf, bool ranked,
                  inout RankedNode at)
 {

@@ -239,9 +239,9 @@ void create(vk::Device& device)
 }
 
 /// A host with an allocator for the driver's host memory, which only zvo's objects use. lavapipe (Mesa 22.3.6) does not
-/// support one in vkCreateDevice: vkCreatePipelineLayout, which uses the device's allocator, crashes when that fails, and
-/// vkQueueSubmit frees memory that was not allocated by it (of pipelines, which vkDestroyPipeline leaves to the next
-/// submission).
+/// support one in vkCreateDevice: vkCreatePipelineLayout, which uses the device's allocator, crashes when that fails,
+/// and vkQueueSubmit frees memory that was not allocated by it (of pipelines, which vkDestroyPipeline leaves to the
+/// next submission).
 struct AllocatorHost
 {
     AllocatorHost()
