@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Blocks whose words and voxels were worked out by hand from docs/file-format.md, attributes of format 3.
+// Blocks whose words and voxels were computed by hand from docs/file-format.md, attributes of format 3.
 #include "oracle/attribute_formats.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(AttributeBlocks, AroundZNormalsAreTheCoordinatesThemselves)
     // Scales: x from 0 - 63 to 126 - 63: p = 63 (2 i - 7) * 32767 / 441 = (2 i - 7) * 4681, with i the voxel modulo 8.
     // y from 73 - 63 = 10 to 62 - 63 = -1: q = (70 - 11 j) * 32767 / 441, with j = 1, 1, 2, 2, ... 7, 7, 0, 0:
     // 5201.1, 4383.8, 3566.5, 2749.2, 1931.8, 1114.5 (231 / 441), 297.2, -520.1 for j = 0 to 7.
-    // Axis 2 alone: x is p, y is q, z is r, and the normal's code is (p, q), folded back where it was folded.
+    // Axis 2 only: x is p, y is q, z is r. The normal's code is (p, q), folded back if it was folded.
     expectVoxels({0x07ff2a8a, 0x321b55e4, 0x27d27f00, 0x3333aaaa, 0x3c3ccccc, 0x3fc0f0f0},
                  {kA, kAab, kAbb, kB, kAab, kAab, kAab, kAab, kB, kAbb, kAab, kA, kAbb, kA, kB, kA},
                  {{{-32767, 4384},
@@ -135,7 +135,7 @@ TEST(AttributeBlocks, TheAxesFollowTheNegativePole)
 
 TEST(AttributeBlocks, WhatFitsExactlyIsPackedAsItIs)
 {
-    // Black and white, and a last voxel that stands for three more: a = 0, b = 0xffff; all normals along +z.
+    // Black and white, and a last voxel that is repeated for three more: a = 0, b = 0xffff; all normals along +z.
     std::vector<gpu::Attribute> attributes(13);
     std::uint32_t indices = 0;
     for (const std::uint32_t white : {1U, 2U, 7U, 12U})

@@ -14,7 +14,7 @@ namespace zvo::oracle
 namespace
 {
 
-/// Small enough to lie in voxel (0, 0, 0), and around the middle of its lower face's column.
+/// Small enough to lie in voxel (0, 0, 0), around the middle of its column's lower face.
 const std::vector<glm::vec3> kSmallTriangle{{0.1F, 0.1F, 0.3F}, {0.9F, 0.1F, 0.3F}, {0.1F, 0.9F, 0.3F}};
 
 TEST(OracleColors, EmptySceneHasNone)

@@ -100,7 +100,7 @@ TEST(OracleConservative, DiagonalSegmentThroughCornersTouchesTheirNeighbors)
     // From the middle of (0,0,0) to the middle of (1,1,0) through the edge that four voxels share.
     EXPECT_EQ(covered({Vec{128, 128, 128}, Vec{384, 384, 128}, Vec{128, 128, 128}}, 4, Coverage::Conservative),
               block({0, 0, 0}, {1, 1, 0}));
-    // One unit beside it: the voxel across is no longer touched.
+    // If it is moved by one unit, it does not touch the voxel across.
     const Voxels beside = covered({Vec{129, 128, 128}, Vec{385, 384, 128}, Vec{129, 128, 128}}, 4, //
                                   Coverage::Conservative);
     EXPECT_EQ(beside, (Voxels{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
@@ -130,7 +130,7 @@ TEST(OracleConservative, AgreesWithClippingOnSmallTriangles)
         const bool expected = test::overlapsByClipping(triangle, box);
         overlapping += expected ? 1 : 0;
         ASSERT_EQ(overlaps(triangle, box), expected) << "case " << i;
-        // The largest coordinates that can occur.
+        // The largest possible coordinates.
         const Int128 factor = Int128{1} << 23;
         const Vec corner{3 * factor, 3 * factor, 3 * factor};
         ASSERT_EQ(overlaps(scaled(triangle, factor), {Vec{0, 0, 0} - corner, corner}), expected) << "case " << i;
@@ -155,7 +155,7 @@ TEST(OracleConservative, PruningChangesNothing)
 
 TEST(OracleConservative, PruningChangesNothingForTrianglesOfAllSizes)
 {
-    // Above 2^18 units the arithmetic changes; at 2^29 numbers are as large as they become.
+    // Above 2^18 units the arithmetic changes; at 2^29 numbers are largest.
     test::Random random(6);
     std::uint32_t count = 0;
     for (int i = 0; i < 500; ++i)
@@ -213,7 +213,7 @@ TEST(OracleThin, TriangleWithoutAreaCoversNothing)
 
 TEST(OracleThin, DiagonalWallHasOneVoxelPerColumnWhereConservativeHasThree)
 {
-    // The plane x = z; the tie of the major axis goes to x.
+    // The plane x = z; x is the major axis by the order of axes.
     const Triangle wall{Vec{-2000, -9000, -2000}, Vec{-2000, 9000, -2000}, Vec{9000, 0, 9000}};
     Voxels diagonal;
     Voxels touched;
@@ -252,7 +252,7 @@ TEST(OracleThin, SmallTriangleCoversTheVoxelWhoseDiamondItReaches)
 
 TEST(OracleThin, EdgeConditionIsTheDistanceFromTheDiamond)
 {
-    // Written once more: some corner of the diamond around C lies on the inner side of each edge.
+    // The rule written in another way: for each edge, a corner of the diamond around C lies on its inner side.
     test::Random random(3);
     std::uint32_t count = 0;
     for (int i = 0; i < 20000; ++i)
@@ -266,7 +266,7 @@ TEST(OracleThin, EdgeConditionIsTheDistanceFromTheDiamond)
             const auto [low, high] = std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
             expected = expected && low <= 256 && high >= 0;
         }
-        // The plane has points of both sides of the column's ends: normal . (P - V0) changes its sign in between.
+        // The plane passes between the column's ends: normal . (P - V0) changes its sign there.
         Vec bottom{128, 128, 128};
         bottom[w] = 0;
         Vec top = bottom;
@@ -325,11 +325,11 @@ TEST(OracleThin, PlaneSeparatesUncoveredNeighbors)
     test::Random random(5);
     for (int i = 0; i < 300; ++i)
     {
-        // A triangle that cuts the whole grid: around the plane through three points in it.
+        // A triangle that cuts the whole grid, in a plane through three points of the grid.
         const std::int64_t step = i % 2 == 0 ? 1 : 128;
         const Triangle inner = scaled(test::pickTriangle(random, 0, 2048 / step), step);
         const Vec normal = normalOf(inner);
-        if (absolute(normal[majorAxis(normal)]) < 4000) // too slim for what follows
+        if (absolute(normal[majorAxis(normal)]) < 4000) // too slim for this test
             continue;
         const Vec center = inner[0];
         const Vec u = inner[1] - center;

@@ -33,7 +33,7 @@ std::vector<std::uint64_t> codesOf(const std::vector<DagNode>& places)
     return codes;
 }
 
-// Random voxels, each twice, in neighbouring leaves: so that there are equal ones.
+// Random voxels, each in two neighbouring leaves, so that some leaves are equal.
 std::vector<std::uint64_t> pickCodes(test::Random& random, std::uint32_t depth, std::size_t count)
 {
     const std::uint64_t end = std::uint64_t{1} << (3 * depth);

@@ -33,7 +33,7 @@ TEST(OracleDeform, MorphTargetsAdd)
 
 TEST(OracleDeform, JointsShareAVertexByWeight)
 {
-    // x doubled and 8 along y by a quarter; 4 along z by three quarters: x * 1.25, 2 along y, 3 along z.
+    // A quarter of (x doubled, 8 along y) and three quarters of (4 along z): x * 1.25, 2 along y, 3 along z.
     glm::mat4 first(1.0F);
     first[0][0] = 2.0F;
     first[3] = {0.0F, 8.0F, 0.0F, 1.0F};

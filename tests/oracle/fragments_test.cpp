@@ -26,15 +26,15 @@ TEST(OracleMorton, InterleavesWithXInBitZero)
 
 TEST(OracleFragment, WeightsAtACornerAnEdgeAndTheMiddle)
 {
-    // In the plane z = 100, where the voxel (0, 0, 0) has its centre at (128, 128).
+    // A triangle in the plane z = 100, where voxel (0, 0, 0) has its centre at (128, 128).
     const std::int64_t z = 100;
     EXPECT_EQ(fragmentWeights({Vec{128, 128, z}, Vec{600, 128, z}, Vec{128, 600, z}}, {0, 0, 0}),
               (Weights{65536, 0, 0}));
     EXPECT_EQ(fragmentWeights({Vec{0, 0, z}, Vec{256, 256, z}, Vec{0, 600, z}}, {0, 0, 0}), (Weights{32768, 32768, 0}));
-    // Halfway between a corner and the middle of the edge across: (1/2, 1/4, 1/4).
+    // Halfway between a corner and the middle of the opposite edge: (1/2, 1/4, 1/4).
     const Triangle triangle{Vec{0, 0, z}, Vec{512, 0, z}, Vec{0, 512, z}};
     EXPECT_EQ(fragmentWeights(triangle, {0, 0, 0}), (Weights{32768, 16384, 16384}));
-    // The other way round, the same.
+    // With the winding reversed, the weights are the same.
     EXPECT_EQ(fragmentWeights({triangle[0], triangle[2], triangle[1]}, {0, 0, 0}), (Weights{32768, 16384, 16384}));
 }
 
@@ -47,7 +47,7 @@ TEST(OracleFragment, WeightsOutsideOfTheTriangleAreClamped)
 
 TEST(OracleFragment, WeightsComeFromTheColumnOfTheMajorAxis)
 {
-    // A wall at x = 700: y and z count, the column's cells all have the same weights.
+    // A wall at x = 700. Only y and z matter, so all cells of the column have the same weights.
     const Triangle wall{Vec{700, 0, 0}, Vec{700, 512, 0}, Vec{700, 0, 512}};
     EXPECT_EQ(fragmentWeights(wall, {2, 0, 0}), (Weights{32768, 16384, 16384}));
     EXPECT_EQ(fragmentWeights(wall, {0, 0, 0}), (Weights{32768, 16384, 16384}));

@@ -66,7 +66,7 @@ TEST(OracleOctree, EveryChangedWordIsNoticed)
             std::vector<gpu::Node> nodes = octree.nodes;
             nodes[i].*word ^= 1;
             const OctreeContents contents = checkOctree(nodes, octree.levels, 5);
-            // A voxel more or less in the last leaf is another valid octree.
+            // Adding or removing a voxel of the last leaf gives another valid octree.
             EXPECT_TRUE(!contents.violations.empty() || contents.codes != codes) << "node " << i;
         }
     }

@@ -21,7 +21,7 @@ SnappedTriangle snapped(const std::array<glm::vec3, 3>& corners, const Grid& gri
     return snapTriangle(corners, glm::mat4(1.0F), grid, coverage);
 }
 
-/// x of a point at this world x, in lattice units.
+/// The lattice coordinate x of a point with this world x.
 std::int64_t latticeX(float x, const Grid& grid = test::kUnitGrid)
 {
     const glm::vec3 p(x, 0.0F, 0.0F);
@@ -49,7 +49,7 @@ TEST(OracleSnap, SubtractsTheOriginBeforeItScales)
 
 TEST(OracleSnap, RoundsEveryStepOfTheTransform)
 {
-    // (1 + 2^-12)^2 = 1 + 2^-11 + 2^-24; the product loses the last term, a fused operation would keep it.
+    // (1 + 2^-12)^2 = 1 + 2^-11 + 2^-24. The rounded product loses the last term; a fused operation would keep it.
     const float a = 1.0F + 0x1p-12F;
     glm::mat4 transform(1.0F);
     transform[0][0] = a;

@@ -67,7 +67,7 @@ TEST(OracleTexture, SrgbTablesHaveKnownValuesAndNoTies)
     for (int i = 0; i < 256; ++i)
         EXPECT_EQ(srgb8(linear16(static_cast<std::uint8_t>(i))), i);
 
-    // No value lies so close to a rounding boundary that another pow() could change it.
+    // No value is so close to a rounding boundary that another pow() could change it.
     for (int i = 0; i < 256; ++i)
     {
         const double s = i / 255.0;
