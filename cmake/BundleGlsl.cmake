@@ -158,6 +158,7 @@ function(bundle file)
         elseif(file STREQUAL "shared/gpu.h" AND line MATCHES "^//" AND NOT blocks)
             # It tells of the two languages.
         elseif(NOT line MATCHES "^#version|^#extension GL_GOOGLE_|^#define ZVO_SHADERS_|^// SPDX|^GPU_NAMESPACE")
+            string(REGEX REPLACE "^GPU_FUNCTION " "" line "${line}")
             string(REGEX REPLACE "GPU_PTR[(](${word})[)]" "\\1_Ptr" line "${line}")
             string(REGEX REPLACE "GPU_CONST_PTR[(](${word})[)]" "\\1_ConstPtr" line "${line}")
             emit_line("${line}")

@@ -4,6 +4,7 @@
 //   GPU_BUFFER(T, ALIGN)   declares that buffers of T exist; ALIGN is the alignment of T in bytes (scalar layout)
 //   GPU_PTR(T)             device address of T[], writable:     .data[i] in GLSL, zvo::gpu::Ptr<T> in C++
 //   GPU_CONST_PTR(T)       device address of T[], read only:    .data[i] in GLSL, zvo::gpu::ConstPtr<T> in C++
+//   GPU_FUNCTION           before the definition of a function of both languages, such as one that packs bit fields
 //
 // Beside the parameters of a kernel stands its declaration, which C++ alone reads. The build compares it with the
 // SPIR-V (vk/kernel_declaration.h):
@@ -99,6 +100,7 @@ template <typename T> struct DescribedConstant : ConstantDescription
 #define GPU_NAMESPACE_END }
 #define GPU_PTR(T) Ptr<T>
 #define GPU_CONST_PTR(T) ConstPtr<T>
+#define GPU_FUNCTION inline
 #define GPU_BUFFER(T, ALIGN) static_assert(alignof(T) <= (ALIGN) && sizeof(T) % (ALIGN) == 0)
 
 #define GPU_KERNEL_BEGIN(OPERATION, KERNEL, NAME, PARAMS)                                                              \
@@ -138,6 +140,7 @@ template <typename T> struct DescribedConstant : ConstantDescription
 #define GPU_NAMESPACE_END
 #define GPU_PTR(T) T##_Ptr
 #define GPU_CONST_PTR(T) T##_ConstPtr
+#define GPU_FUNCTION
 #define GPU_BUFFER(T, ALIGN)                                                                                           \
     layout(buffer_reference, scalar, buffer_reference_align = ALIGN) buffer T##_Ptr                                    \
     {                                                                                                                  \

@@ -23,11 +23,6 @@ const int kSmallExtent = 8192;       // lattice units: a triangle up to this siz
 const uint kRowBlocksMax = 1u << 28; // row blocks that one run may list
 const uint kFragmentsMax = 65535u;   // fragments of a voxel that 32-bit sums hold
 
-// RasterParams::window, from the lowest bit on: depth of the grid 5 bits | depth of the cube 5 | its index among cubes
-// of its size, x 7 | y 7 | z 7
-const uint kWindowDepthBits = 5u;
-const uint kWindowIndexBits = 7u;
-
 const int kLatticeLimit = 1 << 29; // vertices beyond are dropped
 const int kVoxelLattice = 256;     // lattice units a voxel
 const int kVoxelLatticeLog2 = 8;
@@ -132,7 +127,7 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
     GPU_PTR(EmissionSums) emission_sums;   // [emissive voxels]
     vec3 origin;                           // world position of the grid's minimum corner
     float lattice_scale;                   // lattice units per world unit
-    uint window; // depth of the grid, and which cube of it is voxelized (voxelize/window.glsl)
+    uint window; // depth of the grid, and which cube of it is voxelized (voxelize/window.h)
     uint brick_mask;
     uint chunk_count;
     uint big_capacity;

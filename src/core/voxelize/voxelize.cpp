@@ -4,6 +4,7 @@
 #include "core/base/divide_up.h"
 #include "core/tree/device_tree.h"
 #include "octree/octree.h"
+#include "voxelize/window.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,6 +15,8 @@ namespace zvo
 
 static_assert(static_cast<gpu::uint>(Coverage::Conservative) == gpu::kCoverageConservative);
 static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
+static_assert(Grid::kDepthMax < 1U << gpu::kWindowDepthBits);
+static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
 
 namespace
 {
@@ -38,15 +41,6 @@ template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buf
     return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
 }
 
-std::uint32_t packWindow(const GridTile& tile)
-{
-    static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
-    const auto indexBits = [&](std::uint32_t value, std::uint32_t axis)
-    { return value << (2 * gpu::kWindowDepthBits + axis * gpu::kWindowIndexBits); };
-    return tile.grid.depth | (tile.depth << gpu::kWindowDepthBits) | indexBits(tile.index.x, 0) |
-           indexBits(tile.index.y, 1) | indexBits(tile.index.z, 2);
-}
-
 gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, std::uint32_t material_class)
 {
     const bool covers = walk.mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
@@ -60,7 +54,7 @@ gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, std::u
     params.brick_counters = access(pass, walk.buffers.counters, covers);
     params.origin = walk.tile.grid.origin;
     params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.tile.grid.voxel_size));
-    params.window = packWindow(walk.tile);
+    params.window = gpu::packWindow(walk.tile.grid.depth, walk.tile.depth, walk.tile.index);
     params.brick_mask = static_cast<std::uint32_t>(walk.buffers.bricks.count() - 1);
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
