@@ -7,7 +7,9 @@
 #include "shared/octree.h"
 #include "shared/scene.h"
 
-GPU_ENUM(Coverage, int) // kCoverageConservative, kCoverageThin
+GPU_ENUM(Coverage, int)                // kCoverageConservative, kCoverageThin
+GPU_ENUM(MaterialClass, std::uint32_t) // kClassPlain and so on
+GPU_ENUM(RasterMode, std::uint32_t)    // kModeCoverage and so on
 
 GPU_NAMESPACE_BEGIN
 
@@ -108,8 +110,8 @@ GPU_BUFFER(RasterCounters, 4);
 // Of every kernel with voxelize/constants.glsl.
 #define RASTER_CONSTANTS                                                                                               \
     GPU_CONSTANT(Coverage, coverage, kCoverageConservative)                                                            \
-    GPU_CONSTANT(uint, mode, kModeCoverage)                                                                            \
-    GPU_CONSTANT(uint, material_class, kClassPlain)                                                                    \
+    GPU_CONSTANT(RasterMode, mode, kModeCoverage)                                                                      \
+    GPU_CONSTANT(MaterialClass, material_class, kClassPlain)                                                           \
     GPU_CONSTANT(bool, emits, false)
 
 struct RasterParams // push constants of voxelize/triangles and voxelize/rows
@@ -127,7 +129,7 @@ struct RasterParams // push constants of voxelize/triangles and voxelize/rows
     GPU_PTR(EmissionSums) emission_sums;   // [emissive voxels]
     vec3 origin;                           // world position of the grid's minimum corner
     float lattice_scale;                   // lattice units per world unit
-    uint window; // depth of the grid, and which cube of it is voxelized (voxelize/window.h)
+    uint window;                           // depth of the grid, and which cube of it is voxelized (voxelize/window.h)
     uint brick_mask;
     uint chunk_count;
     uint big_capacity;

@@ -124,11 +124,11 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
 }
 
 // Adds a walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
-void addWalk(const LayerJob& job, const char* name, std::uint32_t mode, RecordedStages& stages)
+void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedStages& stages)
 {
-    for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
+    for (const MaterialClass material_class : kMaterialClasses)
     {
-        const std::uint64_t chunk_count = job.scene.uploaded().chunks[material_class].count();
+        const std::uint64_t chunk_count = job.scene.uploaded().chunksOf(material_class).count();
         if (chunk_count == 0)
         {
             continue;
@@ -157,7 +157,7 @@ void addLayerStages(const LayerJob& job, RecordedStages& stages)
     const std::uint64_t capacity = job.layer.voxelize.bricks.count();
     addStage(stages, {"clear a layer", capacity},
              [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearCoverage(graph, job.layer.voxelize); });
-    addWalk(job, "cover voxels", gpu::kModeCoverage, stages);
+    addWalk(job, "cover voxels", RasterMode::Coverage, stages);
     addStage(stages, {"list leaves", capacity},
              [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { listLeaves(graph, job); });
     if (job.layer.sums.count() == 0)
@@ -166,10 +166,10 @@ void addLayerStages(const LayerJob& job, RecordedStages& stages)
     }
     addStage(stages, {"clear sums", job.layer.sums.count()},
              [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearSums(graph, job.layer); });
-    addWalk(job, "add colours and normals", gpu::kModeAttributes, stages);
+    addWalk(job, "add colours and normals", RasterMode::Attributes, stages);
     if (job.layer.emission_words.count() != 0)
     {
-        addWalk(job, "add emission", gpu::kModeEmission, stages);
+        addWalk(job, "add emission", RasterMode::Emission, stages);
     }
 }
 

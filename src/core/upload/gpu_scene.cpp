@@ -150,14 +150,14 @@ void addMaterial(Staging& staging, const Material& material, const std::vector<b
     staging.materials.push_back(result);
 }
 
-std::uint32_t classOf(const gpu::Material& material)
+MaterialClass classOf(const gpu::Material& material)
 {
     if (material.alpha_mode != gpu::kAlphaOpaque)
     {
-        return gpu::kClassAlpha;
+        return MaterialClass::Alpha;
     }
     const bool textured = material.base_texture != gpu::kAbsent || material.emission_texture != gpu::kAbsent;
-    return textured ? gpu::kClassTextured : gpu::kClassPlain;
+    return textured ? MaterialClass::Textured : MaterialClass::Plain;
 }
 
 double triangleArea(const Primitive& primitive, const glm::dmat3& linear)
@@ -177,7 +177,8 @@ double triangleArea(const Primitive& primitive, const glm::dmat3& linear)
 void addChunks(Staging& staging, std::uint32_t draw_number)
 {
     const gpu::Draw& draw = staging.draws[draw_number];
-    std::vector<gpu::Chunk>& chunks = staging.chunks[classOf(staging.materials[draw.material])];
+    const MaterialClass material_class = classOf(staging.materials[draw.material]);
+    std::vector<gpu::Chunk>& chunks = staging.chunks[static_cast<std::size_t>(material_class)];
     for (std::uint64_t first = 0; first < draw.triangle_count; first += gpu::kChunkTriangles)
     {
         chunks.push_back({draw_number, static_cast<std::uint32_t>(first)});

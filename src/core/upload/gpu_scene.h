@@ -8,11 +8,23 @@
 #include "voxelize/voxelize.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 namespace zvo
 {
+
+/// What the materials of a draw need. Kernels have a variant for each class.
+enum class MaterialClass : std::uint32_t
+{
+    Plain = gpu::kClassPlain,
+    Textured = gpu::kClassTextured,
+    Alpha = gpu::kClassAlpha
+};
+
+inline constexpr std::array kMaterialClasses = {MaterialClass::Plain, MaterialClass::Textured, MaterialClass::Alpha};
+static_assert(kMaterialClasses.size() == gpu::kClassCount);
 
 /// A scene in device memory; shaders/shared/scene.h documents the layout. Nothing changes it after the upload.
 struct GpuScene
@@ -31,13 +43,17 @@ struct GpuScene
     vk::BufferOf<gpu::uint> linear_to_srgb;  // [16384]
     vk::BufferOf<gpu::SceneView> view;       // [1]
 
-    /// Chunks of the draws of each material class (kClassPlain and so on).
-    std::array<vk::BufferOf<gpu::Chunk>, gpu::kClassCount> chunks;
+    std::array<vk::BufferOf<gpu::Chunk>, gpu::kClassCount> chunks; // of the draws of each MaterialClass
 
     bool has_attributes = false;      // the textures for colour and emission were uploaded
     std::uint64_t triangle_count = 0; // those of a primitive count once for each instance
     double surface_area = 0;          // world units squared
     float emission_scale = 0;         // the emission that the fraction 1 stands for; 0: nothing emits light
+
+    [[nodiscard]] const vk::BufferOf<gpu::Chunk>& chunksOf(MaterialClass material_class) const
+    {
+        return chunks[static_cast<std::size_t>(material_class)];
+    }
 };
 
 /// The largest emission of any material of scene; 0 if nothing emits light.

@@ -41,10 +41,10 @@ template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buf
     return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
 }
 
-gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, std::uint32_t material_class)
+gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, MaterialClass material_class)
 {
-    const bool covers = walk.mode == gpu::kModeCoverage; // lists and table are made then, and only read afterwards
-    VoxelizeBuffers::RowWork& rows = walk.buffers.rows[material_class];
+    const bool covers = walk.mode == RasterMode::Coverage; // lists and table are made then, and only read afterwards
+    VoxelizeBuffers::RowWork& rows = walk.buffers.rowsOf(material_class);
     gpu::RasterParams params{};
     params.scene = walk.scene.read(pass);
     params.bricks = access(pass, walk.buffers.bricks, covers);
@@ -60,7 +60,7 @@ gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, std::u
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
     if (!covers)
     {
-        const bool emits = walk.mode == gpu::kModeEmission;
+        const bool emits = walk.mode == RasterMode::Emission;
         params.nodes = pass.read(walk.sums->leaves);
         params.sums = access(pass, walk.sums->sums, !emits);
         params.emission_words = access(pass, walk.sums->emission_words, !emits);
@@ -84,9 +84,9 @@ void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
 }
 
 // The variant of a raster kernel for a walk over a material class.
-template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, std::uint32_t material_class)
+template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, MaterialClass material_class)
 {
-    const bool emits = walk.mode != gpu::kModeCoverage && walk.sums->emission_words.count() != 0;
+    const bool emits = walk.mode != RasterMode::Coverage && walk.sums->emission_words.count() != 0;
     Kernel kernel{.coverage = walk.coverage, .mode = walk.mode, .material_class = material_class, .emits = emits};
     if constexpr (requires { kernel.wide_keys; })
     {
@@ -98,9 +98,9 @@ template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, std::uint
 // Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
 void walkAll(vk::FrameGraph& graph, const RasterWalk& walk)
 {
-    for (std::uint32_t material_class = 0; material_class < gpu::kClassCount; ++material_class)
+    for (const MaterialClass material_class : kMaterialClasses)
     {
-        walkTriangles(graph, walk, material_class, 0, walk.scene.uploaded().chunks[material_class].count());
+        walkTriangles(graph, walk, material_class, 0, walk.scene.uploaded().chunksOf(material_class).count());
         walkRows(graph, walk, material_class);
     }
 }
@@ -198,7 +198,7 @@ void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
     }
 }
 
-void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class,
+void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
                    std::uint64_t first_chunk, std::uint64_t chunk_count)
 {
     if (chunk_count == 0)
@@ -207,20 +207,20 @@ void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t 
     }
     vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Triangles>(walk, material_class));
     gpu::RasterParams params = rasterParams(pass, walk, material_class);
-    params.chunks = pass.read(walk.scene.uploaded().chunks[material_class]);
+    params.chunks = pass.read(walk.scene.uploaded().chunksOf(material_class));
     params.chunks.address += first_chunk * sizeof(gpu::Chunk);
     params.chunk_count = static_cast<std::uint32_t>(chunk_count);
     pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
 }
 
-void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class)
+void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
 {
-    if (walk.scene.uploaded().chunks[material_class].count() == 0)
+    if (walk.scene.uploaded().chunksOf(material_class).count() == 0)
     {
         return;
     }
-    VoxelizeBuffers::RowWork& rows = walk.buffers.rows[material_class];
-    if (walk.mode == gpu::kModeCoverage)
+    VoxelizeBuffers::RowWork& rows = walk.buffers.rowsOf(material_class);
+    if (walk.mode == RasterMode::Coverage)
     {
         sizeRowWork(graph, rows);
         vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Bands>(walk, material_class));
@@ -251,7 +251,7 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PosedGpuScene& scene, const
         graph.fill(octree.emission_words, 0);
     }
     const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {scene, tile, coverage, buffers, gpu::kModeAttributes, &sums});
+    walkAll(graph, {scene, tile, coverage, buffers, RasterMode::Attributes, &sums});
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
         gpu::ResolveParams params{};
@@ -276,7 +276,7 @@ void voxelizeEmission(vk::FrameGraph& graph, const PosedGpuScene& scene, const G
 {
     graph.fill(attributes.emission_sums, 0);
     const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {scene, tile, coverage, buffers, gpu::kModeEmission, &sums});
+    walkAll(graph, {scene, tile, coverage, buffers, RasterMode::Emission, &sums});
     vk::Pass pass = graph.addPass(gpu::voxelize::ResolveEmission{});
     gpu::ResolveEmissionParams params{};
     params.sums = pass.read(attributes.sums);

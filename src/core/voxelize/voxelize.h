@@ -10,6 +10,7 @@
 #include "zvo/types.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace zvo
@@ -62,9 +63,11 @@ struct VoxelizeBuffers
 
     VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene);
 
+    RowWork& rowsOf(MaterialClass material_class) { return rows[static_cast<std::size_t>(material_class)]; }
+
     vk::BufferOf<gpu::BrickEntry> bricks;       // [capacities.bricks]
     vk::BufferOf<gpu::BrickCounters> counters;  // [1]
-    std::array<RowWork, gpu::kClassCount> rows; // empty for classes that the scene does not have
+    std::array<RowWork, gpu::kClassCount> rows; // of each MaterialClass; empty for those that the scene does not have
 };
 
 /// The buffers for averaging attributes: sums over the fragments of each voxel, and the numbering of emissive voxels.
@@ -90,6 +93,14 @@ struct AttributeSums
     std::uint32_t sum_shift = 0;
 };
 
+/// What a walk over the triangles does with a fragment.
+enum class RasterMode : std::uint32_t
+{
+    Coverage = gpu::kModeCoverage,     // sets the voxel's bit
+    Attributes = gpu::kModeAttributes, // adds its colour and normal to the voxel's sums
+    Emission = gpu::kModeEmission      // adds its emission to the emissive voxel's sums
+};
+
 /// A walk over all triangles of a scene, and what it does with the voxels that they cover.
 struct RasterWalk
 {
@@ -97,24 +108,24 @@ struct RasterWalk
     GridTile tile;
     Coverage coverage;
     VoxelizeBuffers& buffers;
-    std::uint32_t mode = gpu::kModeCoverage; // gpu::kModeCoverage, kModeAttributes or kModeEmission
-    const AttributeSums* sums = nullptr;     // null in coverage mode
+    RasterMode mode = RasterMode::Coverage;
+    const AttributeSums* sums = nullptr; // null in coverage mode
 };
 
 /// Records the pass over chunk_count chunks of a material class from first_chunk on.
 ///
-/// In coverage mode (kModeCoverage) it sets the bits of the voxels that small triangles cover, and lists big triangles.
+/// In coverage mode it sets the bits of the voxels that small triangles cover, and lists big triangles.
 /// The buffers must have been cleared.
 ///
-/// In the other modes it adds the attributes of the fragments of small triangles: kModeAttributes adds colours and
-/// normals to sums->sums and sets the bits of emissive voxels in sums->emission_words; kModeEmission adds emission to
-/// sums->emission_sums, at the indices that emission_words tells. The brick table must hold the first voxel of each
-/// leaf or, with wide keys, the leaf's index in sums->leaves.
-void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class,
+/// In the other modes it adds the attributes of the fragments of small triangles: RasterMode::Attributes adds colours
+/// and normals to sums->sums and sets the bits of emissive voxels in sums->emission_words; RasterMode::Emission adds
+/// emission to sums->emission_sums, at the indices that emission_words tells. The brick table must hold the first voxel
+/// of each leaf or, with wide keys, the leaf's index in sums->leaves.
+void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
                    std::uint64_t first_chunk, std::uint64_t chunk_count);
 
 /// Records the passes that do the same for the big triangles of a material class. To be recorded after all its chunks.
-void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, std::uint32_t material_class);
+void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class);
 
 /// Records the passes that clear all buffers, before a walk in coverage mode.
 void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
