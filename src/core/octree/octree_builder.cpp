@@ -156,6 +156,11 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
     m_result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid)));
 }
 
+VoxelizeJob OctreeBuilder::voxelizeJob()
+{
+    return {.scene = m_scene, .tile = m_tile, .coverage = m_options.coverage, .buffers = m_coverings->voxelize};
+}
+
 void OctreeBuilder::cover(vk::FrameGraph& graph)
 {
     const GpuScene& scene = m_scene.uploaded();
@@ -164,7 +169,7 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
         m_device.memory().require(coverageBytes(m_result.capacities, scene), "voxelization");
         m_coverings.emplace(Coverings{{m_device, m_result.capacities, scene}, {m_device, m_result.capacities.bricks}});
     }
-    voxelizeCoverage(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize);
+    voxelizeCoverage(graph, voxelizeJob());
     listNodes(graph, m_tile.grid, m_coverings->voxelize, m_coverings->work);
     m_offsets.counters = m_readback.copy(graph, m_coverings->voxelize.counters, 0, 1);
     m_offsets.ranges = m_readback.copy(graph, m_coverings->work.ranges, 0, m_tile.grid.nodeLevels());
@@ -280,7 +285,7 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
         octree.voxel_attributes = std::move(voxel_attributes); // all or nothing: the step may come again
         octree.emission_words = std::move(emission_words);
     }
-    voxelizeAttributes(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize, *m_sums, octree);
+    voxelizeAttributes(graph, voxelizeJob(), *m_sums, octree);
     m_offsets.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
     if (emits)
     {
@@ -321,7 +326,7 @@ void OctreeBuilder::emission(vk::FrameGraph& graph)
         m_result.octree.emission = {m_device, "octree/emission", m_emissive_count};
         m_sums->emission_sums = std::move(emission_sums);
     }
-    voxelizeEmission(graph, m_scene, m_tile, m_options.coverage, m_coverings->voxelize, *m_sums, m_result.octree);
+    voxelizeEmission(graph, voxelizeJob(), *m_sums, m_result.octree);
 }
 
 // The sums are many times larger than what becomes of them: they and the brick table go before the attributes of inner

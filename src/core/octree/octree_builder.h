@@ -86,6 +86,7 @@ private:
         std::uint64_t emissive_count = 0;
     };
 
+    VoxelizeJob voxelizeJob();
     void cover(vk::FrameGraph& graph);
     void learnCoverage();
     void grow(const Growth& growth);

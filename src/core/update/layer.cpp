@@ -138,7 +138,7 @@ void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedSta
             LayerBuffers& layer = job.layer;
             const AttributeSums sums = {layer.leaves, layer.sums, layer.emission_words, layer.emission_sums,
                                         job.sum_shift};
-            record(RasterWalk{job.scene, job.grid, job.coverage, layer.voxelize, mode, &sums});
+            record(RasterWalk{{job.scene, job.grid, job.coverage, layer.voxelize}, mode, &sums});
         };
         addStage(
             stages, {name, chunk_count, true},

@@ -44,18 +44,18 @@ template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buf
 gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, MaterialClass material_class)
 {
     const bool covers = walk.mode == RasterMode::Coverage; // lists and table are made then, and only read afterwards
-    VoxelizeBuffers::RowWork& rows = walk.buffers.rowsOf(material_class);
+    VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
     gpu::RasterParams params{};
-    params.scene = walk.scene.read(pass);
-    params.bricks = access(pass, walk.buffers.bricks, covers);
+    params.scene = walk.job.scene.read(pass);
+    params.bricks = access(pass, walk.job.buffers.bricks, covers);
     params.big_triangles = access(pass, rows.big_triangles, covers);
     params.row_blocks = access(pass, rows.row_blocks, covers);
     params.counters = access(pass, rows.counters, covers);
-    params.brick_counters = access(pass, walk.buffers.counters, covers);
-    params.origin = walk.tile.grid.origin;
-    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.tile.grid.voxel_size));
-    params.window = gpu::packWindow(walk.tile.grid.depth, walk.tile.depth, walk.tile.index);
-    params.brick_mask = static_cast<std::uint32_t>(walk.buffers.bricks.count() - 1);
+    params.brick_counters = access(pass, walk.job.buffers.counters, covers);
+    params.origin = walk.job.tile.grid.origin;
+    params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.job.tile.grid.voxel_size));
+    params.window = gpu::packWindow(walk.job.tile.grid.depth, walk.job.tile.depth, walk.job.tile.index);
+    params.brick_mask = static_cast<std::uint32_t>(walk.job.buffers.bricks.count() - 1);
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
     if (!covers)
@@ -87,10 +87,10 @@ void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
 template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, MaterialClass material_class)
 {
     const bool emits = walk.mode != RasterMode::Coverage && walk.sums->emission_words.count() != 0;
-    Kernel kernel{.coverage = walk.coverage, .mode = walk.mode, .material_class = material_class, .emits = emits};
+    Kernel kernel{.coverage = walk.job.coverage, .mode = walk.mode, .material_class = material_class, .emits = emits};
     if constexpr (requires { kernel.wide_keys; })
     {
-        kernel.wide_keys = hasWideKeys(walk.tile.grid);
+        kernel.wide_keys = hasWideKeys(walk.job.tile.grid);
     }
     return kernel;
 }
@@ -100,7 +100,7 @@ void walkAll(vk::FrameGraph& graph, const RasterWalk& walk)
 {
     for (const MaterialClass material_class : kMaterialClasses)
     {
-        walkTriangles(graph, walk, material_class, 0, walk.scene.uploaded().chunksOf(material_class).count());
+        walkTriangles(graph, walk, material_class, 0, walk.job.scene.uploaded().chunksOf(material_class).count());
         walkRows(graph, walk, material_class);
     }
 }
@@ -207,7 +207,7 @@ void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass 
     }
     vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Triangles>(walk, material_class));
     gpu::RasterParams params = rasterParams(pass, walk, material_class);
-    params.chunks = pass.read(walk.scene.uploaded().chunksOf(material_class));
+    params.chunks = pass.read(walk.job.scene.uploaded().chunksOf(material_class));
     params.chunks.address += first_chunk * sizeof(gpu::Chunk);
     params.chunk_count = static_cast<std::uint32_t>(chunk_count);
     pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
@@ -215,11 +215,11 @@ void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass 
 
 void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
 {
-    if (walk.scene.uploaded().chunksOf(material_class).count() == 0)
+    if (walk.job.scene.uploaded().chunksOf(material_class).count() == 0)
     {
         return;
     }
-    VoxelizeBuffers::RowWork& rows = walk.buffers.rowsOf(material_class);
+    VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
     if (walk.mode == RasterMode::Coverage)
     {
         sizeRowWork(graph, rows);
@@ -233,15 +233,13 @@ void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass mater
                           divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
 }
 
-void voxelizeCoverage(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
-                      VoxelizeBuffers& buffers)
+void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)
 {
-    clearCoverage(graph, buffers);
-    walkAll(graph, {scene, tile, coverage, buffers});
+    clearCoverage(graph, job.buffers);
+    walkAll(graph, {job});
 }
 
-void voxelizeAttributes(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
-                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree)
+void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes, DeviceTree& octree)
 {
     const bool emission = octree.emission_words.count() != 0;
     graph.fill(attributes.sums, 0);
@@ -251,11 +249,11 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PosedGpuScene& scene, const
         graph.fill(octree.emission_words, 0);
     }
     const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {scene, tile, coverage, buffers, RasterMode::Attributes, &sums});
+    walkAll(graph, {job, RasterMode::Attributes, &sums});
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
         gpu::ResolveParams params{};
-        params.scene = pass.read(scene.uploaded().view); // for its tables of colours
+        params.scene = pass.read(job.scene.uploaded().view); // for its tables of colours
         params.sums = pass.read(attributes.sums);
         params.emission_words = pass.read(octree.emission_words);
         params.attributes = pass.write(octree.voxel_attributes);
@@ -271,12 +269,11 @@ void voxelizeAttributes(vk::FrameGraph& graph, const PosedGpuScene& scene, const
     }
 }
 
-void voxelizeEmission(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
-                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree)
+void voxelizeEmission(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes, DeviceTree& octree)
 {
     graph.fill(attributes.emission_sums, 0);
     const AttributeSums sums = sumsOf(attributes, octree);
-    walkAll(graph, {scene, tile, coverage, buffers, RasterMode::Emission, &sums});
+    walkAll(graph, {job, RasterMode::Emission, &sums});
     vk::Pass pass = graph.addPass(gpu::voxelize::ResolveEmission{});
     gpu::ResolveEmissionParams params{};
     params.sums = pass.read(attributes.sums);

@@ -101,21 +101,27 @@ enum class RasterMode : std::uint32_t
     Emission = gpu::kModeEmission      // adds its emission to the emissive voxel's sums
 };
 
-/// A walk over all triangles of a scene, and what it does with the voxels that they cover.
-struct RasterWalk
+/// What is voxelized, and into which buffers.
+struct VoxelizeJob
 {
     PosedGpuScene scene;
     GridTile tile;
     Coverage coverage;
     VoxelizeBuffers& buffers;
+};
+
+/// A walk over all triangles of a scene, and what it does with the voxels that they cover.
+struct RasterWalk
+{
+    VoxelizeJob job;
     RasterMode mode = RasterMode::Coverage;
     const AttributeSums* sums = nullptr; // null in coverage mode
 };
 
 /// Records the pass over chunk_count chunks of a material class from first_chunk on.
 ///
-/// In coverage mode it sets the bits of the voxels that small triangles cover, and lists big triangles.
-/// The buffers must have been cleared.
+/// In coverage mode it sets the bits of the voxels that small triangles cover, and lists big triangles. The buffers
+/// must have been cleared.
 ///
 /// In the other modes it adds the attributes of the fragments of small triangles: RasterMode::Attributes adds colours
 /// and normals to sums->sums and sets the bits of emissive voxels in sums->emission_words; RasterMode::Emission adds
@@ -133,18 +139,16 @@ void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers);
 /// Records the passes of coverage: they clear the buffers, then set the bit of every covered voxel in the brick table.
 /// What does not fit is counted, never written. For a tile of the grid, the voxels are those of the whole grid that lie
 /// in it. Cost: triangles plus covered voxels, and the capacity of the table once, for clearing it.
-void voxelizeCoverage(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
-                      VoxelizeBuffers& buffers);
+void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job);
 
 /// Records the passes that average colour and normal of each voxel's fragments into octree.voxel_attributes, and
 /// mark emissive voxels in octree.emission_words. The brick table must hold the first voxel of each leaf (numberNodes).
 /// Cost: triangles plus fragments plus voxels.
-void voxelizeAttributes(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
-                        VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree);
+void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes,
+                        DeviceTree& octree);
 
 /// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
 /// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.
-void voxelizeEmission(vk::FrameGraph& graph, const PosedGpuScene& scene, const GridTile& tile, Coverage coverage,
-                      VoxelizeBuffers& buffers, AttributeBuffers& attributes, DeviceTree& octree);
+void voxelizeEmission(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes, DeviceTree& octree);
 
 } // namespace zvo

@@ -48,7 +48,7 @@ TEST(DynamicObject, PlacesAndVoxelizesInOneCommandBuffer)
     const auto cover =
         [&](vk::FrameGraph& graph, const PosedGpuScene& placed, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
     {
-        voxelizeCoverage(graph, placed, kGrid, Coverage::Thin, voxelize);
+        voxelizeCoverage(graph, {placed, kGrid, Coverage::Thin, voxelize});
         listNodes(graph, kGrid, voxelize, work);
     };
     std::vector<gpu::BrickCounters> counters;
@@ -98,7 +98,7 @@ TEST(DynamicObject, PassesThatWalkItWaitForItsDraws)
         [&](vk::FrameGraph& graph)
         {
             setPose(graph, std::vector{glm::mat4(1.0F)}, object.buffers());
-            voxelizeCoverage(graph, {object.uploaded(), object.buffers()}, kGrid, Coverage::Thin, voxelize);
+            voxelizeCoverage(graph, {{object.uploaded(), object.buffers()}, kGrid, Coverage::Thin, voxelize});
             dump = graph.dump();
         });
     const std::size_t updated = dump.find("pass update mover/draws");

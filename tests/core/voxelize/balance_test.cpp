@@ -21,7 +21,8 @@ std::uint64_t countBlocks(const std::vector<glm::vec3>& corners, std::uint32_t d
     const GpuScene scene = uploadScene(device, test::triangleSoup(corners), false);
     const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
     VoxelizeBuffers buffers(device.device(), VoxelizeCapacities::estimate(scene, grid), scene);
-    device.run([&](vk::FrameGraph& graph) { voxelizeCoverage(graph, scene, grid, coverage, buffers); });
+    const VoxelizeJob job = {.scene = scene, .tile = grid, .coverage = coverage, .buffers = buffers};
+    device.run([&](vk::FrameGraph& graph) { voxelizeCoverage(graph, job); });
     const gpu::RasterCounters counters = device.download(buffers.rowsOf(MaterialClass::Plain).counters).front();
     EXPECT_GE(counters.big_count, corners.size() / 3);
     EXPECT_LE(counters.big_count, buffers.rowsOf(MaterialClass::Plain).big_triangles.count());
