@@ -30,19 +30,6 @@ gpu::Ptr<gpu::BeforeChild> ranksOf(vk::AnyPass& pass, DeviceTree& tree)
     return {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
 }
 
-// Declares the reads of the arrays from which ranks in a DAG are summed up, and sets them in params; null for an
-// octree.
-template <typename Params> void readRankSource(vk::AnyPass& pass, const DeviceTree& tree, Params& params)
-{
-    if (tree.overlays.hasRanks())
-    {
-        const gpu::RankSource source = rankSource(pass, tree);
-        params.before = source.before;
-        params.voxels_before_leaf = source.voxels_before_leaf;
-        params.first_short_entry = source.first_short_entry;
-    }
-}
-
 std::uint32_t levelCells(const gpu::EditBox& box, std::uint32_t level)
 {
     const std::uint32_t shift = 2 * (box.level_count - level);
@@ -63,7 +50,10 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
             graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(), .attributes = attributes});
         gpu::EditFindParams params{};
         params.nodes = pass.read(tree.nodes);
-        readRankSource(pass, tree, params);
+        if (tree.overlays.hasRanks())
+        {
+            readRankSource(pass, tree, params);
+        }
         params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
         params.cells = pass.write(buffers.cells);
         params.states = pass.readWrite(site.states);
@@ -100,7 +90,10 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     gpu::EditNodesParams params{};
     params.nodes = pass.readWrite(tree.nodes);
     params.node_attributes = pass.readWrite(tree.node_attributes);
-    readRankSource(pass, tree, params);
+    if (tree.overlays.hasRanks())
+    {
+        readRankSource(pass, tree, params);
+    }
     params.ranks = ranksOf(pass, tree);
     params.cells = pass.readWrite(buffers.cells);
     params.states = pass.read(site.states);

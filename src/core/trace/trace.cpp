@@ -104,14 +104,11 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid&
         const auto declare = [&](vk::AnyPass& pass)
         {
             auto params = common(pass, gpu::PrimaryRanksParams{});
-            const gpu::RankSource source = rankSource(pass, tree);
-            params.before = source.before;
+            readRankSource(pass, tree, params);
             if (tree.hasOverlays())
             {
                 pass.read(tree.overlays.ranks); // the table has their address
             }
-            params.voxels_before_leaf = source.voxels_before_leaf;
-            params.first_short_entry = source.first_short_entry;
             return params;
         };
         addRounds(graph, primary(gpu::trace::PrimaryRanks{}), rounds, buffers.rounds, buffers.live.count(), declare,

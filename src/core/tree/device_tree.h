@@ -148,4 +148,14 @@ gpu::RankSource rankSource(vk::AnyPass& pass, const DeviceTree& dag);
 /// The same, without declaring any access.
 gpu::RankSource rankSource(const DeviceTree& dag);
 
+/// Declares that pass reads those arrays, and sets them in the parameters of a kernel that takes the pool apart from
+/// the others.
+template <typename Params> void readRankSource(vk::AnyPass& pass, const DeviceTree& dag, Params& params)
+{
+    const gpu::RankSource source = rankSource(pass, dag);
+    params.before = source.before;
+    params.voxels_before_leaf = source.voxels_before_leaf;
+    params.first_short_entry = source.first_short_entry;
+}
+
 } // namespace zvo

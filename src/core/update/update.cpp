@@ -123,10 +123,7 @@ void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         params.levels = pass.read(buffers.levels);
         if (tree.overlays.hasRanks())
         {
-            const gpu::RankSource source = rankSource(pass, tree);
-            params.before = source.before;
-            params.voxels_before_leaf = source.voxels_before_leaf;
-            params.first_short_entry = source.first_short_entry;
+            readRankSource(pass, tree, params);
             params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
         }
         params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
