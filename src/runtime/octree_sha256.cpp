@@ -26,7 +26,7 @@ template <typename T> void hashBuffer(vk::HeadlessDevice& device, Sha256& sha, c
 
 } // namespace
 
-std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& octree)
+std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& tree)
 {
     Sha256 sha;
     struct Header // 8 words without padding
@@ -38,16 +38,16 @@ std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& octree)
         std::uint32_t voxel_count;
         float emission_scale;
     };
-    const Header header = {octree.grid.origin, octree.grid.voxel_size, octree.grid.depth,
-                           octree.node_count,  octree.voxel_count,     octree.emission_scale};
+    const Header header = {tree.grid.origin, tree.grid.voxel_size, tree.grid.depth,
+                           tree.node_count,  tree.voxel_count,     tree.emission_scale};
     sha.update(std::as_bytes(std::span(&header, 1)));
-    hashBuffer(device, sha, octree.nodes);
-    hashBuffer(device, sha, octree.voxel_attributes);
-    hashBuffer(device, sha, octree.node_attributes);
-    hashBuffer(device, sha, octree.packed.voxels);
-    hashBuffer(device, sha, octree.packed.nodes);
-    hashBuffer(device, sha, octree.emission_words);
-    hashBuffer(device, sha, octree.emission);
+    hashBuffer(device, sha, tree.nodes);
+    hashBuffer(device, sha, tree.voxel_attributes);
+    hashBuffer(device, sha, tree.node_attributes);
+    hashBuffer(device, sha, tree.packed.voxels);
+    hashBuffer(device, sha, tree.packed.nodes);
+    hashBuffer(device, sha, tree.emission_words);
+    hashBuffer(device, sha, tree.emission);
     return sha.hexDigest();
 }
 

@@ -9,8 +9,8 @@
 namespace zvo
 {
 
-/// SHA-256, in hexadecimal, of everything in octree: grid, counts, nodes, attributes, emission. Equal octrees have
-/// equal digests, however they were made.
-std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& octree);
+/// SHA-256, in hexadecimal, of everything in tree: grid, counts, nodes, attributes, emission. Equal trees have equal
+/// digests, however they were made.
+std::string octreeSha256(vk::HeadlessDevice& device, const DeviceTree& tree);
 
 } // namespace zvo

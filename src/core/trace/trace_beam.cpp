@@ -15,10 +15,10 @@ namespace
 
 constexpr std::uint64_t kPathCellCount = std::uint64_t{gpu::kPathCells} * gpu::kPathCells * gpu::kPathCells;
 
-// Whether the octree has cells as small as the beam grid's finer ones.
-bool hasFineBeam(const DeviceTree& octree)
+// Whether the tree has cells as small as the beam grid's finer ones.
+bool hasFineBeam(const DeviceTree& tree)
 {
-    return octree.grid.nodeLevels() > gpu::kBeamLevels;
+    return tree.grid.nodeLevels() > gpu::kBeamLevels;
 }
 
 // A number near the golden section of count that shares no factor with it.
@@ -41,9 +41,9 @@ BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
 {
 }
 
-bool hasPaths(const DeviceTree& octree)
+bool hasPaths(const DeviceTree& tree)
 {
-    return octree.grid.nodeLevels() > gpu::kPathLevels;
+    return tree.grid.nodeLevels() > gpu::kPathLevels;
 }
 
 void buildBeam(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam)
@@ -90,20 +90,20 @@ void buildBeam(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam)
     }
 }
 
-void traceBeam(vk::FrameGraph& graph, const DeviceTree& octree, const BeamGrid& beam, const TraceCamera& camera,
+void traceBeam(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
                const TraceOptions& options, TraceBuffers& buffers)
 {
     graph.fill(buffers.live, gpu::kNoTile);
     graph.fill(buffers.args, 0);
     graph.fill(buffers.status, 0);
     const PictureTiles tiles(buffers);
-    const bool fine = hasFineBeam(octree);
+    const bool fine = hasFineBeam(tree);
     vk::Pass pass = graph.addPass(gpu::trace::Beam{.node_levels = fine ? gpu::kBeamLevels + 1 : gpu::kBeamLevels,
                                                    .stack = stackConstant(graph.device(), options),
                                                    .detail = fine,
                                                    .orthographic = camera.orthographic,
                                                    .beam = options.beam,
-                                                   .empty = isEmpty(octree)});
+                                                   .empty = isEmpty(tree)});
     gpu::BeamParams params{};
     params.nodes = pass.read(beam.nodes);
     params.starts = pass.write(buffers.starts);

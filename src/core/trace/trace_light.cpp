@@ -55,13 +55,13 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
 
 // The parameters that all passes share which trace rays from hits.
 template <typename Params>
-Params lightParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera& camera, TraceBuffers& buffers)
 {
     Params params{};
-    params.nodes = pass.read(octree.nodes);
+    params.nodes = pass.read(tree.nodes);
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
-    readAttributes(pass, octree, params);
+    readAttributes(pass, tree, params);
     params.status = pass.readWrite(buffers.status);
     params.forward = camera.rays.forward;
     params.step_x = camera.rays.step_x;
@@ -73,12 +73,12 @@ Params lightParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamer
 
 // The parameters that both kernels share which give hits their colours.
 template <typename Params>
-Params shadeParams(vk::AnyPass& pass, const DeviceTree& octree, const TraceCamera& camera, TraceBuffers& buffers)
+Params shadeParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera& camera, TraceBuffers& buffers)
 {
     Params params{};
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
-    readAttributes(pass, octree, params);
+    readAttributes(pass, tree, params);
     params.image = pass.readWrite(buffers.image);
     params.forward = camera.rays.forward;
     params.step_x = camera.rays.step_x;

@@ -9,14 +9,14 @@
 namespace zvo
 {
 
-bool isEmpty(const DeviceTree& octree)
+bool isEmpty(const DeviceTree& tree)
 {
-    return octree.node_count == 0;
+    return tree.node_count == 0;
 }
 
-bool usesAttributes(const DeviceTree& octree, const TraceOptions& options)
+bool usesAttributes(const DeviceTree& tree, const TraceOptions& options)
 {
-    return octree.hasAttributes() && (!options.hasDetail() || octree.hasNodeAttributes());
+    return tree.hasAttributes() && (!options.hasDetail() || tree.hasNodeAttributes());
 }
 
 bool showsAttributes(const TraceOptions& options)
@@ -49,14 +49,14 @@ TraceStack stackConstant(const vk::Device& device, const TraceOptions& options)
     return stackOn(device.report().type, options.stack);
 }
 
-AttributeFormat formatToRead(const DeviceTree& octree, const TraceOptions& options)
+AttributeFormat formatToRead(const DeviceTree& tree, const TraceOptions& options)
 {
-    return usesAttributes(octree, options) ? octree.attributeFormat() : AttributeFormat::None;
+    return usesAttributes(tree, options) ? tree.attributeFormat() : AttributeFormat::None;
 }
 
-std::uint32_t roundsFor(const DeviceTree& octree, const TraceOptions& options)
+std::uint32_t roundsFor(const DeviceTree& tree, const TraceOptions& options)
 {
-    const std::uint64_t iterations = std::uint64_t{4} * octree.grid.resolution() + gpu::kTraceRoundsMax * 16;
+    const std::uint64_t iterations = std::uint64_t{4} * tree.grid.resolution() + gpu::kTraceRoundsMax * 16;
     return static_cast<std::uint32_t>(
         std::min<std::uint64_t>(divideUp(iterations, options.iterations_max), gpu::kTraceRoundsMax));
 }

@@ -27,28 +27,28 @@ struct PictureTiles
     }
 };
 
-bool isEmpty(const DeviceTree& octree);
+bool isEmpty(const DeviceTree& tree);
 
 /// Whether there are attributes for every hit that can occur.
-bool usesAttributes(const DeviceTree& octree, const TraceOptions& options);
+bool usesAttributes(const DeviceTree& tree, const TraceOptions& options);
 
 /// Whether a view shows any attributes of hits.
 bool showsAttributes(const TraceOptions& options);
 
 /// The format in which kernels read attributes; None where they read none.
-AttributeFormat formatToRead(const DeviceTree& octree, const TraceOptions& options);
+AttributeFormat formatToRead(const DeviceTree& tree, const TraceOptions& options);
 
 /// Declares that pass reads the attributes, in whatever format they are, and sets their addresses in params.
-template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTree& octree, Params& params)
+template <typename Params> void readAttributes(vk::AnyPass& pass, const DeviceTree& tree, Params& params)
 {
-    if (isPacked(octree.attributeFormat()))
+    if (isPacked(tree.attributeFormat()))
     {
-        params.attributes = {pass.read(octree.packed.voxels).address};
-        params.node_attributes = {pass.read(octree.packed.nodes).address};
+        params.attributes = {pass.read(tree.packed.voxels).address};
+        params.node_attributes = {pass.read(tree.packed.nodes).address};
         return;
     }
-    params.attributes = pass.read(octree.voxel_attributes);
-    params.node_attributes = pass.read(octree.node_attributes);
+    params.attributes = pass.read(tree.voxel_attributes);
+    params.node_attributes = pass.read(tree.node_attributes);
 }
 
 /// The stack of rays on a device of this DeviceReport::type: the one asked for, but not Private on devices other than
@@ -72,7 +72,7 @@ Kernel traversing(Kernel kernel, const vk::Device& device, const DeviceTree& tre
 
 /// The number of rounds after which every ray has its answer. In a grid of n voxels per edge a ray crosses at most 3 n
 /// planes and goes down into at most n nodes; each round begins again at the root.
-std::uint32_t roundsFor(const DeviceTree& octree, const TraceOptions& options);
+std::uint32_t roundsFor(const DeviceTree& tree, const TraceOptions& options);
 
 /// Whether traceLight() has anything to do.
 bool needsLight(const TraceOptions& options);
