@@ -43,7 +43,7 @@ TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std:
       rounds(device, "trace rounds", gpu::kTraceRoundsMax), status(device, "trace status", 1)
 {
     const PictureTiles tiles(*this);
-    const std::uint64_t tile_count = std::uint64_t{tiles.x} * tiles.y;
+    const std::uint64_t tile_count = tiles.x * tiles.y;
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
     // Indirect dispatches over more tiles than one row of workgroups fill up their last row.
     const std::uint64_t rows = divideUp(tile_count, gpu::kTilesFold);

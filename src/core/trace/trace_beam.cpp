@@ -113,9 +113,9 @@ void traceBeam(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& be
     params.camera = camera.rays;
     params.width = buffers.width;
     params.height = buffers.height;
-    params.block_stride = coprimeStride(tiles.blocks);
+    params.block_stride = coprimeStride(static_cast<std::uint32_t>(tiles.blocks));
     params.detail = detailOf(options, &camera);
-    pass.dispatch(std::uint64_t{tiles.blocks} * gpu::kBlockTiles, params);
+    pass.dispatch(tiles.blocks * gpu::kBlockTiles, params);
 }
 
 } // namespace zvo

@@ -39,7 +39,7 @@ void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const Trac
     params.height = buffers.height;
     params.sun = options.sun;
     params.exposure = options.exposure;
-    const std::uint64_t rows = (buffers.height + gpu::kSkyRows - 1) / gpu::kSkyRows;
+    const std::uint64_t rows = divideUp(buffers.height, gpu::kSkyRows);
     pass.dispatch(rows * buffers.width, params);
 }
 

@@ -15,14 +15,13 @@ namespace zvo
 /// The numbers of tiles of a picture along x and y, and of the blocks of tiles, one for each workgroup of trace/beam.
 struct PictureTiles
 {
-    std::uint32_t x;
-    std::uint32_t y;
-    std::uint32_t blocks;
+    std::uint64_t x;
+    std::uint64_t y;
+    std::uint64_t blocks;
 
     explicit PictureTiles(const TraceBuffers& buffers)
-        : x((buffers.width + gpu::kTileEdge - 1) / gpu::kTileEdge),
-          y((buffers.height + gpu::kTileEdge - 1) / gpu::kTileEdge),
-          blocks(((x + gpu::kBlockEdge - 1) / gpu::kBlockEdge) * ((y + gpu::kBlockEdge - 1) / gpu::kBlockEdge))
+        : x(divideUp(buffers.width, gpu::kTileEdge)), y(divideUp(buffers.height, gpu::kTileEdge)),
+          blocks(divideUp(x, gpu::kBlockEdge) * divideUp(y, gpu::kBlockEdge))
     {
     }
 };
