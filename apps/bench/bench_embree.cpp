@@ -246,7 +246,7 @@ PrimaryRay rayOf(const TraceCamera& camera, glm::ivec2 pixel, glm::ivec2 size)
 {
     const glm::vec2 n(2 * pixel + 1 - size);
     const gpu::CameraRays& rays = camera.rays;
-    const glm::vec3 offset = n.x * rays.step_x + n.y * rays.step_y;
+    const glm::vec3 offset = n.x * rays.half_pixel_x + n.y * rays.half_pixel_y;
     return camera.orthographic ? PrimaryRay{rays.origin + offset, rays.forward}
                                : PrimaryRay{rays.origin, rays.forward + offset};
 }

@@ -95,8 +95,8 @@ struct CameraRays
 {
     Vec3 origin{};
     Vec3 forward{};
-    Vec3 step_x{};
-    Vec3 step_y{};
+    Vec3 half_pixel_x{}; ///< to the right
+    Vec3 half_pixel_y{}; ///< down
 };
 
 /// Throws Error{Usage} as Tracer::trace(), and for grids as TreeBuild.

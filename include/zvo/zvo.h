@@ -162,8 +162,8 @@ typedef struct ZvoCameraRays
 {
     float origin[3];
     float forward[3];
-    float step_x[3];
-    float step_y[3];
+    float half_pixel_x[3]; // to the right
+    float half_pixel_y[3]; // down
 } ZvoCameraRays;
 
 /// As zvo::LogCallback; null: nowhere. It must not throw, unwind by longjmp, nor call zvo.

@@ -147,14 +147,14 @@ Ray toUnitRay(TreeTable_ConstPtr tree, vec3 origin, vec3 direction, float t_min,
 // that size.
 vec3 zvo_pixelOrigin(CameraRays camera, bool orthographic, uvec2 pixel, uvec2 size)
 {
-    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.step_x, camera.step_y);
+    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.half_pixel_x, camera.half_pixel_y);
     precise vec3 origin = camera.origin + (orthographic ? offset : vec3(0.0));
     return origin;
 }
 
 vec3 zvo_pixelDirection(CameraRays camera, bool orthographic, uvec2 pixel, uvec2 size)
 {
-    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.step_x, camera.step_y);
+    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.half_pixel_x, camera.half_pixel_y);
     precise vec3 direction = camera.forward + (orthographic ? vec3(0.0) : offset);
     return direction;
 }

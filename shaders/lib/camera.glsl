@@ -7,9 +7,9 @@ vec2 pixelOffset(uvec2 pixel, uvec2 size)
     return vec2(ivec2(2u * pixel + 1u) - ivec2(size));
 }
 
-vec3 rayOffset(vec2 offset, vec3 step_x, vec3 step_y)
+vec3 rayOffset(vec2 offset, vec3 half_pixel_x, vec3 half_pixel_y)
 {
-    precise vec3 sum = offset.x * step_x + offset.y * step_y;
+    precise vec3 sum = offset.x * half_pixel_x + offset.y * half_pixel_y;
     return sum;
 }
 

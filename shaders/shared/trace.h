@@ -21,14 +21,15 @@ struct Ray
 GPU_BUFFER(Ray, 4);
 
 /// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
-/// left, offset = n.x * step_x + n.y * step_y: perspective rays start at origin along forward + offset, orthographic
-/// ones at origin + offset along forward. forward has length 1 and is orthogonal to both steps, so t is the depth.
+/// left, offset = n.x * half_pixel_x + n.y * half_pixel_y: perspective rays start at origin along forward + offset,
+/// orthographic ones at origin + offset along forward. forward has length 1 and is orthogonal to both half pixels, so t
+/// is the depth.
 struct CameraRays
 {
     vec3 origin;
     vec3 forward;
-    vec3 step_x; // half a pixel to the right
-    vec3 step_y; // half a pixel down
+    vec3 half_pixel_x; // to the right
+    vec3 half_pixel_y; // down
 };
 
 /// What a ray meets first. 16 bytes, as lib/hit.glsl packs them:

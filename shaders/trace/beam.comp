@@ -38,7 +38,7 @@ const float kTileReach = float(kTileEdge - 1u); // from the middle of a tile to 
 // ray.
 float endWithin(float edge)
 {
-    vec3 reach = kTileReach * (abs(params.camera.step_x) + abs(params.camera.step_y));
+    vec3 reach = kTileReach * (abs(params.camera.half_pixel_x) + abs(params.camera.half_pixel_y));
     float widest = max(reach.x, max(reach.y, reach.z));
     float room = kBeamMargin * edge - params.detail.y;
     return kOrthographic ? (widest <= room ? kTraceTimeMax : 0.0)
@@ -55,7 +55,7 @@ float lastDepth()
 float tileStart(uvec2 tile)
 {
     vec2 middle = vec2(ivec2(2u * kTileEdge * tile + kTileEdge) - ivec2(params.width, params.height));
-    vec3 offset = rayOffset(middle, params.camera.step_x, params.camera.step_y);
+    vec3 offset = rayOffset(middle, params.camera.half_pixel_x, params.camera.half_pixel_y);
     vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
     vec3 from = abs(params.camera.origin);

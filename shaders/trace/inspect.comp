@@ -43,7 +43,7 @@ void main()
         return;
     uvec2 size = uvec2(params.width, params.height);
     uvec2 pixel = uvec2(params.pixel % size.x, params.pixel / size.x);
-    vec3 offset = rayOffset(pixelOffset(pixel, size), params.camera.step_x, params.camera.step_y);
+    vec3 offset = rayOffset(pixelOffset(pixel, size), params.camera.half_pixel_x, params.camera.half_pixel_y);
     precise vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
     precise vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));

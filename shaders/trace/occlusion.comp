@@ -54,7 +54,7 @@ void main()
     Hit hit = loadHit(params.hits, i);
     vec3 direction = params.forward;
     if (!kOrthographic)
-        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+        direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     LitPoint point = litPoint(hit, direction, kFormat, params.attributes, params.node_attributes);
     mat3 frame = frameAround(point.normal);
     float end = isMiss(hit) ? 0.0 : params.radius;

@@ -91,7 +91,7 @@ void main()
     if (tile.x == kNoTile)
         return;
     uvec2 pixel = kTileEdge * unpackTile(tile.x) + pixelInTile(gl_LocalInvocationIndex);
-    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.step_x, camera.step_y);
+    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.half_pixel_x, camera.half_pixel_y);
     precise vec3 direction = camera.forward + (kOrthographic ? vec3(0.0) : offset);
     precise vec3 origin = camera.origin + (kOrthographic ? offset : vec3(0.0));
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));

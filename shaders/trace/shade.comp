@@ -63,7 +63,7 @@ void main()
     uint light = kLight ? params.light.data[i] : kLightAll;
     vec3 direction = params.forward;
     if (!kOrthographic)
-        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+        direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     Surface surface = surfaceAt(hit, direction, params.attributes, params.node_attributes);
     vec3 emission = kEmission && surface.may_emit ? emissionAt(hit.index) : vec3(0.0);
     storeTexel(kTexels, params.image, i, developTexel(kTexels, lit(surface, emission, light), params.exposure, pixel));

@@ -52,7 +52,7 @@ void main()
     Hit hit = loadHit(params.hits, i);
     vec3 direction = params.forward;
     if (!kOrthographic)
-        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+        direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     LitPoint point = litPoint(hit, direction, kFormat, params.attributes, params.node_attributes);
     vec3 origin = point.origin + kLiftSun * point.edge * params.to_sun;
     bool faces_sun = !isMiss(hit) && dot(point.normal, params.to_sun) > 0.0;

@@ -27,7 +27,7 @@ vec3 skyColor(uvec2 pixel, uvec2 size)
         return vec3(0.0);
     vec3 direction = params.forward;
     if (!kOrthographic)
-        direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+        direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
     direction = normalize(direction);
     vec3 radiance = skyRadiance(direction) + kSunDisc * params.sun * sunDisc(direction, params.to_sun) * kSunColor;
     return developTexel(kTexels, radiance, params.exposure, pixel);

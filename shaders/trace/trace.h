@@ -283,8 +283,8 @@ struct ShadowParams // push constants of trace/shadow
     GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
     GPU_PTR(uint) light;          // [width * height] light that arrives; undefined in dead tiles
     vec3 forward;                 // of the camera
-    vec3 step_x;
-    vec3 step_y;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
     vec3 to_sun; // length 1
     uint width;
     uint height;
@@ -308,8 +308,8 @@ struct OcclusionParams // push constants of trace/occlusion
     GPU_PTR(TraceStatus) status;
     GPU_PTR(uint) light;
     vec3 forward;
-    vec3 step_x;
-    vec3 step_y;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
     uint width;
     uint height;
     uint ray_count;
@@ -326,8 +326,8 @@ struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a
 {
     GPU_PTR(uint) image; // [width * height] texels of one word or two, as kTexels says
     vec3 forward;        // of the camera
-    vec3 step_x;
-    vec3 step_y;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
     vec3 to_sun; // length 1
     uint width;
     uint height;
@@ -401,8 +401,8 @@ struct ShadeParams // push constants of trace/shade
     GPU_CONST_PTR(uint) emission;
     GPU_PTR(uint) image; // as in SkyParams
     vec3 forward;
-    vec3 step_x;
-    vec3 step_y;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
     vec3 sun; // towards it, as long as it is strong
     uint width;
     uint height;
@@ -427,8 +427,8 @@ struct ViewsParams // push constants of trace/views
     GPU_CONST_PTR(Attribute) node_attributes;
     GPU_PTR(uint) image; // as in SkyParams
     vec3 forward;
-    vec3 step_x;
-    vec3 step_y;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
     vec2 depth_range;         // kViewDepth only: the depth that is white, and the one that is dark
     uint first_changed_voxel; // kViewOrigin only: the first index of an attribute that is not a static voxel's
     uint first_changed_node;  // likewise, of nodes

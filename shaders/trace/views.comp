@@ -95,7 +95,7 @@ void main()
     {
         vec3 direction = params.forward;
         if (!kOrthographic)
-            direction += rayOffset(pixelOffset(pixel, size), params.step_x, params.step_y);
+            direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
         Surface surface = surfaceAt(hit, direction, params.attributes, params.node_attributes);
         if (kView == kViewNormal)
             color = 0.5 + 0.5 * surface.normal;

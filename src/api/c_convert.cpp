@@ -372,8 +372,8 @@ ZvoCameraRays toC(const CameraRays& rays)
     ZvoCameraRays result{};
     copyTo(result.origin, rays.origin);
     copyTo(result.forward, rays.forward);
-    copyTo(result.step_x, rays.step_x);
-    copyTo(result.step_y, rays.step_y);
+    copyTo(result.half_pixel_x, rays.half_pixel_x);
+    copyTo(result.half_pixel_y, rays.half_pixel_y);
     return result;
 }
 

@@ -212,7 +212,7 @@ void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& came
 CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height)
 {
     const gpu::CameraRays rays = traceCamera(viewOf(camera), checkedGrid(grid), checkedEdge(height)).rays;
-    return {arrayOf(rays.origin), arrayOf(rays.forward), arrayOf(rays.step_x), arrayOf(rays.step_y)};
+    return {arrayOf(rays.origin), arrayOf(rays.forward), arrayOf(rays.half_pixel_x), arrayOf(rays.half_pixel_y)};
 }
 
 } // namespace zvo

@@ -216,7 +216,7 @@ void expectPosition(const Pixel& pixel, const Grid& grid, const TraceCamera& cam
     const glm::dvec3 low = glm::dvec3(grid.origin) + edge * glm::dvec3(hit.cell);
     const glm::dvec2 n(2.0 * static_cast<double>(i % kWidth) + 1.0 - kWidth,
                        2.0 * static_cast<double>(i / kWidth) + 1.0 - kHeight);
-    const glm::dvec3 offset = n.x * glm::dvec3(camera.rays.step_x) + n.y * glm::dvec3(camera.rays.step_y);
+    const glm::dvec3 offset = n.x * glm::dvec3(camera.rays.half_pixel_x) + n.y * glm::dvec3(camera.rays.half_pixel_y);
     const glm::dvec3 direction = glm::dvec3(camera.rays.forward) + (camera.orthographic ? glm::dvec3(0.0) : offset);
     const glm::dvec3 from = glm::dvec3(camera.rays.origin) + (camera.orthographic ? offset : glm::dvec3(0.0));
     const double unit = static_cast<double>(grid.voxel_size) * grid.rootResolution();

@@ -174,8 +174,8 @@ TraceCamera traceCamera(const ViewCamera& camera, const Grid& grid, std::uint32_
     result.orthographic = camera.orthographic;
     result.rays.origin = glm::vec3(1.0 + (camera.position - glm::dvec3(grid.origin)) / edge);
     result.rays.forward = glm::vec3(camera.forward);
-    result.rays.step_x = glm::vec3(half_pixel * camera.right);
-    result.rays.step_y = glm::vec3(-half_pixel * camera.up);
+    result.rays.half_pixel_x = glm::vec3(half_pixel * camera.right);
+    result.rays.half_pixel_y = glm::vec3(-half_pixel * camera.up);
     return result;
 }
 

@@ -21,7 +21,8 @@ gpu::vec4 alongRays(const glm::dvec4& row, const Grid& grid, const gpu::CameraRa
     const glm::dvec3 gain = edge * glm::dvec3(row); // per unit of unit space
     const glm::dvec3 origin = glm::dvec3(grid.origin) + edge * (glm::dvec3(rays.origin) - 1.0);
     return gpu::vec4(glm::dvec4(glm::dot(glm::dvec3(row), origin) + row.w, glm::dot(gain, glm::dvec3(rays.forward)),
-                                glm::dot(gain, glm::dvec3(rays.step_x)), glm::dot(gain, glm::dvec3(rays.step_y))));
+                                glm::dot(gain, glm::dvec3(rays.half_pixel_x)),
+                                glm::dot(gain, glm::dvec3(rays.half_pixel_y))));
 }
 
 bool isFinite(const gpu::vec4& v)

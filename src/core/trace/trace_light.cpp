@@ -32,8 +32,8 @@ void drawBackground(vk::FrameGraph& graph, const TraceCamera& camera, const Trac
     gpu::SkyParams params{};
     params.image = pass.write(buffers.image);
     params.forward = camera.rays.forward;
-    params.step_x = camera.rays.step_x;
-    params.step_y = camera.rays.step_y;
+    params.half_pixel_x = camera.rays.half_pixel_x;
+    params.half_pixel_y = camera.rays.half_pixel_y;
     params.to_sun = sunDirection(options);
     params.width = buffers.width;
     params.height = buffers.height;
@@ -64,8 +64,8 @@ Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera&
     readAttributes(pass, tree, params);
     params.status = pass.readWrite(buffers.status);
     params.forward = camera.rays.forward;
-    params.step_x = camera.rays.step_x;
-    params.step_y = camera.rays.step_y;
+    params.half_pixel_x = camera.rays.half_pixel_x;
+    params.half_pixel_y = camera.rays.half_pixel_y;
     params.width = buffers.width;
     params.height = buffers.height;
     return params;
@@ -81,8 +81,8 @@ Params shadeParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera&
     readAttributes(pass, tree, params);
     params.image = pass.readWrite(buffers.image);
     params.forward = camera.rays.forward;
-    params.step_x = camera.rays.step_x;
-    params.step_y = camera.rays.step_y;
+    params.half_pixel_x = camera.rays.half_pixel_x;
+    params.half_pixel_y = camera.rays.half_pixel_y;
     params.width = buffers.width;
     params.height = buffers.height;
     return params;

@@ -70,7 +70,7 @@ gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera)
     }
     if (camera != nullptr)
     {
-        const float width = 2.0F * glm::length(camera->rays.step_x) * options.detail_pixels;
+        const float width = 2.0F * glm::length(camera->rays.half_pixel_x) * options.detail_pixels;
         float& part = camera->orthographic ? detail.y : detail.x;
         part = std::max(part, width);
     }

@@ -129,8 +129,8 @@ TEST(ViewCamera, RaysGoThroughWhereThePointsAre)
         EXPECT_EQ(rays.orthographic, orthographic);
         const glm::dvec3 point(2.0, 3.5, 6.0);
         const glm::dvec2 at = project(camera, point);
-        const glm::vec3 offset =
-            static_cast<float>(240.0 * at.x) * rays.rays.step_x - static_cast<float>(240.0 * at.y) * rays.rays.step_y;
+        const glm::vec3 offset = static_cast<float>(240.0 * at.x) * rays.rays.half_pixel_x -
+                                 static_cast<float>(240.0 * at.y) * rays.rays.half_pixel_y;
         const double depth = glm::dot(point - camera.position, camera.forward) / 16.0;
         const glm::vec3 origin = rays.rays.origin + (orthographic ? offset : glm::vec3(0.0F));
         const glm::vec3 direction = rays.rays.forward + (orthographic ? glm::vec3(0.0F) : offset);

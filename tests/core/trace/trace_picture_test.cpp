@@ -193,8 +193,8 @@ TEST(TracePicture, HitsEqualTheReference)
         {
             for (int x = 0; x < 67; ++x)
             {
-                const glm::vec3 offset =
-                    static_cast<float>(2 * x + 1 - 67) * rays.step_x + static_cast<float>(2 * y + 1 - 41) * rays.step_y;
+                const glm::vec3 offset = static_cast<float>(2 * x + 1 - 67) * rays.half_pixel_x +
+                                         static_cast<float>(2 * y + 1 - 41) * rays.half_pixel_y;
                 const glm::vec3 origin = camera.orthographic ? rays.origin + offset : rays.origin;
                 const glm::vec3 direction = camera.orthographic ? rays.forward : rays.forward + offset;
                 const auto expected = tracer.trace(oracle::makeRay(origin, direction, gpu::kTraceTimeMin));
@@ -409,7 +409,7 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
             if (name == "ShadeParams")
             {
                 ZVO_EXPECT_OFFSET(ShadeParams, image);
-                ZVO_EXPECT_OFFSET(ShadeParams, step_y);
+                ZVO_EXPECT_OFFSET(ShadeParams, half_pixel_y);
                 ZVO_EXPECT_OFFSET(ShadeParams, sun);
                 ZVO_EXPECT_OFFSET(ShadeParams, exposure);
                 ++checked;
