@@ -94,6 +94,62 @@ struct PartOffsets
     std::uint64_t first_entry = 0;          // of its lists
 };
 
+// The positions of all parts in the common pool, and what that pool has.
+struct JoinedLayout
+{
+    std::vector<PartOffsets> parts;
+    std::vector<DeviceTree::Level> levels;
+    ListPacking packing;
+};
+
+// codes: of the tiles' roots, which are at level top_levels. Throws Error{Memory} if 31-bit numbers do not suffice.
+JoinedLayout layoutOf(std::span<const DeviceTree* const> dags, std::span<const std::uint64_t> codes,
+                      std::size_t top_levels)
+{
+    const std::vector<std::uint32_t> no_roots(codes.size());
+    const Top top = topOf(codes, no_roots, top_levels, 0); // for its size
+    const std::size_t level_count = dags.front()->levels.size();
+    JoinedLayout layout;
+    layout.parts.resize(dags.size());
+    layout.levels = top.levels;
+    std::uint64_t node_count = top.nodes.size();
+    for (std::size_t level = top_levels; level < level_count; ++level)
+    {
+        const std::uint64_t first_node = node_count;
+        for (std::size_t i = 0; i < dags.size(); ++i)
+        {
+            layout.parts[i].first_nodes.resize(level_count);
+            layout.parts[i].first_nodes[level] = node_count;
+            node_count += dags[i]->levels[level].node_count;
+        }
+        layout.levels.push_back(
+            {static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
+    }
+    std::uint64_t entry_count = divideUp(top.lists.size(), kNodeEntries) * kNodeEntries;
+    for (std::size_t i = 0; i < dags.size(); ++i)
+    {
+        layout.parts[i].first_entry = node_count * kNodeEntries + entry_count;
+        entry_count += dags[i]->lists.entry_count;
+    }
+    layout.packing = {node_count, entry_count, kJoinedPerWord};
+    if (!layout.packing.fits())
+    {
+        throw Error(ErrorCode::Memory, "the tiles' nodes and lists take more words than 31-bit numbers count; lower "
+                                       "the resolution");
+    }
+    return layout;
+}
+
+// Allocates the common pool and uploads the nodes and lists above the tiles' roots.
+void makePool(vk::HeadlessDevice& device, const Top& top, const ListPacking& packing, DeviceTree& tree)
+{
+    device.device().memory().require(packing.poolNodes() * sizeof(gpu::Node), "joining the tiles");
+    tree.nodes = {device.device(), "svdag/forest", packing.poolNodes()};
+    device.upload(tree.nodes, std::span<const gpu::Node>(top.nodes));
+    device.upload(tree.nodes, std::span<const gpu::Node>(entriesToNodes(top.lists, packing.per_word)),
+                  packing.node_count);
+}
+
 void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t level, const PartOffsets& offsets,
                  DeviceTree& to)
 {
@@ -115,6 +171,19 @@ void appendLevel(vk::FrameGraph& graph, const DeviceTree& from, std::size_t leve
     params.entry_shift = static_cast<std::uint32_t>(offsets.first_entry - from.packing().firstEntry());
     params.child_shift = static_cast<std::uint32_t>(offsets.first_nodes[level + 1] - from.levels[level + 1].first_node);
     pass.dispatch(node_count, params);
+}
+
+// Appends the parts' levels from the tiles' roots down.
+void appendParts(vk::FrameGraph& graph, std::span<const DeviceTree* const> dags, std::size_t top_levels,
+                 const JoinedLayout& layout, DeviceTree& to)
+{
+    for (std::size_t i = 0; i < dags.size(); ++i)
+    {
+        for (std::size_t level = top_levels; level < layout.levels.size(); ++level)
+        {
+            appendLevel(graph, *dags[i], level, layout.parts[i], to);
+        }
+    }
 }
 
 } // namespace
@@ -151,7 +220,7 @@ void SvdagForest::add(std::uint64_t code, DeviceTree dag)
     }
 }
 
-std::uint64_t SvdagForest::topNodeCount() const
+std::vector<std::uint64_t> SvdagForest::tileCodes() const
 {
     std::vector<std::uint64_t> codes;
     for (const Part& part : m_parts)
@@ -161,6 +230,12 @@ std::uint64_t SvdagForest::topNodeCount() const
             codes.push_back(tile.code);
         }
     }
+    return codes;
+}
+
+std::uint64_t SvdagForest::topNodeCount() const
+{
+    std::vector<std::uint64_t> codes = tileCodes();
     std::uint64_t count = 0;
     for (std::size_t level = 0; level < m_top_levels; ++level)
     {
@@ -173,83 +248,38 @@ std::uint64_t SvdagForest::topNodeCount() const
 // Puts all parts into one pool, below common nodes. Equal nodes of different parts stay separate.
 SvdagForest::Part SvdagForest::joined()
 {
-    const std::size_t level_count = m_grid.nodeLevels();
-    Part all;
-    std::vector<std::uint64_t> codes;
+    std::vector<const DeviceTree*> dags;
     for (const Part& part : m_parts)
     {
-        for (const Tile& tile : part.tiles)
-        {
-            codes.push_back(tile.code);
-            all.tiles.push_back(tile);
-        }
+        dags.push_back(&part.dag);
     }
-    const std::vector<std::uint32_t> no_roots(codes.size());
-    Top top = topOf(codes, no_roots, m_top_levels, 0); // for its size
+    const std::vector<std::uint64_t> codes = tileCodes();
+    const JoinedLayout layout = layoutOf(dags, codes, m_top_levels);
 
-    std::vector<PartOffsets> offsets(m_parts.size());
-    std::uint64_t node_count = top.nodes.size();
-    std::vector<DeviceTree::Level> levels = top.levels;
-    for (std::size_t level = m_top_levels; level < level_count; ++level)
-    {
-        const std::uint64_t first_node = node_count;
-        for (std::size_t i = 0; i < m_parts.size(); ++i)
-        {
-            offsets[i].first_nodes.resize(level_count);
-            offsets[i].first_nodes[level] = node_count;
-            node_count += m_parts[i].dag.levels[level].node_count;
-        }
-        levels.push_back({static_cast<std::uint32_t>(first_node), static_cast<std::uint32_t>(node_count - first_node)});
-    }
-    std::uint64_t entry_count = divideUp(top.lists.size(), kNodeEntries) * kNodeEntries;
-    for (std::size_t i = 0; i < m_parts.size(); ++i)
-    {
-        offsets[i].first_entry = node_count * kNodeEntries + entry_count;
-        entry_count += m_parts[i].dag.lists.entry_count;
-    }
-    const ListPacking packing = {node_count, entry_count, kJoinedPerWord};
-    if (!packing.fits())
-    {
-        throw Error(ErrorCode::Memory, "the tiles' nodes and lists take more words than 31-bit numbers count; lower "
-                                       "the resolution");
-    }
-
+    Part all;
     std::vector<std::uint32_t> roots;
-    std::size_t tile = 0;
     for (std::size_t i = 0; i < m_parts.size(); ++i)
     {
-        const std::uint32_t first_root = m_parts[i].dag.levels[m_top_levels].first_node;
-        for (const Tile& of_part : m_parts[i].tiles)
+        const std::uint64_t first_root = m_parts[i].dag.levels[m_top_levels].first_node;
+        for (const Tile& tile : m_parts[i].tiles)
         {
-            all.tiles[tile].root =
-                static_cast<std::uint32_t>(offsets[i].first_nodes[m_top_levels] + (of_part.root - first_root));
-            roots.push_back(all.tiles[tile++].root);
+            roots.push_back(
+                static_cast<std::uint32_t>(layout.parts[i].first_nodes[m_top_levels] + (tile.root - first_root)));
+            all.tiles.push_back({tile.code, roots.back()});
         }
     }
-    top = topOf(codes, roots, m_top_levels, packing.firstEntry());
+    const Top top = topOf(codes, roots, m_top_levels, layout.packing.firstEntry());
 
     DeviceTree& tree = all.dag;
     tree.structure = TreeStructure::Svdag;
     tree.grid = m_grid;
-    tree.node_count = static_cast<std::uint32_t>(node_count);
-    tree.levels = std::move(levels);
-    tree.lists.entry_count = entry_count;
-    tree.lists.entries_per_word = packing.per_word;
-    m_device.device().memory().require(packing.poolNodes() * sizeof(gpu::Node), "joining the tiles");
-    tree.nodes = {m_device.device(), "svdag/forest", packing.poolNodes()};
-    m_device.upload(tree.nodes, std::span<const gpu::Node>(top.nodes));
-    m_device.upload(tree.nodes, std::span<const gpu::Node>(entriesToNodes(top.lists, packing.per_word)), node_count);
-    const std::vector<vk::PassTime> passes = m_device.run(
-        [&](vk::FrameGraph& graph)
-        {
-            for (std::size_t i = 0; i < m_parts.size(); ++i)
-            {
-                for (std::size_t level = m_top_levels; level < level_count; ++level)
-                {
-                    appendLevel(graph, m_parts[i].dag, level, offsets[i], tree);
-                }
-            }
-        });
+    tree.node_count = static_cast<std::uint32_t>(layout.packing.node_count);
+    tree.levels = layout.levels;
+    tree.lists.entry_count = layout.packing.entry_count;
+    tree.lists.entries_per_word = layout.packing.per_word;
+    makePool(m_device, top, layout.packing, tree);
+    const std::vector<vk::PassTime> passes =
+        m_device.run([&](vk::FrameGraph& graph) { appendParts(graph, dags, m_top_levels, layout, tree); });
     m_passes.insert(m_passes.end(), passes.begin(), passes.end());
     return all;
 }

@@ -50,6 +50,7 @@ private:
         std::vector<Tile> tiles;
     };
 
+    [[nodiscard]] std::vector<std::uint64_t> tileCodes() const; // ascending
     void merge(bool ranks);
     [[nodiscard]] Part joined();
     void learnRoots(Part& part) const;

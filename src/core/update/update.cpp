@@ -97,72 +97,88 @@ void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buff
     pass.dispatch(1, params);
 }
 
-// Writes the nodes of one level (not the root) and gives the touched ones their child bases.
-void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
+// The first element of a level's part of UpdateBuffers::partials.
+std::uint32_t firstPartial(const UpdateBuffers& buffers, std::uint32_t level)
+{
+    return level * partialsPerLevel(buffers);
+}
+
+// Writes the nodes of a level, without the child bases of the touched ones.
+void writeNodes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
 {
     DeviceTree& tree = job.tree;
     const std::uint32_t level_count = tree.grid.nodeLevels();
-    const std::uint32_t first_partial = level * partialsPerLevel(buffers);
-    const bool attributes = tree.node_attributes.count() != 0;
-    const std::uint64_t groups_max = buffers.bricks.count();
+    vk::Pass pass = graph.addPass(gpu::update::Expand{.wide_keys = hasWideKeys(tree.grid),
+                                                      .attributes = tree.node_attributes.count() != 0,
+                                                      .entries_per_word = tree.entriesPerWord(),
+                                                      .leaves = tree.isDag() && level + 1 == level_count});
+    gpu::ExpandParams params{};
+    params.bricks = pass.read(buffers.bricks);
+    params.items = pass.read(buffers.work.items);
+    params.ranges = pass.read(buffers.work.ranges);
+    params.touched = pass.readWrite(buffers.touched);
+    params.nodes = pass.readWrite(tree.nodes);
+    params.node_attributes = pass.readWrite(tree.node_attributes);
+    params.counts = pass.write(buffers.counts);
+    params.partials = pass.readWrite(buffers.partials);
+    params.levels = pass.read(buffers.levels);
+    if (tree.overlays.hasRanks())
     {
-        const bool are_leaves = tree.isDag() && level + 1 == level_count;
-        vk::Pass pass = graph.addPass(gpu::update::Expand{.wide_keys = hasWideKeys(tree.grid),
-                                                          .attributes = attributes,
-                                                          .entries_per_word = tree.entriesPerWord(),
-                                                          .leaves = are_leaves});
-        gpu::ExpandParams params{};
-        params.bricks = pass.read(buffers.bricks);
-        params.items = pass.read(buffers.work.items);
-        params.ranges = pass.read(buffers.work.ranges);
-        params.touched = pass.readWrite(buffers.touched);
-        params.nodes = pass.readWrite(tree.nodes);
-        params.node_attributes = pass.readWrite(tree.node_attributes);
-        params.counts = pass.write(buffers.counts);
-        params.partials = pass.readWrite(buffers.partials);
-        params.levels = pass.read(buffers.levels);
-        if (tree.overlays.hasRanks())
-        {
-            readRankSource(pass, tree, params);
-            params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
-        }
-        params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
-        params.level = level;
-        params.item_range = level_count - level;
-        params.first_node = job.region.first_node;
-        params.first_partial = first_partial;
-        params.attribute_offset = tree.attributeOffset();
-        params.static_root = tree.overlays.static_root;
-        pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, groups_max);
+        readRankSource(pass, tree, params);
+        params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
     }
-    {
-        vk::Pass pass = graph.addPass(gpu::update::Scan{});
-        gpu::OverlayScanParams params{};
-        params.partials = pass.readWrite(buffers.partials);
-        params.levels = pass.readWrite(buffers.levels);
-        params.ranges = pass.read(buffers.work.ranges);
-        params.args = pass.write(buffers.args);
-        params.status = pass.readWrite(buffers.status);
-        params.level = level;
-        params.level_count = level_count;
-        params.node_capacity = job.region.node_capacity;
-        params.voxel_capacity = job.region.voxel_capacity;
-        params.first_partial = first_partial;
-        params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
-        pass.dispatch(gpu::kScanGroup, params);
-    }
+    params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
+    params.level = level;
+    params.item_range = level_count - level;
+    params.first_node = job.region.first_node;
+    params.first_partial = firstPartial(buffers, level);
+    params.attribute_offset = tree.attributeOffset();
+    params.static_root = tree.overlays.static_root;
+    pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, buffers.bricks.count());
+}
+
+// Sums up the counts of a level's children; checks whether the next level has room, and sizes its passes.
+void scanCounts(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
+{
+    vk::Pass pass = graph.addPass(gpu::update::Scan{});
+    gpu::OverlayScanParams params{};
+    params.partials = pass.readWrite(buffers.partials);
+    params.levels = pass.readWrite(buffers.levels);
+    params.ranges = pass.read(buffers.work.ranges);
+    params.args = pass.write(buffers.args);
+    params.status = pass.readWrite(buffers.status);
+    params.level = level;
+    params.level_count = job.tree.grid.nodeLevels();
+    params.node_capacity = job.region.node_capacity;
+    params.voxel_capacity = job.region.voxel_capacity;
+    params.first_partial = firstPartial(buffers, level);
+    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+    pass.dispatch(gpu::kScanGroup, params);
+}
+
+// Gives the touched nodes of a level their child bases.
+void assignBases(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
+{
     vk::Pass pass = graph.addPass(gpu::update::Assign{});
     gpu::OverlayAssignParams params{};
-    params.nodes = pass.readWrite(tree.nodes);
+    params.nodes = pass.readWrite(job.tree.nodes);
     params.counts = pass.read(buffers.counts);
     params.partials = pass.read(buffers.partials);
     params.levels = pass.read(buffers.levels);
     params.level = level;
-    params.level_count = level_count;
+    params.level_count = job.tree.grid.nodeLevels();
     params.first_node = job.region.first_node;
     params.first_voxel = job.region.first_voxel;
-    params.first_partial = first_partial;
+    params.first_partial = firstPartial(buffers, level);
     pass.dispatchIndirect(buffers.args, gpu::kArgsAssign, params, partialsPerLevel(buffers));
+}
+
+// Writes the nodes of one level (not the root) and gives the touched ones their child bases.
+void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
+{
+    writeNodes(graph, job, buffers, level);
+    scanCounts(graph, job, buffers, level);
+    assignBases(graph, job, buffers, level);
 }
 
 // Parameters of update/merge or update/merge_emission.
