@@ -21,6 +21,17 @@ const int kCells = 256;                         // of the octree's fourth level,
 const int kBorder = 4;                          // fine cells outside of the cube, on each side
 const int kInner = 4 * int(kBeamCells) - 2 * kBorder; // fine cells that cover the cube
 
+// Bits of the cells of a 2x2x2 octant, a byte of a mask, whose x, y or z is the lower one.
+const uint kLowerX = 85u;
+const uint kLowerY = 51u;
+const uint kLowerZ = 15u;
+// Times the bits of an octant: the same bits in several of the four octants of a half.
+const uint kInAllOctants = 16843009u;
+const uint kInLowerX = 65537u; // in both whose x is the lower one
+const uint kInLowerY = 257u;
+const uint kOctantsToHigherX = 8u; // bits from octants to those with the higher x
+const uint kOctantsToHigherY = 16u;
+
 // First and last octree cell, along one axis, that fine cell f and its neighbours touch.
 ivec2 touched(int f)
 {
@@ -32,11 +43,12 @@ ivec2 touched(int f)
 // The cells of a 4x4x4 block with this coordinate along an axis.
 uvec2 blockSlice(uint axis, uint coordinate)
 {
-    uint low = (axis == 0u ? 85u : axis == 1u ? 51u : 15u) << ((coordinate & 1u) << axis); // of an octant
+    uint low = (axis == 0u ? kLowerX : axis == 1u ? kLowerY : kLowerZ) << ((coordinate & 1u) << axis); // of an octant
     uint high = coordinate >> 1;
     if (axis == 2u)
-        return low * 16843009u * uvec2(1u - high, high); // in all octants of a half
-    return uvec2((axis == 0u ? low * 65537u : low * 257u) << (high * (axis == 0u ? 8u : 16u)));
+        return low * kInAllOctants * uvec2(1u - high, high); // in all octants of a half
+    return uvec2(axis == 0u ? (low * kInLowerX) << (high * kOctantsToHigherX)
+                            : (low * kInLowerY) << (high * kOctantsToHigherY));
 }
 
 // The fine cells of the block from fine cell `first` on, along an axis, that octree cell c sets.

@@ -3,6 +3,15 @@
 // result is the same on every device.
 #include "lib/finite.glsl"
 
+// The exponent of a float: its lowest bit, its bits from there on, and what stands for 2^0.
+const uint kExponentShift = 23u;
+const uint kExponentMask = 255u;
+const uint kExponentBias = 127u;
+
+const uint kInverseSqrtBits = 1597463007u; // minus half the bits of x: those of about 1 / sqrt(x)
+
+const float kUnitLength = 32767.0; // of a direction in integers
+
 // World position of vertex v of a draw.
 vec3 worldPosition(Draw draw, uint v)
 {
@@ -33,7 +42,7 @@ bool onLattice(vec3 q)
 // estimate by the exponent.
 float inverseSqrt(float x)
 {
-    float y = uintBitsToFloat(1597463007u - (floatBitsToUint(x) >> 1));
+    float y = uintBitsToFloat(kInverseSqrtBits - (floatBitsToUint(x) >> 1));
     precise float half_x = 0.5 * x;
     for (int i = 0; i < 3; ++i)
     {
@@ -46,21 +55,21 @@ float inverseSqrt(float x)
     return y;
 }
 
-// Direction of v with length 32767, rounded to integers; 0 for a vector that is zero, tiny or not finite.
+// Direction of v with length kUnitLength, rounded to integers; 0 for a vector that is zero, tiny or not finite.
 ivec3 unitNormal(vec3 v)
 {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     // Scaled by a power of two into [1, 2), so that squares neither overflow nor vanish.
-    uint exponent = (floatBitsToUint(largest) >> 23) & 255u;
+    uint exponent = (floatBitsToUint(largest) >> kExponentShift) & kExponentMask;
     bool usable = exponent >= kDirectionExponentMin && exponent <= kDirectionExponentMax;
-    exponent = usable ? exponent : 127u;
-    precise vec3 scaled = v * uintBitsToFloat((254u - exponent) << 23);
+    exponent = usable ? exponent : kExponentBias;
+    precise vec3 scaled = v * uintBitsToFloat((2u * kExponentBias - exponent) << kExponentShift);
     precise vec3 squares = scaled * scaled;
     precise float length2 = squares.x + squares.y;
     length2 = length2 + squares.z;
     precise vec3 unit = scaled * inverseSqrt(usable ? length2 : 1.0);
-    precise vec3 fixed_point = unit * 32767.0;
-    vec3 rounded = clamp(roundEven(fixed_point), vec3(-32767.0), vec3(32767.0));
+    precise vec3 fixed_point = unit * kUnitLength;
+    vec3 rounded = clamp(roundEven(fixed_point), vec3(-kUnitLength), vec3(kUnitLength));
     return usable ? ivec3(rounded) : ivec3(0);
 }
 
