@@ -7,7 +7,7 @@
 // Voxel Octrees, 2010, who trace a coarse picture instead and may miss what falls between its rays.)
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
-#include "trace/trace.h"
+#include "trace/beam.h"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/ray.glsl"

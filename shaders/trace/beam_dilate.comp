@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Second pass of the beam grid: sets the cells that touch an occupied cell, or have a neighbour that does.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/beam.h"
 #include "lib/dispatch.glsl"
 
 layout(local_size_x = kBeamGroup) in;

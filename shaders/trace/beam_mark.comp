@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // First pass of the beam grid: finds the occupied cells of a coarse grid, from the upper levels of the octree.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/beam.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Third pass of the beam grid: writes the nodes of one level, and the masks of the level above.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/beam.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes where rays may begin: for each cell of a grid over the root cube, the nodes that contain it (trace/trace.h).
+// Writes where rays may begin: for each cell of a grid over the root cube, the nodes that contain it (trace/beam.h).
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/beam.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes where the ranks of hits in a DAG begin (trace/trace.h), behind the nodes that trace/beam_paths has written.
+// Writes where the ranks of hits in a DAG begin (trace/beam.h), behind the nodes that trace/beam_paths has written.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/beam.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"

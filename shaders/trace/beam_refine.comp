@@ -4,7 +4,7 @@
 // that level are a quarter as large. Below each set cell, those cells are set that touch an occupied cell of the
 // octree's fourth level, or have a neighbour of their own size that does.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/beam.h"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"
 #include "lib/node.glsl"

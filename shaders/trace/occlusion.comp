@@ -4,7 +4,7 @@
 // the same fixed pattern for every pixel (a Fibonacci lattice). One workgroup for each live tile. The rays of a pixel
 // share the iterations that an invocation has; those for which none are left count as open.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/light.h"
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"

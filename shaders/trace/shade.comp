@@ -3,7 +3,7 @@
 // Computes the pixels of a lit picture from hits, one workgroup for each live tile: sun with shadow, sky light,
 // emission. Pixels without a hit keep what trace/sky has written.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/light.h"
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"

@@ -3,7 +3,7 @@
 // Traces shadow rays from hits to the sun, one workgroup for each live tile. Rays that use up their iterations resume
 // in another round. Until then, light holds the time of the last event, which is greater than any light.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/light.h"
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Fills a picture with the sky alone, or with black.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/light.h"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"
 #include "lib/dispatch.glsl"

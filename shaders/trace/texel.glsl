@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pixels in the formats in which pictures store them (kTexelRgba8 and so on). The includer includes trace/trace.h and
+// Pixels in the formats in which pictures store them (kTexelRgba8 and so on). The includer includes trace/light.h and
 // lib/color.glsl before.
 
 // The largest code of red, green and blue.

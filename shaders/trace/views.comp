@@ -3,7 +3,7 @@
 // Computes the pixels of the views that are not lit (kView*) from hits, one workgroup for each live tile. Pixels
 // without a hit keep what is there, except in the heat map of iterations.
 #extension GL_GOOGLE_include_directive : require
-#include "trace/trace.h"
+#include "trace/light.h"
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/color.glsl"

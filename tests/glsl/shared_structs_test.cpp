@@ -11,6 +11,8 @@
 #include "shared/tree_table.h"
 #include "support/spirv_structs.h"
 #include "svdag/svdag.h"
+#include "trace/beam.h"
+#include "trace/light.h"
 #include "trace/trace.h"
 #include "update/update.h"
 #include "voxelize/voxelize.h"

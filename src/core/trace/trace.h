@@ -3,6 +3,7 @@
 
 #include "core/scene/camera.h"
 #include "core/tree/device_tree.h"
+#include "trace/light.h"
 #include "trace/trace.h"
 #include "vk/frame_graph.h"
 #include "zvo/tracer.h"
@@ -61,7 +62,7 @@ struct TraceOptions
     [[nodiscard]] bool hasDetail() const { return detail_pixels > 0.0F || detail_level != UINT32_MAX; }
 };
 
-/// A coarse octree over a dilated octree (shaders/trace/trace.h). It tells the beam pass which parts rays can skip.
+/// A coarse octree over a dilated octree (shaders/trace/beam.h). It tells the beam pass which parts rays can skip.
 struct BeamGrid
 {
     /// for_dag: makes `paths` large enough for a table that makes the ranks of hits in a DAG cheaper. The hits are the

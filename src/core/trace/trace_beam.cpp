@@ -3,6 +3,7 @@
 
 #include "core/trace/trace_passes.h"
 #include "core/trace/trace_ranks.h"
+#include "trace/beam.h"
 
 #include <algorithm>
 #include <numeric>

@@ -7,7 +7,7 @@
 namespace zvo
 {
 
-/// Whether the children of all nodes that paths (shaders/trace/trace.h) name are nodes, not voxels.
+/// Whether the children of all nodes that paths (shaders/trace/beam.h) name are nodes, not voxels.
 bool hasPaths(const DeviceTree& tree);
 
 /// Records the passes that find where the rays of each tile start: they fill buffers.starts, live and args, and clear

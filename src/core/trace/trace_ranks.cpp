@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_ranks.h"
 
+#include "trace/beam.h"
+
 namespace zvo
 {
 

@@ -9,7 +9,7 @@
 namespace zvo
 {
 
-/// Whether beam has a table (shaders/trace/trace.h) from which trace/primary_ranks can sum up ranks in tree.
+/// Whether beam has a table (shaders/trace/beam.h) from which trace/primary_ranks can sum up ranks in tree.
 bool hasRankTable(const DeviceTree& tree, const BeamGrid& beam);
 
 /// Records the pass that fills this table, if beam has one. Cost: constant.

@@ -10,6 +10,7 @@
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
 #include "support/tree_comparison.h"
+#include "trace/beam.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include "support/pictures.h"
 #include "support/spirv_structs.h"
 #include "support/trace_octrees.h"
+#include "trace/beam.h"
 
 #include <gtest/gtest.h>
 

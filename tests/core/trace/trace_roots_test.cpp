@@ -7,6 +7,7 @@
 #include "support/relocate.h"
 #include "support/trace_octrees.h"
 #include "support/trace_rays.h"
+#include "trace/beam.h"
 
 #include <gtest/gtest.h>
 
@@ -240,7 +241,7 @@ std::vector<Path> pathsOf(const std::vector<gpu::Node>& nodes)
     return paths;
 }
 
-// The paths on the device, decoded as shaders/trace/trace.h describes them.
+// The paths on the device, decoded as shaders/trace/beam.h describes them.
 std::vector<Path> devicePathsOf(const DeviceTree& octree, const std::vector<gpu::Node>& nodes)
 {
     BeamGrid beam(device().device());

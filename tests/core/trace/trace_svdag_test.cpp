@@ -10,6 +10,7 @@
 #include "support/scenes.h"
 #include "support/trace_octrees.h"
 #include "support/trace_rays.h"
+#include "trace/beam.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+// What the kernels for the light at hits, and for pictures of hits, share with the host.
+#ifndef ZVO_SHADERS_TRACE_LIGHT_H
+#define ZVO_SHADERS_TRACE_LIGHT_H
+
+#include "trace/trace.h"
+
+GPU_ENUM(TexelFormat, std::uint32_t) // kTexelRgba8 and so on
+GPU_ENUM(View, std::uint32_t)        // kViewColor and so on
+
+GPU_NAMESPACE_BEGIN
+
+const uint kSkyRows = 8u;   // pixels that a thread of trace/sky takes: one division finds their column
+const uint kSkyGroup = 64u; // threads of a workgroup of trace/sky
+
+// The light that arrives at a hit. Each part: 0 is none, 255 is all.
+const uint kLightSun = 255u; // mask
+const uint kLightSkyShift = 8u;
+const uint kLightAll = 65535u;
+
+// What a picture shows. The first is made by trace/shade; the others are values of a specialization constant of
+// trace/views.
+const uint kViewColor = 0u;      // lit
+const uint kViewAlbedo = 1u;     // base colour alone
+const uint kViewNormal = 2u;     // 0.5 + 0.5 * shading normal
+const uint kViewDepth = 3u;      // from white to a dark grey over the depths of the grid
+const uint kViewLevel = 4u;      // how much coarser than a voxel the hit is
+const uint kViewIterations = 5u; // heat map, logarithmic up to 127
+const uint kViewVoxel = 6u;      // a colour for each voxel, by its coordinates
+const uint kViewBricks = 7u;     // base colour, with the borders of nodes
+const uint kViewOrigin = 8u;     // grey: static; orange: in a leaf that a dynamic update made
+
+// How a picture stores a pixel: a specialization constant of trace/shade, views and sky. All but the last hold sRGB
+// codes.
+const uint kTexelRgba8 = 0u; // red | green << 8 | blue << 16 | alpha << 24
+const uint kTexelBgra8 = 1u; // blue | green << 8 | red << 16 | alpha << 24
+const uint kTexelRgb10 = 2u; // red | green << 10 | blue << 20 | alpha << 30
+const uint kTexelHalf = 3u;  // two words of half floats, red | green << 16 and blue | alpha << 16: linear
+
+const float kHalfMax = 65504.0f; // largest half float
+
+struct ShadowParams // push constants of trace/shadow
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the format of kFormat
+    GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
+    GPU_PTR(TraceStatus) status;
+    GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
+    GPU_PTR(uint) light;          // [width * height] light that arrives; undefined in dead tiles
+    vec3 forward;                 // of the camera
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    vec3 to_sun; // length 1
+    uint width;
+    uint height;
+    uint round;
+};
+GPU_KERNEL_BEGIN(trace, shadow, Shadow, ShadowParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, resume, false)
+    GPU_CONSTANT(bool, more, false)
+GPU_KERNEL_END
+
+struct OcclusionParams // push constants of trace/occlusion
+{
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(Attribute) attributes;
+    GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_PTR(TraceStatus) status;
+    GPU_PTR(uint) light;
+    vec3 forward;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    uint width;
+    uint height;
+    uint ray_count;
+    float radius; // unit space
+};
+GPU_KERNEL_BEGIN(trace, occlusion, Occlusion, OcclusionParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, shadows, true)
+GPU_KERNEL_END
+
+struct SkyParams // push constants of trace/sky: one thread kSkyRows pixels of a column
+{
+    GPU_PTR(uint) image; // [width * height] texels of one word or two, as kTexels says
+    vec3 forward;        // of the camera
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    vec3 to_sun; // length 1
+    uint width;
+    uint height;
+    float sun; // strength
+    float exposure;
+};
+GPU_KERNEL_BEGIN(trace, sky, Sky, SkyParams)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
+    GPU_CONSTANT(bool, black, false)
+GPU_KERNEL_END
+
+struct ShadeParams // push constants of trace/shade
+{
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(uint) light;           // of trace/shadow and trace/occlusion; kLight only
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, as above
+    GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_CONST_PTR(uvec2) emission_words;
+    GPU_CONST_PTR(uint) emission;
+    GPU_PTR(uint) image; // as in SkyParams
+    vec3 forward;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    vec3 sun; // towards it, as long as it is strong
+    uint width;
+    uint height;
+    float emission_scale;
+    float exposure;
+};
+GPU_KERNEL_BEGIN(trace, shade, Shade, ShadeParams)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, emission, false)
+    GPU_CONSTANT(bool, light, true)
+    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
+GPU_KERNEL_END
+
+struct ViewsParams // push constants of trace/views
+{
+    GPU_CONST_PTR(uvec2) live;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(uint) iterations;      // of trace/primary; kViewIterations only
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, as above
+    GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_PTR(uint) image; // as in SkyParams
+    vec3 forward;
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    vec2 depth_range;         // kViewDepth only: the depth that is white, and the one that is dark
+    uint first_changed_voxel; // kViewOrigin only: the first index of an attribute that is not a static voxel's
+    uint first_changed_node;  // likewise, of nodes
+    uint width;
+    uint height;
+};
+GPU_KERNEL_BEGIN(trace, views, Views, ViewsParams)
+    GPU_CONSTANT(View, view, kViewAlbedo)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
+GPU_KERNEL_END
+
+GPU_NAMESPACE_END
+
+#endif
