@@ -189,13 +189,13 @@ LiveUpdate LiveScene::settle(double seconds)
         try
         {
             result.passes = m_device.run([&](vk::FrameGraph& graph) { update(graph, seconds); });
-            frameDone(frame, result.passes);
         }
         catch (...)
         {
             frameLost();
             throw;
         }
+        frameDone(frame, result.passes);
         if (isSettled())
         {
             result.report = m_info.update;
