@@ -115,6 +115,7 @@ bool App::prepare(const Picture& picture)
     }
 }
 
+// Submits the frame of a picture. A failure ends the program: picture.target cannot be presented any more.
 void App::submit(Picture& picture, Flight flight)
 {
     flight.frame = m_drawn_count;
