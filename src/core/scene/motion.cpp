@@ -96,7 +96,7 @@ double arcStray(double radians)
 struct Sweep
 {
     double seconds;
-    std::size_t step_count;
+    std::size_t part_count;
 
     MotionSweep operator()(const std::monostate& /*still*/) const { return {{glm::dmat4(1.0)}}; }
 
@@ -104,12 +104,12 @@ struct Sweep
     {
         const double turns = std::min(std::abs(orbit.turns_per_second) * seconds, 1.0);
         MotionSweep sweep;
-        for (std::size_t i = 0; i <= step_count; ++i)
+        for (std::size_t i = 0; i <= part_count; ++i)
         {
-            const double turned = turns * static_cast<double>(i) / static_cast<double>(step_count);
+            const double turned = turns * static_cast<double>(i) / static_cast<double>(part_count);
             sweep.transforms.push_back(orbitAt(orbit, std::copysign(turned, orbit.turns_per_second)));
         }
-        const double stray = arcStray(kTwoPi * turns / static_cast<double>(step_count));
+        const double stray = arcStray(kTwoPi * turns / static_cast<double>(part_count));
         sweep.pivot = orbit.circles ? orbit.center : orbit.home;
         sweep.stray_per_distance = orbit.spins ? stray : 0.0;
         sweep.stray = orbit.spins || !orbit.circles ? 0.0 : stray * glm::length(orbit.home - orbit.center);
@@ -118,22 +118,22 @@ struct Sweep
 
     MotionSweep operator()(const LineMotion& line) const { return {{lineAt(line, 0.0), lineAt(line, 1.0)}}; }
 
-    // Rotation by angle a and scale from s to t at once: as functions of the part u of a step, the second derivative of
-    // rotation(u) * scale(u) * point is at most (a^2 * scale + 2 * a * |t - s|) * |point|.
+    // Rotation by angle a and scale from s to t at once: as functions of the fraction u of a part, the second
+    // derivative of rotation(u) * scale(u) * point is at most (a^2 * scale + 2 * a * |t - s|) * |point|.
     MotionSweep operator()(const KeyMotion& keys) const
     {
         MotionSweep sweep;
         for (std::size_t key = 0; key + 1 < keys.times.size(); ++key)
         {
             const bool turns = !keys.rotations.empty() && keys.rotations[key] != keys.rotations[key + 1];
-            const std::size_t steps = turns ? step_count : 1;
-            for (std::size_t i = 0; i < steps; ++i)
+            const std::size_t parts = turns ? part_count : 1;
+            for (std::size_t i = 0; i < parts; ++i)
             {
-                sweep.transforms.push_back(keysAt(keys, key, static_cast<double>(i) / static_cast<double>(steps)));
+                sweep.transforms.push_back(keysAt(keys, key, static_cast<double>(i) / static_cast<double>(parts)));
             }
             if (turns)
             {
-                const double part = 1.0 / static_cast<double>(steps);
+                const double part = 1.0 / static_cast<double>(parts);
                 const double cosine = std::abs(glm::dot(keys.rotations[key], keys.rotations[key + 1]));
                 const double angle = part * 2.0 * std::acos(std::min(cosine, 1.0));
                 const glm::dvec3 from = keys.scales.empty() ? glm::dvec3(1.0) : keys.scales[key];
@@ -186,9 +186,9 @@ glm::dmat3 rotationAbout(const glm::dvec3& axis, double turns)
     return rotation;
 }
 
-MotionSweep sweepOf(const Motion& motion, double seconds, std::size_t step_count)
+MotionSweep sweepOf(const Motion& motion, double seconds, std::size_t part_count)
 {
-    return std::visit(Sweep{seconds, step_count}, motion);
+    return std::visit(Sweep{seconds, part_count}, motion);
 }
 
 } // namespace zvo

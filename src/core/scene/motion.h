@@ -65,7 +65,7 @@ struct MotionSweep
     double stray = 0.0; // world units
 };
 
-/// The sweep of a motion from time 0 to `seconds`. A motion along a curve is divided into at least step_count parts.
-MotionSweep sweepOf(const Motion& motion, double seconds, std::size_t step_count);
+/// The sweep of a motion from time 0 to `seconds`. A motion along a curve is divided into at least part_count parts.
+MotionSweep sweepOf(const Motion& motion, double seconds, std::size_t part_count);
 
 } // namespace zvo

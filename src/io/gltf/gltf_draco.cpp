@@ -175,13 +175,14 @@ std::optional<GltfDracoMesh> GltfDracoMesh::unpack(const GltfDocument& document,
     {
         return std::nullopt;
     }
-    const std::string place = fmt::format("{}.extensions.{}", where, kExtension);
+    const std::string property = fmt::format("{}.extensions.{}", where, kExtension);
     GltfDracoMesh unpacked;
     const int view = extension->second.Get("bufferView").GetNumberAsInt();
-    unpacked.m_mesh = decodeMesh(document, document.bufferView(view), place);
+    unpacked.m_mesh = decodeMesh(document, document.bufferView(view), property);
     if (!unpacked.m_mesh)
     {
-        throw document.error(fmt::format("{} does not decode as a Draco mesh of version 2.2; {}", place, kExportAgain));
+        throw document.error(
+            fmt::format("{} does not decode as a Draco mesh of version 2.2; {}", property, kExportAgain));
     }
     const tinygltf::Value& attributes = extension->second.Get("attributes");
     for (const std::string& attribute : attributes.Keys())
@@ -191,7 +192,7 @@ std::optional<GltfDracoMesh> GltfDracoMesh::unpack(const GltfDocument& document,
     if (primitive.indices < 0)
     {
         throw document.error(
-            fmt::format("{} stands for indices, but {}.indices is missing; {}", place, where, kExportAgain));
+            fmt::format("{} stands for indices, but {}.indices is missing; {}", property, where, kExportAgain));
     }
     // A list must have all faces. A strip may have lost triangles without area; gltf_size counts one face for each
     // index.
@@ -200,7 +201,7 @@ std::optional<GltfDracoMesh> GltfDracoMesh::unpack(const GltfDocument& document,
     const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
     if (is_list ? index_count != 3 * face_count : index_count < face_count)
     {
-        throw document.error(fmt::format("{} has {} triangles, accessors[{}] {} indices; {}", place, face_count,
+        throw document.error(fmt::format("{} has {} triangles, accessors[{}] {} indices; {}", property, face_count,
                                          primitive.indices, index_count, kExportAgain));
     }
     return unpacked;

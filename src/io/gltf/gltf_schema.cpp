@@ -199,12 +199,13 @@ private:
             return checkIndex(value, rule, where);
         case Kind::Indices:
             return checkEach(value, where,
-                             [&](const json& item, const std::string& place) { checkIndex(item, rule, place); });
+                             [&](const json& item, const std::string& property) { checkIndex(item, rule, property); });
         case Kind::IndexMap:
             return checkIndexMap(value, rule, where);
         case Kind::IndexMaps:
             return checkEach(value, where,
-                             [&](const json& item, const std::string& place) { checkIndexMap(item, rule, place); });
+                             [&](const json& item, const std::string& property)
+                             { checkIndexMap(item, rule, property); });
         case Kind::Numbering:
             require(value.is_object(), where, "an object");
             for (const auto& [key, item] : value.items())
@@ -228,16 +229,16 @@ private:
             return require(value.is_string(), where, "a string");
         case Kind::Texts:
             return checkEach(value, where,
-                             [&](const json& item, const std::string& place)
-                             { require(item.is_string(), place, "a string"); });
+                             [&](const json& item, const std::string& property)
+                             { require(item.is_string(), property, "a string"); });
         case Kind::Flag:
             return require(value.is_boolean(), where, "true or false");
         case Kind::Object:
             return checkObject(value, rule.members, where);
         case Kind::Objects:
             return checkEach(value, where,
-                             [&](const json& item, const std::string& place)
-                             { checkObject(item, rule.members, place); });
+                             [&](const json& item, const std::string& property)
+                             { checkObject(item, rule.members, property); });
         }
     }
 

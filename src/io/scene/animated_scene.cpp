@@ -13,7 +13,7 @@ namespace zvo
 namespace
 {
 
-constexpr std::size_t kSweepSteps = 64;
+constexpr std::size_t kSweepParts = 64;
 constexpr double kSamplesMin = 64.0; // of an animation
 constexpr double kSamplesMax = 256.0;
 constexpr double kFrameCountTolerance = 1e-9; // relative
@@ -74,7 +74,7 @@ void extend(Bounds& bounds, const Bounds& other)
 Bounds sweptBounds(const Scene& scene, const glm::dmat4& to_world, const Motion& motion, double seconds)
 {
     const Points points(scene);
-    const MotionSweep sweep = sweepOf(motion, seconds, kSweepSteps);
+    const MotionSweep sweep = sweepOf(motion, seconds, kSweepParts);
     double distance = 0.0;
     points.forEach(to_world, [&](const glm::vec3& point)
                    { distance = std::max(distance, glm::length(glm::dvec3(point) - sweep.pivot)); });

@@ -158,11 +158,11 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
         }
         scene.append(std::move(loaded));
     }
-    place(scene, options);
+    applyLoadOptions(scene, options);
     return scene;
 }
 
-void place(Scene& scene, const LoadOptions& options)
+void applyLoadOptions(Scene& scene, const LoadOptions& options)
 {
     if (options.up == UpAxis::Y && options.scale == 1.0F)
     {

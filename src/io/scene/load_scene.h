@@ -29,8 +29,8 @@ struct LoadOptions
 };
 
 /// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content
-/// where it is clear, otherwise by their extension. Throws Error{Input}, one line with the path, and what place()
-/// throws.
+/// where it is clear, otherwise by their extension. Throws Error{Input}, one line with the path, and what
+/// applyLoadOptions() throws.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
 
 /// Whether a path names a scene file, NAME.scene.json (io/scene/scene_file.h). loadScene() refuses scene files.
@@ -40,6 +40,6 @@ bool isSceneFile(const std::filesystem::path& path);
 glm::mat3 rotationToY(UpAxis up);
 
 /// Turns and scales a scene with its cameras. Throws Error{Usage} if it becomes larger than single precision can hold.
-void place(Scene& scene, const LoadOptions& options);
+void applyLoadOptions(Scene& scene, const LoadOptions& options);
 
 } // namespace zvo

@@ -313,7 +313,7 @@ private:
             for (int i = 0; i < 3; ++i)
             {
                 const auto value = parseNumber<std::int32_t>(words.word());
-                if (!value || std::abs(std::int64_t{*value}) > kVoxPlaceMax)
+                if (!value || std::abs(std::int64_t{*value}) > kVoxTranslationMax)
                 {
                     fail(fmt::format("a place \"{}\" that is none; {}", move->second, kExportAgain));
                 }

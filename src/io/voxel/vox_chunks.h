@@ -16,7 +16,7 @@
 namespace zvo
 {
 
-constexpr std::int32_t kVoxPlaceMax = 1 << 24; // of a translation
+constexpr std::int32_t kVoxTranslationMax = 1 << 24; // of an axis
 constexpr std::size_t kVoxPaletteSize = 255;
 
 /// What a voxel's bytes say: coordinates in its model, and its colour's index.

@@ -101,7 +101,7 @@ private:
     {
         for (int i = 0; i < 3; ++i)
         {
-            if (std::abs(placement.move[i]) > kVoxPlaceMax)
+            if (std::abs(placement.move[i]) > kVoxTranslationMax)
             {
                 fail(fmt::format("a model lies {} voxels away; {}", placement.move[i], kExportAgain));
             }
