@@ -213,7 +213,7 @@ void bench(const BenchOptions& options)
         const GpuScene gpu_scene = uploadScene(device, scene, options.attributes);
         for (const std::uint32_t depth : depths)
         {
-            progress.step(fmt::format("{} at {}", path.stem().string(), 1U << depth));
+            progress.begin(fmt::format("{} at {}", path.stem().string(), 1U << depth));
             rows.push_back(measurements.measure(path.stem().string(), scene, gpu_scene, depth));
             if (show_table)
             {

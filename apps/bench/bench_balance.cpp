@@ -319,7 +319,7 @@ private:
         row.subject = m_subject;
         row.resolution = grid.resolution();
         row.triangles = scene.triangleCount();
-        progress.step(fmt::format("{} at {}", row.scene, row.resolution));
+        progress.begin(fmt::format("{} at {}", row.scene, row.resolution));
         if (m_options.attributes)
         {
             row.attributes_ms =

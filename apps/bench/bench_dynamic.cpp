@@ -195,11 +195,11 @@ private:
     {
         std::vector<double> voxelize_ms;
         std::vector<double> update_ms;
-        live.place(frameTime(animated, row.frame_count - 1));
+        live.updateAndWait(frameTime(animated, row.frame_count - 1));
         for (std::uint32_t frame = 0; frame < row.frame_count; ++frame)
         {
-            progress.step(fmt::format("{} at {}: frame {}", row.scene, row.resolution, frame));
-            const LiveUpdate update = live.place(frameTime(animated, frame));
+            progress.begin(fmt::format("{} at {}: frame {}", row.scene, row.resolution, frame));
+            const LiveUpdate update = live.updateAndWait(frameTime(animated, frame));
             row.retry_count += update.retry_count;
             if (update.retry_count != 0 && frame + 1 < row.frame_count)
             {
@@ -246,11 +246,11 @@ private:
         rebuild(moving, 0, moving_build);
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
-            progress.step(fmt::format("{} at {}: rebuild {}", row.scene, row.resolution, run));
+            progress.begin(fmt::format("{} at {}: rebuild {}", row.scene, row.resolution, run));
             const std::uint32_t frame = run * row.frame_count / m_options.run_count;
             const BuildResult built = rebuild(animated, frame, build);
             rebuild_ms.push_back(sumMs(built.passes));
-            live.place(frameTime(animated, frame));
+            live.updateAndWait(frameTime(animated, frame));
             for (std::uint32_t turn = 0; turn < kTraceTurns; ++turn)
             {
                 merged_trace_ms.push_back(traceMs(live.tree(), camera));
@@ -274,12 +274,12 @@ private:
         }
         LiveScene live(m_device, AnimatedScene(animated), grid, liveOptions());
         std::vector<double> enlarged_ms;
-        live.place(frameTime(animated, row.frame_count - 1));
+        live.updateAndWait(frameTime(animated, row.frame_count - 1));
         for (std::uint32_t run = 0; run < m_options.run_count; ++run)
         {
-            progress.step(fmt::format("{} in {}: update {}", row.scene, grid.resolution(), run));
+            progress.begin(fmt::format("{} in {}: update {}", row.scene, grid.resolution(), run));
             const std::uint32_t frame = run * row.frame_count / m_options.run_count;
-            enlarged_ms.push_back(sumMs(live.place(frameTime(animated, frame)).passes));
+            enlarged_ms.push_back(sumMs(live.updateAndWait(frameTime(animated, frame)).passes));
         }
         row.enlarged_ms = Spread::of(enlarged_ms);
     }
@@ -332,7 +332,7 @@ void benchDynamic(const BenchOptions& options)
 {
     std::optional<Output> report = openReport(options.output);
     std::vector<AnimatedScene> scenes;
-    std::size_t steps = 0;
+    std::size_t operation_count = 0;
     for (const std::filesystem::path& path : options.scenes)
     {
         VoxelOptions voxels;
@@ -340,7 +340,7 @@ void benchDynamic(const BenchOptions& options)
         voxels.load = options.load;
         voxels.scenes_folder = options.scene_folder;
         scenes.push_back(loadAnimatedSceneWithWarnings(voxels, true));
-        steps +=
+        operation_count +=
             static_cast<std::size_t>(scenes.back().seconds * scenes.back().frames_per_second) + 2 * options.run_count;
     }
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
@@ -352,7 +352,7 @@ void benchDynamic(const BenchOptions& options)
     }
     DynamicBench measurements(options, device);
     std::vector<DynamicRow> rows;
-    Progress progress(steps * options.depths.value_or(std::vector{kDepth}).size());
+    Progress progress(operation_count * options.depths.value_or(std::vector{kDepth}).size());
     for (std::size_t i = 0; i < scenes.size(); ++i)
     {
         const std::string name = options.scenes[i].stem().stem().string();

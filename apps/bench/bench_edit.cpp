@@ -309,7 +309,7 @@ std::vector<HistoryRow> measureHistory(Canvas& canvas, Progress& progress)
     std::vector<double> dab_ms;
     for (const std::uint32_t count : kStrokeCounts)
     {
-        progress.step(fmt::format("{} strokes", count));
+        progress.begin(fmt::format("{} strokes", count));
         while (dab_ms.size() < count)
         {
             const auto action = static_cast<BrushAction>(dab_ms.size() % kActionNames.size());
@@ -350,7 +350,7 @@ EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const s
         row.voxels = canvas.voxelCount();
         for (const std::uint32_t radius : kRadii)
         {
-            progress.step(fmt::format("{} at {}: radius {}", name, row.resolution, radius));
+            progress.begin(fmt::format("{} at {}: radius {}", name, row.resolution, radius));
             for (std::uint32_t action = 0; action < kActionNames.size(); ++action)
             {
                 row.strokes.push_back(measureStrokes(canvas, radius, action, options.run_count));

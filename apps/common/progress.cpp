@@ -59,16 +59,16 @@ void clearProgressBar() noexcept
     }
 }
 
-Progress::Progress(std::size_t step_count) : m_step_count(step_count) {}
+Progress::Progress(std::size_t operation_count) : m_operation_count(operation_count) {}
 
 Progress::~Progress()
 {
     clearProgressBar();
 }
 
-void Progress::step(std::string_view what)
+void Progress::begin(std::string_view what)
 {
-    m_step = std::min(m_step + 1, m_step_count);
+    m_operation = std::min(m_operation + 1, m_operation_count);
     m_what = what;
     draw(0);
 }
@@ -84,10 +84,10 @@ void Progress::draw(double done) const
     {
         return;
     }
-    const double steps = static_cast<double>(m_step - 1) + done;
-    const auto filled = static_cast<std::size_t>(steps * kBarWidth / static_cast<double>(m_step_count));
+    const double operations = static_cast<double>(m_operation - 1) + done;
+    const auto filled = static_cast<std::size_t>(operations * kBarWidth / static_cast<double>(m_operation_count));
     const std::string line = fmt::format("{}[{:#<{}}{:.<{}}] {}/{} {:.48}", kClearLine, "", filled, "",
-                                         kBarWidth - filled, m_step, m_step_count, m_what);
+                                         kBarWidth - filled, m_operation, m_operation_count, m_what);
     g_bar_shown = true;
     std::fwrite(line.data(), 1, line.size(), stderr);
     std::fflush(stderr);

@@ -26,25 +26,25 @@ void clearProgressBar() noexcept;
 class Progress
 {
 public:
-    explicit Progress(std::size_t step_count);
+    explicit Progress(std::size_t operation_count);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Sets the number of steps in all, where it becomes known only later.
-    void expect(std::size_t step_count) { m_step_count = step_count; }
+    /// Sets the number of operations in all, where it becomes known only later.
+    void expect(std::size_t operation_count) { m_operation_count = operation_count; }
 
-    /// Begins the next step. what: a few words about it.
-    void step(std::string_view what);
+    /// Begins the next operation. what: a few words about it.
+    void begin(std::string_view what);
 
-    /// Sets how much of the step is done: 0 to 1.
+    /// Sets how much of the operation is done: 0 to 1.
     void within(double done);
 
 private:
     void draw(double done) const;
 
-    std::size_t m_step_count;
-    std::size_t m_step = 0; // the current step, counted from 1
+    std::size_t m_operation_count;
+    std::size_t m_operation = 0; // the current operation, counted from 1
     std::string m_what;
 };
 

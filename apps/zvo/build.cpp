@@ -110,7 +110,7 @@ void buildFile(const BuildFileOptions& options)
     std::optional<Output> report = openReport(options.output);
 
     Progress progress(4);
-    progress.step("loading");
+    progress.begin("loading");
     AnimatedScene animated = loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value());
     checkPaths(options.output, animated.files);
     warnOfMergeRule(animated);
@@ -118,19 +118,19 @@ void buildFile(const BuildFileOptions& options)
     Scene scene = sceneAt(std::move(animated), loopedTime(animated, options.voxels.time.value_or(0.0)));
     const std::uint64_t triangle_count = scene.triangleCount();
 
-    progress.step("copying to the device");
+    progress.begin("copying to the device");
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     std::optional<GpuScene> gpu_scene = uploadScene(device, scene, options.voxels.hasAttributes());
     scene = {};
 
-    progress.step("building");
+    progress.begin("building");
     const bool is_dag = options.structure == TreeStructure::Svdag;
     const Built built =
         is_dag ? buildSvdag(device, *gpu_scene, grid, options, progress) : buildSvo(device, *gpu_scene, grid, options);
     gpu_scene.reset();
     warnOfDropped(built.tree.voxel_count, built.dropped);
 
-    progress.step("writing");
+    progress.begin("writing");
     writeZvo(built.tree, [&output](std::span<const std::byte> bytes) { output.write(bytes); });
     const Json json = builtJson(device, options, triangle_count, built);
     if (report)

@@ -88,8 +88,8 @@ void convert(const ConvertOptions& options)
         throw inputError(options.file, "neither a .zvo nor a .vox file; zvo build makes .zvo files of scenes");
     }
     Progress progress(2);
-    progress.step("loading");
-    std::optional<vk::HeadlessDevice> device; // only for conversions that need one
+    progress.begin("loading");
+    std::optional<vk::HeadlessDevice> device; // only for what needs one
     const auto openDevice = [&]
     {
         if (!device)
@@ -113,7 +113,7 @@ void convert(const ConvertOptions& options)
         openDevice();
         tree = compressTree(*device, std::move(tree));
     }
-    progress.step("writing");
+    progress.begin("writing");
     writeTree(tree, format, output);
     if (device)
     {

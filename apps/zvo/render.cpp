@@ -80,7 +80,7 @@ public:
     // Does the same with the tree of a file.
     void turn(TreeData&& tree, const ViewCamera& camera, const glm::dvec3& center)
     {
-        m_progress.step("copying to the device");
+        m_progress.begin("copying to the device");
         m_report.addFile(tree);
         const DeviceTree uploaded = uploadTree(m_device, tree);
         tree = {};
@@ -90,14 +90,14 @@ public:
     // Voxelizes the static part once, and merges dynamic objects with it at each time.
     void play(AnimatedScene&& animated, const Grid& grid, const ViewCamera& camera)
     {
-        m_progress.step("voxelizing what stands still");
+        m_progress.begin("voxelizing what stands still");
         LiveScene scene(m_device, std::move(animated), grid,
                         {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
         for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
         {
-            m_progress.step("updating");
+            m_progress.begin("updating");
             const double seconds = timeOf(scene.animated(), i);
-            const LiveUpdate update = scene.place(seconds);
+            const LiveUpdate update = scene.updateAndWait(seconds);
             const std::vector<vk::PassTime> beam_passes = m_renderer.show(scene.tree());
             if (i == 0)
             {
@@ -175,7 +175,7 @@ private:
     {
         m_triangle_count = scene.triangleCount();
         StaticListener listener;
-        listener.step = [&](std::string_view step) { m_progress.step(step); };
+        listener.operation = [&](std::string_view operation) { m_progress.begin(operation); };
         listener.built = [&](const BuildResult& built)
         {
             m_has_warned =
@@ -194,7 +194,7 @@ private:
 
     void draw(std::uint32_t index, const ViewCamera& camera)
     {
-        m_progress.step("tracing");
+        m_progress.begin("tracing");
         PictureTimes times;
         const std::vector<std::uint8_t> png = m_renderer.render(camera, times);
         m_report.addPicture(std::move(times));
@@ -255,7 +255,7 @@ void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pic
 {
     checkTreeOptions(options);
     Progress progress(2 + pictures.count());
-    progress.step("loading");
+    progress.begin("loading");
     TreeData tree = readZvo(options.voxels.scenes.front()).tree;
     if (tree.voxel_count == 0)
     {
@@ -289,7 +289,7 @@ void render(const RenderOptions& options)
     }
 
     Progress progress(3 + pictures.count());
-    progress.step("loading");
+    progress.begin("loading");
     VoxelOptions voxels = options.voxels;
     if (options.camera_path)
     {

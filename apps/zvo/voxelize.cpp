@@ -50,7 +50,7 @@ void voxelize(const VoxelizeOptions& options)
     std::optional<Output> report = openReport(options.output);
 
     Progress progress(4);
-    progress.step("loading");
+    progress.begin("loading");
     AnimatedScene animated = loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value());
     checkPaths(options.output, animated.files);
     warnOfMergeRule(animated);
@@ -58,17 +58,17 @@ void voxelize(const VoxelizeOptions& options)
     Scene scene = sceneAt(std::move(animated), loopedTime(animated, options.voxels.time.value_or(0.0)));
     const std::uint64_t triangle_count = scene.triangleCount();
 
-    progress.step("copying to the device");
+    progress.begin("copying to the device");
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     const GpuScene gpu_scene = uploadScene(device, scene, options.voxels.hasAttributes());
     scene = {};
 
-    progress.step("voxelizing");
+    progress.begin("voxelizing");
     const BuildResult result =
         buildOctree(device, gpu_scene, grid, {options.voxels.coverage, options.voxels.hasAttributes(), {}});
     warnOfDropped(result.octree.voxel_count, result.dropped);
 
-    progress.step("writing");
+    progress.begin("writing");
     {
         const TreeData tree = downloadTree(device, result.octree);
         format == "morton" ? writeMorton(tree, output) : writePly(tree, output);

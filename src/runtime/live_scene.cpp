@@ -21,12 +21,12 @@ constexpr std::uint32_t kAttemptsMax = 64; // everything doubles in two attempts
 // A pose that is moved by an offset in world space.
 Pose moved(Pose pose, const glm::dvec3& by)
 {
-    const glm::dmat4 move = glm::translate(glm::dmat4(1.0), by);
-    const auto place = [&](glm::mat4& matrix) { matrix = glm::mat4(move * glm::dmat4(matrix)); };
-    std::ranges::for_each(pose.transforms, place);
+    const glm::dmat4 translation = glm::translate(glm::dmat4(1.0), by);
+    const auto move_matrix = [&](glm::mat4& matrix) { matrix = glm::mat4(translation * glm::dmat4(matrix)); };
+    std::ranges::for_each(pose.transforms, move_matrix);
     for (std::vector<glm::mat4>& joints : pose.joint_matrices)
     {
-        std::ranges::for_each(joints, place);
+        std::ranges::for_each(joints, move_matrix);
     }
     return pose;
 }
@@ -80,7 +80,7 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
                        options.structure, listener, dynamic.emission_scale);
     m_info.fixed = std::move(part.info);
     m_dynamic = std::make_unique<DynamicOctree>(device, std::move(part.tree), dynamic);
-    listener.step("copying what moves");
+    listener.operation("copying what moves");
     for (const DynamicObject& object : m_animated.objects)
     {
         m_info.moving_triangle_count += object.scene.triangleCount();
@@ -207,7 +207,7 @@ LiveUpdate LiveScene::settle(double seconds)
         fmt::format("dynamic objects and strokes found no room in {} attempts; lower the resolution", kAttemptsMax));
 }
 
-LiveUpdate LiveScene::place(double seconds)
+LiveUpdate LiveScene::updateAndWait(double seconds)
 {
     m_shown_seconds.reset();
     LiveUpdate result = settle(seconds);

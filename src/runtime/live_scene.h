@@ -95,7 +95,7 @@ public:
 
     /// Merges the dynamic objects at a time, whether or not that is shown already, and waits. Throws Error{Memory}
     /// where memory does not suffice.
-    LiveUpdate place(double seconds);
+    LiveUpdate updateAndWait(double seconds);
 
     /// Tells that the device is done with `frame` and all frames before it.
     void frameDone(std::uint64_t frame, std::span<const vk::PassTime> passes);

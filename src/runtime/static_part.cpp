@@ -12,18 +12,18 @@ namespace zvo
 StaticPart makeStaticPart(vk::HeadlessDevice& device, Scene scene, const Grid& grid, const BuildOptions& options,
                           TreeStructure structure, const StaticListener& listener, std::optional<float> emission_scale)
 {
-    listener.step("copying to the device");
+    listener.operation("copying to the device");
     const std::uint64_t triangle_count = scene.triangleCount();
     std::optional<GpuScene> uploaded = uploadScene(device, scene, options.attributes, emission_scale);
     scene = {};
-    listener.step("voxelizing");
+    listener.operation("voxelizing");
     BuildResult built = buildOctree(device, *uploaded, grid, options);
     uploaded.reset();
     listener.built(built);
     StaticPart part;
     if (structure == TreeStructure::Svdag)
     {
-        listener.step("compressing");
+        listener.operation("compressing");
         CompressResult compressed = compress(device, std::move(built.octree));
         built.octree = std::move(compressed.dag);
         part.info.compress_passes = std::move(compressed.passes);

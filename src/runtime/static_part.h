@@ -23,7 +23,7 @@ namespace zvo
 /// before it is compressed.
 struct StaticListener
 {
-    std::function<void(std::string_view)> step = [](std::string_view) {};
+    std::function<void(std::string_view)> operation = [](std::string_view) {};
     std::function<void(const BuildResult&)> built = [](const BuildResult&) {};
 };
 

@@ -178,7 +178,7 @@ TEST_P(AnimatedScenes, UpdatedIsRebuilt)
         const std::uint32_t frame = i * frame_count / shown;
         SCOPED_TRACE(frame);
         const double seconds = frameTime(animated, frame);
-        const LiveUpdate update = live.place(seconds);
+        const LiveUpdate update = live.updateAndWait(seconds);
         EXPECT_GT(update.report.dynamic_count, 0U);
         const GpuScene scene = uploadScene(device(), sceneAt(animated, seconds), true, emission_scale);
         const BuildResult rebuilt = buildOctree(device(), scene, grid, {});

@@ -53,7 +53,7 @@ BuildAnswer buildPanel(const WorldOptions& options, const World& world, const Lo
     if (loading != nullptr)
     {
         ImGui::ProgressBar(static_cast<float>(loading->done()), {ImGui::GetFontSize() * 16, 0},
-                           loading->step().c_str());
+                           loading->operation().c_str());
         ImGui::SameLine();
         answer.cancels = ImGui::Button("cancel");
         return answer;

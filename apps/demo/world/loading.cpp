@@ -28,7 +28,7 @@ double Loading::done() const
 {
     constexpr std::pair<std::string_view, double> kBegins[] = {
         {"copying to the device", 0.3}, {"voxelizing", 0.45}, {"compressing", 0.8}, {"copying what moves", 0.9}};
-    const auto* const begins = std::ranges::find(kBegins, m_step, [](const auto& begin) { return begin.first; });
+    const auto* const begins = std::ranges::find(kBegins, m_operation, [](const auto& begin) { return begin.first; });
     return begins != std::end(kBegins) ? begins->second : 0;
 }
 
@@ -62,7 +62,7 @@ std::unique_ptr<World> Loading::finish(vk::HeadlessDevice& device, double interv
         }
     };
     StaticListener listener;
-    listener.step = [&](std::string_view step) { m_step = step; };
+    listener.operation = [&](std::string_view operation) { m_operation = operation; };
     std::unique_ptr<World> world;
     try
     {

@@ -37,13 +37,13 @@ public:
     void cancel() { m_is_cancelled = true; }
 
     /// What is being done, and about how much of everything was done before that: 0 to 1.
-    [[nodiscard]] const std::string& step() const { return m_step; }
+    [[nodiscard]] const std::string& operation() const { return m_operation; }
     [[nodiscard]] double done() const;
 
 private:
     WorldOptions m_options;
     std::future<WorldInput> m_input;
-    std::string m_step = "reading";
+    std::string m_operation = "reading";
     bool m_is_cancelled = false;
 };
 

@@ -100,7 +100,7 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
         {
             cli::talk("warning: the file has no voxels");
         }
-        listener.step("copying to the device");
+        listener.operation("copying to the device");
         world.reset(new World{name, cli::subjectOf(cli::boundsOf(tree), tree.grid),
                               LiveScene(device, tree, liveOptions(options))});
     }
