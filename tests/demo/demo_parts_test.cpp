@@ -287,7 +287,7 @@ TEST(Timeline, StopsStepsAndLoops)
         timeline.advance(99);
     }
     EXPECT_DOUBLE_EQ(timeline.secondsIn(animated), 0.9);
-    timeline.step(animated);
+    timeline.nextFrame(animated);
     timeline.advance(99);
     EXPECT_DOUBLE_EQ(timeline.secondsIn(animated), 1.0) << "it stands still";
     timeline.play(true);

@@ -21,9 +21,9 @@ namespace zvo::demo
 namespace
 {
 
-constexpr double kIdleSeconds = 0.1;      // between checks of a window that shows nothing
-constexpr double kLongestStep = 0.25;     // seconds; limits the jump after the program was stopped
-constexpr std::size_t kCpuLadderStep = 2; // half the window's edges, with which software devices begin
+constexpr double kIdleSeconds = 0.1;      // between looks at a window that shows nothing
+constexpr double kFrameSecondsMax = 0.25; // a program that was stopped does not jump
+constexpr std::size_t kCpuRung = 2;       // half the window's edges: what software devices begin with
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
@@ -104,7 +104,7 @@ App::App(const DemoOptions& options, Clock::time_point start)
     m_timeline.start(options.voxels.time.value_or(0.0));
     if (m_device.device().report().type == "cpu" && !options.fixed_step)
     {
-        m_ladder.emplace(kCpuLadderStep);
+        m_ladder.emplace(kCpuRung);
     }
     cli::listenToTalk(
         [this](std::string_view text)
@@ -159,13 +159,14 @@ void App::frame()
     const Clock::time_point now = Clock::now();
     const std::chrono::duration<double> passed = now - m_frame_start;
     m_frame_start = now;
-    m_step = m_options.fixed_step ? m_options.fixed_step->seconds() : std::min(passed.count(), kLongestStep);
+    m_frame_seconds =
+        m_options.fixed_step ? m_options.fixed_step->seconds() : std::min(passed.count(), kFrameSecondsMax);
     if (m_frame != 0)
     {
         m_stats.addFrame(Milliseconds(passed).count());
     }
     takeInput();
-    while (m_flights.size() >= m_options.frames_in_flight)
+    while (m_frames_in_flight.size() >= m_options.frames_in_flight)
     {
         finishOldest();
     }
@@ -247,12 +248,12 @@ void App::advanceTime()
 {
     const bool is_first = m_frame == 0;
     takeTold();
-    m_notices.advance(m_step);
-    m_camera.advance(m_step);
-    m_flight.advance(m_step, is_first, m_camera);
+    m_notices.advance(m_frame_seconds);
+    m_camera.advance(m_frame_seconds);
+    m_flight.advance(m_frame_seconds, is_first, m_camera);
     if (!is_first)
     {
-        m_timeline.advance(m_step);
+        m_timeline.advance(m_frame_seconds);
     }
 }
 
@@ -263,7 +264,7 @@ void App::buildPanels()
     {
         return;
     }
-    m_ui.build(size, m_window.framebufferSize(), m_step,
+    m_ui.build(size, m_window.framebufferSize(), m_frame_seconds,
                [this]
                {
                    if (!m_panels.shows_panels)

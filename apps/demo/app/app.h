@@ -60,16 +60,16 @@ private:
     using Clock = std::chrono::steady_clock;
 
     // A frame that is under way on the device.
-    struct Flight
+    struct FrameInFlight
     {
-        std::uint64_t frame = 0;       // this program's number
+        std::uint64_t number = 0;      // this program's number
         std::uint64_t world_frame = 0; // the world's number
         double internal_scale = 1;
         std::uint64_t ray_count = 0;
         std::unique_ptr<Screenshot> screenshot;
         bool is_last_picture = false;        // the screenshot is the one that the command line asks for
         std::optional<glm::uvec2> inspected; // pixel of the window
-        std::uint64_t look = 0;              // number of that request, for the editor
+        std::uint64_t probe = 0;             // number of that request, for the editor
         std::unique_ptr<vk::BufferOf<gpu::PixelReport>> report;
         /// Destroyed first: its destructor waits for the device, which writes to the other members.
         vk::Submission submission;
@@ -87,9 +87,9 @@ private:
     void toolsPanel();
     void draw();
     bool prepare(const Picture& picture);
-    void submit(Picture& picture, Flight flight);
+    void submit(Picture& picture, FrameInFlight frame);
     void finishOldest();
-    void keep(const Flight& flight);
+    void keep(const FrameInFlight& frame);
     void finishAll();
     std::unique_ptr<Screenshot> takeScreenshot(PictureSize size);
 
@@ -139,7 +139,7 @@ private:
     std::unique_ptr<Loading> m_loading;       // null: nothing is being loaded
     std::optional<WorldOptions> m_loads_next; // when what is being loaded has been cancelled
     Renderer m_renderer;
-    std::deque<Flight> m_flights;
+    std::deque<FrameInFlight> m_frames_in_flight;
 
     ViewState m_view;
     Editor m_editor;
@@ -162,7 +162,7 @@ private:
     std::uint64_t m_frame = 0;       // of the loop
     std::uint64_t m_drawn_count = 0; // frames that were drawn
     Clock::time_point m_frame_start;
-    double m_step = 0; // seconds of this frame
+    double m_frame_seconds = 0; // that this frame takes
     std::optional<double> m_first_frame_ms;
     bool m_lacks_memory = false; // for a picture of the window's size
     bool m_quits = false;

@@ -79,8 +79,8 @@ void App::perform(const KeyBinding& binding, Key key)
     case Action::PlayScene:
         m_timeline.play(!m_timeline.plays());
         break;
-    case Action::StepScene:
-        m_timeline.step(m_world->scene.animated());
+    case Action::NextFrame:
+        m_timeline.nextFrame(m_world->scene.animated());
         break;
     case Action::ReloadShaders:
         reloadChangedShaders();

@@ -59,32 +59,32 @@ void App::draw()
     {
         picture.panels = [this](VkCommandBuffer commands) { m_ui.draw(commands); };
     }
-    Flight flight;
-    flight.is_last_picture = m_screenshot_output != nullptr;
-    flight.screenshot = takeScreenshot(size);
-    flight.is_last_picture = flight.is_last_picture && m_screenshot_output == nullptr;
-    if (flight.screenshot != nullptr)
+    FrameInFlight frame;
+    frame.is_last_picture = m_screenshot_output != nullptr;
+    frame.screenshot = takeScreenshot(size);
+    frame.is_last_picture = frame.is_last_picture && m_screenshot_output == nullptr;
+    if (frame.screenshot != nullptr)
     {
-        picture.screenshot = &flight.screenshot->pixels();
-        picture.screenshot_has_panels = flight.screenshot->hasPanels();
+        picture.screenshot = &frame.screenshot->pixels();
+        picture.screenshot_has_panels = frame.screenshot->hasPanels();
     }
-    flight.look = m_editor.look();
-    flight.inspected = m_panels.shows_panels || m_editor.wantsPixel() ? pixelUnderMouse() : std::nullopt;
-    if (m_editor.wantsPixel() && !flight.inspected) // the pointer has left the picture
+    frame.probe = m_editor.probe();
+    frame.inspected = m_panels.shows_panels || m_editor.wantsPixel() ? pixelUnderMouse() : std::nullopt;
+    if (m_editor.wantsPixel() && !frame.inspected) // the pointer has left the picture
     {
-        m_editor.found(m_editor.look(), gpu::PixelReport{}, *m_world);
+        m_editor.found(m_editor.probe(), gpu::PixelReport{}, *m_world);
     }
-    if (flight.inspected)
+    if (frame.inspected)
     {
-        flight.report = std::make_unique<vk::BufferOf<gpu::PixelReport>>(m_device.device(), "inspected pixel", 1,
-                                                                         vk::MemoryKind::Readback);
-        picture.inspected = flight.inspected;
-        picture.report = flight.report.get();
+        frame.report = std::make_unique<vk::BufferOf<gpu::PixelReport>>(m_device.device(), "inspected pixel", 1,
+                                                                        vk::MemoryKind::Readback);
+        picture.inspected = frame.inspected;
+        picture.report = frame.report.get();
     }
     // Nothing that may fail stands between acquiring an image and the submission that waits for it.
     const std::optional<vk::SwapchainImage> target = m_swapchain.acquire({size.width, size.height}, m_drawn_count);
     picture.target = target ? &*target : nullptr;
-    submit(picture, std::move(flight));
+    submit(picture, std::move(frame));
     if (target)
     {
         m_swapchain.present(*target);
@@ -116,12 +116,12 @@ bool App::prepare(const Picture& picture)
 }
 
 // Submits the frame of a picture. A failure ends the program: picture.target cannot be presented any more.
-void App::submit(Picture& picture, Flight flight)
+void App::submit(Picture& picture, FrameInFlight frame)
 {
-    flight.frame = m_drawn_count;
-    flight.internal_scale = internalScale();
-    flight.ray_count = m_renderer.rayCount();
-    flight.world_frame = m_world->scene.beginFrame();
+    frame.number = m_drawn_count;
+    frame.internal_scale = internalScale();
+    frame.ray_count = m_renderer.rayCount();
+    frame.world_frame = m_world->scene.beginFrame();
     vk::SubmitSync sync;
     if (picture.target != nullptr)
     {
@@ -129,7 +129,7 @@ void App::submit(Picture& picture, Flight flight)
     }
     try
     {
-        flight.submission = m_device.submit(
+        frame.submission = m_device.submit(
             [&](vk::FrameGraph& graph)
             {
                 m_world->scene.update(graph, worldSeconds());
@@ -143,43 +143,43 @@ void App::submit(Picture& picture, Flight flight)
         m_renderer.forget();
         throw;
     }
-    m_flights.push_back(std::move(flight));
+    m_frames_in_flight.push_back(std::move(frame));
 }
 
 void App::finishOldest()
 {
-    Flight flight = std::move(m_flights.front());
-    m_flights.pop_front();
-    const std::vector<vk::PassTime> passes = flight.submission.wait();
-    m_world->scene.frameDone(flight.world_frame, passes);
-    m_renderer.frameDone(flight.frame);
-    m_swapchain.frameDone(flight.frame);
-    m_stats.addPasses(passes, flight.ray_count);
+    FrameInFlight frame = std::move(m_frames_in_flight.front());
+    m_frames_in_flight.pop_front();
+    const std::vector<vk::PassTime> passes = frame.submission.wait();
+    m_world->scene.frameDone(frame.world_frame, passes);
+    m_renderer.frameDone(frame.number);
+    m_swapchain.frameDone(frame.number);
+    m_stats.addPasses(passes, frame.ray_count);
     if (!m_first_frame_ms)
     {
         m_first_frame_ms = Milliseconds(Clock::now() - m_start).count();
     }
-    if (flight.inspected)
+    if (frame.inspected)
     {
-        m_inspected = {*flight.inspected, *flight.report->mappedData()};
-        m_editor.found(flight.look, m_inspected->report, *m_world);
+        m_inspected = {*frame.inspected, *frame.report->mappedData()};
+        m_editor.found(frame.probe, m_inspected->report, *m_world);
     }
-    if (m_ladder && flight.internal_scale == m_ladder->scale())
+    if (m_ladder && frame.internal_scale == m_ladder->scale())
     {
         m_ladder->add(m_stats.gpuMs().last());
     }
-    if (flight.screenshot != nullptr)
+    if (frame.screenshot != nullptr)
     {
-        keep(flight);
+        keep(frame);
     }
 }
 
-// Writes a screenshot. A failure ends the program only if the command line asked for the screenshot.
-void App::keep(const Flight& flight)
+// Writes a screenshot. That one fails which a key asked for is no reason to end.
+void App::keep(const FrameInFlight& frame)
 {
     try
     {
-        const std::string name = flight.screenshot->write();
+        const std::string name = frame.screenshot->write();
         if (!name.empty())
         {
             note("screenshot " + name);
@@ -187,7 +187,7 @@ void App::keep(const Flight& flight)
     }
     catch (const Error& error)
     {
-        if (flight.is_last_picture)
+        if (frame.is_last_picture)
         {
             throw;
         }
@@ -197,7 +197,7 @@ void App::keep(const Flight& flight)
 
 void App::finishAll()
 {
-    while (!m_flights.empty())
+    while (!m_frames_in_flight.empty())
     {
         finishOldest();
     }

@@ -67,10 +67,10 @@ void Editor::perform(Action action)
     }
 }
 
-void Editor::found(std::uint64_t look, const gpu::PixelReport& report, World& world)
+void Editor::found(std::uint64_t probe, const gpu::PixelReport& report, World& world)
 {
     const bool has_voxel = report.hit != 0 && report.level == world.scene.tree().grid.nodeLevels();
-    if (m_stroke.found(look, has_voxel))
+    if (m_stroke.found(probe, has_voxel))
     {
         const glm::ivec3 voxel(report.cell);
         if (m_used.tool == Tool::Brush)

@@ -34,10 +34,10 @@ public:
 
     /// Whether a tool needs to know what is under the pointer; and the number of that request, for the next frame.
     [[nodiscard]] bool wantsPixel() const { return m_stroke.isActive(); }
-    [[nodiscard]] std::uint64_t look() const { return m_stroke.look(); }
+    [[nodiscard]] std::uint64_t probe() const { return m_stroke.probe(); }
 
     /// Takes the answer to the request with this number.
-    void found(std::uint64_t look, const gpu::PixelReport& report, World& world);
+    void found(std::uint64_t probe, const gpu::PixelReport& report, World& world);
 
     /// Queues an edit behind the stroke that is under way.
     void request(const EditRequest& request, World& world);

@@ -31,8 +31,8 @@ public:
         }
     }
 
-    /// Stops, and advances by one frame of the animated scene.
-    void step(const AnimatedScene& animated)
+    /// Stops, and goes on by a frame of the animated scene.
+    void nextFrame(const AnimatedScene& animated)
     {
         m_plays = false;
         start(this->seconds() + 1.0 / animated.frames_per_second);

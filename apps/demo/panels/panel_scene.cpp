@@ -24,7 +24,7 @@ void motionControls(const LiveScene& scene, Timeline& timeline)
     ImGui::SameLine();
     if (ImGui::Button("step"))
     {
-        timeline.step(scene.animated());
+        timeline.nextFrame(scene.animated());
     }
     auto speed = static_cast<float>(timeline.speed());
     if (ImGui::SliderFloat("speed", &speed, 0.0F, 4.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp))

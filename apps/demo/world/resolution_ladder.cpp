@@ -10,18 +10,18 @@ namespace zvo::demo
 void ResolutionLadder::add(double gpu_ms)
 {
     m_long_count = gpu_ms > kTooLongMs ? m_long_count + 1 : 0;
-    const double growth = m_step == 0 ? 1.0 : kScales[m_step - 1] / kScales[m_step];
-    const bool has_time = m_step != 0 && gpu_ms * growth * growth < kShortMs;
+    const double growth = m_rung == 0 ? 1.0 : kScales[m_rung - 1] / kScales[m_rung];
+    const bool has_time = m_rung != 0 && gpu_ms * growth * growth < kShortMs;
     m_short_count = has_time ? m_short_count + 1 : 0;
-    if (m_long_count >= kFramesToLower && m_step + 1 < kScales.size())
+    if (m_long_count >= kFramesToLower && m_rung + 1 < kScales.size())
     {
-        ++m_step;
+        ++m_rung;
         m_long_count = 0;
         m_short_count = 0;
     }
     else if (m_short_count >= kFramesToRaise)
     {
-        --m_step;
+        --m_rung;
         m_long_count = 0;
         m_short_count = 0;
     }

@@ -21,15 +21,15 @@ public:
     static constexpr int kFramesToLower = 2;  // consecutive frames that took too long
     static constexpr int kFramesToRaise = 10; // consecutive frames that left time
 
-    explicit ResolutionLadder(std::size_t step) : m_step(step) {}
+    explicit ResolutionLadder(std::size_t rung) : m_rung(rung) {}
 
-    [[nodiscard]] double scale() const { return kScales[m_step]; }
+    [[nodiscard]] double scale() const { return kScales[m_rung]; }
 
     /// Tells how long a frame at scale() took on the device. Frames that were recorded at another scale are not told.
     void add(double gpu_ms);
 
 private:
-    std::size_t m_step;
+    std::size_t m_rung;
     int m_long_count = 0;
     int m_short_count = 0;
 };
