@@ -52,6 +52,35 @@ bool hasExtension(PFN_vkGetInstanceProcAddr get, const char* name)
                        { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
+void requireValidationLayer(PFN_vkGetInstanceProcAddr get)
+{
+    if (!hasLayer(get, kValidationLayer))
+    {
+        throw Error(ErrorCode::Device, fmt::format("the Vulkan layer {} is not installed: install the package "
+                                                   "vulkan-validationlayers or the Vulkan SDK, or run without "
+                                                   "validation",
+                                                   kValidationLayer));
+    }
+}
+
+VkInstance createInstance(PFN_vkGetInstanceProcAddr get, const VkInstanceCreateInfo& info)
+{
+    const auto create = globalFunction<PFN_vkCreateInstance>(get, "vkCreateInstance");
+    VkInstance instance = VK_NULL_HANDLE;
+    const VkResult result = create(&info, nullptr, &instance);
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+    {
+        throwFailedCall(result, "vkCreateInstance", __FILE_NAME__, __LINE__);
+    }
+    if (result != VK_SUCCESS)
+    {
+        throw Error(ErrorCode::Device, fmt::format("vkCreateInstance failed with {}: install a Vulkan 1.3 driver, such "
+                                                   "as the package mesa-vulkan-drivers",
+                                                   resultName(result)));
+    }
+    return instance;
+}
+
 std::string lowerCase(std::string text)
 {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -116,20 +145,17 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
 {
     const PFN_vkGetInstanceProcAddr get =
         options.get_instance_proc_addr != nullptr ? options.get_instance_proc_addr : loadVulkan();
-    const bool validation = options.validation || options.gpu_assisted_validation;
-    if (validation && !hasLayer(get, kValidationLayer))
+    const bool validates = options.validation || options.gpu_assisted_validation;
+    if (validates)
     {
-        throw Error(ErrorCode::Device, fmt::format("the Vulkan layer {} is not installed: install the package "
-                                                   "vulkan-validationlayers or the Vulkan SDK, or run without "
-                                                   "validation",
-                                                   kValidationLayer));
+        requireValidationLayer(get);
     }
     std::vector<const char*> extensions = options.extensions;
-    if (validation || hasExtension(get, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
+    if (validates || hasExtension(get, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
     {
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
-    if (validation)
+    if (validates)
     {
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
@@ -160,27 +186,16 @@ Instance::Instance(const InstanceOptions& options) : m_message_counter(options.m
     application.apiVersion = kInstanceApiVersion;
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
-    info.pNext = validation ? &features : nullptr;
+    info.pNext = validates ? &features : nullptr;
     info.pApplicationInfo = &application;
-    info.enabledLayerCount = validation ? 1 : 0;
+    info.enabledLayerCount = validates ? 1 : 0;
     info.ppEnabledLayerNames = &kValidationLayer;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     m_extensions.assign(extensions.begin(), extensions.end());
-    const auto create = globalFunction<PFN_vkCreateInstance>(get, "vkCreateInstance");
-    const VkResult result = create(&info, nullptr, &m_handle);
-    if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
-    {
-        throwFailedCall(result, "vkCreateInstance", __FILE_NAME__, __LINE__);
-    }
-    if (result != VK_SUCCESS)
-    {
-        throw Error(ErrorCode::Device, fmt::format("vkCreateInstance failed with {}: install a Vulkan 1.3 driver, such "
-                                                   "as the package mesa-vulkan-drivers",
-                                                   resultName(result)));
-    }
+    m_handle = createInstance(get, info);
     m_functions = ownerFunctions(get, m_handle);
-    if (validation && m_functions.vkCreateDebugUtilsMessengerEXT(m_handle, &messenger, nullptr, &m_messenger) < 0)
+    if (validates && m_functions.vkCreateDebugUtilsMessengerEXT(m_handle, &messenger, nullptr, &m_messenger) < 0)
     {
         m_messenger = VK_NULL_HANDLE; // messages still arrive through the one in vkCreateInstance
     }

@@ -254,7 +254,30 @@ VkPresentModeKHR Swapchain::presentMode()
     return vulkanMode(m_mode);
 }
 
-// Makes images for a window of that size in pixels. Leaves m_chain empty if the window has none at the moment.
+VkSwapchainCreateInfoKHR Swapchain::chainInfo(const VkSurfaceCapabilitiesKHR& capabilities, VkExtent2D extent)
+{
+    VkSwapchainCreateInfoKHR info{};
+    info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
+    info.surface = m_surface;
+    info.minImageCount = std::max(capabilities.minImageCount, m_options.frames_in_flight + 1);
+    if (capabilities.maxImageCount != 0)
+    {
+        info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
+    }
+    info.imageFormat = m_format.format;
+    info.imageColorSpace = m_format.colorSpace;
+    info.imageExtent = extent;
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.preTransform = capabilities.currentTransform;
+    info.compositeAlpha = compositeAlpha(capabilities);
+    info.presentMode = presentMode();
+    info.clipped = VK_TRUE;
+    return info;
+}
+
+// Images for a window of that many pixels. Leaves m_chain empty where the window has none at the moment.
 VkResult Swapchain::make(VkExtent2D framebuffer)
 {
     Device& device = m_device.device();
@@ -277,32 +300,13 @@ VkResult Swapchain::make(VkExtent2D framebuffer)
     {
         return VK_ERROR_OUT_OF_DATE_KHR;
     }
-    // The old swapchain is retired even if making the new one fails.
-    VkSwapchainKHR old = VK_NULL_HANDLE;
+    VkSwapchainCreateInfoKHR info = chainInfo(capabilities, extent);
+    // The old one is retired whether or not there is a new one.
     if (m_chain != nullptr)
     {
-        old = m_chain->handle;
+        info.oldSwapchain = m_chain->handle;
         m_deletion_queue.keep(std::move(m_chain));
     }
-    VkSwapchainCreateInfoKHR info{};
-    info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
-    info.surface = m_surface;
-    info.minImageCount = std::max(capabilities.minImageCount, m_options.frames_in_flight + 1);
-    if (capabilities.maxImageCount != 0)
-    {
-        info.minImageCount = std::min(info.minImageCount, capabilities.maxImageCount);
-    }
-    info.imageFormat = m_format.format;
-    info.imageColorSpace = m_format.colorSpace;
-    info.imageExtent = extent;
-    info.imageArrayLayers = 1;
-    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    info.preTransform = capabilities.currentTransform;
-    info.compositeAlpha = compositeAlpha(capabilities);
-    info.presentMode = presentMode();
-    info.clipped = VK_TRUE;
-    info.oldSwapchain = old;
     auto chain = std::make_unique<Chain>(device);
     chain->extent = extent;
     const VkResult made =

@@ -71,8 +71,8 @@ public:
     /// Acquires an image for a frame. Frame numbers ascend from 0; the device must be done with the frame that is
     /// frames_in_flight before this one. Returns nothing for a window without pixels, and when no image is available at
     /// the moment; such a frame is not shown. An image that was acquired must be presented before the next acquire();
-    /// where its frame cannot be submitted, the Swapchain must be destroyed. Throws as the constructor, and Error{Other}
-    /// on a lost device.
+    /// where its frame cannot be submitted, the Swapchain must be destroyed. Throws as the constructor, and
+    /// Error{Other} on a lost device.
     std::optional<SwapchainImage> acquire(VkExtent2D framebuffer, std::uint64_t frame);
 
     /// Shows an image, after the frame was submitted.
@@ -96,6 +96,7 @@ private:
 
     void makeSurface();
     void loseSurface();
+    VkSwapchainCreateInfoKHR chainInfo(const VkSurfaceCapabilitiesKHR& capabilities, VkExtent2D extent);
     VkResult make(VkExtent2D framebuffer);
     VkResult tryAcquire(VkExtent2D framebuffer, std::uint64_t frame, std::optional<SwapchainImage>& image);
     void chooseFormat();
