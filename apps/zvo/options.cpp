@@ -10,8 +10,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace zvo::cli
@@ -232,30 +235,9 @@ Error usageError(const CLI::App& app, std::string what)
     return {ErrorCode::Usage, fmt::format("{}; see {} --help", what, name)};
 }
 
-} // namespace
-
-Command parseCommandLine(int argc, const char* const* argv)
+// Reads the arguments. Returns the text that --help or --version asks for, or nothing.
+std::optional<std::string> parse(CLI::App& app, int argc, const char* const* argv)
 {
-    CLI::App app("zvo turns triangle scenes into sparse voxel octrees on the GPU and ray traces them.", "zvo");
-    app.get_formatter()->column_width(kHelpColumn);
-    app.footer(kMainFooter);
-    app.set_version_flag("--version", "zvo " ZVO_VERSION_TEXT, "print the version");
-    RenderOptions render;
-    VoxelizeOptions voxelize;
-    BuildFileOptions build;
-    InspectOptions inspect;
-    ValidateOptions validate;
-    ConvertOptions convert;
-    InfoOptions info;
-    BenchOptions bench;
-    const CLI::App* const render_app = addRender(app, render);
-    const CLI::App* const voxelize_app = addVoxelize(app, voxelize);
-    const CLI::App* const build_app = addBuild(app, build);
-    const CLI::App* const inspect_app = addInspect(app, inspect);
-    const CLI::App* const validate_app = addValidate(app, validate);
-    const CLI::App* const convert_app = addConvert(app, convert);
-    const CLI::App* const info_app = addInfo(app, info);
-    const CLI::App* const bench_app = addBench(app, bench);
     try
     {
         app.parse(argc, argv);
@@ -285,7 +267,37 @@ Command parseCommandLine(int argc, const char* const* argv)
         throw usageError(app,
                          "a command is missing: render, voxelize, build, inspect, validate, convert, info or bench");
     }
-    const CLI::App* const chosen = app.get_subcommands().front();
+    return std::nullopt;
+}
+
+} // namespace
+
+Command parseCommandLine(int argc, const char* const* argv)
+{
+    CLI::App app("zvo turns triangle scenes into sparse voxel octrees on the GPU and ray traces them.", "zvo");
+    app.get_formatter()->column_width(kHelpColumn);
+    app.footer(kMainFooter);
+    app.set_version_flag("--version", "zvo " ZVO_VERSION_TEXT, "print the version");
+    RenderOptions render;
+    VoxelizeOptions voxelize;
+    BuildFileOptions build;
+    InspectOptions inspect;
+    ValidateOptions validate;
+    ConvertOptions convert;
+    InfoOptions info;
+    BenchOptions bench;
+    const CLI::App* const render_app = addRender(app, render);
+    const CLI::App* const voxelize_app = addVoxelize(app, voxelize);
+    const CLI::App* const build_app = addBuild(app, build);
+    const CLI::App* const inspect_app = addInspect(app, inspect);
+    const CLI::App* const validate_app = addValidate(app, validate);
+    const CLI::App* const convert_app = addConvert(app, convert);
+    const CLI::App* const info_app = addInfo(app, info);
+    const CLI::App* const bench_app = addBench(app, bench);
+    if (const std::optional<std::string> text = parse(app, argc, argv))
+    {
+        return *text;
+    }
     if (bench.dynamic && bench.scenes.empty())
     {
         throw usageError(app, "--dynamic needs a scene file (.scene.json) or another scene in which something moves");
@@ -301,31 +313,11 @@ Command parseCommandLine(int argc, const char* const* argv)
             throw usageError(app, "--bounds and --grid exclude each other");
         }
     }
-    if (chosen == render_app)
-    {
-        return render;
-    }
-    if (chosen == voxelize_app)
-    {
-        return voxelize;
-    }
-    if (chosen == build_app)
-    {
-        return build;
-    }
-    if (chosen == inspect_app)
-    {
-        return inspect;
-    }
-    if (chosen == validate_app)
-    {
-        return validate;
-    }
-    if (chosen == convert_app)
-    {
-        return convert;
-    }
-    return chosen == info_app ? Command(info) : Command(bench);
+    const std::pair<const CLI::App*, Command> commands[] = {
+        {render_app, render},     {voxelize_app, voxelize}, {build_app, build}, {inspect_app, inspect},
+        {validate_app, validate}, {convert_app, convert},   {info_app, info},   {bench_app, bench}};
+    return std::ranges::find(commands, app.get_subcommands().front(), [](const auto& command) { return command.first; })
+        ->second;
 }
 
 } // namespace zvo::cli

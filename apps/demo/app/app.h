@@ -102,6 +102,8 @@ private:
     bool isMakingAWorld();
     void save();
     void showTitle();
+    void storeBookmark(std::size_t number);
+    void recallBookmark(std::size_t number);
     void frameScene();
     void copyCamera();
     void pasteCamera();

@@ -40,85 +40,79 @@ void App::perform(const KeyBinding& binding, Key key)
     {
     case Action::ShowKeys:
         m_panels.shows_keys = !m_panels.shows_keys;
-        break;
+        return;
     case Action::ShowPanels:
         m_panels.shows_panels = !m_panels.shows_panels;
-        break;
+        return;
     case Action::NextView:
-        changeView(1);
-        break;
+        return changeView(1);
     case Action::PreviousView:
-        changeView(-1);
-        break;
+        return changeView(-1);
     case Action::FrameScene:
-        frameScene();
-        break;
+        return frameScene();
     case Action::CopyCamera:
-        copyCamera();
-        break;
+        return copyCamera();
     case Action::PasteCamera:
-        pasteCamera();
-        break;
+        return pasteCamera();
     case Action::StoreBookmark:
-        m_bookmarks[number] = m_camera.camera();
-        note(fmt::format("bookmark {}", number + 1));
-        break;
+        return storeBookmark(number);
     case Action::RecallBookmark:
-        if (m_bookmarks[number])
-        {
-            m_camera.show(*m_bookmarks[number]);
-            m_flight.stop();
-        }
-        break;
+        return recallBookmark(number);
     case Action::RecordPath:
-        toggleRecording();
-        break;
+        return toggleRecording();
     case Action::PlayPath:
-        togglePath();
-        break;
+        return togglePath();
     case Action::PlayScene:
-        m_timeline.play(!m_timeline.plays());
-        break;
+        return m_timeline.play(!m_timeline.plays());
     case Action::NextFrame:
-        m_timeline.nextFrame(m_world->scene.animated());
-        break;
+        return m_timeline.nextFrame(m_world->scene.animated());
     case Action::ReloadShaders:
-        reloadChangedShaders();
-        break;
+        return reloadChangedShaders();
     case Action::Screenshot:
         m_wanted_screenshot = true;
-        break;
+        return;
     case Action::ScreenshotOfPicture:
         m_wanted_screenshot = false;
-        break;
+        return;
     case Action::UseBrush:
     case Action::UseHand:
     case Action::UseCamera:
     case Action::NextBrush:
     case Action::SmallerBrush:
     case Action::LargerBrush:
-        m_editor.perform(binding.action);
-        break;
+        return m_editor.perform(binding.action);
     case Action::TakeColor:
         if (m_inspected)
         {
             m_editor.takeColor(m_inspected->report);
         }
-        break;
+        return;
     case Action::Undo:
-        request(UndoStroke{});
-        break;
+        return request(UndoStroke{});
     case Action::Redo:
-        request(RedoStroke{});
-        break;
+        return request(RedoStroke{});
     case Action::Save:
-        save();
-        break;
+        return save();
     case Action::Quit:
         m_quits = true;
-        break;
+        return;
     case Action::None:
-        break;
+        return;
+    }
+}
+
+void App::storeBookmark(std::size_t number)
+{
+    m_bookmarks[number] = m_camera.camera();
+    note(fmt::format("bookmark {}", number + 1));
+}
+
+void App::recallBookmark(std::size_t number)
+{
+    if (m_bookmarks[number])
+    {
+        m_camera.show(*m_bookmarks[number]);
+        m_flight.stop();
     }
 }
 
