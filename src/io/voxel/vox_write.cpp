@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace zvo
 {
@@ -145,12 +146,16 @@ Writer paletteChunk(const Palette& palette)
     return writer;
 }
 
-} // namespace
-
-void writeVox(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+// The models of a tree, and how often each colour occurs.
+struct Contents
 {
     std::vector<Model> models;
-    std::vector<std::uint32_t> counts(kColorCount);
+    std::vector<std::uint32_t> color_counts = std::vector<std::uint32_t>(kColorCount);
+};
+
+Contents contentsOf(const TreeData& tree)
+{
+    Contents contents;
     std::uint64_t last_block = UINT64_MAX;
     std::size_t voxel = 0;
     forEachVoxel(tree,
@@ -158,17 +163,37 @@ void writeVox(const TreeData& tree, const std::function<void(std::span<const std
                  {
                      if (code >> (3 * kBlockBits) != last_block)
                      {
-                         models.emplace_back();
+                         contents.models.emplace_back();
                          last_block = code >> (3 * kBlockBits);
                      }
-                     Model& model = models.back();
+                     Model& model = contents.models.back();
                      const glm::ivec3 position = turned(cellOfCode(code));
                      ++model.voxel_count;
                      model.min = glm::min(model.min, position);
                      model.max = glm::max(model.max, position);
-                     ++counts[colorOf(tree, voxel++)];
+                     ++contents.color_counts[colorOf(tree, voxel++)];
                  });
-    const Palette palette = quantize(counts, kPaletteSize);
+    return contents;
+}
+
+// The chunk with a model's size, and the head of the one with its voxels.
+void addModelHead(Writer& writer, const Model& model)
+{
+    Writer size;
+    size.append(model.size());
+    writer.chunk("SIZE", size);
+    writer.name("XYZI");
+    writer.number(static_cast<std::int64_t>(4 + 4 * model.voxel_count));
+    writer.number(0);
+    writer.number(static_cast<std::int64_t>(model.voxel_count));
+}
+
+} // namespace
+
+void writeVox(const TreeData& tree, const std::function<void(std::span<const std::byte>)>& write)
+{
+    const auto [models, color_counts] = contentsOf(tree);
+    const Palette palette = quantize(color_counts, kPaletteSize);
     const Writer graph = sceneGraph(models);
     const Writer colors = paletteChunk(palette);
     constexpr std::uint64_t kModelBytes = kChunkHeaderBytes + 12 + kChunkHeaderBytes + 4; // SIZE, and the head of XYZI
@@ -188,26 +213,19 @@ void writeVox(const TreeData& tree, const std::function<void(std::span<const std
     writer.number(0);
     writer.number(static_cast<std::int64_t>(children_bytes));
     constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
-    std::size_t model = 0;
-    std::uint64_t rest = 0; // voxels of the current model still to come
-    voxel = 0;
+    auto next_model = models.begin();
+    std::uint64_t rest = 0; // voxels of the current model
+    std::size_t voxel = 0;
     forEachVoxel(tree,
                  [&](std::uint64_t code)
                  {
                      if (rest == 0)
                      {
-                         Writer size;
-                         const glm::ivec3 edges = models[model].size();
-                         size.append(edges);
-                         writer.chunk("SIZE", size);
-                         rest = models[model++].voxel_count;
-                         writer.name("XYZI");
-                         writer.number(static_cast<std::int64_t>(4 + 4 * rest));
-                         writer.number(0);
-                         writer.number(static_cast<std::int64_t>(rest));
+                         addModelHead(writer, *next_model);
+                         rest = next_model++->voxel_count;
                      }
                      --rest;
-                     const glm::ivec3 position = turned(cellOfCode(code)) - models[model - 1].min;
+                     const glm::ivec3 position = turned(cellOfCode(code)) - std::prev(next_model)->min;
                      const std::uint32_t index = palette.indices[colorOf(tree, voxel++)] + 1U;
                      writer.append(static_cast<std::uint32_t>(position.x) |
                                    static_cast<std::uint32_t>(position.y) << 8 |
