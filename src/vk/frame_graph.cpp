@@ -2,7 +2,7 @@
 #include "vk/frame_graph.h"
 
 #include "vk/device.h"
-#include "zvo/error.h"
+#include "vk/frame_graph_checks.h"
 
 #include <fmt/format.h>
 
@@ -23,12 +23,6 @@ constexpr std::uint64_t kFillKey = 1; // cannot be the address of a kernel
 constexpr std::uint64_t kCopyKey = 2;
 constexpr std::uint64_t kUpdateKey = 3;
 constexpr std::uint64_t kRecordKey = 4;
-constexpr std::uint64_t kMaxThreads = std::uint64_t{1} << 32; // kernels number their threads with 32 bits
-
-[[noreturn]] void misuse(const std::string& what)
-{
-    throw Error(ErrorCode::Other, "frame graph: " + what);
-}
 
 const char* accessText(Access access)
 {
@@ -69,161 +63,7 @@ std::string stagesText(std::uint64_t stages)
     return fmt::format("{}", fmt::join(names, "|"));
 }
 
-BufferAccess accessOf(const Buffer& buffer, Access access)
-{
-    return {reinterpret_cast<std::uint64_t>(buffer.handle()), access, buffer.name()};
-}
-
-void checkRange(const Buffer& buffer, std::uint64_t offset, std::uint64_t bytes)
-{
-    if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)
-    {
-        misuse(fmt::format("{} bytes from byte {} on lie outside buffer {} of {} bytes", bytes, offset, buffer.name(),
-                           buffer.bytes()));
-    }
-}
-
 } // namespace
-
-std::array<std::uint64_t, 2> foldGroups(std::uint64_t groups, std::uint32_t max_x)
-{
-    const std::uint64_t y = std::max<std::uint64_t>(1, (groups + max_x - 1) / max_x);
-    return {(groups + y - 1) / y, y};
-}
-
-void AnyPass::declare(const Buffer& buffer, Access access)
-{
-    if (m_dispatched)
-    {
-        misuse(fmt::format("pass {} was already dispatched when buffer {} was declared", m_kernel.name, buffer.name()));
-    }
-    if (buffer.handle() != VK_NULL_HANDLE) // an empty buffer needs no barrier
-    {
-        m_accesses.push_back(accessOf(buffer, access));
-    }
-}
-
-void AnyPass::prepare(std::size_t params_bytes)
-{
-    if (m_dispatched)
-    {
-        misuse(fmt::format("pass {} was dispatched twice", m_kernel.name));
-    }
-    if (params_bytes != m_kernel.interface.push_constant_bytes)
-    {
-        misuse(fmt::format("kernel {} takes {} bytes of push constants but got {}", m_kernel.name,
-                           m_kernel.interface.push_constant_bytes, params_bytes));
-    }
-    m_dispatched = true;
-}
-
-void AnyPass::bind(const void* params, std::size_t bytes)
-{
-    const Functions& fn = m_graph.m_device.fn();
-    fn.vkCmdBindPipeline(m_graph.m_commands, VK_PIPELINE_BIND_POINT_COMPUTE, m_kernel.pipeline);
-    fn.vkCmdPushConstants(m_graph.m_commands, m_kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                          static_cast<std::uint32_t>(bytes), params);
-}
-
-void AnyPass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes)
-{
-    prepare(bytes);
-    if (threads == 0)
-    {
-        fmt::format_to(std::back_inserter(m_graph.m_dump), "pass {}: 0 threads, left out\n", m_kernel.name);
-        return;
-    }
-    const VkPhysicalDeviceLimits& limits = m_graph.m_device.limits();
-    const auto [size_x, size_y, size_z] = m_kernel.interface.local_size;
-    const std::uint64_t group_threads = std::uint64_t{size_x} * size_y * size_z;
-    const std::uint64_t groups = threads / group_threads + (threads % group_threads != 0 ? 1 : 0);
-    const auto [x, y] = foldGroups(groups, limits.maxComputeWorkGroupCount[0]);
-    if (y > limits.maxComputeWorkGroupCount[1] || threads > kMaxThreads || x * y * group_threads > kMaxThreads)
-    {
-        misuse(fmt::format("pass {} asks for {} threads, more than one dispatch can have", m_kernel.name, threads));
-    }
-    m_graph.declarePass(m_kernel.name, m_accesses,
-                        fmt::format("{} threads in {} x {} groups of {}", threads, x, y, group_threads));
-    recordGroups(groups, {x, y}, params, bytes);
-}
-
-void AnyPass::dispatchIndirectRaw(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const void* params,
-                                  std::size_t bytes, std::uint64_t max_groups)
-{
-    const std::uint64_t offset = index * sizeof(gpu::DispatchArgs);
-    declare(args, Access::IndirectRead);
-    prepare(bytes);
-    checkRange(args, offset, sizeof(gpu::DispatchArgs));
-    m_graph.declarePass(m_kernel.name, m_accesses, "indirect");
-    Slicer* const slicer = m_graph.m_slicer;
-    if (slicer != nullptr && !slicer->admitUnseen(key(), max_groups))
-    {
-        if (Buffer* const readback = slicer->readback())
-        {
-            const std::uint64_t groups = m_graph.readGroups(args, offset, *readback);
-            slicer->learnCount(key(), max_groups, groups);
-            recordGroups(groups, {0, 0}, params, bytes);
-            return;
-        }
-    }
-    m_graph.openPiece(m_kernel.name);
-    bind(params, bytes);
-    m_graph.m_device.fn().vkCmdDispatchIndirect(m_graph.m_commands, args.handle(), offset);
-    m_graph.closePiece();
-}
-
-// whole: workgroups along x and y, which are used if all go into one piece; 0: records exactly that many workgroups.
-void AnyPass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params,
-                           std::size_t bytes)
-{
-    // A smaller range could begin where no base can be set.
-    const std::uint64_t least = groups / m_graph.m_device.limits().maxComputeWorkGroupCount[1] + 1;
-    m_graph.recordPieces(m_kernel.name, key(), groups, least,
-                         [&](std::uint64_t first, std::uint64_t count)
-                         {
-                             bind(params, bytes);
-                             if (count == groups && whole[0] != 0)
-                             {
-                                 m_graph.m_device.fn().vkCmdDispatch(m_graph.m_commands,
-                                                                     static_cast<std::uint32_t>(whole[0]),
-                                                                     static_cast<std::uint32_t>(whole[1]), 1);
-                             }
-                             else
-                             {
-                                 recordGroupRange(first, count);
-                             }
-                         });
-}
-
-// Records rows of workgroups. The base of each is such that row * row length + column, by which kernels number their
-// workgroups, is the number in the whole pass.
-void AnyPass::recordGroupRange(std::uint64_t first, std::uint64_t count)
-{
-    const VkPhysicalDeviceLimits& limits = m_graph.m_device.limits();
-    const std::uint64_t max_x = limits.maxComputeWorkGroupCount[0];
-    const Functions& fn = m_graph.m_device.fn();
-    const std::uint64_t longest = std::max<std::uint64_t>(1, max_x / 2);
-    while (count != 0)
-    {
-        const std::uint64_t rows = (count + longest - 1) / longest;
-        const std::uint64_t x =
-            (count + rows - 1) /
-            rows; // rows have about equal length, since a short one far behind could not be reached by a base
-        const std::uint64_t base_x = std::min(first, first % x + (max_x - x - first % x) / x * x);
-        const std::uint64_t base_y = (first - base_x) / x;
-        if (base_y >= limits.maxComputeWorkGroupCount[1])
-        {
-            misuse(fmt::format("pass {} has no base for workgroup {} in a row of {}", m_kernel.name, first, x));
-        }
-        fn.vkCmdDispatchBase(m_graph.m_commands, static_cast<std::uint32_t>(base_x), static_cast<std::uint32_t>(base_y),
-                             0, static_cast<std::uint32_t>(x), 1, 1);
-        first += x;
-        count -= x;
-    }
-    // Resets the base by an empty dispatch: lavapipe (Mesa 22.3 at least) keeps the last one for later indirect
-    // dispatches.
-    fn.vkCmdDispatchBase(m_graph.m_commands, 0, 0, 0, 0, 0, 0);
-}
 
 FrameGraph::FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* timers, Slicer* slicer)
     : m_device(device), m_commands(commands), m_timers(timers), m_slicer(slicer)

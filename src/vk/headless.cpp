@@ -6,7 +6,7 @@
 #include "vk/deletion_queue.h"
 #include "vk/flight.h"
 #include "vk/instance.h"
-#include "vk/owner_functions.h"
+#include "vk/logical_device.h"
 #include "vk/pipeline_cache.h"
 #include "zvo/error.h"
 
@@ -30,111 +30,7 @@ namespace
 constexpr std::uint64_t kStagingBytes = 16ull << 20;
 constexpr std::uint64_t kStagingBytesMin = 64ull << 10; // if memory is short
 
-bool has(const DeviceReport& report, std::string_view feature)
-{
-    return std::ranges::find(report.present, feature) != report.present.end();
-}
-
-// Whether kernels take subgroups of a chosen size. If the device cannot, Device reports it.
-bool choosesSubgroupSize(const HeadlessOptions& options, const DeviceReport& report)
-{
-    return options.overrides.subgroup_size != 0 && report.min_subgroup_size != 0;
-}
-
-// A logical device with one compute queue.
-class LogicalDevice
-{
-public:
-    LogicalDevice(const Instance& instance, const DeviceReport& report, const HeadlessOptions& options)
-    {
-        VkDeviceCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-        if (options.gpu_assisted_validation)
-        {
-            enableForInstrumentation(instance, report);
-            info.pNext = &m_core_features;
-        }
-        const OptionalFeatures optional = {.pass_times = options.timer_capacity != 0 && has(report, "hostQueryReset"),
-                                           .subgroup_sizes = choosesSubgroupSize(options, report)};
-        const std::vector<std::string> reasons = patchFeatures(info, m_feature_storage, optional);
-        assert(reasons.empty());
-        m_features = info.pNext;
-        const float priority = 1;
-        VkDeviceQueueCreateInfo queue{};
-        queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-        queue.queueFamilyIndex = report.queue_family;
-        queue.queueCount = 1;
-        queue.pQueuePriorities = &priority;
-        info.queueCreateInfoCount = 1;
-        info.pQueueCreateInfos = &queue;
-        const std::vector<const char*> extensions = deviceExtensions(options);
-        m_extensions.assign(extensions.begin(), extensions.end());
-        info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
-        info.ppEnabledExtensionNames = extensions.data();
-        VK_CHECK(instance.fn().vkCreateDevice(report.physical_device, &info, nullptr, &m_handle));
-        try
-        {
-            m_functions = ownerFunctions(instance.fn().vkGetInstanceProcAddr, instance.handle(), m_handle);
-        }
-        catch (...)
-        {
-            destroyBare(instance, m_handle);
-            throw;
-        }
-        m_functions.vkGetDeviceQueue(m_handle, report.queue_family, 0, &m_queue);
-    }
-
-    ~LogicalDevice()
-    {
-        m_functions.vkDeviceWaitIdle(m_handle);
-        m_functions.vkDestroyDevice(m_handle, nullptr);
-    }
-
-    LogicalDevice(const LogicalDevice&) = delete;
-    LogicalDevice& operator=(const LogicalDevice&) = delete;
-
-    [[nodiscard]] VkDevice handle() const { return m_handle; }
-    [[nodiscard]] VkQueue queue() const { return m_queue; }
-    [[nodiscard]] const Functions& fn() const { return m_functions; }
-    [[nodiscard]] const void* features() const { return m_features; } // the chain that the device was created with
-    [[nodiscard]] const std::vector<std::string>& extensions() const { return m_extensions; }
-
-private:
-    static std::vector<const char*> deviceExtensions(const HeadlessOptions& options)
-    {
-        return options.window ? std::vector{VK_KHR_SWAPCHAIN_EXTENSION_NAME} : std::vector<const char*>();
-    }
-
-    // Destroys a device some of whose functions are missing.
-    static void destroyBare(const Instance& instance, VkDevice device)
-    {
-        const auto destroy = reinterpret_cast<PFN_vkDestroyDevice>(
-            instance.fn().vkGetInstanceProcAddr(instance.handle(), "vkDestroyDevice"));
-        destroy(device, nullptr);
-    }
-
-    // Enables what the validation layer's instrumentation in kernels needs.
-    void enableForInstrumentation(const Instance& instance, const DeviceReport& report)
-    {
-        VkPhysicalDeviceFeatures2 present{};
-        present.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-        instance.fn().vkGetPhysicalDeviceFeatures2(report.physical_device, &present);
-        VkPhysicalDeviceFeatures& features = m_core_features.features;
-        m_core_features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
-        features.fragmentStoresAndAtomics = present.features.fragmentStoresAndAtomics;
-        features.vertexPipelineStoresAndAtomics = present.features.vertexPipelineStoresAndAtomics;
-    }
-
-    VkPhysicalDeviceFeatures2 m_core_features{};
-    FeatureStorage m_feature_storage;
-    const void* m_features = nullptr;
-    std::vector<std::string> m_extensions;
-    VkDevice m_handle = VK_NULL_HANDLE;
-    VkQueue m_queue = VK_NULL_HANDLE;
-    Functions m_functions;
-};
-
-// Splits a run into submissions that are waited for one by one, and measures them.
+// Spreads a run over submissions that are waited for one by one, and measures them.
 class RunSlicer : public Slicer
 {
 public:
