@@ -3,28 +3,22 @@
 
 #include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
+#include "bench/canvas.h"
 #include "bench/table.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
 #include "core/base/kernels.h"
-#include "core/base/morton.h"
-#include "core/dynamic/dynamic_octree.h"
 #include "core/tree/tree_data.h"
-#include "runtime/static_part.h"
-#include "zvo/error.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <optional>
-#include <random>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -42,7 +36,6 @@ constexpr std::array<const char*, 3> kActionNames = {"carve", "fill", "paint"};
 constexpr std::array<std::uint32_t, 3> kStrokeCounts = {10, 100, 1000};
 constexpr std::uint32_t kStrokesMeasured = 10; // the last ones of each stage
 constexpr std::uint32_t kHistoryRadius = 8;
-constexpr std::uint32_t kAttemptsMax = 64;
 constexpr EditBounds kBounds = {kStrokeCounts.back(), 256U << 20};
 
 // Median and percentile of times, in milliseconds.
@@ -168,111 +161,7 @@ Json rowJson(const EditRow& row)
     return json;
 }
 
-// Whether a pass moves the kept states of edits.
-bool compacts(const std::string& pass)
-{
-    constexpr std::string_view kParts[] = {"edit/mark",     "edit/live_sums", "edit/voxel_bits",       "octree/scan",
-                                           "edit/renumber", "edit/move_",     "update/emission_places"};
-    return std::ranges::any_of(kParts, [&](std::string_view part) { return pass.find(part) != std::string::npos; });
-}
-
-// Whether a pass belongs to a dab or shows its result; other passes copy to larger buffers.
-bool dabs(const std::string& pass)
-{
-    return !compacts(pass) && (pass.find("edit/") != std::string::npos || pass == "update/show");
-}
-
-// A tree, and strokes on it.
-class Canvas
-{
-public:
-    Canvas(vk::HeadlessDevice& device, const BenchOptions& options, const Scene& scene, const Grid& grid)
-        : m_device(device)
-    {
-        StaticListener listener;
-        listener.built = [&](const BuildResult& built) { m_codes = voxelCodes(device, built.octree); };
-        DeviceTree fixed =
-            makeStaticPart(device, scene, grid, {options.coverage, options.attributes, {}}, options.structure, listener)
-                .tree;
-        if (m_codes.empty())
-        {
-            throw Error(ErrorCode::Input, "there are no voxels to edit");
-        }
-        DynamicOptions dynamic;
-        dynamic.attributes = options.attributes;
-        dynamic.emission_scale = fixed.emission.count() != 0 ? fixed.emission_scale : 0;
-        dynamic.edits = kBounds;
-        m_octree = std::make_unique<DynamicOctree>(device, std::move(fixed), dynamic);
-    }
-
-    // Draws a stroke of one dab at a random voxel of the scene. Returns its time.
-    double stroke(BrushAction action, std::uint32_t radius)
-    {
-        const std::uint64_t code = m_codes[m_random() % m_codes.size()];
-        const Brush brush = {BrushShape::Sphere, action, gpu::ivec3(cellOfCode(code)), radius,
-                             static_cast<std::uint32_t>(m_random() & 0xFFFFFFU)};
-        bool is_done = false;
-        std::vector<vk::PassTime> passes;
-        for (std::uint32_t attempt = 0; !is_done; ++attempt)
-        {
-            if (attempt == kAttemptsMax)
-            {
-                throw Error(ErrorCode::Other, "a stroke found no room");
-            }
-            passes = frame([&](vk::FrameGraph& graph) { is_done = m_octree->edit(graph, brush); });
-        }
-        m_octree->endStroke();
-        return sumIf(passes, dabs);
-    }
-
-    double undo()
-    {
-        return sumMs(frame([&](vk::FrameGraph& graph) { m_octree->undoEdit(graph); }));
-    }
-
-    double redo()
-    {
-        return sumMs(frame([&](vk::FrameGraph& graph) { m_octree->redoEdit(graph); }));
-    }
-
-    [[nodiscard]] const Edits& edits() const { return m_octree->edits(); }
-    [[nodiscard]] std::uint64_t voxelCount() const { return m_codes.size(); }
-    [[nodiscard]] std::uint32_t compactionCount() const { return m_compaction_count; }
-    [[nodiscard]] double compactionMs() const { return m_compaction_ms; }
-
-private:
-    static double sumIf(const std::vector<vk::PassTime>& passes, bool (*counts)(const std::string&))
-    {
-        double ms = 0;
-        for (const vk::PassTime& pass : passes)
-        {
-            ms += counts(pass.name) ? pass.ms : 0.0;
-        }
-        return ms;
-    }
-
-    template <typename Record> std::vector<vk::PassTime> frame(const Record& record)
-    {
-        const std::uint64_t frame = m_octree->beginFrame();
-        std::vector<vk::PassTime> passes = m_device.run(record);
-        m_octree->frameDone(frame, passes);
-        if (std::ranges::any_of(passes, [](const vk::PassTime& pass) { return pass.name == "edit/move_states"; }))
-        {
-            ++m_compaction_count;
-            m_compaction_ms = sumIf(passes, compacts);
-        }
-        return passes;
-    }
-
-    vk::HeadlessDevice& m_device;
-    std::vector<std::uint64_t> m_codes;
-    std::unique_ptr<DynamicOctree> m_octree;
-    std::mt19937 m_random{1};
-    std::uint32_t m_compaction_count = 0;
-    double m_compaction_ms = 0;
-};
-
-// Measures strokes of one kind, each of which is undone.
+// Strokes of one kind, each of which is undone.
 StrokeRow measureStrokes(Canvas& canvas, std::uint32_t radius, std::uint32_t action, std::uint32_t run_count)
 {
     std::vector<double> dab_ms;
@@ -346,7 +235,7 @@ EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const s
     row.scene = name;
     row.resolution = grid.resolution();
     {
-        Canvas canvas(device, options, scene, grid);
+        Canvas canvas(device, options, scene, grid, kBounds);
         row.voxels = canvas.voxelCount();
         for (const std::uint32_t radius : kRadii)
         {
@@ -357,7 +246,7 @@ EditRow measure(vk::HeadlessDevice& device, const BenchOptions& options, const s
             }
         }
     }
-    Canvas canvas(device, options, scene, grid);
+    Canvas canvas(device, options, scene, grid, kBounds);
     row.history = measureHistory(canvas, progress);
     return row;
 }
