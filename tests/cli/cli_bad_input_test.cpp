@@ -101,12 +101,8 @@ TEST_P(CliBadScene, IsOneLineAndExitCodeThree)
     GltfBuilder builder = coloredCube();
     GetParam().change(builder);
     dir.write("scene.glb", builder.glb());
-    const Outcome outcome = runZvo(dir.path(), {"voxelize", "scene.glb", "-o", "a.ply", "--resolution", "8"});
-    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
-    EXPECT_TRUE(contains(outcome.err, GetParam().word)) << outcome.err;
-    EXPECT_EQ(outcome.err.find_first_of("\n\r\t"), outcome.err.size() - 1) << outcome.err;
+    expectErrorLine(runZvo(dir.path(), {"voxelize", "scene.glb", "-o", "a.ply", "--resolution", "8"}), 3,
+                    {GetParam().word});
     EXPECT_EQ(filesIn(dir.path()), std::vector<std::string>{"scene.glb"});
 }
 

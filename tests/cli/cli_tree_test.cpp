@@ -266,11 +266,7 @@ TEST(CliTree, RefusalsAreOneLineWithTheirExitCode)
     };
     for (const Refusal& refusal : refusals)
     {
-        const Outcome outcome = runZvo(dir.path(), refusal.arguments);
-        EXPECT_EQ(outcome.exit_code, refusal.exit_code) << outcome.err;
-        EXPECT_TRUE(outcome.err.starts_with("zvo: error: ")) << outcome.err;
-        EXPECT_NE(outcome.err.find(refusal.words), std::string::npos) << refusal.words << ": " << outcome.err;
-        EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
+        expectErrorLine(runZvo(dir.path(), refusal.arguments), refusal.exit_code, {refusal.words});
         EXPECT_EQ(filesIn(dir.path()), before);
     }
 }
@@ -320,9 +316,7 @@ TEST(CliTree, AFullDiskLeavesTheOldFile)
             outcome = runZvo(dir.path(), command);
         }
         const std::string& name = command[3];
-        EXPECT_EQ(outcome.exit_code, 4) << name << ": " << outcome.err;
-        EXPECT_NE(outcome.err.find(name), std::string::npos) << outcome.err;
-        EXPECT_EQ(outcome.err.find('\n'), outcome.err.size() - 1) << outcome.err;
+        expectErrorLine(outcome, 4, {name});
         EXPECT_TRUE(contentOf(dir.path() / name) == "old") << name;
         EXPECT_EQ(filesIn(dir.path()), before);
     }
