@@ -13,10 +13,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <cstring>
-#include <string_view>
 #include <utility>
 
 namespace zvo::vk

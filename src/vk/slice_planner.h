@@ -51,8 +51,6 @@ public:
     /// total_ms is the time of all of them together.
     void endSubmission(std::span<const double> pass_ms, double total_ms);
 
-    [[nodiscard]] bool submissionEmpty() const { return m_pieces.empty(); }
-
 private:
     struct Rate
     {

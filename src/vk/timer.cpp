@@ -46,7 +46,6 @@ void TimerPool::reset()
                                        m_stamp_count * static_cast<std::uint32_t>(m_names.size()));
     }
     m_names.clear();
-    m_dropped_count = 0;
     m_open = false;
 }
 
@@ -56,7 +55,6 @@ void TimerPool::begin(VkCommandBuffer commands, const std::string& name)
 {
     if (m_names.size() == m_pass_capacity)
     {
-        m_dropped_count += m_pool != VK_NULL_HANDLE ? 1 : 0;
         return;
     }
     const std::uint32_t query = m_stamp_count * static_cast<std::uint32_t>(m_names.size());

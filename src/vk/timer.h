@@ -31,19 +31,17 @@ public:
     void end(VkCommandBuffer commands);
 
     /// The times of the recorded passes, in order. The device must be done with them. Passes beyond the capacity are
-    /// left out and counted by droppedCount().
+    /// left out.
     [[nodiscard]] std::vector<PassTime> collect() const;
 
     /// The same; nothing if the device has not carried out all passes.
     [[nodiscard]] std::optional<std::vector<PassTime>> collectIfReady() const;
-    [[nodiscard]] std::uint32_t droppedCount() const { return m_dropped_count; }
 
 private:
     Device& m_device;
     VkQueryPool m_pool = VK_NULL_HANDLE;
     std::uint32_t m_pass_capacity;
     std::uint32_t m_stamp_count; // stamps for each pass: begin, end and, on software devices, one more
-    std::uint32_t m_dropped_count = 0;
     bool m_open = false;
     std::vector<std::string> m_names;
 };
