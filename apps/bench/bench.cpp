@@ -232,8 +232,7 @@ void bench(const BenchOptions& options)
     checkValidation(device);
     if (report)
     {
-        report->write(jsonText(benchJson(header, rows)));
-        report->finish();
+        writeReport(*report, benchJson(header, rows));
     }
 }
 

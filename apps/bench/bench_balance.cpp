@@ -238,10 +238,7 @@ Json rowJson(const BalanceRow& row)
 Json balanceJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<BalanceRow>& rows,
                  const std::vector<BalanceRatio>& ratios)
 {
-    Json json;
-    json["schema"] = "zvo.balance/1";
-    json["zvo"] = ZVO_VERSION_TEXT;
-    json["device"] = deviceJson(device);
+    Json json = headJson("zvo.balance/1", device);
     json["coverage"] = coverageName(options.coverage);
     json["runs"] = options.run_count;
     json["rows"] = Json::array();
@@ -372,8 +369,7 @@ void benchBalance(const BenchOptions& options)
     checkValidation(device);
     if (report)
     {
-        report->write(jsonText(balanceJson(device.device().report(), options, rows, ratios)));
-        report->finish();
+        writeReport(*report, balanceJson(device.device().report(), options, rows, ratios));
     }
 }
 

@@ -308,10 +308,7 @@ std::string tableHead(const vk::DeviceReport& device, std::uint32_t run_count)
 
 Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<DynamicRow>& rows)
 {
-    Json json;
-    json["schema"] = "zvo.bench_dynamic/1";
-    json["zvo"] = ZVO_VERSION_TEXT;
-    json["device"] = deviceJson(device);
+    Json json = headJson("zvo.bench_dynamic/1", device);
     json["width"] = kWidth;
     json["height"] = kHeight;
     json["coverage"] = coverageName(options.coverage);
@@ -376,8 +373,7 @@ void benchDynamic(const BenchOptions& options)
     checkValidation(device);
     if (report)
     {
-        report->write(jsonText(reportJson(device.device().report(), options, rows)));
-        report->finish();
+        writeReport(*report, reportJson(device.device().report(), options, rows));
     }
 }
 

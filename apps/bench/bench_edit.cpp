@@ -284,10 +284,7 @@ std::string tables(const std::vector<EditRow>& rows)
 
 Json reportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<EditRow>& rows)
 {
-    Json json;
-    json["schema"] = "zvo.bench_edit/1";
-    json["zvo"] = ZVO_VERSION_TEXT;
-    json["device"] = deviceJson(device);
+    Json json = headJson("zvo.bench_edit/1", device);
     json["coverage"] = coverageName(options.coverage);
     json["attributes"] = options.attributes ? "full" : "none";
     json["structure"] = structureName(options.structure);
@@ -327,8 +324,7 @@ void benchEdit(const BenchOptions& options)
     checkValidation(device);
     if (report)
     {
-        report->write(jsonText(reportJson(device.device().report(), options, rows)));
-        report->finish();
+        writeReport(*report, reportJson(device.device().report(), options, rows));
     }
 }
 

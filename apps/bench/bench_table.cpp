@@ -236,10 +236,7 @@ std::string passTable(const std::string& scene, std::uint32_t resolution, const 
 
 Json benchJson(const BenchHeader& header, const std::vector<BenchRow>& rows)
 {
-    Json json;
-    json["schema"] = "zvo.bench/1";
-    json["zvo"] = ZVO_VERSION_TEXT;
-    json["device"] = deviceJson(header.device);
+    Json json = headJson("zvo.bench/1", header.device);
     json["width"] = header.width;
     json["height"] = header.height;
     json["runs"] = header.run_count;

@@ -41,6 +41,11 @@ void talk(std::string_view text)
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+void talkError(const std::exception& error)
+{
+    talk(fmt::format("error: {}", error.what()));
+}
+
 void nameProgram(const char* name)
 {
     g_program = name;

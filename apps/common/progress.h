@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@ namespace zvo::cli
 
 /// Writes a line to standard error that begins with the program's name; control characters become spaces.
 void talk(std::string_view text);
+
+/// Tells of an error that the program survives.
+void talkError(const std::exception& error);
 
 /// Sets the program's name for talk(): "zvo" until then. name must outlive all calls of talk().
 void nameProgram(const char* name);

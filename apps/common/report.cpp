@@ -23,12 +23,14 @@ Json gridJson(const Grid& grid)
             {"depth", grid.depth}};
 }
 
+Json headJson(const std::string& schema, const vk::DeviceReport& device)
+{
+    return {{"schema", schema}, {"zvo", ZVO_VERSION_TEXT}, {"device", deviceJson(device)}};
+}
+
 Json headJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options, const Grid& grid)
 {
-    Json json;
-    json["schema"] = schema;
-    json["zvo"] = ZVO_VERSION_TEXT;
-    json["device"] = deviceJson(device);
+    Json json = headJson(schema, device);
     json["grid"] = gridJson(grid);
     json["resolution"] = grid.resolution();
     json["coverage"] = coverageName(options.coverage);
@@ -104,6 +106,12 @@ std::string jsonText(const Json& json)
 {
     // Strings from drivers and files need not be UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeReport(Output& report, const Json& json)
+{
+    report.write(jsonText(json));
+    report.finish();
 }
 
 const char* coverageName(Coverage coverage)

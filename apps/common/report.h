@@ -2,6 +2,7 @@
 // The numbers of a run as JSON. The names of the fields are an interface and do not change.
 #pragma once
 
+#include "common/output.h"
 #include "common/scene_options.h"
 #include "core/headless/pipeline.h"
 #include "core/update/merge_rule.h"
@@ -24,7 +25,10 @@ Json deviceJson(const vk::DeviceReport& device);
 /// Origin and voxel size of a grid, in the fewest digits that give the single precision numbers back bit for bit.
 Json gridJson(const Grid& grid);
 
-/// The beginning of every report: schema, version, device, grid, and how it was voxelized.
+/// The beginning of every report: schema, version and device.
+Json headJson(const std::string& schema, const vk::DeviceReport& device);
+
+/// The same, then grid, and how it was voxelized.
 Json headJson(const std::string& schema, const vk::DeviceReport& device, const VoxelOptions& options, const Grid& grid);
 
 /// The part of the reports of `zvo render` and `zvo voxelize` about the way from triangles to the octree; trace_ms is
@@ -44,6 +48,9 @@ double sumMs(const std::vector<vk::PassTime>& passes);
 
 /// json as indented text with a line break at the end.
 std::string jsonText(const Json& json);
+
+/// Writes a report and completes it. Throws as Output.
+void writeReport(Output& report, const Json& json);
 
 const char* coverageName(Coverage coverage);
 

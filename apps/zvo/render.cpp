@@ -143,8 +143,7 @@ public:
     {
         if (file)
         {
-            file->write(jsonText(m_report.json(m_pictures.count(), m_renderer.cappedRays())));
-            file->finish();
+            writeReport(*file, m_report.json(m_pictures.count(), m_renderer.cappedRays()));
         }
         m_report.tell(m_renderer.cappedRays());
     }

@@ -5,7 +5,6 @@
 #include "common/session.h"
 #include "core/file/zvo_file.h"
 #include "runtime/octree_sha256.h"
-#include "zvo/version.h"
 
 #include <fmt/format.h>
 
@@ -48,9 +47,7 @@ void RenderReport::addDag(const StaticPart& part)
 void RenderReport::addFile(const TreeData& tree)
 {
     m_built = fmt::format("{} voxels of {}^3 in {} nodes", tree.voxel_count, tree.grid.resolution(), tree.nodes.size());
-    m_json["schema"] = "zvo.render_tree/1";
-    m_json["zvo"] = ZVO_VERSION_TEXT;
-    m_json["device"] = deviceJson(m_device.device().report());
+    m_json = headJson("zvo.render_tree/1", m_device.device().report());
     m_json["structure"] = structureName(tree.structure);
     m_json["grid"] = gridJson(tree.grid);
     m_json["resolution"] = tree.grid.resolution();

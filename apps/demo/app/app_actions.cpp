@@ -174,7 +174,7 @@ void App::toggleRecording()
     }
     catch (const Error& error)
     {
-        cli::talk(fmt::format("error: {}", error.what()));
+        cli::talkError(error);
     }
 }
 

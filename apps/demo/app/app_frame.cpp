@@ -5,9 +5,6 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "zvo/error.h"
-#include "zvo/version.h"
-
-#include <fmt/format.h>
 
 #include <utility>
 #include <vector>
@@ -109,7 +106,7 @@ bool App::prepare(const Picture& picture)
         }
         if (!std::exchange(m_lacks_memory, true))
         {
-            cli::talk(fmt::format("error: {}", error.what()));
+            cli::talkError(error);
         }
         return false;
     }
@@ -191,7 +188,7 @@ void App::keep(const FrameInFlight& frame)
         {
             throw;
         }
-        cli::talk(fmt::format("error: {}", error.what()));
+        cli::talkError(error);
     }
 }
 
@@ -217,10 +214,7 @@ void App::writeStats()
     {
         return;
     }
-    cli::Json json;
-    json["schema"] = "zvo.demo/1";
-    json["zvo"] = ZVO_VERSION_TEXT;
-    json["device"] = cli::deviceJson(m_device.device().report());
+    cli::Json json = cli::headJson("zvo.demo/1", m_device.device().report());
     json["frames"] = m_frame;
     json["frames_drawn"] = m_drawn_count;
     json["first_frame_ms"] = m_first_frame_ms ? cli::Json(*m_first_frame_ms) : cli::Json(nullptr);
@@ -255,8 +249,7 @@ void App::writeStats()
                      {"used", memory.used},
                      {"peak", m_device.device().memory().peakBytes()},
                      {"held", memory.held}};
-    m_stats_output->write(cli::jsonText(json));
-    m_stats_output->finish();
+    cli::writeReport(*m_stats_output, json);
 }
 
 } // namespace zvo::demo

@@ -39,11 +39,6 @@ std::string freeName(const std::string& stem)
     throw Error(ErrorCode::Output, fmt::format("there are {} files like {}.zvo already", kSavedMost, stem));
 }
 
-void tellError(const std::exception& error)
-{
-    cli::talk(fmt::format("error: {}", error.what()));
-}
-
 } // namespace
 
 void App::loadFiles(const std::vector<std::filesystem::path>& files)
@@ -87,7 +82,7 @@ void App::loadAtOnce(const WorldOptions& options)
     }
     catch (const std::exception& error)
     {
-        tellError(error);
+        cli::talkError(error);
     }
     m_frame_start = Clock::now();
 }
@@ -126,7 +121,7 @@ void App::continueLoading()
     }
     catch (const std::exception& error)
     {
-        tellError(error);
+        cli::talkError(error);
     }
     m_loading.reset();
     if (failure)
@@ -197,7 +192,7 @@ void App::save()
     }
     catch (const std::exception& error)
     {
-        tellError(error);
+        cli::talkError(error);
     }
     m_frame_start = Clock::now();
 }

@@ -52,8 +52,6 @@ public:
     /// The events before a frame that were not taken yet.
     std::vector<InputEvent> take(std::uint64_t frame);
 
-    [[nodiscard]] bool finished() const { return m_next == m_events.size(); }
-
 private:
     std::vector<ScriptedEvent> m_events;
     std::size_t m_next = 0;

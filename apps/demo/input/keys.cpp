@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "demo/input/keys.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace zvo::demo
@@ -19,16 +17,6 @@ const KeyBinding* bindingOf(const KeyEvent& event)
                                         binding.control == event.modifiers.control && !event.modifiers.alt;
                              });
     return event.pressed && found != kKeyBindings.end() ? found : nullptr;
-}
-
-std::string keyTableText()
-{
-    std::string text = "| key | what it does |\n|---|---|\n";
-    for (const KeyBinding& binding : kKeyBindings)
-    {
-        text += fmt::format("| {} | {} |\n", binding.keys, binding.what);
-    }
-    return text;
 }
 
 } // namespace zvo::demo

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace zvo::demo
@@ -101,8 +100,5 @@ inline constexpr std::array kKeyBindings = {
 
 /// The row for a key that is pressed; null if there is none.
 const KeyBinding* bindingOf(const KeyEvent& event);
-
-/// The table in Markdown, as docs/window.md has it.
-std::string keyTableText();
 
 } // namespace zvo::demo
