@@ -67,7 +67,7 @@ TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)
     {
         Scene scene;
         scene.instances.push_back({0, glm::mat4(1.0F)});
-        place(scene, {axis, 1.0F});
+        applyLoadOptions(scene, {axis, 1.0F});
         const glm::mat4& turn = scene.instances[0].transform;
         EXPECT_EQ(transformPoint(turn, up), glm::vec3(0, 1, 0));
         EXPECT_EQ(glm::determinant(turn), 1.0F);
@@ -79,7 +79,7 @@ TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)
     // The usual convention: the front of a z-up model is the front of a y-up one.
     Scene scene;
     scene.instances.push_back({0, glm::mat4(1.0F)});
-    place(scene, {UpAxis::Z, 1.0F});
+    applyLoadOptions(scene, {UpAxis::Z, 1.0F});
     EXPECT_EQ(transformPoint(scene.instances[0].transform, {1, 2, 3}), glm::vec3(1, 3, -2));
 }
 
@@ -91,7 +91,7 @@ TEST(LoadScene, NodesArePlacedByOneAboveThemAll)
     scene.nodes[1].name = "child";
     scene.skins.push_back({{1}, {glm::mat4(1.0F)}});
     scene.instances.push_back({0, glm::mat4(1.0F), 2, 0});
-    place(scene, {UpAxis::Z, 2.0F});
+    applyLoadOptions(scene, {UpAxis::Z, 2.0F});
     ASSERT_EQ(scene.nodes.size(), 4U);
     EXPECT_EQ(scene.nodes[0].parent, kNone);
     EXPECT_EQ(transformPoint(scene.nodes[0].matrix.value(), {1, 2, 3}), glm::vec3(2, 6, -4));
@@ -115,7 +115,7 @@ TEST(LoadScene, ScaleMovesPointsAndCamerasButNotTheirAxes)
     camera.half_height = 3.0F;
     camera.transform[3] = glm::vec4(4, 5, 6, 1);
     scene.cameras.push_back(camera);
-    place(scene, {UpAxis::Z, 0.5F});
+    applyLoadOptions(scene, {UpAxis::Z, 0.5F});
     EXPECT_EQ(transformPoint(scene.instances[0].transform, {1, 0, 0}), glm::vec3(1, 1.5F, -1));
     EXPECT_EQ(scene.cameras[0].half_height, 1.5F);
     EXPECT_EQ(scene.cameras[0].transform[3], glm::vec4(2, 3, -2.5F, 1));
@@ -123,7 +123,7 @@ TEST(LoadScene, ScaleMovesPointsAndCamerasButNotTheirAxes)
     scene.instances[0].transform[3].x = 1e38F;
     try
     {
-        place(scene, {UpAxis::Y, 100.0F});
+        applyLoadOptions(scene, {UpAxis::Y, 100.0F});
         ADD_FAILURE() << "accepted";
     }
     catch (const Error& error)
