@@ -35,9 +35,10 @@ Vec normalOf(const Triangle& triangle);
 /// other convention.
 struct ThinRule
 {
-    std::array<std::uint32_t, 3> tie_order{
-        0, 1, 2};                       // among axes with equal |normal|, the first in this order is the major one
-    std::array<bool, 3> border_below{}; // [major axis] a plane at a border between layers belongs to the lower one
+    /// Among axes with equal |normal|, the first in this order is the major one.
+    std::array<std::uint32_t, 3> tie_order{0, 1, 2};
+    /// By major axis: a plane at a border between layers belongs to the lower one.
+    std::array<bool, 3> border_below{};
 };
 
 /// The axis with the largest |normal|; among equal ones the first in tie_order.

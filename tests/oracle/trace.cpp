@@ -131,8 +131,8 @@ struct VoxelTracer::Query
             if (!isMirrored(ray, axis))
                 continue;
             nearest_octant |= std::uint64_t{1} << axis;
-            origin[axis] = 3.0 - static_cast<double>(
-                                     mirroredOrigin(ray, axis)); // includes the rounding error of the mirrored origin
+            // With the rounding error of the mirrored origin.
+            origin[axis] = 3.0 - static_cast<double>(mirroredOrigin(ray, axis));
         }
     }
 

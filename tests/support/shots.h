@@ -16,8 +16,8 @@ namespace zvo::test
 /// Camera and options of a picture.
 struct Shot
 {
-    std::array<int, 3> eye = {
-        10, 5, 12}; // 2 eye + 1 eighths of the extent, which can be in any direction, near, far or inside
+    /// The camera stands at 2 eye + 1 eighths of the extent: in any direction, near, far or inside.
+    std::array<int, 3> eye = {10, 5, 12};
     std::array<int, 3> target = {2, 2, 2}; // quarters of the extent, never equal to the eye
     bool orthographic = false;
     bool beam = true;
