@@ -14,7 +14,7 @@ namespace zvo::demo
 namespace
 {
 
-// Frames whose looks are answered late.
+// Frames whose probes are answered late.
 class LateAnswers
 {
 public:
@@ -22,24 +22,24 @@ public:
 
     void frame(Stroke& stroke)
     {
-        m_looks.push_back(stroke.look());
-        if (m_looks.size() > m_late)
+        m_probes.push_back(stroke.probe());
+        if (m_probes.size() > m_late)
         {
-            if (stroke.found(m_looks.front(), true))
+            if (stroke.found(m_probes.front(), true))
             {
-                dabs.push_back(m_looks.front());
+                dabs.push_back(m_probes.front());
             }
             ends += stroke.takeEnd() ? 1 : 0;
-            m_looks.pop_front();
+            m_probes.pop_front();
         }
     }
 
-    std::vector<std::uint64_t> dabs; // looks that became dabs
+    std::vector<std::uint64_t> dabs; // probes that became dabs
     int ends = 0;
 
 private:
     std::size_t m_late;
-    std::deque<std::uint64_t> m_looks;
+    std::deque<std::uint64_t> m_probes;
 };
 
 TEST(Stroke, ADabForEachPlaceOfThePointerAndOneEnd)
@@ -109,9 +109,9 @@ TEST(Stroke, WhereNothingIsFoundThereIsNoDabButAnEnd)
     Stroke stroke;
     stroke.press();
     stroke.release();
-    EXPECT_FALSE(stroke.found(stroke.look() - 1, true)) << "of an older pointer";
+    EXPECT_FALSE(stroke.found(stroke.probe() - 1, true)) << "of an older pointer";
     EXPECT_FALSE(stroke.takeEnd());
-    EXPECT_FALSE(stroke.found(stroke.look(), false));
+    EXPECT_FALSE(stroke.found(stroke.probe(), false));
     EXPECT_TRUE(stroke.takeEnd());
     EXPECT_FALSE(stroke.takeEnd());
 }
