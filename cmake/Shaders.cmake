@@ -14,13 +14,17 @@ set(ZVO_SPIRV_PASSES
     --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store --ssa-rewrite
     --eliminate-dead-inserts --vector-dce --eliminate-dead-code-aggressive --merge-blocks)
 
-# zvo_embed_kernels(TARGET ROOT FUNCTION [INCLUDE dir] [DEPENDS target]): adds a generated source to TARGET that defines
-# `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT. They include what is below dir, by
-# default zvo's own shaders, after target was made.
+# zvo_embed_kernels(TARGET ROOT FUNCTION [INCLUDE dir] [DEPENDS target] [AS_COMPILED]): adds a generated source to
+# TARGET that defines `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT. They include
+# what is below dir, by default zvo's own shaders, after target was made. AS_COMPILED: they are not simplified.
 function(zvo_embed_kernels target root function_name)
-    cmake_parse_arguments(arg "" "INCLUDE;DEPENDS" "" ${ARGN})
+    cmake_parse_arguments(arg "AS_COMPILED" "INCLUDE;DEPENDS" "" ${ARGN})
     if(NOT arg_INCLUDE)
         set(arg_INCLUDE ${PROJECT_SOURCE_DIR}/shaders)
+    endif()
+    set(passes ${ZVO_SPIRV_PASSES})
+    if(arg_AS_COMPILED)
+        set(passes "")
     endif()
     file(GLOB_RECURSE kernels CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.comp)
     list(SORT kernels)
@@ -40,7 +44,7 @@ function(zvo_embed_kernels target root function_name)
             COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${arg_INCLUDE} -S comp
                     --depfile ${out_dir}/${name}.d -o ${out_dir}/${name}.spv ${root}/${kernel}
             COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-spec-constants
-                    ${ZVO_SPIRV_PASSES} ${out_dir}/${name}.spv -o ${out_dir}/${name}.spv
+                    ${passes} ${out_dir}/${name}.spv -o ${out_dir}/${name}.spv
             COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${out_dir}/${name}.spv
             COMMAND ${CMAKE_COMMAND} -DINPUT=${out_dir}/${name}.spv -DOUTPUT=${out_dir}/${name}.cpp -DSYMBOL=${symbol}
                     -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
