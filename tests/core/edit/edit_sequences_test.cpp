@@ -129,13 +129,13 @@ void play(bool objects, int cases)
 
 TEST(EditSequences, ShowWhatAModelHas)
 {
-    play(false, 200);
+    play(false, 100);
 }
 
 // Dynamic objects are anywhere, and a brush may come after any slice of an update.
 TEST(EditSequences, WithDynamicObjectsShowWhatAModelHas)
 {
-    play(true, 150);
+    play(true, 75);
 }
 
 } // namespace

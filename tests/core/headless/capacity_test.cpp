@@ -210,7 +210,7 @@ void expectLimitsAreKept(const Scene& scene, std::uint32_t depth, bool attribute
     ASSERT_EQ(expected.sha, runUnder(UINT64_MAX, scene, depth, attributes).sha);
     std::uint32_t failure_count = 0;
     bool succeeded = false;
-    for (std::uint64_t limit = 64 << 10; limit <= 2 * expected.peak_bytes; limit += limit / 3)
+    for (std::uint64_t limit = 64 << 10; limit <= 2 * expected.peak_bytes; limit += limit / 2)
     {
         const LimitedRun run = runUnder(limit, scene, depth, attributes);
         EXPECT_LE(run.peak_bytes, limit);
