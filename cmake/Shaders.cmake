@@ -6,13 +6,10 @@ find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
 find_program(SPIRV_VAL spirv-val REQUIRED)
 
-# What the compilers of drivers would do first, and for every pipeline anew: functions are inlined, variables become
-# values, and what nobody uses goes. None of these passes changes arithmetic, so results stay the same bits.
-set(ZVO_SPIRV_PASSES
-    --eliminate-dead-branches --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
-    --private-to-local --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive
-    --convert-local-access-chains --eliminate-local-single-block --eliminate-local-single-store --ssa-rewrite
-    --eliminate-dead-inserts --vector-dce --eliminate-dead-code-aggressive --merge-blocks)
+# What the compilers of drivers would do first, and for every pipeline anew: functions are inlined, and what nobody uses
+# goes. None of these passes changes arithmetic, so results stay the same bits.
+set(ZVO_SPIRV_PASSES --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
+                     --eliminate-dead-code-aggressive)
 
 # zvo_embed_kernels(TARGET ROOT FUNCTION [INCLUDE dir] [DEPENDS target] [AS_COMPILED]): adds a generated source to
 # TARGET that defines `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT. They include

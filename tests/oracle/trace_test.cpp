@@ -236,7 +236,7 @@ TEST(OracleTrace, AcceleratedTracerAgreesWithBruteForce)
         codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
         const VoxelTracer tracer(codes, depth);
         std::uint32_t hits = 0;
-        for (int i = 0; i < 1500; ++i)
+        for (int i = 0; i < 600; ++i)
         {
             Ray ray = pickRay(random, rootResolution(depth));
             if (i % 2 == 0) // aim at a voxel
@@ -250,7 +250,7 @@ TEST(OracleTrace, AcceleratedTracerAgreesWithBruteForce)
             ASSERT_EQ(tracer.trace(ray), expected) << "depth " << depth << " case " << i;
             hits += expected ? 1 : 0;
         }
-        EXPECT_GT(hits, 300U) << depth;
+        EXPECT_GT(hits, 120U) << depth;
     }
 }
 

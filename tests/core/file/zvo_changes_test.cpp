@@ -11,6 +11,7 @@
 #include "support/dags.h"
 #include "support/engine_device.h"
 #include "support/scenes.h"
+#include "support/sweep.h"
 #include "support/tree_probe.h"
 #include "support/tree_samples.h"
 #include "support/zvo_parts.h"
@@ -92,9 +93,12 @@ struct BodyChange
     unsigned change;
 };
 
-// Half of the changes are anywhere, half in a random section, because some sections are small.
+// Half of the changes are anywhere, half in a random section, because some sections are small. A sample of them, unless
+// the sweep is full.
 std::vector<BodyChange> bodyChanges(const ZvoFile& file)
 {
+    Sweep sweep;
+    const std::uint64_t first = sweep.first();
     std::mt19937_64 random(20);
     std::vector<BodyChange> changes;
     for (std::size_t i = 0; i < kChangeCount; ++i)
@@ -103,7 +107,11 @@ std::vector<BodyChange> bodyChanges(const ZvoFile& file)
         const std::size_t head = headBytes(file);
         const std::size_t at =
             i % 2 == 0 ? head + random() % (file.header.file_bytes - head) : section.offset + random() % section.bytes;
-        changes.push_back({at, static_cast<unsigned>(1 + random() % 255)});
+        const auto change = static_cast<unsigned>(1 + random() % 255);
+        if (i % sweep.step() == first)
+        {
+            changes.push_back({at, change});
+        }
     }
     return changes;
 }

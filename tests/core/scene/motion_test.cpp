@@ -196,7 +196,7 @@ void expectSweepHolds(const Motion& motion, double seconds, double slack)
 {
     const MotionSweep sweep = sweepOf(motion, seconds, 16);
     std::mt19937 random(11);
-    for (int i = 0; i < 200; ++i)
+    for (int i = 0; i < 100; ++i)
     {
         const glm::dvec3 point = randomVector(random, 3.0);
         glm::dvec3 low(INFINITY);

@@ -363,7 +363,7 @@ TEST(UpdateBudget, CostsThatSlicingCannotShortenDoNotMakeSlicesShrinkToNothing)
 TEST(UpdateBudget, CutsAnyUpdateIntoConsecutivePartsThatFit)
 {
     zvo::test::checkProperty(
-        1000,
+        400,
         []
         {
             const auto names =
