@@ -253,9 +253,10 @@ TEST(ZvoChanges, OfTheBodyWithItsChecksumsAreRefusedOrSoundTrees)
             expectSoundDag(*tree);
         }
     }
+    EXPECT_GT(accepted_counts.size(), 2U);
     for (const auto& [section, part] : parts)
     {
-        EXPECT_GT(accepted_counts[section], 0U) << part;
+        EXPECT_TRUE(accepted_counts.contains(section) || !Sweep().isFull()) << part;
     }
 }
 
