@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
@@ -13,6 +15,24 @@
 
 namespace zvo::cli
 {
+
+namespace
+{
+
+bool isFile(const std::string& output)
+{
+    return !output.empty() && output != "-";
+}
+
+bool areSame(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+    std::error_code ignored;
+    const auto canonical = [&ignored](const std::filesystem::path& path)
+    { return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored); };
+    return canonical(a) == canonical(b) || std::filesystem::equivalent(a, b, ignored);
+}
+
+} // namespace
 
 Output::Output(const std::string& target, bool overwrite)
 {
@@ -56,29 +76,27 @@ std::optional<Output> openReport(const OutputOptions& options)
 
 void checkPaths(const OutputOptions& options, std::span<const std::filesystem::path> inputs)
 {
-    const auto same = [](const std::filesystem::path& a, const std::filesystem::path& b)
-    {
-        std::error_code ignored;
-        const auto placeOf = [&ignored](const std::filesystem::path& path)
-        { return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored); };
-        return placeOf(a) == placeOf(b) || std::filesystem::equivalent(a, b, ignored);
-    };
     const bool both_to_stdout = options.path == "-" && options.json == "-";
-    const bool both_to_files = options.path != "-" && options.json != "-" && !options.json.empty();
-    if (both_to_stdout || (both_to_files && same(options.path, options.json)))
+    if (both_to_stdout || (isFile(options.path) && isFile(options.json) && areSame(options.path, options.json)))
     {
         throw Error(ErrorCode::Usage, fmt::format("-o and --json both name {}; they need two places", options.path));
     }
-    for (const std::filesystem::path& input : inputs)
+    checkOutputs(std::array{options.path, options.json}, inputs);
+}
+
+void checkOutputs(std::span<const std::string> outputs, std::span<const std::filesystem::path> inputs)
+{
+    for (const std::string& output : outputs)
     {
-        for (const std::string& output : {options.path, options.json})
+        const auto isOutput = [&](const std::filesystem::path& other) { return areSame(output, other); };
+        if (isFile(output) && std::ranges::any_of(inputs, isOutput))
         {
-            if (!output.empty() && output != "-" && same(output, input))
-            {
-                throw Error(ErrorCode::Usage, fmt::format("{} is an input and would be overwritten; name another "
-                                                          "output",
-                                                          output));
-            }
+            throw Error(ErrorCode::Usage,
+                        fmt::format("{} is an input and would be overwritten; name another output", output));
+        }
+        if (isFile(output) && std::ranges::count_if(outputs, isOutput) > 1)
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} is named for two outputs; they need two places", output));
         }
     }
 }

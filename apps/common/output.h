@@ -37,6 +37,9 @@ std::optional<Output> openReport(const OutputOptions& options);
 /// Throws Error{Usage} if two results would go to one file, or if one would overwrite an input.
 void checkPaths(const OutputOptions& options, std::span<const std::filesystem::path> inputs);
 
+/// Throws Error{Usage} if two of the outputs are one file, or if one would overwrite an input. "" and "-" are no files.
+void checkOutputs(std::span<const std::string> outputs, std::span<const std::filesystem::path> inputs);
+
 /// The extension of a path in lower case, with its dot.
 std::string extensionOf(const std::string& path);
 

@@ -384,7 +384,11 @@ TEST_F(DemoWindow, ErrorsAreThoseOfTheCommandLine)
     expectError({"broken.glb"}, 3, "broken.glb");
     expectError({"cube.glb", "--input-script", "missing.json"}, 3, "missing.json");
     expectError({"cube.glb", "--frames", "1", "--screenshot", "nowhere/a.png"}, 4, "nowhere");
-    expectError({"cube.glb", "--frames", "1", "--json", "cube.glb"}, 4, "cube.glb");
+    expectError({"cube.glb", "--frames", "1", "--json", "cube.glb", "-f"}, 2, "is an input");
+    expectError({"cube.glb", "--frames", "1", "--record-input", "./cube.glb", "-f"}, 2, "is an input");
+    expectError({"cube.glb", "--frames", "1", "--json", "a.png", "--screenshot", "a.png"}, 2, "two outputs");
+    expectError({"cube.glb", "--frames", "1", "--screenshot", "cube.glb", "-f"}, 2, ".png");
+    expectError({"cube.glb", "--frames", "1", "--json", "broken.glb"}, 4, "broken.glb");
     expectError({"cube.glb", "--device", "no such device"}, 5, "no such device");
     expectError({"cube.glb", "--memory-limit", "1M"}, 6, "--memory-limit");
 }

@@ -2,6 +2,7 @@
 #include "demo/app/options.h"
 
 #include "common/option_groups.h"
+#include "common/output.h"
 #include "common/parse.h"
 #include "common/view.h"
 #include "zvo/error.h"
@@ -10,8 +11,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <array>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace zvo::demo
 {
@@ -174,6 +178,19 @@ void check(const DemoOptions& options)
     {
         throw usageError("--screenshot needs a file's name");
     }
+    if (!options.screenshot.empty() && cli::extensionOf(options.screenshot) != ".png")
+    {
+        throw usageError(fmt::format("{}: pictures are PNG files; name it .png", options.screenshot));
+    }
+    std::vector<std::filesystem::path> inputs = options.voxels.scenes;
+    for (const std::optional<std::filesystem::path>& input : {options.input_script, options.camera_path})
+    {
+        if (input)
+        {
+            inputs.push_back(*input);
+        }
+    }
+    cli::checkOutputs(std::array{options.screenshot, options.json, options.record_input.value_or("").string()}, inputs);
 }
 
 } // namespace
