@@ -101,6 +101,14 @@ void checkOutputs(std::span<const std::string> outputs, std::span<const std::fil
     }
 }
 
+void checkPictureName(std::string_view option, const std::string& path)
+{
+    if (extensionOf(path) != ".png")
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: pictures are PNG files; name it .png", option, path));
+    }
+}
+
 std::string extensionOf(const std::string& path)
 {
     std::string extension = std::filesystem::path(path).extension().string();

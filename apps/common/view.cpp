@@ -17,8 +17,8 @@ namespace
 {
 
 constexpr float kDefaultFov = 45.0F; // degrees
-constexpr double kCloseDistance =
-    0.42; // of the framing camera's distance: about two thirds of the rays hit a single object
+// Of the framing camera's distance: about two thirds of the rays hit a single object.
+constexpr double kCloseDistance = 0.42;
 
 constexpr std::array kViews = {
     NamedView{"color", View::Color}, NamedView{"albedo", View::Albedo}, NamedView{"normal", View::Normal},

@@ -11,9 +11,9 @@ namespace zvo::cli
 Pictures::Pictures(const RenderOptions& options) : m_options(options)
 {
     const std::string& path = options.output.path;
-    if (path != "-" && extensionOf(path) != ".png")
+    if (path != "-")
     {
-        throw Error(ErrorCode::Usage, fmt::format("-o {}: pictures are PNG files; name it .png", path));
+        checkPictureName("-o", path);
     }
     if (!options.frames)
     {

@@ -177,8 +177,8 @@ private:
         listener.operation = [&](std::string_view operation) { m_progress.begin(operation); };
         listener.built = [&](const BuildResult& built)
         {
-            m_has_warned =
-                m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped); // only once, not for each frame
+            // Only once, not for each frame.
+            m_has_warned = m_has_warned || warnOfDropped(built.octree.voxel_count, built.dropped);
             report(built);
         };
         StaticPart part =

@@ -22,8 +22,8 @@ struct InstanceOptions
     bool validation = false;
     bool gpu_assisted_validation = false; // implies validation
     std::vector<const char*> extensions;  // such as those of a window
-    std::atomic<std::uint32_t>* message_counter =
-        nullptr; // counts messages as well, until the instance is gone; may be null
+    /// Counts messages as well, until the instance is gone; may be null.
+    std::atomic<std::uint32_t>* message_counter = nullptr;
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: the machine's loader
 };
 

@@ -152,8 +152,8 @@ TYPED_TEST(CStruct, AnArraysFirstSizeIsItsStride)
     {
         EXPECT_EQ(this->bytesOf(read[i])[this->kSizeBytes], i + 1);
     }
-    bytes[stride] =
-        static_cast<unsigned char>(stride - 8); // the lowest byte of the second one's size, which is below 256
+    // The lowest byte of the second one's size, which is below 256.
+    bytes[stride] = static_cast<unsigned char>(stride - 8);
     if (stride < 256)
     {
         expectUsage([&] { readStructs(this->in(bytes), 3, "it"); }, "several sizes");

@@ -12,8 +12,8 @@ namespace zvo::stress
 namespace
 {
 
-constexpr int kDepthMax =
-    16; // single precision, with 24 bits, holds all lattice points up to here; deep_grid_test covers deeper grids
+// Single precision, with 24 bits, holds all lattice points up to here; deep_grid_test covers deeper grids.
+constexpr int kDepthMax = 16;
 
 /// Puts one triangle into each block of edge^3 voxels, in blocks drawn without repetition. A voxel's width is left free
 /// at each side of a block, because closed voxels touch.

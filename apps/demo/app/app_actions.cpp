@@ -34,8 +34,8 @@ void App::onKey(const KeyEvent& event)
 
 void App::perform(const KeyBinding& binding, Key key)
 {
-    const auto number =
-        static_cast<std::size_t>(key) - static_cast<std::size_t>(binding.key); // position in a range of keys
+    // Position in a range of keys.
+    const auto number = static_cast<std::size_t>(key) - static_cast<std::size_t>(binding.key);
     switch (binding.action)
     {
     case Action::ShowKeys:

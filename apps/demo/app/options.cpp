@@ -178,9 +178,9 @@ void check(const DemoOptions& options)
     {
         throw usageError("--screenshot needs a file's name");
     }
-    if (!options.screenshot.empty() && cli::extensionOf(options.screenshot) != ".png")
+    if (!options.screenshot.empty())
     {
-        throw usageError(fmt::format("{}: pictures are PNG files; name it .png", options.screenshot));
+        cli::checkPictureName("--screenshot", options.screenshot);
     }
     std::vector<std::filesystem::path> inputs = options.voxels.scenes;
     for (const std::optional<std::filesystem::path>& input : {options.input_script, options.camera_path})

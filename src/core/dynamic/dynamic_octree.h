@@ -33,8 +33,8 @@ struct DynamicOptions
 {
     Coverage coverage = DynamicTreeInfo().coverage; // of the dynamic objects; should be the static tree's
     MergeRule merge = DynamicTreeInfo().merge;
-    std::uint32_t frames_in_flight =
-        DynamicTreeInfo().frames_in_flight; // frames that may be recorded before frameDone() of the first one
+    /// Frames that may be recorded before frameDone() of the first one.
+    std::uint32_t frames_in_flight = DynamicTreeInfo().frames_in_flight;
     HistoryBounds history = {};
     EditBounds edits = {};
     float emission_scale = DynamicTreeInfo().emission_scale;

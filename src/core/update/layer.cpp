@@ -90,8 +90,9 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     LayerBuffers& layer = job.layer;
     VoxelizeBuffers& voxelize = layer.voxelize;
     const auto leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
+    // Where no sums are kept, nothing limits their number.
     const std::uint32_t voxel_capacity =
-        layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX; // none are kept
+        layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX;
     graph.fill(layer.counters, 0);
     {
         vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid)});

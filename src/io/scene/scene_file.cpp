@@ -21,8 +21,8 @@ constexpr double kSecondsMax = 1e6;
 constexpr double kFramesPerSecondMax = 1e4;
 constexpr double kDegreesOfTurn = 360.0;
 constexpr double kDefaultFov = 45.0; // degrees
-constexpr double kHalfTurnCosine =
-    1e-9; // of half the angle; nearer to a half turn, rounding would decide the direction
+// Of half the angle; nearer to a half turn, rounding would decide the direction.
+constexpr double kHalfTurnCosine = 1e-9;
 
 std::optional<glm::dvec3> findVector(const JsonCursor& object, std::string_view key)
 {

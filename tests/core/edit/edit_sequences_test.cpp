@@ -107,7 +107,6 @@ void play(bool objects, int cases)
 {
     DynamicScenery dark(device(), false);
     DynamicScenery bright(device(), true);
-    int compared = 0;
     test::checkProperty(
         cases,
         [&]
@@ -122,9 +121,7 @@ void play(bool objects, int cases)
                 machine.run(command);
             }
             machine.finish();
-            ++compared;
         });
-    EXPECT_GE(compared, cases);
 }
 
 TEST(EditSequences, ShowWhatAModelHas)

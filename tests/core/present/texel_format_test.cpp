@@ -268,8 +268,8 @@ TEST(TexelFormat, HalfFloatsAreExposedRadiance)
 TEST(TexelFormat, HalfFloatsOfTheSkyAreExposedRadiance)
 {
     const DeviceTree octree = test::octreeOf(device(), {}, 4);
-    const std::size_t middle =
-        kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2; // sizes are odd: this ray goes straight forward
+    // Sizes are odd: this ray goes straight forward.
+    const std::size_t middle = kTexelsHigh / 2 * kTexelsWide + kTexelsWide / 2;
     TraceOptions options;
     options.exposure = 0.5F;
     options.to_sun = {-1.0, 0.6, 0.0};

@@ -270,8 +270,8 @@ TEST(Animation, TheWheelsOfTheTruckTurnAndItsBodyStands)
     int wheel_count = 0;
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
     {
-        const bool is_wheel =
-            scene.nodes.at(scene.instances[i].node).parent != kNone; // wheels are children of the body
+        // Wheels are children of the body.
+        const bool is_wheel = scene.nodes.at(scene.instances[i].node).parent != kNone;
         EXPECT_EQ(isAnimated(scene, i), is_wheel);
         const glm::mat4& rest = scene.instances[i].transform;
         if (!is_wheel)
