@@ -162,10 +162,12 @@ template <typename T> struct DescribedConstant : ConstantDescription
 GPU_NAMESPACE_BEGIN
 
 GPU_BUFFER(uint, 4);
+GPU_BUFFER(float, 4);
 GPU_BUFFER(ivec2, 4);
 GPU_BUFFER(uvec2, 4);
 GPU_BUFFER(uvec3, 4);
 GPU_BUFFER(uvec4, 4);
+GPU_BUFFER(vec2, 8);
 GPU_BUFFER(vec3, 4);
 GPU_BUFFER(uint64_t, 8);
 

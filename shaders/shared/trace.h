@@ -18,7 +18,7 @@ struct Ray
     vec3 inverse_direction; // 1 / direction per axis, as lib/ray.glsl's inverseDirection() gives it
     float t_max;            // no hit starts after this
 };
-GPU_BUFFER(Ray, 4);
+GPU_BUFFER(Ray, 8);
 
 /// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
 /// left, offset = n.x * half_pixel_x + n.y * half_pixel_y: perspective rays start at origin along forward + offset,

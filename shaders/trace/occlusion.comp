@@ -8,6 +8,7 @@
 #include "lib/attribute_formats.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
+#include "lib/frame.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
 #include "lib/surface_normal.glsl"
@@ -31,15 +32,6 @@ const float kGoldenAngle = 2.39996323;
 
 // The light of a ray that starts inside of a voxel, in a crevice narrower than the lift, for which nothing is known.
 const float kInsideShare = 0.4;
-
-// Axes orthogonal to a normal (T. Duff et al., Building an Orthonormal Basis, Revisited, 2017).
-mat3 frameAround(vec3 n)
-{
-    float sign = n.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (sign + n.z);
-    float b = n.x * n.y * a;
-    return mat3(vec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y), n);
-}
 
 void main()
 {

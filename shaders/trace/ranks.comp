@@ -21,6 +21,7 @@ layout(constant_id = 1) const bool kDetail = false;   // hits may be nodes
 layout(constant_id = 2) const bool kTiles = true;     // of a picture
 layout(constant_id = 3) const uint kEntriesPerWord = 2u; // of lists
 layout(constant_id = 4) const bool kOverlays = false; // the upper nodes may be those of an overlay
+layout(constant_id = 5) const bool kCounted = false;  // the device knows how many hits the list has
 
 #include "lib/ranks.glsl"
 
@@ -50,8 +51,14 @@ void main()
             return;
         i = pixel.y * size.x + pixel.x;
     }
-    else if (i >= params.hit_count)
-        return;
+    else
+    {
+        uint hit_count = params.hit_count;
+        if (kCounted)
+            hit_count = params.list_length.data[0];
+        if (i >= hit_count)
+            return;
+    }
     Hit hit = loadHit(Hit_ConstPtr(uint64_t(params.hits)), i);
     if (isMiss(hit))
         return;

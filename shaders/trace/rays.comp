@@ -6,9 +6,11 @@
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
+#include "lib/ray_words.glsl"
 
 layout(constant_id = 5) const bool kResume = false; // only rays that the round before left unfinished
 layout(constant_id = 6) const bool kMore = false;     // another round follows
+layout(constant_id = 7) const bool kCounted = false;  // the device knows how many rays there are
 
 layout(local_size_x = kRaysGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -24,7 +26,10 @@ layout(push_constant, scalar) uniform Push
 void main()
 {
     uint i = threadIndex();
-    if (i >= params.ray_count)
+    uint ray_count = params.ray_count;
+    if (kCounted)
+        ray_count = params.list_length.data[0];
+    if (i >= ray_count)
         return;
     uvec3 from = uvec3(0u);
     if (kResume)
@@ -34,18 +39,14 @@ void main()
             return;
         from = limitsAfter(last.t, hitFace(last));
     }
-    Ray ray; // read by members: GPU-assisted validation takes the struct for larger than it is
-    ray.origin = params.rays.data[i].origin;
-    ray.t_min = params.rays.data[i].t_min;
-    ray.inverse_direction = params.rays.data[i].inverse_direction;
-    ray.t_max = params.rays.data[i].t_max;
+    Ray ray = loadRay(params.rays, i);
     bool valid = isTraceable(ray);
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
     // An invalid ray is replaced by one that ends before it starts.
     Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0),
                                 valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail, from, kIterationsMax);
     if (result.unfinished)
-        endUnfinished(kMore, params.rounds, params.round, (params.ray_count - 1u) / kRaysGroup + 1u, params.status);
+        endUnfinished(kMore, params.rounds, params.round, (ray_count - 1u) / kRaysGroup + 1u, params.status);
     uint miss = kMore && result.unfinished ? kHitUnfinished : kHitMiss;
     storeHit(params.hits, i, result.t, result.hit ? result.index : miss, result.cell, result.level, result.face);
 }

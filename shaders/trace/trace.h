@@ -12,8 +12,6 @@ GPU_ENUM(TraceStack, std::uint32_t)      // kStackRegisters and so on (shared/tr
 
 GPU_NAMESPACE_BEGIN
 
-GPU_BUFFER(float, 4);
-
 const uint kRaysGroup = 64u; // threads of a workgroup of trace/rays
 
 // Pictures are traced in square tiles, one workgroup each.
@@ -49,8 +47,9 @@ struct RaysParams // push constants of trace/rays
     GPU_CONST_PTR(Ray) rays; // [ray_count]
     GPU_PTR(Hit) hits;       // [ray_count]
     GPU_PTR(TraceStatus) status;
-    GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
-    vec2 detail;                  // as traverse()
+    GPU_PTR(DispatchArgs) rounds;    // [kTraceRoundsMax] cleared; kMore only
+    GPU_CONST_PTR(uint) list_length; // [1], at most ray_count; kCounted only
+    vec2 detail;                     // as traverse()
     uint ray_count;
     uint round; // that unfinished rays wait for
 };
@@ -58,6 +57,7 @@ GPU_KERNEL_BEGIN(trace, rays, Rays, RaysParams)
     TRAVERSE_CONSTANTS
     GPU_CONSTANT(bool, resume, false)
     GPU_CONSTANT(bool, more, false)
+    GPU_CONSTANT(bool, counted, false)
 GPU_KERNEL_END
 
 struct RanksParams // push constants of trace/ranks
@@ -65,6 +65,7 @@ struct RanksParams // push constants of trace/ranks
     RankSource source;
     GPU_CONST_PTR(BeforeChild) overlay_ranks; // by nodes of overlays; kOverlays only, like the last one
     GPU_CONST_PTR(uvec2) live;                // kTiles only
+    GPU_CONST_PTR(uint) list_length;          // as in RaysParams; kCounted only
     GPU_PTR(Hit) hits;
     uint width; // of the picture; kTiles only, like the next one
     uint height;
@@ -77,6 +78,7 @@ GPU_KERNEL_BEGIN(trace, ranks, Ranks, RanksParams)
     GPU_CONSTANT(bool, tiles, true)
     GPU_CONSTANT(uint, entries_per_word, 2u)
     GPU_CONSTANT(bool, overlays, false)
+    GPU_CONSTANT(bool, counted, false)
 GPU_KERNEL_END
 
 struct PrimaryParams // push constants of trace/primary

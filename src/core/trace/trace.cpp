@@ -143,7 +143,7 @@ void trace(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, 
 
 void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf<gpu::Ray>& rays,
                vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
-               vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options)
+               vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options, const RayListLength* length)
 {
     if (isEmpty(tree))
     {
@@ -159,15 +159,17 @@ void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf
         params.status = pass.readWrite(status);
         params.detail = detailOf(options, nullptr);
         params.ray_count = static_cast<std::uint32_t>(rays.count());
+        params.list_length = readLength(pass, length);
         return params;
     };
     const std::uint64_t groups = divideUp(rays.count(), gpu::kRaysGroup);
-    addRounds(graph, traversing(gpu::trace::Rays{}, graph.device(), tree, options), roundsFor(tree, options), rounds,
+    const gpu::trace::Rays kernel{.counted = length != nullptr};
+    addRounds(graph, traversing(kernel, graph.device(), tree, options), roundsFor(tree, options), rounds,
               divideUp(groups, gpu::kTilesFold) * gpu::kTilesFold, declare,
-              [&](auto& pass, const gpu::RaysParams& params) { pass.dispatch(rays.count(), params); });
+              [&](auto& pass, const gpu::RaysParams& params) { dispatchList(pass, params, rays.count(), length); });
     if (tree.isDag() && tree.hasAttributes())
     {
-        rankHits(graph, tree, options, hits, rays.count());
+        rankHits(graph, tree, options, hits, rays.count(), length);
     }
 }
 

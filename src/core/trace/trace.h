@@ -128,13 +128,23 @@ void inspectPixel(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCame
 void trace(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
            const TraceOptions& options, TraceBuffers& buffers);
 
+/// How many elements of a list of rays count, where only the device knows: a word, and the workgroups for it.
+struct RayListLength
+{
+    const vk::BufferOf<gpu::DispatchArgs>& buffer;
+    std::uint64_t args = 0; // element with the workgroups, of kRaysGroup threads each
+    std::uint64_t word = 0; // of the buffer, with the number of rays
+};
+
 /// Records the passes that trace a list of rays in the unit space of tree: hits[i] is what rays[i] hits first. hits
 /// must have as many elements as rays, rounds kTraceRoundsMax. A ray with a component that is NaN or infinite, or with
 /// an inverse direction too small to be a normal number, hits nothing. In a DAG without attributes, Hit::index only
-/// tells hits from misses. Rays without an answer are added to status[0].capped_rays.
+/// tells hits from misses. Rays without an answer are added to status[0].capped_rays. length: null if all elements of
+/// rays count.
 void traceRays(vk::FrameGraph& graph, const DeviceTree& tree, const vk::BufferOf<gpu::Ray>& rays,
                vk::BufferOf<gpu::Hit>& hits, vk::BufferOf<gpu::DispatchArgs>& rounds,
-               vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options);
+               vk::BufferOf<gpu::TraceStatus>& status, const TraceOptions& options,
+               const RayListLength* length = nullptr);
 
 /// The number of rays that tracePrimary() has to answer; Mrays/s are counted by it.
 inline std::uint64_t primaryRayCount(const TraceBuffers& buffers)

@@ -77,6 +77,13 @@ gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera)
     return detail;
 }
 
+gpu::ConstPtr<gpu::uint> readLength(vk::AnyPass& pass, const RayListLength* length)
+{
+    return length == nullptr
+               ? gpu::ConstPtr<gpu::uint>{}
+               : gpu::ConstPtr<gpu::uint>{pass.read(length->buffer).address + length->word * sizeof(gpu::uint)};
+}
+
 bool needsLight(const TraceOptions& options)
 {
     return options.view == View::Color && (options.shadows || options.occlusion_rays != 0);

@@ -110,6 +110,21 @@ void addRounds(vk::FrameGraph& graph, Kernel kernel, std::uint32_t round_count, 
 /// The level of detail, as traverse() takes it: a ray stops at a node whose edge is at most max(x * t, y).
 gpu::vec2 detailOf(const TraceOptions& options, const TraceCamera* camera);
 
+/// Declares that pass reads how many elements a list has, and returns where; null without a length.
+gpu::ConstPtr<gpu::uint> readLength(vk::AnyPass& pass, const RayListLength* length);
+
+/// Dispatches a thread for each element of a list: for all `count` of them without a length.
+template <typename Pass, typename Params>
+void dispatchList(Pass& pass, const Params& params, std::uint64_t count, const RayListLength* length)
+{
+    if (length == nullptr)
+    {
+        pass.dispatch(count, params);
+        return;
+    }
+    pass.dispatchIndirect(length->buffer, length->args, params, divideUp(count, gpu::kRaysGroup));
+}
+
 /// Returns a function that dispatches the first round of the rays of live tiles (for addRounds).
 inline auto dispatchLive(const TraceBuffers& buffers)
 {

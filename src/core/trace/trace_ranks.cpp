@@ -21,7 +21,7 @@ gpu::ConstPtr<gpu::BeforeChild> overlayRanks(vk::AnyPass& pass, const DeviceTree
 
 // Records the pass, unless there is no list: then the number in the leaf is the rank.
 template <typename Dispatch>
-void addRanks(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, bool tiles,
+void addRanks(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, bool tiles, bool counted,
               const Dispatch& dispatch)
 {
     const std::uint32_t levels = tree.grid.nodeLevels();
@@ -33,7 +33,8 @@ void addRanks(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions&
                                                     .detail = options.hasDetail(),
                                                     .tiles = tiles,
                                                     .entries_per_word = tree.entriesPerWord(),
-                                                    .overlays = tree.hasOverlays()});
+                                                    .overlays = tree.hasOverlays(),
+                                                    .counted = counted});
     gpu::RanksParams params{};
     params.source = rankSource(pass, tree);
     params.overlay_ranks = overlayRanks(pass, tree);
@@ -64,7 +65,7 @@ void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& bea
 
 void rankTiles(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, TraceBuffers& buffers)
 {
-    addRanks(graph, tree, options, true,
+    addRanks(graph, tree, options, true, false,
              [&](auto& pass, gpu::RanksParams& params)
              {
                  params.live = pass.read(buffers.live);
@@ -76,14 +77,15 @@ void rankTiles(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions
 }
 
 void rankHits(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
-              std::uint64_t count)
+              std::uint64_t count, const RayListLength* length)
 {
-    addRanks(graph, tree, options, false,
+    addRanks(graph, tree, options, false, length != nullptr,
              [&](auto& pass, gpu::RanksParams& params)
              {
                  params.hits = pass.readWrite(hits);
                  params.hit_count = static_cast<gpu::uint>(count);
-                 pass.dispatch(count, params);
+                 params.list_length = readLength(pass, length);
+                 dispatchList(pass, params, count, length);
              });
 }
 

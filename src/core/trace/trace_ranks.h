@@ -20,6 +20,6 @@ void buildRankTable(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& bea
 /// levels of nodes for each hit.
 void rankTiles(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, TraceBuffers& buffers);
 void rankHits(vk::FrameGraph& graph, const DeviceTree& tree, const TraceOptions& options, vk::BufferOf<gpu::Hit>& hits,
-              std::uint64_t count);
+              std::uint64_t count, const RayListLength* length);
 
 } // namespace zvo
