@@ -9,6 +9,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
+#include "core/path/path_tracer.h"
 #include "core/present/present.h"
 #include "core/scene/animation.h"
 #include "core/trace/trace.h"
@@ -141,6 +142,25 @@ Names tracePictures(const DeviceTree& tree)
                         {
                             graph.fill(status, 0);
                             traceRays(graph, tree, rays, hits, rounds, status, {});
+                        }));
+    return names;
+}
+
+// Traces paths through a tree with emissive voxels.
+Names tracePaths(const DeviceTree& tree)
+{
+    Environment sky(device().device());
+    PathTracer tracer(device().device());
+    tracer.resize(9, 10);
+    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    const TraceCamera camera = traceCamera(view, tree.grid, 10);
+    vk::BufferOf<gpu::uint> picture(device().device(), "picture", 90);
+    Names names;
+    addNames(names, device().run(
+                        [&](vk::FrameGraph& graph)
+                        {
+                            tracer.addSample(graph, tree, sky, camera, {.bounces = 1});
+                            tracer.develop(graph, TexelFormat::Rgba8, {}, picture);
                         }));
     return names;
 }
@@ -444,6 +464,7 @@ TEST(EveryKernel, RunsOnASmallScene)
             names.merge(mergeObjects(scene, grid, c.coverage, false));
             names.merge(tracePictures(built.octree));
             names.merge(traceForHosts(built.octree));
+            names.merge(tracePaths(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
             names.merge(mergeObjects(scene, deep, c.coverage, true));

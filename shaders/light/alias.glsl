@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// What the kernels for alias tables share (environment.h). The includer includes light/environment.h and
+// lib/dispatch.glsl before and declares params.
+
+// The weight in steps of cell i of a normal.
+uint weightOf(uint normal, uint i)
+{
+    float heaviest = uintBitsToFloat(params.totals.data[0].heaviest[normal]);
+    float weight = params.weights.data[normal * params.cell_count + i];
+    const uint steps = (1u << kWeightBits) - 1u;
+    uint rounded = uint(weight / max(heaviest, kSmallestFloat) * float(steps) + 0.5);
+    return weight > 0.0 ? clamp(rounded, 1u, steps) : 0u;
+}
+
+// The sum of all weights of a normal, in steps.
+uint64_t totalOf(uint normal)
+{
+    return uint64_t(params.totals.data[0].low_sums[normal]) +
+           (uint64_t(params.totals.data[0].high_sums[normal]) << (kWeightBits / 2u));
+}
+
+AliasSums add(AliasSums a, AliasSums b)
+{
+    return AliasSums(a.lacks + b.lacks, a.gives + b.gives, a.light_count + b.light_count,
+                     a.heavy_count + b.heavy_count);
+}
+
+// A cell's own. Weights are compared with the mean times the number of cells.
+AliasSums sumsOf(uint normal, uint i, uint64_t total)
+{
+    uint64_t weight = uint64_t(weightOf(normal, i)) * params.cell_count;
+    bool light = weight <= total;
+    return AliasSums(light ? total - weight : uint64_t(0), light ? uint64_t(0) : weight - total, light ? 1u : 0u,
+                     light ? 0u : 1u);
+}

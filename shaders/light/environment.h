@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Light from outside of the grid: a map of radiance in all directions, a sun, and the tables by which directions
+// towards the map's light are chosen.
+//
+// A map has width x height texels of linear radiance, row by row from the top: equirectangular, up is +y, the middle of
+// the map is -z, and +x is a quarter of the width to the right of it. Between the middles of texels radiance is linear.
+//
+// Directions are chosen by cells, which divide the map evenly: a cell by an alias table (A. Walker, 1977), in it a
+// direction uniformly by solid angle. There is a table for each of the six normals that faces of voxels have. A cell's
+// weight is its mean luminance times its solid angle times the cosine between its directions and the normal, as a
+// fraction of the heaviest cell's in kWeightBits bits, but at least one step. All further numbers are integers, so that
+// probabilities are the weights' shares exactly.
+//
+// Alias tables are made in parallel (L. Huebschle-Schneider, P. Sanders, Parallel Weighted Random Sampling, 2019). A
+// cell is light if its weight is at most the mean, else heavy. What light cells lack and what heavy cells have too much
+// is laid end to end, each in the order of the cells. A light cell is filled up by the heavy one in whose stretch the
+// light cell's stretch begins; a heavy cell that has given more than it had is filled up by the next heavy one.
+#ifndef ZVO_SHADERS_LIGHT_ENVIRONMENT_H
+#define ZVO_SHADERS_LIGHT_ENVIRONMENT_H
+
+#include "shared/gpu.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kNormals = 6u;             // +x, +y, +z, -x, -y, -z
+const uint kAliasGroup = 64u;         // threads of a workgroup
+const uint kAliasItems = 16u;         // cells that a thread takes where sums are made
+const uint kAliasBlock = 1024u;       // cells of a workgroup there
+const uint kAliasCellsMax = 1u << 19; // so that sums have 64 bits
+const uint kWeightBits = 24u;
+const float kSmallestFloat = 1.17549435e-38f; // normal
+
+/// A cell in the table of a normal.
+struct AliasCell
+{
+    uint threshold;    // 2^32 times the part of the cell's choices that it keeps
+    uint alias;        // gets the others
+    float probability; // of being chosen
+};
+GPU_BUFFER(AliasCell, 4);
+
+/// What the tables of the normals are made of.
+struct AliasTotals
+{
+    uint heaviest[kNormals];    // bits of the largest weight as a float
+    uint low_sums[kNormals];    // sum of the lower kWeightBits / 2 bits of all weights, in steps
+    uint high_sums[kNormals];   // and of the upper ones
+    float irradiance[kNormals]; // luminance that a face with this normal receives of the map
+};
+GPU_BUFFER(AliasTotals, 4);
+
+/// Sums over cells.
+struct AliasSums
+{
+    uint64_t lacks; // of light cells: what they have less than the mean, times the number of cells
+    uint64_t gives; // of heavy cells: what they have more
+    uint light_count;
+    uint heavy_count;
+};
+GPU_BUFFER(AliasSums, 8);
+
+/// A cell among the light or the heavy ones of a normal.
+struct AliasItem
+{
+    uint64_t before; // what the cells of its kind before it lack or give
+    uint cell;
+    uint unused;
+};
+GPU_BUFFER(AliasItem, 8);
+
+/// Which cells a map has, and where it stands.
+struct EnvironmentMap
+{
+    uint width;
+    uint height;
+    uint cells_x;
+    uint cells_y;
+    vec2 turn; // cosine and sine of the angle by which the map is turned about y, counterclockwise from above
+};
+
+/// All light from outside of the grid, as kernels find it.
+struct Environment
+{
+    GPU_CONST_PTR(vec3) texels;     // [width * height]
+    GPU_CONST_PTR(AliasCell) cells; // [kNormals][cells]
+    GPU_CONST_PTR(vec2) gives;      // [kNormals] luminance over which a face gets of the map, and of the sun, at most
+    EnvironmentMap map;
+    float strength;   // of the map: its texels count times this
+    vec3 to_sun;      // to the middle of the sun's disc, length 1
+    vec3 sun;         // radiance of the disc
+    float sun_height; // 1 - cosine of the angle from the middle of the disc to its rim
+};
+GPU_BUFFER(Environment, 8);
+
+struct EnvironmentGivesParams // push constants of light/environment_gives: a thread a normal
+{
+    GPU_CONST_PTR(AliasTotals) totals;
+    GPU_PTR(vec2) gives; // [kNormals]
+    vec3 to_sun;
+    vec3 sun;
+    float sun_height;
+    float strength;
+};
+GPU_KERNEL(light, environment_gives, EnvironmentGives, EnvironmentGivesParams)
+
+struct SkyTexelsParams // push constants of light/sky_texels: a thread a texel
+{
+    GPU_PTR(vec3) texels; // [width * height]
+    uint width;
+    uint height;
+};
+GPU_KERNEL(light, sky_texels, SkyTexels, SkyTexelsParams)
+
+struct AliasWeightsParams // push constants of light/alias_weights: a thread a cell
+{
+    GPU_CONST_PTR(vec3) texels;
+    GPU_PTR(float) weights; // [kNormals][cells]
+    GPU_PTR(AliasTotals) totals;
+    EnvironmentMap map;
+};
+GPU_KERNEL(light, alias_weights, AliasWeights, AliasWeightsParams)
+
+/// Push constants of the other kernels for tables: a workgroup a block of cells of a normal, all blocks of +x first.
+struct AliasParams
+{
+    GPU_CONST_PTR(float) weights;
+    GPU_PTR(AliasTotals) totals;
+    GPU_PTR(AliasSums) sums;  // [kNormals][blocks]
+    GPU_PTR(AliasItem) light; // [kNormals][cells]
+    GPU_PTR(AliasItem) heavy; // [kNormals][cells]
+    GPU_PTR(AliasCell) cells; // [kNormals][cells]
+    uint cell_count;
+    uint block_count;
+};
+GPU_KERNEL(light, alias_totals, AliasTotals, AliasParams)
+GPU_KERNEL(light, alias_sums, AliasSums, AliasParams)
+GPU_KERNEL(light, alias_scan, AliasScan, AliasParams) // a workgroup a normal
+GPU_KERNEL(light, alias_lists, AliasLists, AliasParams)
+GPU_KERNEL(light, alias_fill, AliasFill, AliasParams) // a thread an item, of a normal's cells first the light ones
+
+GPU_NAMESPACE_END
+
+#endif

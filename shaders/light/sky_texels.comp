@@ -1,0 +1,23 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Makes a map of the simple sky, without the sun.
+#extension GL_GOOGLE_include_directive : require
+#include "light/environment.h"
+#include "lib/dispatch.glsl"
+#include "light/map.glsl"
+#include "lib/sky.glsl"
+
+layout(local_size_x = kAliasGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    SkyTexelsParams params;
+};
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= params.width * params.height)
+        return;
+    vec2 uv = (vec2(i % params.width, i / params.width) + 0.5) / vec2(params.width, params.height);
+    params.texels.data[i] = skyRadiance(mapDirection(uv.x, cos(kPi * uv.y), vec2(1.0, 0.0)));
+}

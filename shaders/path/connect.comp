@@ -1,0 +1,27 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Adds the light of the shadow rays that reach their lights.
+#extension GL_GOOGLE_include_directive : require
+#include "path/path.h"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+
+layout(local_size_x = kPathGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    PathConnectParams params;
+};
+
+#include "path/lists.glsl"
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= listLength(params.bounce, kListShadows))
+        return;
+    ShadowState state = params.shadow_states.data[i];
+    Hit hit = loadHit(params.hits, i);
+    bool reaches = state.target == uvec2(kNoTarget) ? isMiss(hit) : !isMiss(hit) && hit.where == state.target;
+    if (reaches)
+        params.radiance.data[state.slot] += state.light;
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// The light of voxels. The includer includes shared/tree_table.h before and declares params.tree.
+#include "lib/color.glsl"
+#include "lib/emission.glsl"
+
+// The radiance of an emissive voxel, by the index of its attributes.
+vec3 emissionOf(uint voxel)
+{
+    uint index = emissionIndex(uvec2_ConstPtr(uint64_t(params.tree.data[0].emission_words)), voxel);
+    return params.tree.data[0].emission_scale * decodeRgb9e5(params.tree.data[0].emission.data[index]);
+}

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Path tracing: what its kernels share with the host.
+//
+// The voxels of a tree are cubes that reflect light diffusely: a face has the voxel's colour as its albedo, and gives
+// off the voxel's emission to all sides. A sample of a pixel is one path: a ray from the camera, and from each hit one
+// in a random direction, up to a number of bounces. At each hit one light is chosen, too: a direction to the map, a
+// point of the sun, or one of a face of an emissive voxel, and its light counts if a shadow ray reaches it. Light that
+// both ways find is weighted by the balance heuristic (E. Veach, L. Guibas, Optimally Combining Sampling Techniques,
+// 1995).
+//
+// Paths of a batch of pixels advance together, a bounce at a time. Those that go on stand in a list, and so do the
+// shadow rays; lists are as long as the device says. Which path stands where in a list may differ from run to run, but
+// each adds to its own pixel alone.
+//
+//   path/begin     a ray from the camera for each pixel
+//     trace/rays     what the rays hit                                       these and the following for each bounce
+//     path/shade     the next ray of each path that has hit something, and lists for the following kernels
+//     path/miss, path/emitter                light that the rays have met
+//     path/map_light, path/voxel_light       a chosen light, and a shadow ray to it
+//     trace/rays, path/connect               shadow rays, and the light that they bring
+//   path/finish    adds the sample to the pixels' sums
+//
+// So each kernel runs for those paths alone that need it, and what it loads is loaded for those alone.
+//
+// Pixels are numbered in strips of kStripRows rows, column by column within a strip.
+#ifndef ZVO_SHADERS_PATH_PATH_H
+#define ZVO_SHADERS_PATH_PATH_H
+
+#include "light/environment.h"
+#include "light/light_tree.h"
+#include "trace/light.h"
+
+GPU_ENUM(LightSampling, std::uint32_t) // kSampleBoth and so on
+
+GPU_NAMESPACE_BEGIN
+
+const uint kPathGroup = 64u; // threads of a workgroup; each takes one path
+const uint kStripRows = 8u;
+
+// How light is found: a specialization constant of path/shade.
+const uint kSampleBoth = 0u;   // in both ways
+const uint kSampleChance = 1u; // only where rays happen to meet it
+const uint kSampleLights = 2u; // only by shadow rays, but for what the camera sees
+
+/// A path on its way along a ray.
+struct PathState
+{
+    vec3 throughput; // of light from the ray to the pixel
+    uint slot;       // of its pixel in the batch
+    uint seed;       // of the pixel's random numbers
+    uint normal;     // of the face where the ray starts, as in LightBrick::exposed
+    float density;   // by solid angle, with which the ray's direction was chosen; 0: by the camera
+    vec3 kinds;      // probabilities with which light was looked for at the face: in the map, the sun, voxels
+};
+GPU_BUFFER(PathState, 8);
+
+/// What a shadow ray brings if nothing is in its way.
+struct ShadowState
+{
+    vec3 light; // at the pixel
+    uint slot;
+    uvec2 target; // Hit::where of the light's face; kNoTarget: the ray must not hit anything
+};
+GPU_BUFFER(ShadowState, 8);
+
+const uint kNoTarget = ~0u; // in both words
+
+// The lists of a bounce. Workgroups for each stand in a buffer of DispatchArgs, kListElements for a bounce; behind them
+// stand the lists' lengths, a word each.
+const uint kListPaths = 0u;       // of rays and states
+const uint kListMisses = 1u;      // this and the next: numbers of paths in the list above
+const uint kListEmitters = 2u;    // paths that have hit an emissive voxel
+const uint kListMapLights = 3u;   // this and the next: numbers of paths in the next bounce's list
+const uint kListVoxelLights = 4u; // map (or sun) and voxels: what light is looked for
+const uint kListShadows = 5u;     // of shadow rays
+const uint kListCount = 6u;
+const uint kListLengths = 6u;  // element where the lengths begin
+const uint kListElements = 8u; // of a bounce
+
+struct PathBeginParams // push constants of path/begin: a thread a pixel
+{
+    GPU_PTR(Ray) rays;
+    GPU_PTR(PathState) states;
+    GPU_PTR(vec3) radiance; // [batch]
+    GPU_PTR(DispatchArgs) lists;
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint first_pixel;
+    uint pixel_count;
+    uint sample_index;
+    uint seed;
+    float lens_radius; // unit space
+    float focus;       // distance of the plane in focus along forward, unit space
+};
+GPU_KERNEL_BEGIN(path, begin, Begin, PathBeginParams)
+    GPU_CONSTANT(bool, orthographic, false)
+GPU_KERNEL_END
+
+struct PathShadeParams // push constants of path/shade: a thread a path
+{
+    GPU_CONST_PTR(Attribute) attributes;  // of voxels, in the format of kFormat
+    GPU_CONST_PTR(uvec2) emission_words;  // kEmission only
+    GPU_CONST_PTR(Hit) hits;              // of the paths' rays
+    GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
+    GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
+    GPU_CONST_PTR(Ray) rays;
+    GPU_CONST_PTR(PathState) states;
+    GPU_PTR(Ray) next_rays; // this and the next: of the next bounce
+    GPU_PTR(PathState) next_states;
+    GPU_PTR(DispatchArgs) lists; // [bounces + 2][kListElements]
+    GPU_PTR(uint) numbers;       // [kListCount][batch] elements of the lists of numbers
+    uint bounce;
+    uint sample_index;
+    uint batch;
+};
+GPU_KERNEL_BEGIN(path, shade, Shade, PathShadeParams)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, emission, false) // there are emissive voxels
+    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
+    GPU_CONSTANT(bool, last, false) // paths end here
+    GPU_CONSTANT(bool, roulette, false)
+GPU_KERNEL_END
+
+/// Push constants of the kernels that take a list of numbers of paths: a thread a number.
+struct PathLightParams
+{
+    GPU_CONST_PTR(TreeTable) tree;
+    GPU_CONST_PTR(Environment) environment;
+    GPU_CONST_PTR(LightNode) light_nodes;
+    GPU_CONST_PTR(LightBrick) light_bricks;
+    GPU_CONST_PTR(Ray) rays; // of the paths that are listed, like the next two
+    GPU_CONST_PTR(PathState) states;
+    GPU_CONST_PTR(Hit) hits;  // path/emitter only
+    GPU_PTR(Ray) shadow_rays; // path/map_light and path/voxel_light only, like the next
+    GPU_PTR(ShadowState) shadow_states;
+    GPU_PTR(vec3) radiance; // path/miss and path/emitter only
+    GPU_PTR(DispatchArgs) lists;
+    GPU_CONST_PTR(uint) numbers;
+    uint bounce;
+    uint sample_index;
+    uint batch;
+};
+GPU_KERNEL_BEGIN(path, miss, Miss, PathLightParams)
+    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(path, emitter, Emitter, PathLightParams)
+    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
+    GPU_CONSTANT(uint, node_levels, 5u)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(path, map_light, MapLight, PathLightParams)
+    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(path, voxel_light, VoxelLight, PathLightParams)
+    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
+    GPU_CONSTANT(uint, node_levels, 5u)
+GPU_KERNEL_END
+
+struct PathConnectParams // push constants of path/connect: a thread a shadow ray
+{
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(ShadowState) shadow_states;
+    GPU_PTR(vec3) radiance;
+    GPU_PTR(DispatchArgs) lists;
+    uint bounce;
+};
+GPU_KERNEL(path, connect, Connect, PathConnectParams)
+
+/// The sums of all samples of a pixel.
+struct PixelSum
+{
+    vec3 radiance;
+    float luminance_squared;
+};
+GPU_BUFFER(PixelSum, 16);
+
+struct PathFinishParams // push constants of path/finish: a thread a pixel
+{
+    GPU_CONST_PTR(vec3) radiance;
+    GPU_PTR(PixelSum) sums; // [width * height] in the order of strips
+    uint first_pixel;
+    uint pixel_count;
+};
+GPU_KERNEL(path, finish, Finish, PathFinishParams)
+
+// The automatic exposure: counts of pixels by the logarithm of their luminance.
+const uint kMeterBins = 256u;
+const uint kMeterPixels = 1024u;    // of a workgroup
+const float kMeterDarkest = -20.0f; // log2 of the luminance of the first bin
+const float kMeterStops = 40.0f;    // of all bins
+
+struct PathMeterParams // push constants of path/meter
+{
+    GPU_CONST_PTR(PixelSum) sums;
+    GPU_PTR(uint) counts; // [kMeterBins]
+    uint pixel_count;
+    float sample_part; // 1 / number of samples
+};
+GPU_KERNEL(path, meter, Meter, PathMeterParams)
+
+struct PathExposeParams // push constants of path/expose: one workgroup
+{
+    GPU_CONST_PTR(uint) counts;
+    GPU_PTR(float) exposure; // [1]
+};
+GPU_KERNEL(path, expose, Expose, PathExposeParams)
+
+struct PathDevelopParams // push constants of path/develop: a thread a pixel
+{
+    GPU_CONST_PTR(PixelSum) sums;
+    GPU_CONST_PTR(float) exposure; // [1]
+    GPU_PTR(uint) image;           // as in SkyParams
+    uint width;
+    uint height;
+    float sample_part; // 1 / number of samples
+};
+GPU_KERNEL_BEGIN(path, develop, Develop, PathDevelopParams)
+    GPU_CONSTANT(TexelFormat, texels, kTexelRgba8)
+GPU_KERNEL_END
+
+GPU_NAMESPACE_END
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Loads and stores of paths as 64-bit words, as those of rays. The includer includes path/path.h before.
+#include "lib/ray_words.glsl"
+
+PathState loadState(PathState_ConstPtr states, uint i)
+{
+    uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(states));
+    uvec2 a = unpackUint2x32(words.data[5u * i]);
+    uvec2 b = unpackUint2x32(words.data[5u * i + 1u]);
+    uvec2 c = unpackUint2x32(words.data[5u * i + 2u]);
+    uvec2 d = unpackUint2x32(words.data[5u * i + 3u]);
+    uvec2 e = unpackUint2x32(words.data[5u * i + 4u]);
+    return PathState(uintBitsToFloat(uvec3(a, b.x)), b.y, c.x, c.y, uintBitsToFloat(d.x), uintBitsToFloat(uvec3(d.y, e)));
+}
+
+void storeState(PathState_Ptr states, uint i, PathState state)
+{
+    uint64_t_Ptr words = uint64_t_Ptr(uint64_t(states));
+    words.data[5u * i] = packUint2x32(floatBitsToUint(state.throughput.xy));
+    words.data[5u * i + 1u] = packUint2x32(uvec2(floatBitsToUint(state.throughput.z), state.slot));
+    words.data[5u * i + 2u] = packUint2x32(uvec2(state.seed, state.normal));
+    words.data[5u * i + 3u] = packUint2x32(floatBitsToUint(vec2(state.density, state.kinds.x)));
+    words.data[5u * i + 4u] = packUint2x32(floatBitsToUint(state.kinds.yz));
+}

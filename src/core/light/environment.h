@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene/hdr_image.h"
+#include "light/environment.h"
+#include "vk/buffer.h"
+#include "vk/frame_graph.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace zvo
+{
+
+/// The sun: a disc.
+struct SunInfo
+{
+    glm::dvec3 direction = {0.0, 1.0, 0.0}; // towards its middle, any length
+    glm::dvec3 irradiance{0.0};             // of a surface that faces it, over pi
+    double angle = 0.00465;                 // radians from the middle to the rim
+};
+
+/// The colour of the sun of the simple sky, as shaders/lib/sky.glsl has it.
+inline constexpr glm::dvec3 kSunColor = {1.0, 0.93, 0.82};
+
+/// Light from outside of the grid: a map, or the simple sky, and a sun.
+class Environment
+{
+public:
+    /// The simple sky (shaders/lib/sky.glsl).
+    explicit Environment(vk::Device& device);
+
+    /// A map of radiance in all directions (shaders/light/environment.h says which one is where). All values must be
+    /// finite and at least 0. turn: the angle, in radians, by which it is turned about y, counterclockwise as seen from
+    /// above. strength: factor for its radiance. Throws Error{Usage} for a picture of no texels, and Error{Memory}.
+    Environment(vk::Device& device, const HdrImage& picture, double turn, double strength);
+
+    void setSun(const SunInfo& sun);
+
+    /// Records what is needed before kernels use the environment, if anything has changed: uploads, and the passes that
+    /// make the alias tables.
+    void prepare(vk::FrameGraph& graph);
+
+    /// Declares that pass reads all of it.
+    [[nodiscard]] gpu::ConstPtr<gpu::Environment> read(vk::AnyPass& pass) const;
+
+    /// [kNormals] as Environment::gives in shaders/light/environment.h.
+    [[nodiscard]] const vk::BufferOf<gpu::vec2>& gives() const { return m_gives; }
+    [[nodiscard]] const vk::BufferOf<gpu::AliasCell>& cells() const { return m_cells; }
+    [[nodiscard]] const vk::BufferOf<gpu::AliasTotals>& totals() const { return m_totals; }
+    [[nodiscard]] const gpu::EnvironmentMap& map() const { return m_values.map; }
+
+private:
+    Environment(vk::Device& device, std::uint32_t width, std::uint32_t height, double turn, double strength);
+
+    void buildTables(vk::FrameGraph& graph);
+
+    vk::Device* m_device;
+    gpu::Environment m_values{};
+    std::vector<glm::vec3> m_upload; // texels that the device does not have yet; empty: none, or the simple sky
+    bool m_is_prepared = false;      // texels and tables
+    bool m_is_current = false;       // m_buffer
+    vk::BufferOf<gpu::vec3> m_texels;
+    vk::BufferOf<gpu::AliasCell> m_cells;
+    vk::BufferOf<gpu::AliasTotals> m_totals;
+    vk::BufferOf<gpu::vec2> m_gives;
+    vk::BufferOf<gpu::Environment> m_buffer;
+    // What only the making of tables needs.
+    vk::BufferOf<float> m_weights;
+    vk::BufferOf<gpu::AliasSums> m_sums;
+    vk::BufferOf<gpu::AliasItem> m_light;
+    vk::BufferOf<gpu::AliasItem> m_heavy;
+};
+
+} // namespace zvo

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: MIT
+#include "core/path/path_tracer.h"
+
+#include "core/base/divide_up.h"
+#include "core/tree/tree_table.h"
+#include "vk/device.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+/// Pixels whose paths advance together: so many that a device is busy, so few that their buffers stay small.
+constexpr std::uint64_t kBatchMax = std::uint64_t{1} << 19;
+
+// The element of PathTracer::Pixels::lists with the workgroups for a list.
+std::uint64_t argsOf(std::uint32_t bounce, std::uint32_t list)
+{
+    return std::uint64_t{bounce} * gpu::kListElements + list;
+}
+
+// The length of a list.
+RayListLength lengthOf(const vk::BufferOf<gpu::DispatchArgs>& lists, std::uint32_t bounce, std::uint32_t list)
+{
+    constexpr std::uint64_t kWords = sizeof(gpu::DispatchArgs) / sizeof(gpu::uint);
+    return {lists, argsOf(bounce, list), kWords * argsOf(bounce, gpu::kListLengths) + list};
+}
+
+} // namespace
+
+PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
+    : width(picture_width), height(picture_height),
+      lists(device, "path/lists", std::uint64_t{kBouncesMax + 2} * gpu::kListElements),
+      rounds(device, "path/rounds", gpu::kTraceRoundsMax), status(device, "path/status", 1),
+      brightness(device, "path/brightness", gpu::kMeterBins), exposure(device, "path/exposure", 1),
+      table(device, "path/tree", 1)
+{
+    const std::uint64_t pixel_count = std::uint64_t{width} * height;
+    const std::uint64_t batch = std::min(pixel_count, kBatchMax);
+    device.memory().require(pixel_count * sizeof(gpu::PixelSum) +
+                                batch * (3 * sizeof(gpu::Ray) + 2 * sizeof(gpu::PathState) + sizeof(gpu::Hit) +
+                                         sizeof(gpu::ShadowState) + sizeof(gpu::vec3) +
+                                         gpu::kListCount * sizeof(gpu::uint)),
+                            "the paths");
+    sums = {device, "path/sums", pixel_count};
+    for (std::size_t i = 0; i < rays.size(); ++i)
+    {
+        rays.at(i) = {device, "path/rays", batch};
+        states.at(i) = {device, "path/states", batch};
+    }
+    hits = {device, "path/hits", batch};
+    shadow_rays = {device, "path/shadow_rays", batch};
+    shadow_states = {device, "path/shadow_states", batch};
+    radiance = {device, "path/radiance", batch};
+    numbers = {device, "path/numbers", gpu::kListCount * batch};
+}
+
+/// What a sample of a batch of pixels is traced with.
+struct PathTracer::Batch
+{
+    const DeviceTree& tree;
+    const Environment& environment;
+    const TraceCamera& camera;
+    const PathOptions& options;
+    std::uint32_t first_pixel;
+    std::uint32_t pixel_count;
+};
+
+template <typename T> void PathTracer::replace(std::unique_ptr<T>& old, std::unique_ptr<T> made)
+{
+    std::swap(old, made);
+    if (m_deletion_queue != nullptr && made != nullptr)
+    {
+        m_deletion_queue->keep(std::move(made));
+    }
+}
+
+void PathTracer::resize(std::uint32_t width, std::uint32_t height)
+{
+    if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height)
+    {
+        replace(m_pixels, std::make_unique<Pixels>(m_device, width, height));
+    }
+    restart();
+}
+
+void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment)
+{
+    environment.prepare(graph);
+    if (!m_pixels->is_status_clear)
+    {
+        graph.fill(m_pixels->status, 0);
+        m_pixels->is_status_clear = true;
+    }
+    graph.update(m_pixels->table, 0, std::array{treeTable(tree)});
+    if (m_lights_version == tree.version || !hasEmission(tree))
+    {
+        return;
+    }
+    if (m_lights == nullptr || !m_lights->suffices(tree))
+    {
+        replace(m_lights, std::make_unique<LightTree>(m_device, tree));
+    }
+    m_lights_version = 0; // should the next line throw
+    buildLightTree(graph, tree, m_pixels->table, *m_lights);
+    m_lights_version = tree.version;
+}
+
+void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment,
+                           const TraceCamera& camera, const PathOptions& options)
+{
+    prepare(graph, tree, environment);
+    if (m_sample_count == 0)
+    {
+        graph.fill(m_pixels->sums, 0);
+    }
+    const std::uint64_t pixel_count = m_pixels->sums.count();
+    for (std::uint64_t first = 0; first < pixel_count; first += kBatchMax)
+    {
+        traceBatch(graph, {tree, environment, camera, options, static_cast<std::uint32_t>(first),
+                           static_cast<std::uint32_t>(std::min(kBatchMax, pixel_count - first))});
+    }
+    ++m_sample_count;
+}
+
+void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
+{
+    Pixels& pixels = *m_pixels;
+    const Grid& grid = batch.tree.grid;
+    const std::uint32_t bounces = std::min(batch.options.bounces, kBouncesMax);
+    const std::uint64_t list_words = (bounces + 2) * gpu::kListElements * sizeof(gpu::DispatchArgs) / sizeof(gpu::uint);
+    graph.fill(pixels.lists, 0, 0, list_words);
+    {
+        vk::Pass pass = graph.addPass(gpu::path::Begin{.orthographic = batch.camera.orthographic});
+        const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
+        gpu::PathBeginParams params{};
+        params.rays = pass.write(pixels.rays[0]);
+        params.states = pass.write(pixels.states[0]);
+        params.radiance = pass.write(pixels.radiance);
+        params.lists = pass.readWrite(pixels.lists);
+        params.camera = batch.camera.rays;
+        params.width = pixels.width;
+        params.height = pixels.height;
+        params.first_pixel = batch.first_pixel;
+        params.pixel_count = batch.pixel_count;
+        params.sample_index = m_sample_count;
+        params.seed = batch.options.seed;
+        params.lens_radius = batch.options.lens_radius * unit;
+        params.focus = batch.options.focus_distance * unit;
+        pass.dispatch(batch.pixel_count, params);
+    }
+    TraceOptions trace;
+    trace.stack = batch.options.stack;
+    for (std::uint32_t bounce = 0; bounce <= bounces; ++bounce)
+    {
+        const RayListLength paths = lengthOf(pixels.lists, bounce, gpu::kListPaths);
+        traceRays(graph, batch.tree, pixels.rays.at(bounce % 2), pixels.hits, pixels.rounds, pixels.status, trace,
+                  &paths);
+        shade(graph, batch, bounce);
+        const LightSampling sampling = batch.options.sampling;
+        const std::uint32_t levels = batch.tree.grid.nodeLevels();
+        const bool emits = hasEmission(batch.tree);
+        takeList(graph, gpu::path::Miss{.sampling = sampling}, gpu::kListMisses, batch, bounce);
+        if (emits)
+        {
+            takeList(graph, gpu::path::Emitter{.sampling = sampling, .node_levels = levels}, gpu::kListEmitters, batch,
+                     bounce);
+        }
+        if (bounce == bounces || sampling == LightSampling::Chance)
+        {
+            continue;
+        }
+        takeList(graph, gpu::path::MapLight{.sampling = sampling}, gpu::kListMapLights, batch, bounce);
+        if (emits)
+        {
+            takeList(graph, gpu::path::VoxelLight{.sampling = sampling, .node_levels = levels}, gpu::kListVoxelLights,
+                     batch, bounce);
+        }
+        const RayListLength shadows = lengthOf(pixels.lists, bounce, gpu::kListShadows);
+        traceRays(graph, batch.tree, pixels.shadow_rays, pixels.hits, pixels.rounds, pixels.status, trace, &shadows);
+        vk::Pass pass = graph.addPass(gpu::path::Connect{});
+        const gpu::PathConnectParams params = {pass.read(pixels.hits), pass.read(pixels.shadow_states),
+                                               pass.readWrite(pixels.radiance), pass.readWrite(pixels.lists), bounce};
+        pass.dispatchIndirect(pixels.lists, shadows.args, params, divideUp(batch.pixel_count, gpu::kPathGroup));
+    }
+    vk::Pass pass = graph.addPass(gpu::path::Finish{});
+    const gpu::PathFinishParams params = {pass.read(pixels.radiance), pass.readWrite(pixels.sums), batch.first_pixel,
+                                          batch.pixel_count};
+    pass.dispatch(batch.pixel_count, params);
+}
+
+void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce)
+{
+    Pixels& pixels = *m_pixels;
+    const DeviceTree& tree = batch.tree;
+    const bool emits = hasEmission(tree);
+    vk::Pass pass = graph.addPass(gpu::path::Shade{.node_levels = tree.grid.nodeLevels(),
+                                                   .format = tree.attributeFormat(),
+                                                   .emission = emits,
+                                                   .sampling = batch.options.sampling,
+                                                   .last = bounce == std::min(batch.options.bounces, kBouncesMax),
+                                                   .roulette = batch.options.roulette});
+    gpu::PathShadeParams params{};
+    params.attributes = isPacked(tree.attributeFormat())
+                            ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
+                            : pass.read(tree.voxel_attributes);
+    params.hits = pass.read(pixels.hits);
+    params.gives = pass.read(batch.environment.gives());
+    if (emits)
+    {
+        params.emission_words = pass.read(tree.emission_words);
+        params.light_nodes = pass.read(m_lights->nodes);
+    }
+    params.rays = pass.read(pixels.rays.at(bounce % 2));
+    params.states = pass.read(pixels.states.at(bounce % 2));
+    params.next_rays = pass.readWrite(pixels.rays.at((bounce + 1) % 2));
+    params.next_states = pass.readWrite(pixels.states.at((bounce + 1) % 2));
+    params.lists = pass.readWrite(pixels.lists);
+    params.numbers = pass.readWrite(pixels.numbers);
+    params.bounce = bounce;
+    params.sample_index = m_sample_count;
+    params.batch = static_cast<std::uint32_t>(pixels.radiance.count());
+    pass.dispatchIndirect(pixels.lists, argsOf(bounce, gpu::kListPaths), params,
+                          divideUp(batch.pixel_count, gpu::kPathGroup));
+}
+
+template <typename Kernel>
+void PathTracer::takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
+                          std::uint32_t bounce)
+{
+    Pixels& pixels = *m_pixels;
+    const bool looks_for_light = list == gpu::kListMapLights || list == gpu::kListVoxelLights;
+    const std::uint32_t paths = (bounce + (looks_for_light ? 1 : 0)) % 2; // which of both lists they are in
+    vk::Pass pass = graph.addPass(kernel);
+    gpu::PathLightParams params{};
+    params.environment = batch.environment.read(pass);
+    if (hasEmission(batch.tree))
+    {
+        params.tree = pass.read(pixels.table);
+        pass.read(batch.tree.emission_words);
+        pass.read(batch.tree.emission);
+        params.light_nodes = pass.read(m_lights->nodes);
+        params.light_bricks = pass.read(m_lights->bricks);
+    }
+    params.rays = pass.read(pixels.rays.at(paths));
+    params.states = pass.read(pixels.states.at(paths));
+    params.hits = pass.read(pixels.hits);
+    params.shadow_rays = pass.readWrite(pixels.shadow_rays);
+    params.shadow_states = pass.readWrite(pixels.shadow_states);
+    params.radiance = pass.readWrite(pixels.radiance);
+    params.lists = pass.readWrite(pixels.lists);
+    params.numbers = pass.read(pixels.numbers);
+    params.bounce = bounce;
+    params.sample_index = m_sample_count;
+    params.batch = static_cast<std::uint32_t>(pixels.radiance.count());
+    pass.dispatchIndirect(pixels.lists, argsOf(bounce, list), params, divideUp(batch.pixel_count, gpu::kPathGroup));
+}
+
+void PathTracer::expose(vk::FrameGraph& graph, float sample_part)
+{
+    graph.fill(m_pixels->brightness, 0);
+    {
+        vk::Pass pass = graph.addPass(gpu::path::Meter{});
+        const gpu::PathMeterParams params = {pass.read(m_pixels->sums), pass.readWrite(m_pixels->brightness),
+                                             static_cast<std::uint32_t>(m_pixels->sums.count()), sample_part};
+        pass.dispatch(divideUp(m_pixels->sums.count(), gpu::kMeterPixels) * gpu::kPathGroup, params);
+    }
+    vk::Pass pass = graph.addPass(gpu::path::Expose{});
+    pass.dispatch(1, {pass.read(m_pixels->brightness), pass.write(m_pixels->exposure)});
+}
+
+void PathTracer::develop(vk::FrameGraph& graph, TexelFormat texels, std::optional<float> exposure,
+                         vk::BufferOf<gpu::uint>& image)
+{
+    const float sample_part = 1.0F / static_cast<float>(std::max(m_sample_count, 1U));
+    if (exposure)
+    {
+        graph.update(m_pixels->exposure, 0, std::array{*exposure});
+    }
+    else
+    {
+        expose(graph, sample_part);
+    }
+    vk::Pass pass = graph.addPass(gpu::path::Develop{.texels = texels});
+    gpu::PathDevelopParams params{};
+    params.sums = pass.read(m_pixels->sums);
+    params.exposure = pass.read(m_pixels->exposure);
+    params.image = pass.write(image);
+    params.width = m_pixels->width;
+    params.height = m_pixels->height;
+    params.sample_part = sample_part;
+    pass.dispatch(m_pixels->sums.count(), params);
+}
+
+HdrImage pictureOf(std::span<const gpu::PixelSum> sums, std::uint32_t width, std::uint32_t height,
+                   std::uint32_t sample_count)
+{
+    HdrImage picture = {width, height, std::vector<glm::vec3>(sums.size())};
+    const float part = 1.0F / static_cast<float>(sample_count);
+    std::size_t number = 0;
+    for (std::uint32_t strip = 0; strip < height; strip += gpu::kStripRows)
+    {
+        const std::uint32_t end = std::min(strip + gpu::kStripRows, height);
+        for (std::uint32_t x = 0; x < width; ++x)
+        {
+            for (std::uint32_t y = strip; y < end; ++y)
+            {
+                picture.texels[std::size_t{y} * width + x] = part * sums[number++].radiance;
+            }
+        }
+    }
+    return picture;
+}
+
+} // namespace zvo

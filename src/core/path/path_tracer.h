@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/light/environment.h"
+#include "core/light/light_tree.h"
+#include "core/scene/camera.h"
+#include "core/scene/hdr_image.h"
+#include "core/trace/trace.h"
+#include "core/tree/device_tree.h"
+#include "path/path.h"
+#include "vk/deletion_queue.h"
+#include "vk/frame_graph.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace zvo
+{
+
+/// How paths find light. All ways have the same mean; they differ in their variance.
+enum class LightSampling : std::uint32_t
+{
+    Both = gpu::kSampleBoth,     ///< both of the following, weighted by the balance heuristic
+    Chance = gpu::kSampleChance, ///< only where rays happen to meet it
+    Lights = gpu::kSampleLights, ///< only by shadow rays to chosen lights
+};
+
+/// Options of a path-traced picture.
+struct PathOptions
+{
+    std::uint32_t bounces = 8; // diffuse reflections of a path; 0: only light that the camera sees directly
+    std::uint32_t seed = 0;
+    float lens_radius = 0.0F;    // world units; 0: a pinhole
+    float focus_distance = 1.0F; // world units along the camera's direction, where the picture is sharp; more than 0
+    LightSampling sampling = LightSampling::Both;
+    bool roulette = false; // ends paths early that would bring little light, by chance
+    TraceStack stack = TraceStack::Registers;
+};
+
+/// The most bounces that PathOptions::bounces asks for.
+inline constexpr std::uint32_t kBouncesMax = 1024;
+
+/// Path traces pictures of a tree, a sample for each pixel at a time, and keeps their sum. Owns all buffers.
+class PathTracer
+{
+public:
+    /// deletion_queue: as in TreeTracer.
+    explicit PathTracer(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr)
+        : m_device(device), m_deletion_queue(deletion_queue)
+    {
+    }
+
+    /// Sets the size of the pictures, and restarts. Must be called before the first sample. Throws Error{Memory}; then
+    /// the size stays as it was.
+    void resize(std::uint32_t width, std::uint32_t height);
+
+    /// Forgets all samples: because something that the picture shows has changed.
+    void restart() { m_sample_count = 0; }
+
+    /// Records the passes that add a sample to each pixel. Makes the light tree anew where tree has another version.
+    /// Between two restarts, tree, camera, environment and options must stay the same. Throws Error{Memory}. Cost:
+    /// pixels times bounces.
+    void addSample(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment, const TraceCamera& camera,
+                   const PathOptions& options);
+
+    /// Records the passes that make the picture of all samples: image, [width * height * texelWords(texels)]. exposure:
+    /// factor for radiance; without one, a factor by which the mean of the pixels' brightness, in stops, becomes middle
+    /// grey.
+    void develop(vk::FrameGraph& graph, TexelFormat texels, std::optional<float> exposure,
+                 vk::BufferOf<gpu::uint>& image);
+
+    [[nodiscard]] std::uint32_t sampleCount() const { return m_sample_count; }
+
+    /// Sums over all samples of each pixel, in the order of shaders/path/path.h.
+    [[nodiscard]] const vk::BufferOf<gpu::PixelSum>& sums() const { return m_pixels->sums; }
+
+    /// Rays that were given up (TraceStatus::capped_rays), since the last resize().
+    [[nodiscard]] const vk::BufferOf<gpu::TraceStatus>& status() const { return m_pixels->status; }
+
+    /// The lists of the last batch (shaders/path/path.h): lengths count its rays.
+    [[nodiscard]] const vk::BufferOf<gpu::DispatchArgs>& lists() const { return m_pixels->lists; }
+
+private:
+    struct Pixels;
+    struct Batch;
+
+    void prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment);
+    void traceBatch(vk::FrameGraph& graph, const Batch& batch);
+    void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);
+    void expose(vk::FrameGraph& graph, float sample_part);
+    template <typename Kernel>
+    void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
+                  std::uint32_t bounce);
+    template <typename T> void replace(std::unique_ptr<T>& old, std::unique_ptr<T> made);
+
+    vk::Device& m_device;
+    vk::DeletionQueue* m_deletion_queue;
+    std::uint32_t m_sample_count = 0;
+    std::uint64_t m_lights_version = 0; // of the tree of which m_lights were made; 0: none
+    struct Pixels
+    {
+        Pixels(vk::Device& device, std::uint32_t width, std::uint32_t height);
+
+        std::uint32_t width;
+        std::uint32_t height;
+        vk::BufferOf<gpu::PixelSum> sums;                   // [width * height]
+        std::array<vk::BufferOf<gpu::Ray>, 2> rays;         // [batch] of a bounce and the next one
+        std::array<vk::BufferOf<gpu::PathState>, 2> states; // [batch] likewise
+        vk::BufferOf<gpu::Hit> hits;                        // [batch]
+        vk::BufferOf<gpu::Ray> shadow_rays;                 // [batch]
+        vk::BufferOf<gpu::ShadowState> shadow_states;       // [batch]
+        vk::BufferOf<gpu::vec3> radiance;                   // [batch]
+        vk::BufferOf<gpu::DispatchArgs> lists;              // [kBouncesMax + 2][kListElements]
+        vk::BufferOf<gpu::uint> numbers;                    // [kListCount][batch]
+        vk::BufferOf<gpu::DispatchArgs> rounds;             // [kTraceRoundsMax]
+        vk::BufferOf<gpu::TraceStatus> status;              // [1]
+        vk::BufferOf<gpu::uint> brightness;                 // [kMeterBins] numbers of pixels
+        vk::BufferOf<float> exposure;                       // [1]
+        vk::BufferOf<gpu::TreeTable> table;                 // [1] of the tree
+        bool is_status_clear = false;
+    };
+    std::unique_ptr<Pixels> m_pixels;
+    std::unique_ptr<LightTree> m_lights;
+};
+
+/// The mean radiance of each pixel, from the sums of PathTracer::sums() of a picture of that size.
+HdrImage pictureOf(std::span<const gpu::PixelSum> sums, std::uint32_t width, std::uint32_t height,
+                   std::uint32_t sample_count);
+
+} // namespace zvo

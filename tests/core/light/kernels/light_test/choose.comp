@@ -1,0 +1,40 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Chooses lights for places, or asks how probable each is.
+#extension GL_GOOGLE_include_directive : require
+#include "choose.h"
+#include "lib/dispatch.glsl"
+#include "lib/morton.glsl"
+#include "lib/node.glsl"
+#include "lib/sobol.glsl"
+#include "path/face.glsl"
+
+layout(constant_id = 0) const uint kNodeLevels = 5u;
+layout(constant_id = 1) const bool kChoose = false;
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push
+{
+    ChooseParams params;
+};
+
+#define LIGHT_NODES params.nodes
+#define LIGHT_BRICKS params.bricks
+#include "light/choose.glsl"
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= params.place_count * params.face_count)
+        return;
+    TestPlace test = params.places.data[i / params.face_count];
+    LitPlace place = LitPlace(test.position, normalAxis(test.normal));
+    if (kChoose)
+    {
+        ChosenLight chosen = chooseLight(place, samplePair(i % params.face_count, i / params.face_count, 0u));
+        params.faces.data[i] = TestFace(chosen.cell, chosen.face, chosen.probability);
+    }
+    else
+        params.faces.data[i].probability =
+            lightProbability(place, params.faces.data[i].cell, params.faces.data[i].face);
+}

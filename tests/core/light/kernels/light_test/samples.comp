@@ -1,0 +1,20 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Writes random numbers of samples.
+#extension GL_GOOGLE_include_directive : require
+#include "choose.h"
+#include "lib/dispatch.glsl"
+#include "lib/sobol.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push
+{
+    SamplesParams params;
+};
+
+void main()
+{
+    uint i = threadIndex();
+    if (i < params.count)
+        params.samples.data[i] = sampleBits(i, params.seed, params.pair);
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// Path tracing at its limits: no voxels, one voxel, no light, deep grids, cameras in odd places, scenes of all kinds.
+#include "core/headless/pipeline.h"
+#include "core/path/path_tracer.h"
+#include "io/gltf/gltf_loader.h"
+#include "support/engine_device.h"
+#include "support/lit_voxels.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::device;
+using test::LitVoxel;
+
+/// Pictures of one tree in one light, of `edge` pixels along each edge.
+class Pictures
+{
+public:
+    Pictures(const DeviceTree& tree, const ViewCamera& view, std::uint32_t edge)
+        : m_tree(tree), m_camera(traceCamera(view, tree.grid, edge)), m_edge(edge), m_tracer(device().device())
+    {
+    }
+
+    HdrImage take(Environment& light, const PathOptions& options, std::uint32_t samples = 8)
+    {
+        m_tracer.resize(m_edge, m_edge);
+        for (std::uint32_t i = 0; i < samples; ++i)
+        {
+            device().run([&](vk::FrameGraph& graph) { m_tracer.addSample(graph, m_tree, light, m_camera, options); });
+        }
+        EXPECT_EQ(device().download(m_tracer.status()).front().capped_rays, 0U);
+        return pictureOf(device().download(m_tracer.sums()), m_edge, m_edge, samples);
+    }
+
+private:
+    const DeviceTree& m_tree;
+    TraceCamera m_camera;
+    std::uint32_t m_edge;
+    PathTracer m_tracer;
+};
+
+Environment constantLight(float radiance)
+{
+    return {device().device(), HdrImage{2, 1, std::vector(2, glm::vec3(radiance))}, 0.0, 1.0};
+}
+
+bool isConstant(const HdrImage& image, const glm::vec3& value, float tolerance)
+{
+    return std::ranges::all_of(image.texels, [&](const glm::vec3& texel)
+                               { return glm::all(glm::lessThanEqual(glm::abs(texel - value), glm::vec3(tolerance))); });
+}
+
+bool isFinite(const HdrImage& image)
+{
+    return std::ranges::all_of(image.texels,
+                               [](const glm::vec3& texel)
+                               {
+                                   return std::isfinite(texel.x) && std::isfinite(texel.y) && std::isfinite(texel.z) &&
+                                          glm::all(glm::greaterThanEqual(texel, glm::vec3(0.0F)));
+                               });
+}
+
+DeviceTree oneVoxel(std::uint32_t depth, const glm::vec3& emission)
+{
+    return test::litTree(device(), {{glm::uvec3((1U << depth) - 1), glm::uvec3(255), emission}}, depth);
+}
+
+TEST(PathEdges, NoVoxelsShowTheMap)
+{
+    DeviceTree empty;
+    empty.grid.depth = 4;
+    Environment light = constantLight(0.75F);
+    Pictures pictures(empty, ViewCamera::lookAt({20, 20, 20}, {0, 0, 0}, 0.7), 9);
+    EXPECT_TRUE(isConstant(pictures.take(light, {}), glm::vec3(0.75F), 1e-6F));
+}
+
+// In grids of every depth, whose rays take several rounds from depth 14 on.
+TEST(PathEdges, OneVoxelIsSeenInEveryDepth)
+{
+    for (const std::uint32_t depth : {1U, 2U, 3U, 9U, 13U, 14U, 17U})
+    {
+        const DeviceTree tree = oneVoxel(depth, glm::vec3(0.0F));
+        const glm::dvec3 middle(std::ldexp(1.0, static_cast<int>(depth)) - 0.5);
+        Environment light = constantLight(1.0F);
+        Pictures pictures(tree, ViewCamera::lookAt(middle + glm::dvec3(2.0, 3.0, 4.0), middle, 0.2), 6);
+        EXPECT_TRUE(isConstant(pictures.take(light, {}, 64), glm::vec3(1.0F), 0.02F)) << depth;
+    }
+}
+
+TEST(PathEdges, ACameraInAVoxelSeesItsEmission)
+{
+    const DeviceTree tree = oneVoxel(3, {0.5F, 1.0F, 1.5F});
+    Environment light = constantLight(1.0F);
+    Pictures pictures(tree, ViewCamera::lookAt({7.5, 7.25, 7.5}, {0, 0, 0}, 0.7), 6);
+    EXPECT_TRUE(isConstant(pictures.take(light, {}), {0.5F, 1.0F, 1.5F}, 0.0F));
+}
+
+TEST(PathEdges, WithoutBouncesOnlyLightItselfIsSeen)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, {{}, glm::uvec3(255), glm::vec3(0.0F)});
+    const DeviceTree dark = test::litTree(device(), voxels, 3);
+    test::addBox(voxels, {0, 1, 0}, {8, 2, 8}, {{}, glm::uvec3(255), glm::vec3(1.25F)});
+    const DeviceTree lit = test::litTree(device(), voxels, 3);
+    const ViewCamera above = ViewCamera::lookAt({4.0, 12.0, 4.01}, {4.0, 1.0, 4.0}, 0.2);
+    Environment light = constantLight(1.0F);
+    EXPECT_TRUE(isConstant(Pictures(dark, above, 6).take(light, {.bounces = 0}), glm::vec3(0.0F), 0.0F));
+    EXPECT_TRUE(isConstant(Pictures(lit, above, 6).take(light, {.bounces = 0}), glm::vec3(1.25F), 0.0F));
+}
+
+TEST(PathEdges, WithoutLightAllIsBlack)
+{
+    const DeviceTree tree = oneVoxel(3, glm::vec3(0.0F));
+    Environment light = constantLight(0.0F);
+    Pictures pictures(tree, ViewCamera::lookAt({9.0, 11.0, 12.0}, {7.5, 7.5, 7.5}, 0.2), 6);
+    EXPECT_TRUE(isConstant(pictures.take(light, {}), glm::vec3(0.0F), 0.0F));
+}
+
+// What is in the plane of focus stays sharp; what is not, does not.
+TEST(PathEdges, ALensBlursWhatIsOutOfFocus)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {4, 8, 1}, {{}, glm::uvec3(0), glm::vec3(1.0F)});
+    test::addBox(voxels, {4, 0, 0}, {8, 8, 1}, {{}, glm::uvec3(0), glm::vec3(0.0F)});
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    const ViewCamera view = ViewCamera::lookAt({4.0, 4.0, 11.0}, {4.0, 4.0, 1.0}, 0.4);
+    Environment dark = constantLight(0.0F);
+    Pictures pictures(tree, view, 16);
+    const auto mixed = [](const HdrImage& image)
+    {
+        return std::ranges::count_if(image.texels,
+                                     [](const glm::vec3& texel) { return texel.x > 0.05F && texel.x < 0.95F; });
+    };
+    const HdrImage sharp = pictures.take(dark, {.bounces = 0, .lens_radius = 0.5F, .focus_distance = 10.0F}, 64);
+    const HdrImage blurred = pictures.take(dark, {.bounces = 0, .lens_radius = 0.5F, .focus_distance = 5.0F}, 64);
+    EXPECT_EQ(mixed(sharp), 0);
+    EXPECT_GT(mixed(blurred), 16);
+}
+
+TEST(PathEdges, OrthographicCamerasSeeTheSameLight)
+{
+    const DeviceTree tree = oneVoxel(3, glm::vec3(0.0F));
+    ViewCamera view = ViewCamera::lookAt({12.0, 13.0, 14.0}, {7.5, 7.5, 7.5}, 0.2);
+    view.orthographic = true;
+    view.half_height = 1.0;
+    Environment light = constantLight(1.0F);
+    EXPECT_TRUE(isConstant(Pictures(tree, view, 6).take(light, {}, 64), glm::vec3(1.0F), 0.02F));
+}
+
+// No pixel of any scene is infinite, NaN or negative, whatever the seed.
+class PathScenes : public testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(PathScenes, HaveFinitePixels)
+{
+    const auto path = test::findScene(GetParam());
+    if (!path)
+    {
+        GTEST_SKIP() << GetParam() << " is not there";
+    }
+    const Scene scene = loadGltf(*path);
+    const Grid grid = Grid::around(scene.bounds(), 6);
+    const DeviceTree tree =
+        buildOctree(device(), uploadScene(device(), scene, true, brightestEmission(scene)), grid, {}).octree;
+    Environment sky(device().device());
+    sky.setSun({.direction = {-0.6, 0.75, 0.45}, .irradiance = 2.2 * kSunColor});
+    Pictures pictures(tree, ViewCamera::framing(scene, 1.0), 12);
+    double sum = 0.0;
+    for (std::uint32_t seed = 0; seed < 64; ++seed)
+    {
+        const HdrImage image = pictures.take(sky, {.seed = seed}, 1);
+        ASSERT_TRUE(isFinite(image)) << seed;
+        sum += image.texels[12 * 6 + 6].x;
+    }
+    EXPECT_GT(sum, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PathScenes,
+                         testing::Values("cornell_box.glb", "atrium.glb", "cube.glb", "knot.glb", "bunny_low.glb",
+                                         "buddha_113k.glb", "asian_dragon_28k.glb", "damaged_helmet.glb",
+                                         "alpha_blend_mode_test.glb", "milk_truck.glb", "box_textured.glb",
+                                         "duck/Duck.gltf", "sponza.glb", "dragon.glb", "bunny.glb"));
+
+} // namespace
+} // namespace zvo

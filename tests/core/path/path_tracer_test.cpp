@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+// Path tracing against known answers: furnaces, form factors, energy, and a path tracer of a few lines.
+#include "core/path/path_tracer.h"
+
+#include "core/light/environment.h"
+#include "core/scene/camera.h"
+#include "oracle/box_paths.h"
+#include "support/engine_device.h"
+#include "support/lit_voxels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::device;
+using test::LitVoxel;
+
+constexpr std::array kWays = {LightSampling::Both, LightSampling::Chance, LightSampling::Lights};
+
+/// The mean of each pixel, row by row, and of the whole picture with its standard error.
+struct PathPicture
+{
+    std::vector<glm::dvec3> pixels;
+    glm::dvec3 mean{0.0};
+    double luminance = 0.0;
+    double error = 0.0; // standard error of luminance
+};
+
+double luminanceOf(const glm::dvec3& color)
+{
+    return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+/// A picture of edge x edge pixels.
+PathPicture pictureOf(const DeviceTree& tree, Environment& environment, const ViewCamera& view, std::uint32_t edge,
+                      std::uint32_t samples, const PathOptions& options)
+{
+    PathTracer tracer(device().device());
+    tracer.resize(edge, edge);
+    const TraceCamera camera = traceCamera(view, tree.grid, edge);
+    for (std::uint32_t i = 0; i < samples; ++i)
+    {
+        device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, tree, environment, camera, options); });
+    }
+    const std::vector<gpu::PixelSum> sums = device().download(tracer.sums());
+    PathPicture picture;
+    picture.pixels.resize(sums.size());
+    double variance = 0.0;
+    for (std::uint32_t y = 0; y < edge; ++y)
+    {
+        for (std::uint32_t x = 0; x < edge; ++x)
+        {
+            const std::uint32_t strip = y / gpu::kStripRows;
+            const std::uint32_t rows = std::min(gpu::kStripRows, edge - strip * gpu::kStripRows);
+            const gpu::PixelSum& sum = sums[strip * gpu::kStripRows * edge + x * rows + y % gpu::kStripRows];
+            const glm::dvec3 mean = glm::dvec3(sum.radiance) / static_cast<double>(samples);
+            picture.pixels[y * edge + x] = mean;
+            picture.mean += mean / double(sums.size());
+            const double light = luminanceOf(mean);
+            variance += std::max(double{sum.luminance_squared} / samples - light * light, 0.0) / samples;
+        }
+    }
+    picture.luminance = luminanceOf(picture.mean);
+    picture.error = std::sqrt(variance) / static_cast<double>(sums.size());
+    EXPECT_EQ(device().download(tracer.status()).front().capped_rays, 0U);
+    return picture;
+}
+
+Environment constantSky(const glm::vec3& radiance)
+{
+    return {device().device(), {4, 2, std::vector(8, radiance)}, 0.0, 1.0};
+}
+
+LitVoxel white()
+{
+    return {{}, glm::uvec3(255), glm::vec3(0.0F)};
+}
+
+LitVoxel grey()
+{
+    return {{}, glm::uvec3(188), glm::vec3(0.0F)};
+}
+
+ViewCamera outside()
+{
+    return ViewCamera::lookAt({19.0, 15.0, 23.0}, {4.0, 4.0, 4.0}, 0.4);
+}
+
+// A convex body of albedo 1 in a constant sky looks like the sky.
+TEST(PathFurnace, AWhiteCubeCannotBeSeen)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    Environment sky = constantSky({0.5F, 1.0F, 2.0F});
+    for (const LightSampling way : kWays)
+    {
+        PathOptions options;
+        options.bounces = 1;
+        options.sampling = way;
+        const PathPicture picture = pictureOf(tree, sky, outside(), 16, 256, options);
+        EXPECT_NEAR(picture.mean.r, 0.5, 0.0005);
+        EXPECT_NEAR(picture.mean.g, 1.0, 0.001);
+        EXPECT_NEAR(picture.mean.b, 2.0, 0.002);
+    }
+}
+
+// With so many bounces that all paths get out, so does a body with holes.
+TEST(PathFurnace, AWhiteBowlCannotBeSeen)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, white());
+    test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, white());
+    test::addBox(voxels, {1, 1, 0}, {8, 4, 1}, white());
+    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    Environment sky = constantSky(glm::vec3(1.0F));
+    for (const LightSampling way : kWays)
+    {
+        PathOptions options;
+        options.bounces = 96;
+        options.sampling = way;
+        const PathPicture picture = pictureOf(tree, sky, outside(), 16, 128, options);
+        EXPECT_NEAR(picture.luminance, 1.0, 0.001 + 3.0 * picture.error);
+        EXPECT_LT(picture.error, 0.004);
+    }
+}
+
+// In a closed room whose walls glow, each bounce adds the walls' albedo to its own power.
+TEST(PathEnergy, OfEachBounceIsThePowerOfTheAlbedo)
+{
+    LitVoxel wall = grey();
+    wall.emission = glm::vec3(0.5F);
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 8, 8}, wall);
+    std::erase_if(voxels,
+                  [](const LitVoxel& v) {
+                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
+                             glm::all(glm::lessThan(v.cell, glm::uvec3(7)));
+                  });
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    Environment sky = constantSky(glm::vec3(0.0F));
+    const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
+    const double albedo = test::albedoOf(wall).r;
+    for (const LightSampling way : kWays)
+    {
+        double expected = 0.0;
+        for (std::uint32_t bounces = 0; bounces <= 4; ++bounces)
+        {
+            expected += 0.5 * std::pow(albedo, bounces);
+            PathOptions options;
+            options.bounces = bounces;
+            options.sampling = way;
+            const PathPicture picture = pictureOf(tree, sky, inside, 8, 512, options);
+            EXPECT_NEAR(picture.luminance, expected, 1e-5 + 4.0 * picture.error) << bounces;
+            EXPECT_LT(picture.error, 0.01);
+        }
+    }
+}
+
+// Below the middle of a square light, at distance h: the form factor of a square (J. R. Howell, A Catalog of Radiation
+// Heat Transfer Configuration Factors, B-4, four times).
+TEST(PathLight, OfASquareIsItsFormFactor)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {16, 1, 16}, white());
+    LitVoxel lamp = white();
+    lamp.emission = glm::vec3(1.5F);
+    test::addBox(voxels, {6, 9, 6}, {10, 10, 10}, lamp);
+    const DeviceTree tree = test::litTree(device(), voxels, 4);
+    Environment sky = constantSky(glm::vec3(0.0F));
+    // A small part of the floor below the lamp, seen from below the lamp.
+    const ViewCamera view = ViewCamera::lookAt({8.0, 4.0, 8.001}, {8.0, 1.0, 8.0}, 0.02);
+    const double x = 2.0 / 8.0;
+    const double root = std::sqrt(1.0 + x * x);
+    const double factor = 4.0 / (2.0 * std::numbers::pi) * 2.0 * (x / root) * std::atan(x / root);
+    for (const LightSampling way : kWays)
+    {
+        PathOptions options;
+        options.bounces = 1;
+        options.sampling = way;
+        const PathPicture picture = pictureOf(tree, sky, view, 8, way == LightSampling::Chance ? 4096 : 512, options);
+        EXPECT_NEAR(picture.luminance, 1.5 * factor, 0.01 * 1.5 * factor);
+    }
+}
+
+TEST(PathLight, OfASunIsItsIrradiance)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, grey());
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    Environment sky = constantSky(glm::vec3(0.0F));
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.3, 0.8, 0.2));
+    sky.setSun({.direction = to_sun, .irradiance = glm::dvec3(2.0, 3.0, 4.0)});
+    const ViewCamera view = ViewCamera::lookAt({4.0, 7.0, 4.001}, {4.0, 1.0, 4.0}, 0.3);
+    for (const LightSampling way : {LightSampling::Both, LightSampling::Lights})
+    {
+        PathOptions options;
+        options.bounces = 1;
+        options.sampling = way;
+        const PathPicture picture = pictureOf(tree, sky, view, 8, 64, options);
+        const glm::dvec3 expected = test::albedoOf(grey()) * to_sun.y * glm::dvec3(2.0, 3.0, 4.0);
+        EXPECT_LT(glm::length(picture.mean - expected), 0.01 * glm::length(expected));
+    }
+}
+
+// A room with a lamp, coloured walls and a sky that shines in.
+std::vector<LitVoxel> room()
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, grey());
+    test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, {{}, {220, 60, 40}, glm::vec3(0.0F)});
+    test::addBox(voxels, {7, 1, 0}, {8, 6, 6}, {{}, {60, 200, 40}, glm::vec3(0.0F)});
+    test::addBox(voxels, {1, 1, 0}, {7, 6, 1}, grey());
+    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
+    test::addBox(voxels, {2, 5, 3}, {4, 6, 4}, {{}, {128, 128, 128}, {1.5F, 1.25F, 0.5F}});
+    test::addBox(voxels, {6, 2, 2}, {7, 3, 3}, {{}, {128, 128, 128}, {0.25F, 0.5F, 1.75F}});
+    return voxels;
+}
+
+ViewCamera intoTheRoom()
+{
+    return ViewCamera::lookAt({4.3, 4.5, 16.0}, {4.0, 2.6, 3.0}, 0.55);
+}
+
+glm::dvec3 roomSky(const glm::dvec3& direction)
+{
+    return glm::dvec3(0.5, 0.6, 0.8) * (0.5 + 0.5 * direction.y);
+}
+
+// The sky in so many texels that steps between them do not matter.
+Environment roomEnvironment(double turn)
+{
+    HdrImage picture = {128, 64, {}};
+    for (std::uint32_t y = 0; y < picture.height; ++y)
+    {
+        const double height = std::cos(std::numbers::pi * (y + 0.5) / picture.height);
+        picture.texels.insert(picture.texels.end(), picture.width, glm::vec3(roomSky({0.0, height, 0.0})));
+    }
+    return {device().device(), picture, turn, 1.0};
+}
+
+TEST(PathLight, IsThatOfAPathTracerOfBoxes)
+{
+    const std::vector<LitVoxel> voxels = room();
+    std::vector<oracle::PathBox> boxes;
+    for (const LitVoxel& voxel : voxels)
+    {
+        boxes.push_back({glm::dvec3(voxel.cell), test::albedoOf(voxel), glm::dvec3(voxel.emission)});
+    }
+    constexpr std::uint32_t kEdge = 8;
+    constexpr std::uint32_t kBounces = 3;
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    Environment sky = roomEnvironment(0.7);
+    PathOptions options;
+    options.bounces = kBounces;
+    const PathPicture picture = pictureOf(tree, sky, intoTheRoom(), kEdge, 512, options);
+    const oracle::BoxPaths expected =
+        oracle::traceBoxPaths(boxes, roomSky, intoTheRoom().position, intoTheRoom().forward, intoTheRoom().right,
+                              intoTheRoom().up, intoTheRoom().vertical_fov, kEdge, 600, kBounces);
+    EXPECT_LT(expected.error, 0.01 * luminanceOf(expected.mean));
+    const double error = std::hypot(expected.error, picture.error);
+    EXPECT_NEAR(picture.luminance, luminanceOf(expected.mean), 3.0 * error);
+    for (int i = 0; i < 3; ++i)
+    {
+        EXPECT_NEAR(picture.mean[i], expected.mean[i], 0.02 * expected.mean[i]);
+    }
+}
+
+// Trees with and without flags of nodes, in both structures, and every way of finding light.
+TEST(PathLight, IsTheSameInEachWay)
+{
+    const DeviceTree flagged = test::litTree(device(), room(), 3);
+    const DeviceTree plain = test::litTree(device(), room(), 3, false);
+    Environment sky = roomEnvironment(0.0);
+    sky.setSun({.direction = {0.5, 1.0, 0.7}, .irradiance = glm::dvec3(0.7), .angle = 0.2});
+    PathOptions options;
+    const PathPicture both = pictureOf(flagged, sky, intoTheRoom(), 16, 128, options);
+    EXPECT_EQ(pictureOf(plain, sky, intoTheRoom(), 16, 128, options).pixels, both.pixels);
+    EXPECT_LT(both.error, 0.01 * both.luminance);
+    for (const LightSampling way : {LightSampling::Chance, LightSampling::Lights})
+    {
+        options.sampling = way;
+        const PathPicture picture = pictureOf(flagged, sky, intoTheRoom(), 16, 512, options);
+        EXPECT_NEAR(picture.luminance, both.luminance, 3.0 * std::hypot(picture.error, both.error));
+    }
+    options.sampling = LightSampling::Both;
+    options.roulette = true;
+    const PathPicture roulette = pictureOf(flagged, sky, intoTheRoom(), 16, 256, options);
+    EXPECT_NEAR(roulette.luminance, both.luminance, 3.0 * std::hypot(roulette.error, both.error));
+}
+
+} // namespace
+} // namespace zvo

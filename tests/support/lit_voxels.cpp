@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "support/lit_voxels.h"
+
+#include "oracle/morton.h"
+#include "support/trace_octrees.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace zvo::test
+{
+
+namespace
+{
+
+// RGB9E5 of multiples of 2^-8 below 2.
+gpu::uint encodeEmission(const glm::vec3& emission)
+{
+    const glm::uvec3 mantissa(emission * 256.0F);
+    EXPECT_EQ(glm::vec3(mantissa) / 256.0F, emission);
+    EXPECT_TRUE(glm::all(glm::lessThan(mantissa, glm::uvec3(512))));
+    return mantissa.x | (mantissa.y << 9) | (mantissa.z << 18) | (16U << 27);
+}
+
+bool emits(const LitVoxel& voxel)
+{
+    return voxel.emission != glm::vec3(0.0F);
+}
+
+// For each node, whether a voxel below it emits.
+std::vector<gpu::Attribute> nodeFlags(const DeviceTree& tree, std::span<const gpu::Node> nodes,
+                                      std::span<const LitVoxel> voxels)
+{
+    std::vector<gpu::Attribute> flags(nodes.size());
+    for (std::size_t number = nodes.size(); number-- > 0;)
+    {
+        const gpu::Node& node = nodes[number];
+        const bool is_leaf = number >= tree.levels.back().first_node;
+        const std::size_t count = static_cast<std::size_t>(std::popcount(node.mask_lo) + std::popcount(node.mask_hi));
+        const std::size_t first = node.mask_lo != 0 ? node.base_lo : node.base_hi;
+        for (std::size_t i = first; i < first + count; ++i)
+        {
+            flags[number].color |= is_leaf ? (emits(voxels[i]) ? gpu::kAttributeEmissive << 24 : 0) : flags[i].color;
+        }
+    }
+    return flags;
+}
+
+} // namespace
+
+glm::dvec3 albedoOf(const LitVoxel& voxel)
+{
+    glm::dvec3 linear;
+    for (int i = 0; i < 3; ++i)
+    {
+        const double code = voxel.color[i] / 255.0;
+        linear[i] = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+    }
+    return linear;
+}
+
+void addBox(std::vector<LitVoxel>& voxels, const glm::uvec3& low, const glm::uvec3& high, const LitVoxel& voxel)
+{
+    for (std::uint32_t z = low.z; z < high.z; ++z)
+    {
+        for (std::uint32_t y = low.y; y < high.y; ++y)
+        {
+            for (std::uint32_t x = low.x; x < high.x; ++x)
+            {
+                voxels.push_back(voxel);
+                voxels.back().cell = {x, y, z};
+            }
+        }
+    }
+}
+
+DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std::uint32_t depth, bool flags)
+{
+    const auto code = [](const LitVoxel& voxel) { return oracle::mortonEncode(voxel.cell); };
+    std::ranges::sort(voxels, {}, code);
+    Codes codes(voxels.size());
+    std::ranges::transform(voxels, codes.begin(), code);
+    DeviceTree tree = octreeOf(device, codes, depth);
+    std::vector<gpu::Attribute> attributes(voxels.size());
+    std::vector<gpu::uvec2> words((voxels.size() + 31) / 32, gpu::uvec2(0));
+    std::vector<gpu::uint> emission;
+    for (std::size_t i = 0; i < voxels.size(); ++i)
+    {
+        const LitVoxel& voxel = voxels[i];
+        attributes[i].color = voxel.color.r | (voxel.color.g << 8) | (voxel.color.b << 16) |
+                              (emits(voxel) ? gpu::kAttributeEmissive << 24 : 0);
+        if (i % 32 == 0)
+        {
+            words[i / 32].y = static_cast<gpu::uint>(emission.size());
+        }
+        if (emits(voxel))
+        {
+            words[i / 32].x |= 1U << (i % 32);
+            emission.push_back(encodeEmission(voxel.emission));
+        }
+    }
+    tree.voxel_attributes = device.makeBuffer("voxel attributes", std::span<const gpu::Attribute>(attributes));
+    if (!emission.empty())
+    {
+        tree.emission_words = device.makeBuffer("emission words", std::span<const gpu::uvec2>(words));
+        tree.emission = device.makeBuffer("emission", std::span<const gpu::uint>(emission));
+    }
+    if (flags)
+    {
+        const std::vector<gpu::Attribute> of_nodes = nodeFlags(tree, device.download(tree.nodes), voxels);
+        tree.node_attributes = device.makeBuffer("node attributes", std::span<const gpu::Attribute>(of_nodes));
+    }
+    return tree;
+}
+
+} // namespace zvo::test

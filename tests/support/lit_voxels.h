@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Trees of a few voxels with colours and emission of their own, for tests of light.
+#pragma once
+
+#include "core/tree/device_tree.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace zvo::test
+{
+
+struct LitVoxel
+{
+    glm::uvec3 cell{0U};
+    glm::uvec3 color{255U};   // sRGB codes
+    glm::vec3 emission{0.0F}; // radiance; must be a multiple of 2^-8 below 2
+};
+
+/// Linear albedo of a voxel.
+glm::dvec3 albedoOf(const LitVoxel& voxel);
+
+/// The tree of voxels in any order. The grid has its corner at 0 and voxels of size 1. flags: nodes have attributes,
+/// which say whether a voxel below them emits.
+DeviceTree litTree(vk::HeadlessDevice& device, std::vector<LitVoxel> voxels, std::uint32_t depth, bool flags = true);
+
+/// The voxels of a box for whose cells make() gives one: from low up to, but without, high.
+void addBox(std::vector<LitVoxel>& voxels, const glm::uvec3& low, const glm::uvec3& high, const LitVoxel& voxel);
+
+} // namespace zvo::test
