@@ -101,12 +101,18 @@ void checkOutputs(std::span<const std::string> outputs, std::span<const std::fil
     }
 }
 
-void checkPictureName(std::string_view option, const std::string& path)
+void checkPictureName(std::string_view option, const std::string& path, bool radiance)
 {
-    if (extensionOf(path) != ".png")
+    const std::string extension = extensionOf(path);
+    if (extension == ".png" || (radiance && (extension == ".exr" || extension == ".hdr")))
     {
-        throw Error(ErrorCode::Usage, fmt::format("{} {}: pictures are PNG files; name it .png", option, path));
+        return;
     }
+    throw Error(ErrorCode::Usage,
+                radiance ? fmt::format("{} {}: pictures of paths are PNG, OpenEXR or Radiance files; name it .png, "
+                                       ".exr or .hdr",
+                                       option, path)
+                         : fmt::format("{} {}: pictures are PNG files; name it .png", option, path));
 }
 
 std::string extensionOf(const std::string& path)

@@ -40,8 +40,9 @@ void checkPaths(const OutputOptions& options, std::span<const std::filesystem::p
 /// Throws Error{Usage} if two of the outputs are one file, or if one would overwrite an input. "" and "-" are no files.
 void checkOutputs(std::span<const std::string> outputs, std::span<const std::filesystem::path> inputs);
 
-/// Throws Error{Usage}, which names the option, unless the path ends in .png.
-void checkPictureName(std::string_view option, const std::string& path);
+/// Throws Error{Usage}, which names the option, unless the path ends in .png, or, of a picture of radiance, in .exr or
+/// .hdr.
+void checkPictureName(std::string_view option, const std::string& path, bool radiance = false);
 
 /// The extension of a path in lower case, with its dot.
 std::string extensionOf(const std::string& path);

@@ -80,6 +80,16 @@ double parseSeconds(std::string_view option, std::string_view text)
     return *value;
 }
 
+double parseDegrees(std::string_view option, std::string_view text)
+{
+    const auto value = number<double>(text);
+    if (!value || !std::isfinite(*value))
+    {
+        throw valueError(option, text, "a number of degrees");
+    }
+    return *value;
+}
+
 std::optional<std::vector<float>> tryParseFloats(std::string_view text)
 {
     std::vector<float> values;

@@ -27,6 +27,9 @@ float parsePositive(std::string_view option, std::string_view text);
 /// A finite number from 0 on.
 double parseSeconds(std::string_view option, std::string_view text);
 
+/// A finite number.
+double parseDegrees(std::string_view option, std::string_view text);
+
 /// Three finite numbers with commas between them, not all 0.
 glm::dvec3 parseDirection(std::string_view option, std::string_view text);
 

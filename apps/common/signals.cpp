@@ -4,6 +4,7 @@
 #include "common/progress.h"
 #include "io/file/atomic_file.h"
 
+#include <atomic>
 #include <csignal>
 #include <unistd.h>
 
@@ -13,10 +14,24 @@ namespace zvo::cli
 namespace
 {
 
+enum class Watch : int
+{
+    None,
+    Waiting,
+    Interrupted,
+};
+std::atomic<Watch> g_watch = Watch::None;
+static_assert(std::atomic<Watch>::is_always_lock_free); // so that a signal handler may use it
+
 // Removes half-written files and ends the process at once. Calls only functions that signal handlers may call.
 void onSignal(int signal)
 {
     constexpr int kSignalExit = 128; // plus the signal's number, as in shells
+    Watch waiting = Watch::Waiting;
+    if (signal == SIGINT && g_watch.compare_exchange_strong(waiting, Watch::Interrupted))
+    {
+        return;
+    }
     removePendingFiles();
     clearProgressBar();
     ::_exit(kSignalExit + signal);
@@ -40,6 +55,21 @@ void installSignalHandlers()
     }
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe fails the write instead
     std::signal(SIGXFSZ, SIG_IGN); // a file above the size limit fails the write, too
+}
+
+InterruptWatch::InterruptWatch()
+{
+    g_watch = Watch::Waiting;
+}
+
+InterruptWatch::~InterruptWatch()
+{
+    g_watch = Watch::None;
+}
+
+bool InterruptWatch::interrupted() const
+{
+    return g_watch == Watch::Interrupted;
 }
 
 } // namespace zvo::cli

@@ -7,4 +7,17 @@ namespace zvo::cli
 /// Signals that end the program leave no half-written files; closed pipes and full disks become errors of the write.
 void installSignalHandlers();
 
+/// While one exists, the first SIGINT (Ctrl-C) does not end the program, but is noticed here: so that what is done so
+/// far can be written. The second one ends it. One at a time.
+class InterruptWatch
+{
+public:
+    InterruptWatch();
+    ~InterruptWatch();
+    InterruptWatch(const InterruptWatch&) = delete;
+    InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+    [[nodiscard]] bool interrupted() const;
+};
+
 } // namespace zvo::cli

@@ -44,6 +44,7 @@ Examples:
   zvo render helmet.glb -o 'turn_###.png' --frames 0..35 -f
   zvo render scenes/atrium_knot.scene.json -o 'frame_####.png' --frames 0..119 --structure svdag
   zvo render scenes/atrium.glb -o 'fly_####.png' --camera-path flight.json --frames 0..89
+  zvo render scenes/cornell_box.glb -o box.png --integrator path --spp 256
   zvo render bunny.zvo -o bunny.png
   zvo render scenes/sponza_bunny.scene.json -o later.png --scenes ../models --time 1.5)";
 
@@ -89,6 +90,42 @@ Examples:
   zvo info
   zvo info --json | jq '.devices[].missing')";
 
+// The options of pictures by path tracing.
+void addPathOptions(CLI::App& render, RenderOptions& options)
+{
+    addValue(
+        render, "--integrator", options.path_traced,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"primary", "path"}) == "path";
+        },
+        "primary|path", "light by a ray to the sun and a simple sky, or by path tracing (default primary)");
+    const auto integer = [](std::uint32_t low, std::uint32_t high)
+    {
+        return [low, high](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, low, high)); };
+    };
+    PathRenderOptions& paths = options.paths;
+    addValue(render, "--spp", paths.samples, integer(1, 1U << 24), "N", "paths a pixel (default 64)");
+    addValue(render, "--bounces", paths.path.bounces, integer(0, kBouncesMax), "N",
+             "diffuse reflections of a path (default 8)");
+    addValue(render, "--seed", paths.path.seed, integer(0, UINT32_MAX), "N",
+             "of the paths' random numbers (default 0)");
+    addValue(render, "--aperture", paths.path.lens_radius, parsePositive, "RADIUS",
+             "radius of the lens of the camera, in world units (default: a pinhole)");
+    addValue(render, "--focus", paths.path.focus_distance, parsePositive, "DISTANCE",
+             "distance of the plane that is in focus, in world units (default 1)");
+    addValue(
+        render, "--environment", paths.environment,
+        [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "FILE",
+        "a map of the light from all directions, .hdr or .exr, in place of sun and sky; --sun adds the sun");
+    addValue(render, "--environment-turn", paths.environment_turn, parseDegrees, "DEGREES",
+             "turns the map about the vertical, counterclockwise from above (default 0)");
+    addValue(render, "--environment-strength", paths.environment_strength, parsePositive, "FACTOR",
+             "factor for the map's light (default 1)");
+    addValue(render, "--time-limit", paths.time_limit, parseSeconds, "SECONDS",
+             "begin no more paths after this time; the picture shows those that were traced");
+}
+
 CLI::App* addRender(CLI::App& app, RenderOptions& options)
 {
     CLI::App* render = app.add_subcommand("render", "voxelize scenes, or load a tree, and ray trace a picture");
@@ -117,7 +154,9 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
         fmt::format("rays a pixel that find how much of the sky it sees, 0 to {} (default 0)", kOcclusionRaysMax));
     addValue(*render, "--sun", options.to_sun, parseDirection, "x,y,z",
              "direction to the sun (default -0.6,0.75,0.45)");
-    addValue(*render, "--exposure", options.exposure, parsePositive, "FACTOR", "brightness of the picture (default 1)");
+    addPathOptions(*render, options);
+    addValue(*render, "--exposure", options.exposure, parsePositive, "FACTOR",
+             "brightness of the picture (default 1; for paths, so that it is neither dark nor bright)");
     addValue(*render, "--detail", options.detail_pixels, parsePositive, "PIXELS",
              "rays stop at octree nodes up to this many pixels wide (default: they go on to voxels)");
     addValue(*render, "--frames", options.frames, parseFrames, "A..B",

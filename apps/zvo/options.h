@@ -3,6 +3,7 @@
 
 #include "bench/bench_options.h"
 #include "common/scene_options.h"
+#include "core/path/path_tracer.h"
 #include "core/scene/scene.h"
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
@@ -20,6 +21,17 @@
 namespace zvo::cli
 {
 
+/// How a picture is path traced.
+struct PathRenderOptions
+{
+    PathOptions path;
+    std::uint32_t samples = 64;                       // a pixel
+    std::optional<double> time_limit;                 // seconds, after which no sample begins
+    std::optional<std::filesystem::path> environment; // a map; none: the simple sky
+    double environment_turn = 0.0;                    // degrees, counterclockwise from above
+    float environment_strength = 1.0F;
+};
+
 struct RenderOptions
 {
     VoxelOptions voxels;
@@ -30,10 +42,12 @@ struct RenderOptions
     std::string camera; // as given; empty: the scene's first one, or a fitting one
     std::optional<std::filesystem::path> camera_path;
     View view = TraceOptions().view;
-    std::uint32_t occlusion_rays = TraceOptions().occlusion_rays; // a pixel
-    std::optional<glm::dvec3> to_sun;                             // direction, any length
-    float exposure = TraceOptions().exposure;
+    std::uint32_t occlusion_rays = TraceOptions().occlusion_rays;  // a pixel
+    std::optional<glm::dvec3> to_sun;                              // direction, any length
+    std::optional<float> exposure;                                 // none: 1, or for paths by the picture's brightness
     float detail_pixels = TraceOptions().detail_pixels;            // rays stop at octree nodes up to this wide
+    bool path_traced = false;                                      // by paths, else by primary rays
+    PathRenderOptions paths;                                       // where they are
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
     std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
     bool rebuild = false;                   // voxelizes everything for each picture, instead of merging dynamic objects

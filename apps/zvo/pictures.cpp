@@ -13,7 +13,7 @@ Pictures::Pictures(const RenderOptions& options) : m_options(options)
     const std::string& path = options.output.path;
     if (path != "-")
     {
-        checkPictureName("-o", path);
+        checkPictureName("-o", path, options.path_traced);
     }
     if (!options.frames)
     {
@@ -44,13 +44,13 @@ std::uint32_t Pictures::number(std::uint32_t index) const
     return m_options.frames ? m_options.frames->first + index : 0;
 }
 
-void Pictures::write(std::uint32_t index, std::span<const std::uint8_t> png)
+void Pictures::write(std::uint32_t index, std::span<const std::uint8_t> picture)
 {
     if (!m_first)
     {
         m_first.emplace(pathOf(index), m_options.output.overwrite);
     }
-    m_first->write(std::as_bytes(png));
+    m_first->write(std::as_bytes(picture));
     m_first->finish();
     m_first.reset();
 }

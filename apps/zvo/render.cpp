@@ -195,10 +195,10 @@ private:
     {
         m_progress.begin("tracing");
         PictureTimes times;
-        const std::vector<std::uint8_t> png = m_renderer.render(camera, times);
+        const std::vector<std::uint8_t> picture = m_renderer.render(camera, m_progress, times);
         m_report.addPicture(std::move(times));
         checkValidation(m_device);
-        m_pictures.write(index, png);
+        m_pictures.write(index, picture);
     }
 
     const RenderOptions& m_options;
@@ -249,6 +249,43 @@ void checkTreeOptions(const RenderOptions& options)
     }
 }
 
+// Refuses options that have no effect without paths, or with them.
+void checkPathOptions(const RenderOptions& options)
+{
+    const PathRenderOptions plain;
+    const PathRenderOptions& paths = options.paths;
+    const std::pair<const char*, bool> of_paths[] = {
+        {"--spp", paths.samples != plain.samples},
+        {"--bounces", paths.path.bounces != plain.path.bounces},
+        {"--seed", paths.path.seed != plain.path.seed},
+        {"--aperture", paths.path.lens_radius != plain.path.lens_radius},
+        {"--focus", paths.path.focus_distance != plain.path.focus_distance},
+        {"--environment", paths.environment.has_value()},
+        {"--environment-turn", paths.environment_turn != plain.environment_turn},
+        {"--environment-strength", paths.environment_strength != plain.environment_strength},
+        {"--time-limit", paths.time_limit.has_value()},
+    };
+    const std::pair<const char*, bool> of_primary[] = {
+        {"--view", options.view != RenderOptions().view},
+        {"--occlusion", options.occlusion_rays != RenderOptions().occlusion_rays},
+        {"--detail", options.detail_pixels != RenderOptions().detail_pixels},
+    };
+    for (const auto& [name, is_given] : of_paths)
+    {
+        if (is_given && !options.path_traced)
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} needs --integrator path", name));
+        }
+    }
+    for (const auto& [name, is_given] : of_primary)
+    {
+        if (is_given && options.path_traced)
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} does not go with --integrator path", name));
+        }
+    }
+}
+
 void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pictures& pictures,
                 std::optional<Output>& report)
 {
@@ -272,10 +309,15 @@ void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pic
 
 void render(const RenderOptions& options)
 {
+    checkPathOptions(options);
     std::vector<std::filesystem::path> inputs = options.voxels.scenes;
     if (options.camera_path)
     {
         inputs.push_back(*options.camera_path);
+    }
+    if (options.paths.environment)
+    {
+        inputs.push_back(*options.paths.environment);
     }
     checkPaths(options.output, inputs);
     const CameraWork camera_work(options);

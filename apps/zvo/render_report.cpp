@@ -121,7 +121,10 @@ Json RenderReport::json(std::uint32_t picture_count, std::uint64_t capped_rays) 
         trace_ms += picture.trace_ms / static_cast<double>(m_times.size());
         shade_ms += picture.shade_ms / static_cast<double>(m_times.size());
     }
-    for (const std::vector<vk::PassTime>* passes : {&m_beam_passes, &m_times.front().passes})
+    // Of many samples, kernels are summed up.
+    const std::vector<vk::PassTime> picture =
+        m_times.front().path_samples != 0 ? sumByName(m_times.front().passes) : m_times.front().passes;
+    for (const std::vector<vk::PassTime>* passes : {&m_beam_passes, &picture})
     {
         const Json more = passesJson(*passes);
         json["passes"].insert(json["passes"].end(), more.begin(), more.end());
@@ -132,6 +135,10 @@ Json RenderReport::json(std::uint32_t picture_count, std::uint64_t capped_rays) 
     json["beam_grid_ms"] = sumMs(m_beam_passes);
     json["capped_rays"] = capped_rays;
     json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", picture_count}};
+    if (m_times.front().path_samples != 0)
+    {
+        json["paths"] = {{"samples", m_times.front().path_samples}, {"bounces", m_options.paths.path.bounces}};
+    }
     if (!m_frames.empty())
     {
         json["frames"] = m_frames;
@@ -144,6 +151,12 @@ void RenderReport::tell(std::uint64_t capped_rays) const
     if (capped_rays != 0)
     {
         talk(fmt::format("warning: {} rays took too many steps and were given up", capped_rays));
+    }
+    if (m_times.front().path_samples != 0)
+    {
+        talk(fmt::format("{}; {} paths a pixel in {:.1f} ms on {}", m_built, m_times.front().path_samples,
+                         m_times.front().trace_ms, m_device.device().report().name));
+        return;
     }
     talk(fmt::format("{}; trace {:.1f} ms, light and shade {:.1f} ms on {}", m_built, m_times.front().trace_ms,
                      m_times.front().shade_ms, m_device.device().report().name));

@@ -55,19 +55,35 @@ Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
     m_trace.view = options.view;
     m_trace.detail_pixels = options.detail_pixels;
     m_trace.occlusion_rays = options.occlusion_rays;
-    m_trace.exposure = options.exposure;
+    m_trace.exposure = options.exposure.value_or(m_trace.exposure);
     m_trace.to_sun = options.to_sun.value_or(m_trace.to_sun);
+    if (options.path_traced)
+    {
+        m_paths.emplace(device, options);
+    }
 }
 
 std::vector<vk::PassTime> Renderer::show(const DeviceTree& tree)
 {
-    setSize(m_tracer, m_options);
     m_tree = &tree;
+    if (m_paths)
+    {
+        return {};
+    }
+    setSize(m_tracer, m_options);
     return m_device.run([&](vk::FrameGraph& graph) { m_tracer.prepare(graph, tree); });
 }
 
-std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, PictureTimes& times)
+std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, Progress& progress, PictureTimes& times)
 {
+    if (m_paths)
+    {
+        std::vector<std::uint8_t> picture = m_paths->render(*m_tree, view, progress, times.passes);
+        times.trace_ms = sumMs(times.passes);
+        times.path_samples = m_paths->sampleCount();
+        m_capped_rays += m_paths->cappedRays();
+        return picture;
+    }
     const TraceBuffers& buffers = m_tracer.buffers();
     const TraceCamera camera = traceCamera(view, m_tree->grid, buffers.height);
     times.passes = m_device.run([&](vk::FrameGraph& graph) { m_tracer.trace(graph, *m_tree, camera, m_trace); });

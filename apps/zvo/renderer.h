@@ -5,6 +5,7 @@
 #include "core/trace/tree_tracer.h"
 #include "core/tree/device_tree.h"
 #include "options.h"
+#include "path_renderer.h"
 #include "vk/headless.h"
 
 #include <cstdint>
@@ -18,8 +19,9 @@ namespace zvo::cli
 struct PictureTimes
 {
     std::vector<vk::PassTime> passes;
-    double trace_ms = 0; // beam and primary rays
-    double shade_ms = 0; // shadow and occlusion rays, and colour
+    double trace_ms = 0;            // beam and primary rays
+    double shade_ms = 0;            // shadow and occlusion rays, and colour
+    std::uint32_t path_samples = 0; // a pixel; 0: not path traced, otherwise all is in trace_ms
 };
 
 /// Renders pictures of one size, of one or several octrees or DAGs. The buffers are made for the first picture, so that
@@ -33,8 +35,8 @@ public:
     /// Returns the passes that were needed. Throws Error{Memory} for a picture that is too large.
     std::vector<vk::PassTime> show(const DeviceTree& tree);
 
-    /// The picture as a PNG file.
-    std::vector<std::uint8_t> render(const ViewCamera& view, PictureTimes& times);
+    /// The picture as a file: a PNG, or of paths what the output's name tells.
+    std::vector<std::uint8_t> render(const ViewCamera& view, Progress& progress, PictureTimes& times);
 
     /// The number of rays of all pictures that were given up.
     [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }
@@ -44,7 +46,8 @@ private:
     const RenderOptions& m_options;
     TraceOptions m_trace;
     TreeTracer m_tracer;
-    const DeviceTree* m_tree = nullptr; // the tree that is shown
+    std::optional<PathRenderer> m_paths; // where pictures are path traced
+    const DeviceTree* m_tree = nullptr;  // the tree that is shown
     std::uint64_t m_capped_rays = 0;
 };
 

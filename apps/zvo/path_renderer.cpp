@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "path_renderer.h"
+
+#include "common/output.h"
+#include "common/signals.h"
+#include "core/base/read_file.h"
+#include "io/image/hdr_image_io.h"
+#include "io/image/image_io.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <numbers>
+#include <string>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+Environment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& options)
+{
+    const PathRenderOptions& paths = options.paths;
+    const TraceOptions plain;
+    SunInfo sun = {.direction = options.to_sun.value_or(plain.to_sun), .irradiance = double{plain.sun} * kSunColor};
+    if (!paths.environment)
+    {
+        Environment environment(device.device());
+        environment.setSun(sun);
+        return environment;
+    }
+    std::vector<std::string> warnings;
+    const HdrImage map = decodeHdrImage(readFile(*paths.environment), paths.environment->string(), warnings);
+    for (const std::string& warning : warnings)
+    {
+        talk("warning: " + warning);
+    }
+    Environment environment(device.device(), map, paths.environment_turn * std::numbers::pi / 180.0,
+                            double{paths.environment_strength});
+    if (options.to_sun)
+    {
+        environment.setSun(sun);
+    }
+    return environment;
+}
+
+} // namespace
+
+PathRenderer::PathRenderer(vk::HeadlessDevice& device, const RenderOptions& options)
+    : m_device(device), m_options(options), m_tracer(device.device()), m_environment(makeEnvironment(device, options))
+{
+}
+
+std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const ViewCamera& view, Progress& progress,
+                                               std::vector<vk::PassTime>& passes)
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    const PathRenderOptions& paths = m_options.paths;
+    const TraceCamera camera = traceCamera(view, tree.grid, m_options.height);
+    m_tracer.resize(m_options.width, m_options.height);
+    const InterruptWatch watch;
+    const auto goesOn = [&]
+    {
+        const std::chrono::duration<double> seconds = Clock::now() - begin;
+        return m_tracer.sampleCount() == 0 || (m_tracer.sampleCount() < paths.samples && !watch.interrupted() &&
+                                               (!paths.time_limit || seconds.count() < *paths.time_limit));
+    };
+    while (goesOn())
+    {
+        const std::vector<vk::PassTime> sample = m_device.run(
+            [&](vk::FrameGraph& graph) { m_tracer.addSample(graph, tree, m_environment, camera, paths.path); });
+        passes.insert(passes.end(), sample.begin(), sample.end());
+        progress.within(static_cast<double>(m_tracer.sampleCount()) / paths.samples);
+    }
+    if (m_tracer.sampleCount() < paths.samples)
+    {
+        talk(fmt::format("stopped after {} of {} samples a pixel", m_tracer.sampleCount(), paths.samples));
+    }
+    return encode();
+}
+
+std::vector<std::uint8_t> PathRenderer::encode()
+{
+    const std::string extension = extensionOf(m_options.output.path);
+    if (extension == ".exr" || extension == ".hdr")
+    {
+        const HdrImage picture =
+            pictureOf(m_device.download(m_tracer.sums()), m_options.width, m_options.height, m_tracer.sampleCount());
+        return extension == ".exr" ? encodeExr(picture) : encodeHdr(picture);
+    }
+    vk::BufferOf<gpu::uint> image(m_device.device(), "picture", std::uint64_t{m_options.width} * m_options.height);
+    m_device.run([&](vk::FrameGraph& graph)
+                 { m_tracer.develop(graph, TexelFormat::Rgba8, m_options.exposure, image); });
+    const std::vector<gpu::uint> texels = m_device.download(image);
+    return encodePng(m_options.width, m_options.height,
+                     {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});
+}
+
+std::uint64_t PathRenderer::cappedRays()
+{
+    return m_device.download(m_tracer.status()).front().capped_rays;
+}
+
+} // namespace zvo::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "common/progress.h"
+#include "core/path/path_tracer.h"
+#include "options.h"
+#include "vk/headless.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace zvo::cli
+{
+
+/// Path traces pictures of one size.
+class PathRenderer
+{
+public:
+    /// Reads the environment map, if one was asked for. Throws Error{Input}, Error{Memory}.
+    PathRenderer(vk::HeadlessDevice& device, const RenderOptions& options);
+
+    /// The picture of a tree as a file of the kind that the output's name tells. passes receives those of all samples.
+    /// Stops early at the time limit, or when the user interrupts; then the picture shows the samples so far.
+    std::vector<std::uint8_t> render(const DeviceTree& tree, const ViewCamera& view, Progress& progress,
+                                     std::vector<vk::PassTime>& passes);
+
+    /// The number of rays of the last picture that were given up.
+    [[nodiscard]] std::uint64_t cappedRays();
+
+    /// Samples a pixel of the last picture.
+    [[nodiscard]] std::uint32_t sampleCount() const { return m_tracer.sampleCount(); }
+
+private:
+    [[nodiscard]] std::vector<std::uint8_t> encode();
+
+    vk::HeadlessDevice& m_device;
+    const RenderOptions& m_options;
+    PathTracer m_tracer;
+    Environment m_environment;
+};
+
+} // namespace zvo::cli

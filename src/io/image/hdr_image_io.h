@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/scene/hdr_image.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zvo
+{
+
+/// The most texels of a picture that is read.
+inline constexpr std::uint64_t kHdrTexelsMax = std::uint64_t{1} << 25;
+
+/// Decodes a Radiance picture (.hdr) or an OpenEXR picture of one part with the channels R, G and B, or Y. Values that
+/// are negative or NaN become 0, and those above the largest half float 65504 in an OpenEXR picture become that; then
+/// warnings gets a line. where: the beginning of messages. Throws Error{Input}.
+HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string& where,
+                        std::vector<std::string>& warnings);
+
+/// A Radiance picture (.hdr): 8 bits of mantissa with a common exponent. Throws Error{Memory}.
+std::vector<std::uint8_t> encodeHdr(const HdrImage& image);
+
+/// An OpenEXR picture of 32-bit floats, compressed without loss. Throws Error{Memory}.
+std::vector<std::uint8_t> encodeExr(const HdrImage& image);
+
+} // namespace zvo

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "io/image/hdr_image_io.h"
+
+#include "support/errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+HdrImage randomImage(std::uint32_t width, std::uint32_t height)
+{
+    std::mt19937 random(width);
+    std::uniform_real_distribution<float> stops(-8.0F, 12.0F);
+    HdrImage image = {width, height, {}};
+    for (std::uint32_t i = 0; i < width * height; ++i)
+    {
+        image.texels.emplace_back(std::exp2(stops(random)), std::exp2(stops(random)), std::exp2(stops(random)));
+    }
+    return image;
+}
+
+HdrImage decode(const std::vector<std::uint8_t>& bytes, std::vector<std::string>* warnings = nullptr)
+{
+    std::vector<std::string> own;
+    HdrImage image = decodeHdrImage(bytes, "here", warnings != nullptr ? *warnings : own);
+    EXPECT_TRUE(own.empty());
+    return image;
+}
+
+std::string errorOf(const std::vector<std::uint8_t>& bytes)
+{
+    return test::messageOf([&] { decode(bytes); }, ErrorCode::Input);
+}
+
+TEST(HdrImageIo, ExrKeepsEveryNumber)
+{
+    for (const auto& [width, height] : {std::pair(1U, 1U), std::pair(33U, 2U), std::pair(70U, 50U)})
+    {
+        const HdrImage image = randomImage(width, height);
+        const HdrImage decoded = decode(encodeExr(image));
+        EXPECT_EQ(decoded.width, width);
+        EXPECT_EQ(decoded.height, height);
+        EXPECT_EQ(decoded.texels, image.texels);
+    }
+}
+
+// The largest channel of a texel keeps 8 bits, the others its exponent.
+TEST(HdrImageIo, RadianceKeepsEightBits)
+{
+    for (const auto& [width, height] : {std::pair(1U, 1U), std::pair(7U, 3U), std::pair(70U, 50U)})
+    {
+        const HdrImage image = randomImage(width, height);
+        const HdrImage decoded = decode(encodeHdr(image));
+        ASSERT_EQ(decoded.texels.size(), image.texels.size());
+        for (std::size_t i = 0; i < image.texels.size(); ++i)
+        {
+            const glm::vec3 texel = image.texels[i];
+            const float largest = std::max(texel.x, std::max(texel.y, texel.z));
+            EXPECT_LE(glm::length(decoded.texels[i] - texel), 0.0137F * largest); // sqrt(3) / 127
+        }
+    }
+}
+
+TEST(HdrImageIo, ValuesThatNoLightHasAreReplaced)
+{
+    HdrImage image = randomImage(3, 2);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    image.texels[1] = {-1.0F, kInfinity, 2.0F};
+    image.texels[4] = {std::nanf(""), 1e6F, -kInfinity};
+    std::vector<std::string> warnings;
+    const HdrImage decoded = decode(encodeExr(image), &warnings);
+    EXPECT_EQ(decoded.texels[0], image.texels[0]);
+    EXPECT_EQ(decoded.texels[1], glm::vec3(0.0F, 65504.0F, 2.0F));
+    EXPECT_EQ(decoded.texels[4], glm::vec3(0.0F, 65504.0F, 0.0F));
+    ASSERT_EQ(warnings.size(), 1U);
+    test::expectParts(warnings.front(), {"here", "2 texels", "65504"});
+}
+
+TEST(HdrImageIo, ErrorsSayWhatIsWrong)
+{
+    test::expectParts(errorOf({}), {"here", "neither"});
+    test::expectParts(errorOf({1, 2, 3, 4, 5}), {"here", "neither"});
+    const std::string_view announced = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 0 +X 4\n";
+    test::expectParts(errorOf({announced.begin(), announced.end()}), {"here"});
+    const std::string_view large = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4000 +X 4000\nabcd";
+    test::expectParts(errorOf({large.begin(), large.end()}), {"here", "more texels than its bytes"});
+    const std::string_view larger = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 10 +X 20000\nabcd";
+    test::expectParts(errorOf({larger.begin(), larger.end()}), {"here", "16384"});
+}
+
+// However a file is damaged, it is refused in one line, or read.
+TEST(HdrImageIo, DamagedFilesEndInOneLine)
+{
+    std::mt19937 random(1);
+    std::size_t refused = 0;
+    for (const std::vector<std::uint8_t>& whole : {encodeExr(randomImage(20, 9)), encodeHdr(randomImage(20, 9))})
+    {
+        for (int i = 0; i < 400; ++i)
+        {
+            std::vector<std::uint8_t> bytes = whole;
+            if (i % 2 == 0)
+            {
+                bytes.resize(random() % bytes.size());
+            }
+            else
+            {
+                bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+            }
+            try
+            {
+                std::vector<std::string> warnings;
+                decodeHdrImage(bytes, "here", warnings);
+            }
+            catch (const Error& error)
+            {
+                EXPECT_EQ(error.code(), ErrorCode::Input);
+                EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+                ++refused;
+            }
+        }
+    }
+    EXPECT_GT(refused, 300U);
+}
+
+} // namespace
+} // namespace zvo
