@@ -60,18 +60,21 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
     const PathRenderOptions& paths = m_options.paths;
     const TraceCamera camera = traceCamera(view, tree.grid, m_options.height);
     m_tracer.resize(m_options.width, m_options.height);
+    m_tracer.forget();
     const InterruptWatch watch;
+    std::uint32_t samples = 0;
     const auto goesOn = [&]
     {
         const std::chrono::duration<double> seconds = Clock::now() - begin;
-        return m_tracer.sampleCount() == 0 || (m_tracer.sampleCount() < paths.samples && !watch.interrupted() &&
-                                               (!paths.time_limit || seconds.count() < *paths.time_limit));
+        return samples == 0 || (samples < paths.samples && !watch.interrupted() &&
+                                (!paths.time_limit || seconds.count() < *paths.time_limit));
     };
     while (goesOn())
     {
         const std::vector<vk::PassTime> sample = m_device.run(
             [&](vk::FrameGraph& graph) { m_tracer.addSample(graph, tree, m_environment, camera, paths.path); });
         passes.insert(passes.end(), sample.begin(), sample.end());
+        ++samples;
         progress.within(static_cast<double>(m_tracer.sampleCount()) / paths.samples);
     }
     if (m_tracer.sampleCount() < paths.samples)
@@ -90,9 +93,9 @@ std::vector<std::uint8_t> PathRenderer::encode()
             pictureOf(m_device.download(m_tracer.sums()), m_options.width, m_options.height, m_tracer.sampleCount());
         return extension == ".exr" ? encodeExr(picture) : encodeHdr(picture);
     }
+    const Exposure exposure = {!m_options.exposure.has_value(), m_options.exposure.value_or(1.0F)};
     vk::BufferOf<gpu::uint> image(m_device.device(), "picture", std::uint64_t{m_options.width} * m_options.height);
-    m_device.run([&](vk::FrameGraph& graph)
-                 { m_tracer.develop(graph, TexelFormat::Rgba8, m_options.exposure, image); });
+    m_device.run([&](vk::FrameGraph& graph) { m_tracer.develop(graph, TexelFormat::Rgba8, exposure, image); });
     const std::vector<gpu::uint> texels = m_device.download(image);
     return encodePng(m_options.width, m_options.height,
                      {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});

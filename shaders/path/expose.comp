@@ -47,5 +47,5 @@ void main()
             s_sums[i] += s_sums[i + distance];
     }
     if (i == 0u)
-        params.exposure.data[0] = s_sums[0].x > 0.0 ? kMiddleGrey / exp2(s_sums[0].y / s_sums[0].x) : 1.0;
+        params.exposure.data[0] = params.factor * (s_sums[0].x > 0.0 ? kMiddleGrey / exp2(s_sums[0].y / s_sums[0].x) : 1.0);
 }

@@ -203,6 +203,7 @@ struct PathExposeParams // push constants of path/expose: one workgroup
 {
     GPU_CONST_PTR(uint) counts;
     GPU_PTR(float) exposure; // [1]
+    float factor;
 };
 GPU_KERNEL(path, expose, Expose, PathExposeParams)
 

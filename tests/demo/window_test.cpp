@@ -58,6 +58,29 @@ TEST_F(DemoWindow, OtherPicturesAreThoseOfZvoRenderToo)
     EXPECT_EQ(file("shown.png"), render(std::vector<std::string>{"other.zvo"} + kSize));
 }
 
+// While nothing changes, each frame adds a sample; what moves begins anew.
+TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
+{
+    const std::vector<std::string> common = kCube + kCamera + kSize + std::vector<std::string>{"--integrator", "path"};
+    std::set<std::string> pictures;
+    for (const char* samples : {"1", "4"})
+    {
+        show(common + kSteady + std::vector<std::string>{"--frames", samples, "--screenshot", "shown.png", "-f"});
+        EXPECT_EQ(file("shown.png"), render(common + std::vector<std::string>{"--spp", samples}));
+        pictures.insert(file("shown.png"));
+    }
+    EXPECT_EQ(pictures.size(), 2U);
+    const std::vector<std::string> moving =
+        std::vector<std::string>{"moving.scene.json", "--integrator", "path"} + kCamera + kSize;
+    show(moving + kSteady + std::vector<std::string>{"--frames", "3", "--screenshot", "shown.png", "-f"});
+    ASSERT_EQ(
+        runZvo(m_dir.path(), std::vector<std::string>{"render"} + moving +
+                                 std::vector<std::string>{"-o", "frame_#.png", "--frames", "2..2", "--spp", "1", "-f"})
+            .exit_code,
+        0);
+    EXPECT_EQ(file("shown.png"), file("frame_2.png"));
+}
+
 TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
 {
     show(kCube + kCamera + kSteady +

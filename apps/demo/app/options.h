@@ -6,6 +6,7 @@
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "demo/input/elapsed.h"
+#include "demo/world/integrator.h"
 #include "vk/swapchain.h"
 #include "zvo/dynamic_tree.h"
 
@@ -29,6 +30,7 @@ struct DemoOptions
     std::string camera; // as in `zvo render`
     std::optional<std::filesystem::path> camera_path;
     std::optional<View> view;
+    std::optional<Integrator> integrator;
     std::optional<std::uint32_t> occlusion_rays;
     std::optional<glm::dvec3> to_sun;
     std::optional<float> exposure;

@@ -125,7 +125,11 @@ void viewPanel(ViewState& view, const ViewInfo& info)
     if (view.view == View::Color)
     {
         integratorChoice(view);
-        ImGui::Checkbox("shadows", &view.shadows);
+        if (info.samples)
+        {
+            tell(fmt::format("{} paths a pixel", *info.samples));
+        }
+        ImGui::Checkbox(view.integrator == Integrator::Path ? "sun" : "shadows", &view.shadows);
         int rays = static_cast<int>(view.occlusion_rays);
         if (ImGui::SliderInt("occlusion rays", &rays, 0, static_cast<int>(kOcclusionRaysMax), "%d",
                              ImGuiSliderFlags_AlwaysClamp))

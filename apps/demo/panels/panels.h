@@ -12,6 +12,7 @@
 #include "demo/world/world.h"
 #include "vk/device.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -30,7 +31,8 @@ struct ViewInfo
 {
     double internal_scale = 1; // in use
     vk::PresentMode mode = vk::PresentMode::Fifo;
-    double camera_speed = 1; // world units a second
+    double camera_speed = 1;              // world units a second
+    std::optional<std::uint32_t> samples; // a pixel, where paths are traced
 };
 
 /// Device memory by purpose, in bytes.

@@ -117,17 +117,16 @@ ComposeImage::~ComposeImage()
     m_device.fn().vkDestroyFramebuffer(m_device.handle(), m_framebuffer, m_device.allocationCallbacks());
 }
 
-void ComposeImage::fill(vk::FrameGraph& graph, const TraceBuffers& picture)
+void ComposeImage::fill(vk::FrameGraph& graph, const vk::BufferOf<gpu::uint>& picture, PictureSize from)
 {
-    const PictureSize from = {picture.width, picture.height};
-    const vk::BufferOf<gpu::uint>* pixels = &picture.image;
+    const vk::BufferOf<gpu::uint>* pixels = &picture;
     if (from != m_size)
     {
         if (m_scaled.count() == 0)
         {
             m_scaled = {m_device, "scaled picture", std::uint64_t{m_size.width} * m_size.height};
         }
-        scalePicture(graph, picture.image, from, m_scaled, m_size);
+        scalePicture(graph, picture, from, m_scaled, m_size);
         pixels = &m_scaled;
     }
     graph.record("present/compose", {vk::CopyUse::read(*pixels)},

@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return m_image.bytes() + m_scaled.bytes(); }
 
     /// Records the passes that put a picture of any size into the image.
-    void fill(vk::FrameGraph& graph, const TraceBuffers& picture);
+    void fill(vk::FrameGraph& graph, const vk::BufferOf<gpu::uint>& picture, PictureSize from);
 
     /// Records the render pass in which draw draws over the picture.
     void drawOver(vk::FrameGraph& graph, const std::function<void(VkCommandBuffer)>& draw);

@@ -11,8 +11,9 @@ namespace zvo::demo
 enum class Integrator
 {
     Primary, ///< primary rays, with rays to the sun and over the hemisphere (core/trace/trace.h)
+    Path,    ///< path tracing, a sample a frame for as long as nothing changes (core/path/path_tracer.h)
 };
 
-inline constexpr std::array<std::string_view, 1> kIntegratorNames = {"primary rays"};
+inline constexpr std::array<std::string_view, 2> kIntegratorNames = {"primary rays", "paths"};
 
 } // namespace zvo::demo

@@ -13,6 +13,7 @@ void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture&
     m_deletion_queue.beginFrame(frame);
     m_tracer.resize(picture.internal.width, picture.internal.height);
     m_tracer.reserve(tree);
+    preparePaths(picture);
     if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
     {
         auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);
@@ -22,7 +23,55 @@ void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture&
 
 std::uint64_t Renderer::pictureBytes() const
 {
-    return m_compose == nullptr ? 0 : m_tracer.buffers().bytes() + m_compose->bytes();
+    const std::uint64_t path_bytes = m_paths == nullptr ? 0 : m_paths->tracer.bytes() + m_paths->image.bytes();
+    return m_compose == nullptr ? 0 : m_tracer.buffers().bytes() + m_compose->bytes() + path_bytes;
+}
+
+// Makes or drops what path tracing needs.
+void Renderer::preparePaths(const Picture& picture)
+{
+    if (!picture.view.showsPaths())
+    {
+        if (m_paths != nullptr)
+        {
+            m_deletion_queue.keep(std::exchange(m_paths, nullptr));
+        }
+        return;
+    }
+    if (m_paths == nullptr)
+    {
+        m_paths = std::make_unique<Paths>(m_device, &m_deletion_queue);
+    }
+    const std::uint64_t pixel_count = m_tracer.buffers().image.count();
+    if (m_paths->image.count() != pixel_count)
+    {
+        vk::BufferOf<gpu::uint> image(m_device.device(), "path picture", pixel_count);
+        m_deletion_queue.keep(std::exchange(m_paths->image, std::move(image)));
+    }
+    m_paths->tracer.resize(picture.internal.width, picture.internal.height);
+}
+
+void Renderer::tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
+                          const ViewState& view)
+{
+    const double strength = view.shadows ? TraceOptions().sun : 0.0;
+    m_paths->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
+    m_paths->tracer.addSample(graph, tree, m_paths->sky, camera, {});
+    m_paths->tracer.develop(graph, TexelFormat::Rgba8, {.factor = view.exposure}, m_paths->image);
+}
+
+void Renderer::forget()
+{
+    m_tracer.forget();
+    if (m_paths != nullptr)
+    {
+        m_paths->tracer.forget();
+    }
+}
+
+std::optional<std::uint32_t> Renderer::sampleCount() const
+{
+    return m_paths == nullptr ? std::nullopt : std::optional(m_paths->tracer.sampleCount());
 }
 
 void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
@@ -30,11 +79,17 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     const TraceBuffers& buffers = m_tracer.buffers();
     const TraceCamera camera = traceCamera(picture.camera, tree.grid, buffers.height);
     const TraceOptions options = picture.view.traceOptions();
-    switch (picture.view.integrator)
+    if (m_paths == nullptr)
     {
-    case Integrator::Primary:
         m_tracer.trace(graph, tree, camera, options);
-        break;
+    }
+    else
+    {
+        tracePaths(graph, tree, camera, picture.view);
+    }
+    if (picture.inspected && m_paths != nullptr)
+    {
+        m_tracer.tracePrimary(graph, tree, camera, options); // for its hits
     }
     if (picture.inspected)
     {
@@ -45,7 +100,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
                                   tracedPixel(picture.inspected->y, picture.window.height, buffers.height)};
         inspectPixel(graph, tree, camera, options, buffers, pixel, *picture.report);
     }
-    m_compose->fill(graph, buffers);
+    m_compose->fill(graph, m_paths == nullptr ? buffers.image : m_paths->image, {buffers.width, buffers.height});
     if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
     {
         m_compose->copyTo(graph, *picture.screenshot);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/path/path_tracer.h"
 #include "core/present/present.h"
 #include "core/trace/tree_tracer.h"
 #include "demo/world/compose.h"
@@ -54,10 +55,13 @@ public:
 
     /// Drops what kernels have made for tracing, which is then made again. Called if the last frame is lost, or kernels
     /// may have changed.
-    void forget() { m_tracer.forget(); }
+    void forget();
 
     /// Device memory for the picture.
     [[nodiscard]] std::uint64_t pictureBytes() const;
+
+    /// Samples of each pixel of the picture, where it is path traced.
+    [[nodiscard]] std::optional<std::uint32_t> sampleCount() const;
 
     /// Primary rays of a frame.
     [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(m_tracer.buffers()); }
@@ -66,7 +70,24 @@ private:
     vk::HeadlessDevice& m_device;
     const ComposePass& m_pass;
     vk::DeletionQueue m_deletion_queue;
+    /// What path tracing needs.
+    struct Paths
+    {
+        Paths(vk::HeadlessDevice& device, vk::DeletionQueue* deletion_queue)
+            : tracer(device.device(), deletion_queue), sky(device.device())
+        {
+        }
+
+        PathTracer tracer;
+        Environment sky;
+        vk::BufferOf<gpu::uint> image; // [width * height] of the internal size
+    };
+
+    void preparePaths(const Picture& picture);
+    void tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const ViewState& view);
+
     TreeTracer m_tracer;
+    std::unique_ptr<Paths> m_paths; // null: primary rays
     std::unique_ptr<ComposeImage> m_compose;
 };
 

@@ -26,6 +26,9 @@ struct ViewState
 
     bool operator==(const ViewState&) const = default;
 
+    /// Whether the picture is path traced: other views than colour are not.
+    [[nodiscard]] bool showsPaths() const { return integrator == Integrator::Path && view == View::Color; }
+
     [[nodiscard]] TraceOptions traceOptions() const
     {
         TraceOptions options;

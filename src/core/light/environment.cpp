@@ -2,6 +2,7 @@
 #include "core/light/environment.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/new_version.h"
 #include "vk/device.h"
 #include "zvo/error.h"
 
@@ -41,7 +42,7 @@ gpu::EnvironmentMap mapOf(std::uint32_t width, std::uint32_t height, double turn
 } // namespace
 
 Environment::Environment(vk::Device& device, std::uint32_t width, std::uint32_t height, double turn, double strength)
-    : m_device(&device)
+    : m_version(newVersion())
 {
     if (width == 0 || height == 0)
     {
@@ -85,8 +86,11 @@ void Environment::setSun(const SunInfo& sun)
     m_values.to_sun = gpu::vec3(direction);
     m_values.sun = radiance;
     m_values.sun_height = static_cast<float>(2.0 * std::pow(std::sin(0.5 * sun.angle), 2.0));
-    m_is_current = m_is_current && before.to_sun == m_values.to_sun && before.sun == m_values.sun &&
-                   before.sun_height == m_values.sun_height;
+    if (before.to_sun != m_values.to_sun || before.sun != m_values.sun || before.sun_height != m_values.sun_height)
+    {
+        m_is_current = false;
+        m_version = newVersion();
+    }
 }
 
 void Environment::prepare(vk::FrameGraph& graph)

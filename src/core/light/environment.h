@@ -42,6 +42,9 @@ public:
     /// make the alias tables.
     void prepare(vk::FrameGraph& graph);
 
+    /// Changes whenever the light does.
+    [[nodiscard]] std::uint64_t version() const { return m_version; }
+
     /// Declares that pass reads all of it.
     [[nodiscard]] gpu::ConstPtr<gpu::Environment> read(vk::AnyPass& pass) const;
 
@@ -56,7 +59,7 @@ private:
 
     void buildTables(vk::FrameGraph& graph);
 
-    vk::Device* m_device;
+    std::uint64_t m_version;
     gpu::Environment m_values{};
     std::vector<glm::vec3> m_upload; // texels that the device does not have yet; empty: none, or the simple sky
     bool m_is_prepared = false;      // texels and tables

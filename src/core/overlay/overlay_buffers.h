@@ -67,7 +67,7 @@ public:
     [[nodiscard]] DeviceTree& tree() { return m_tree; }
 
     /// Tells that what is traced has changed.
-    void renewVersion() { m_tree.version = newTreeVersion(); }
+    void renewVersion() { m_tree.version = newVersion(); }
 
     [[nodiscard]] OverlayArena& arena() { return m_arena; }
     [[nodiscard]] bool hasAttributes() const { return m_has_attributes; }

@@ -6,6 +6,7 @@
 #include "vk/device.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace zvo
@@ -84,8 +85,31 @@ void PathTracer::resize(std::uint32_t width, std::uint32_t height)
     if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height)
     {
         replace(m_pixels, std::make_unique<Pixels>(m_device, width, height));
+        m_subject = {};
     }
-    restart();
+}
+
+void PathTracer::forget()
+{
+    m_subject = {};
+    m_lights_version = 0;
+}
+
+std::uint64_t PathTracer::Pixels::bytes() const
+{
+    return sums.bytes() + 2 * (rays[0].bytes() + states[0].bytes()) + hits.bytes() + shadow_rays.bytes() +
+           shadow_states.bytes() + radiance.bytes() + lists.bytes() + numbers.bytes() + rounds.bytes() +
+           status.bytes() + brightness.bytes() + exposure.bytes() + table.bytes();
+}
+
+std::uint64_t PathTracer::bytes() const
+{
+    const auto ofLights = [](const LightTree& lights)
+    {
+        return lights.nodes.bytes() + lights.bricks.bytes() + lights.items.bytes() + lights.levels.bytes() +
+               lights.args.bytes();
+    };
+    return (m_pixels == nullptr ? 0 : m_pixels->bytes()) + (m_lights == nullptr ? 0 : ofLights(*m_lights));
 }
 
 void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment)
@@ -113,7 +137,15 @@ void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environm
 void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment,
                            const TraceCamera& camera, const PathOptions& options)
 {
+    const Subject subject = {tree.version, environment.version(), std::bit_cast<decltype(Subject::camera)>(camera.rays),
+                             camera.orthographic, options};
+    if (m_subject != subject)
+    {
+        m_sample_count = 0;
+    }
+    m_subject = {}; // should the next line throw
     prepare(graph, tree, environment);
+    m_subject = subject;
     if (m_sample_count == 0)
     {
         graph.fill(m_pixels->sums, 0);
@@ -260,7 +292,7 @@ void PathTracer::takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint
     pass.dispatchIndirect(pixels.lists, argsOf(bounce, list), params, divideUp(batch.pixel_count, gpu::kPathGroup));
 }
 
-void PathTracer::expose(vk::FrameGraph& graph, float sample_part)
+void PathTracer::expose(vk::FrameGraph& graph, float sample_part, float factor)
 {
     graph.fill(m_pixels->brightness, 0);
     {
@@ -270,20 +302,20 @@ void PathTracer::expose(vk::FrameGraph& graph, float sample_part)
         pass.dispatch(divideUp(m_pixels->sums.count(), gpu::kMeterPixels) * gpu::kPathGroup, params);
     }
     vk::Pass pass = graph.addPass(gpu::path::Expose{});
-    pass.dispatch(1, {pass.read(m_pixels->brightness), pass.write(m_pixels->exposure)});
+    pass.dispatch(1, {pass.read(m_pixels->brightness), pass.write(m_pixels->exposure), factor});
 }
 
-void PathTracer::develop(vk::FrameGraph& graph, TexelFormat texels, std::optional<float> exposure,
+void PathTracer::develop(vk::FrameGraph& graph, TexelFormat texels, const Exposure& exposure,
                          vk::BufferOf<gpu::uint>& image)
 {
     const float sample_part = 1.0F / static_cast<float>(std::max(m_sample_count, 1U));
-    if (exposure)
+    if (exposure.automatic)
     {
-        graph.update(m_pixels->exposure, 0, std::array{*exposure});
+        expose(graph, sample_part, exposure.factor);
     }
     else
     {
-        expose(graph, sample_part);
+        graph.update(m_pixels->exposure, 0, std::array{exposure.factor});
     }
     vk::Pass pass = graph.addPass(gpu::path::Develop{.texels = texels});
     gpu::PathDevelopParams params{};

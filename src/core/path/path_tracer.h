@@ -14,7 +14,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 
 namespace zvo
@@ -38,6 +37,16 @@ struct PathOptions
     LightSampling sampling = LightSampling::Both;
     bool roulette = false; // ends paths early that would bring little light, by chance
     TraceStack stack = TraceStack::Registers;
+
+    bool operator==(const PathOptions&) const = default;
+};
+
+/// How bright a picture is.
+struct Exposure
+{
+    /// The mean of the pixels' brightness, in stops, becomes middle grey before the factor is applied.
+    bool automatic = true;
+    float factor = 1.0F;
 };
 
 /// The most bounces that PathOptions::bounces asks for.
@@ -53,24 +62,23 @@ public:
     {
     }
 
-    /// Sets the size of the pictures, and restarts. Must be called before the first sample. Throws Error{Memory}; then
-    /// the size stays as it was.
+    /// Sets the size of the pictures, and begins anew if that is another one. Must be called before the first sample.
+    /// Throws Error{Memory}; then the size stays as it was.
     void resize(std::uint32_t width, std::uint32_t height);
 
-    /// Forgets all samples: because something that the picture shows has changed.
-    void restart() { m_sample_count = 0; }
+    /// Forgets all samples, and what was made of trees: because the last frame was lost, or kernels may have changed.
+    void forget();
 
-    /// Records the passes that add a sample to each pixel. Makes the light tree anew where tree has another version.
-    /// Between two restarts, tree, camera, environment and options must stay the same. Throws Error{Memory}. Cost:
-    /// pixels times bounces.
+    /// Records the passes that add a sample to each pixel. Begins anew where tree or environment has another version,
+    /// or camera or options are others. Throws Error{Memory}. Cost: pixels times bounces.
     void addSample(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment, const TraceCamera& camera,
                    const PathOptions& options);
 
-    /// Records the passes that make the picture of all samples: image, [width * height * texelWords(texels)]. exposure:
-    /// factor for radiance; without one, a factor by which the mean of the pixels' brightness, in stops, becomes middle
-    /// grey.
-    void develop(vk::FrameGraph& graph, TexelFormat texels, std::optional<float> exposure,
-                 vk::BufferOf<gpu::uint>& image);
+    /// Records the passes that make the picture of all samples: image, [width * height * texelWords(texels)].
+    void develop(vk::FrameGraph& graph, TexelFormat texels, const Exposure& exposure, vk::BufferOf<gpu::uint>& image);
+
+    /// Device memory of all buffers.
+    [[nodiscard]] std::uint64_t bytes() const;
 
     [[nodiscard]] std::uint32_t sampleCount() const { return m_sample_count; }
 
@@ -90,7 +98,7 @@ private:
     void prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment);
     void traceBatch(vk::FrameGraph& graph, const Batch& batch);
     void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);
-    void expose(vk::FrameGraph& graph, float sample_part);
+    void expose(vk::FrameGraph& graph, float sample_part, float factor);
     template <typename Kernel>
     void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
                   std::uint32_t bounce);
@@ -99,10 +107,25 @@ private:
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;
     std::uint32_t m_sample_count = 0;
+
+    /// What all samples of a picture show.
+    struct Subject
+    {
+        std::uint64_t tree_version = 0; // 0: nothing
+        std::uint64_t environment_version = 0;
+        std::array<std::uint32_t, sizeof(gpu::CameraRays) / sizeof(std::uint32_t)> camera{}; // its bits
+        bool orthographic = false;
+        PathOptions options;
+
+        bool operator==(const Subject&) const = default;
+    };
+    Subject m_subject;
     std::uint64_t m_lights_version = 0; // of the tree of which m_lights were made; 0: none
     struct Pixels
     {
         Pixels(vk::Device& device, std::uint32_t width, std::uint32_t height);
+
+        [[nodiscard]] std::uint64_t bytes() const;
 
         std::uint32_t width;
         std::uint32_t height;

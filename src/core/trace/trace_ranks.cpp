@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_ranks.h"
 
+#include "core/trace/trace_passes.h"
 #include "trace/beam.h"
 
 namespace zvo

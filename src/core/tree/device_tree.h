@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/grid.h"
+#include "core/base/new_version.h"
 #include "core/tree/attribute_format.h"
 #include "core/tree/list_packing.h"
 #include "shared/octree.h"
@@ -11,7 +12,6 @@
 #include "voxelize/voxelize.h"
 #include "zvo/types.h"
 
-#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -61,13 +61,6 @@ struct FragmentSums
     [[nodiscard]] std::uint64_t bytes() const { return sums.bytes() + emission_sums.bytes(); }
 };
 
-/// A number that no other call returns.
-inline std::uint64_t newTreeVersion()
-{
-    static std::atomic<std::uint64_t> last = 0;
-    return ++last;
-}
-
 /// A sparse voxel octree in device memory, or the DAG that it was compressed to; either may have room for overlays
 /// behind it. shaders/shared/octree.h and svdag.h document the layout.
 struct DeviceTree
@@ -79,7 +72,7 @@ struct DeviceTree
         std::uint32_t node_count = 0;
     };
 
-    std::uint64_t version = newTreeVersion(); // of the contents: whoever changes these sets a new version
+    std::uint64_t version = newVersion(); // of the contents: whoever changes these sets a new version
     TreeStructure structure = TreeStructure::Svo;
     Grid grid;
     std::uint32_t node_count = 0;  // without overlays

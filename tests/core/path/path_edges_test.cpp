@@ -34,6 +34,7 @@ public:
     HdrImage take(Environment& light, const PathOptions& options, std::uint32_t samples = 8)
     {
         m_tracer.resize(m_edge, m_edge);
+        m_tracer.forget();
         for (std::uint32_t i = 0; i < samples; ++i)
         {
             device().run([&](vk::FrameGraph& graph) { m_tracer.addSample(graph, m_tree, light, m_camera, options); });
