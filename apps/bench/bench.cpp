@@ -4,6 +4,7 @@
 #include "bench/bench_balance.h"
 #include "bench/bench_dynamic.h"
 #include "bench/bench_edit.h"
+#include "bench/bench_path.h"
 #include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
 #include "bench/bench_table.h"
@@ -181,6 +182,11 @@ void bench(const BenchOptions& options)
     if (options.dynamic)
     {
         benchDynamic(options);
+        return;
+    }
+    if (options.path)
+    {
+        benchPath(options);
         return;
     }
     if (options.edit)

@@ -148,7 +148,7 @@ std::uint64_t traceBatch(RTCScene scene, RTCIntersectContext& context, std::span
             at(packet.ray.org_x, i) = ray.origin.x;
             at(packet.ray.org_y, i) = ray.origin.y;
             at(packet.ray.org_z, i) = ray.origin.z;
-            at(packet.ray.tnear, i) = 0.0F;
+            at(packet.ray.tnear, i) = ray.t_min;
             at(packet.ray.dir_x, i) = ray.direction.x;
             at(packet.ray.dir_y, i) = ray.direction.y;
             at(packet.ray.dir_z, i) = ray.direction.z;

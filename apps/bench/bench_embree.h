@@ -15,11 +15,12 @@
 namespace zvo::cli
 {
 
-/// A primary ray in the space where the octree's root cube is [1, 2)^3.
+/// A ray in the space where the octree's root cube is [1, 2)^3.
 struct PrimaryRay
 {
     glm::vec3 origin{0.0F};
     glm::vec3 direction{0.0F};
+    float t_min = 0.0F;
 };
 
 /// The rays of a picture, block by block; the 16 rays of a block of 4 x 4 pixels are neighbours.

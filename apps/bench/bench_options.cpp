@@ -21,12 +21,15 @@ Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scen
 --dynamic: the scenes are scene files (.scene.json), what they name lies beside them or in the folder of --scenes.
 --edit: N strokes for each radius and action, each undone and redone; then what a stroke takes after 10, 100 and 1000.
 
+--path: the rays of paths beside primary rays and Embree's; each way of finding light beside chance.
+
 Examples:
   zvo bench scenes/knot.glb --resolutions 256 --runs 3
   zvo bench --scenes ../models --json bench.json --passes
   zvo bench --balance scenes/knot.glb scenes/atrium.glb
   zvo bench --dynamic scenes/atrium_knot.scene.json
-  zvo bench --edit scenes/atrium.glb --structure svdag)";
+  zvo bench --edit scenes/atrium.glb --structure svdag
+  zvo bench --path scenes/atrium.glb --environment forest.hdr)";
 
 } // namespace
 
@@ -40,7 +43,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
               "where the usual scenes are (default scenes), or what scene files name");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
              "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048, "
-             "with --dynamic and --edit 512)");
+             "with --dynamic, --edit and --path 512)");
     addValue(
         *bench, "--runs", options.run_count,
         [](std::string_view option, std::string_view text)
@@ -72,6 +75,16 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--dynamic")
         ->excludes("--passes")
         ->excludes("--camera");
+    bench
+        ->add_flag("--path", options.path,
+                   "measure instead path tracing: what rays cost, and the variance by the way of finding light")
+        ->excludes("--balance")
+        ->excludes("--dynamic")
+        ->excludes("--edit")
+        ->excludes("--passes");
+    bench->add_option("--environment", options.environments, "with --path, maps of light, .hdr or .exr")
+        ->type_name("FILE")
+        ->needs("--path");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");

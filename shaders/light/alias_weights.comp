@@ -7,6 +7,8 @@
 #include "light/map.glsl"
 #include "lib/luminance.glsl"
 
+layout(constant_id = 0) const bool kEvenly = false; // by solid angle alone
+
 layout(local_size_x = kAliasGroup) in;
 layout(push_constant, scalar) uniform Push
 {
@@ -64,7 +66,7 @@ void main()
         vec2 end = vec2(cell + 1u) / vec2(cells);
         vec2 size = vec2(params.map.width, params.map.height);
         vec2 y = cos(kPi * vec2(begin.y, end.y));
-        float light = meanLuminance(begin * size, end * size) * (y.x - y.y) * 2.0 * kPi / float(cells.x);
+        float light = (kEvenly ? 1.0 : meanLuminance(begin * size, end * size)) * (y.x - y.y) * 2.0 * kPi / float(cells.x);
         vec3 corners[5] = vec3[](mapDirection(begin.x, y.x, params.map.turn), mapDirection(end.x, y.x, params.map.turn),
                                  mapDirection(begin.x, y.y, params.map.turn), mapDirection(end.x, y.y, params.map.turn),
                                  mapDirection(0.5 * (begin.x + end.x), 0.5 * (y.x + y.y), params.map.turn));
@@ -77,7 +79,7 @@ void main()
         }
         [[unroll]] for (uint normal = 0u; normal < kNormals; ++normal)
         {
-            float weight = light * (normal < 3u ? up[normal % 3u] : down[normal % 3u]);
+            float weight = light * (kEvenly ? 1.0 : normal < 3u ? up[normal % 3u] : down[normal % 3u]);
             params.weights.data[normal * cells.x * cells.y + i] = weight;
             atomicMax(s_heaviest[normal], floatBitsToUint(weight));
         }

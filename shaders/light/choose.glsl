@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Chooses lights, and says with which probability (light/light_tree.h). The includer includes light/light_tree.h,
-// lib/morton.glsl and lib/node.glsl before, declares kNodeLevels, and defines
+// lib/morton.glsl and lib/node.glsl before, declares kNodeLevels and kByPower, and defines
 //   LIGHT_NODES    a LightNode_ConstPtr
 //   LIGHT_BRICKS   a LightBrick_ConstPtr
 #include "light/importance.glsl"

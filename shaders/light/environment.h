@@ -118,7 +118,9 @@ struct AliasWeightsParams // push constants of light/alias_weights: a thread a c
     GPU_PTR(AliasTotals) totals;
     EnvironmentMap map;
 };
-GPU_KERNEL(light, alias_weights, AliasWeights, AliasWeightsParams)
+GPU_KERNEL_BEGIN(light, alias_weights, AliasWeights, AliasWeightsParams)
+    GPU_CONSTANT(bool, evenly, false) // by solid angle alone
+GPU_KERNEL_END
 
 /// Push constants of the other kernels for tables: a workgroup a block of cells of a normal, all blocks of +x first.
 struct AliasParams

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How much a place may receive of the lights of a node of the light tree (light_tree.h). The includer includes
-// light/light_tree.h before, declares kNodeLevels, and defines
+// light/light_tree.h before, declares kNodeLevels and kByPower, and defines
 //   LIGHT_NODES    a LightNode_ConstPtr
 #include "light/bounds.glsl"
 
@@ -24,6 +24,12 @@ void weighFaces(LitPlace place, uint node, out vec3 up, out vec3 down)
     vec3 high = 1.0 + edge * vec3(unpackLightCell(unpackUint2x32(words.data[1])) + 1u);
     uvec2 power = unpackUint2x32(words.data[2]);
 
+    if (kByPower)
+    {
+        up = uintBitsToFloat(power.x) * unpackLightParts(power.y, 0u);
+        down = uintBitsToFloat(power.x) * unpackLightParts(power.y, 3u);
+        return;
+    }
     vec3 above = place.position - low;
     vec3 below = high - place.position;
     vec3 to_middle = 0.5 * (below - above);

@@ -11,6 +11,7 @@
 
 layout(constant_id = 0) const uint kSampling = kSampleBoth; // how light is found
 layout(constant_id = 1) const uint kNodeLevels = 5u;
+layout(constant_id = 2) const bool kByPower = false; // lights are chosen whatever their place
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push

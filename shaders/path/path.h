@@ -148,6 +148,7 @@ GPU_KERNEL_END
 GPU_KERNEL_BEGIN(path, emitter, Emitter, PathLightParams)
     GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
     GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, by_power, false)
 GPU_KERNEL_END
 GPU_KERNEL_BEGIN(path, map_light, MapLight, PathLightParams)
     GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
@@ -155,6 +156,7 @@ GPU_KERNEL_END
 GPU_KERNEL_BEGIN(path, voxel_light, VoxelLight, PathLightParams)
     GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
     GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, by_power, false)
 GPU_KERNEL_END
 
 struct PathConnectParams // push constants of path/connect: a thread a shadow ray

@@ -31,6 +31,7 @@ layout(push_constant, scalar) uniform Push
     PathShadeParams params;
 };
 
+const bool kByPower = false;
 #define LIGHT_NODES params.light_nodes
 #include "light/importance.glsl"
 #include "path/lists.glsl"

@@ -106,6 +106,21 @@ TEST_F(CliPath, MapsThatAreRepairedAreToldOf)
     EXPECT_NE(outcome.err.find("warning: negative.exr: 1 texels"), std::string::npos) << outcome.err;
 }
 
+TEST_F(CliPath, BenchTellsOfRaysAndVariances)
+{
+    const Outcome outcome = runZvo(m_dir.path(), {"bench", "--path", "cube.glb", "--resolution", "8", "--runs", "1",
+                                                  "--environment", "sky.exr", "--json", "-"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    const nlohmann::json& row = report["rows"][0];
+    EXPECT_EQ(row["primary"]["count"], 640 * 360);
+    EXPECT_LT(row["bounces"]["count"], row["primary"]["count"]) << "a cube sends no ray back to itself";
+    EXPECT_GT(row["shadows"]["count"], 1000);
+    ASSERT_EQ(report["variances"].size(), 1U) << "nothing gives off light";
+    EXPECT_EQ(report["variances"][0]["light"], "sky");
+    expectErrorLine(runZvo(m_dir.path(), {"bench", "cube.glb", "--environment", "sky.exr"}), 2, {"--environment"});
+}
+
 TEST_F(CliPath, ErrorsNameTheOption)
 {
     expectErrorLine(render({"--spp", "3", "-o", "x.png"}), 2, {"--spp", "--integrator path"});

@@ -93,6 +93,12 @@ void Environment::setSun(const SunInfo& sun)
     }
 }
 
+void Environment::chooseEvenly()
+{
+    m_chooses_evenly = true;
+    m_version = newVersion();
+}
+
 void Environment::prepare(vk::FrameGraph& graph)
 {
     if (!m_is_prepared)
@@ -131,7 +137,7 @@ void Environment::buildTables(vk::FrameGraph& graph)
     const std::uint64_t block_count = divideUp(cell_count, gpu::kAliasBlock);
     graph.fill(m_totals, 0);
     {
-        vk::Pass pass = graph.addPass(gpu::light::AliasWeights{});
+        vk::Pass pass = graph.addPass(gpu::light::AliasWeights{.evenly = m_chooses_evenly});
         const gpu::AliasWeightsParams params = {pass.read(m_texels), pass.write(m_weights), pass.readWrite(m_totals),
                                                 m_values.map};
         pass.dispatch(cell_count, params);

@@ -38,6 +38,10 @@ public:
 
     void setSun(const SunInfo& sun);
 
+    /// From the next prepare() on, directions to the map are chosen evenly, whatever light comes from there; for
+    /// comparisons.
+    void chooseEvenly();
+
     /// Records what is needed before kernels use the environment, if anything has changed: uploads, and the passes that
     /// make the alias tables.
     void prepare(vk::FrameGraph& graph);
@@ -62,8 +66,9 @@ private:
     std::uint64_t m_version;
     gpu::Environment m_values{};
     std::vector<glm::vec3> m_upload; // texels that the device does not have yet; empty: none, or the simple sky
-    bool m_is_prepared = false;      // texels and tables
-    bool m_is_current = false;       // m_buffer
+    bool m_chooses_evenly = false;
+    bool m_is_prepared = false; // texels and tables
+    bool m_is_current = false;  // m_buffer
     vk::BufferOf<gpu::vec3> m_texels;
     vk::BufferOf<gpu::AliasCell> m_cells;
     vk::BufferOf<gpu::AliasTotals> m_totals;

@@ -194,13 +194,14 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
                   &paths);
         shade(graph, batch, bounce);
         const LightSampling sampling = batch.options.sampling;
+        const bool by_power = batch.options.lights_by_power;
         const std::uint32_t levels = batch.tree.grid.nodeLevels();
         const bool emits = hasEmission(batch.tree);
         takeList(graph, gpu::path::Miss{.sampling = sampling}, gpu::kListMisses, batch, bounce);
         if (emits)
         {
-            takeList(graph, gpu::path::Emitter{.sampling = sampling, .node_levels = levels}, gpu::kListEmitters, batch,
-                     bounce);
+            takeList(graph, gpu::path::Emitter{.sampling = sampling, .node_levels = levels, .by_power = by_power},
+                     gpu::kListEmitters, batch, bounce);
         }
         if (bounce == bounces || sampling == LightSampling::Chance)
         {
@@ -209,8 +210,8 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
         takeList(graph, gpu::path::MapLight{.sampling = sampling}, gpu::kListMapLights, batch, bounce);
         if (emits)
         {
-            takeList(graph, gpu::path::VoxelLight{.sampling = sampling, .node_levels = levels}, gpu::kListVoxelLights,
-                     batch, bounce);
+            takeList(graph, gpu::path::VoxelLight{.sampling = sampling, .node_levels = levels, .by_power = by_power},
+                     gpu::kListVoxelLights, batch, bounce);
         }
         const RayListLength shadows = lengthOf(pixels.lists, bounce, gpu::kListShadows);
         traceRays(graph, batch.tree, pixels.shadow_rays, pixels.hits, pixels.rounds, pixels.status, trace, &shadows);

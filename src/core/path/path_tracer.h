@@ -35,7 +35,8 @@ struct PathOptions
     float lens_radius = 0.0F;    // world units; 0: a pinhole
     float focus_distance = 1.0F; // world units along the camera's direction, where the picture is sharp; more than 0
     LightSampling sampling = LightSampling::Both;
-    bool roulette = false; // ends paths early that would bring little light, by chance
+    bool lights_by_power = false; // chooses voxels by their light alone, wherever they are; for comparisons
+    bool roulette = false;        // ends paths early that would bring little light, by chance
     TraceStack stack = TraceStack::Registers;
 
     bool operator==(const PathOptions&) const = default;
@@ -87,6 +88,14 @@ public:
 
     /// Rays that were given up (TraceStatus::capped_rays), since the last resize().
     [[nodiscard]] const vk::BufferOf<gpu::TraceStatus>& status() const { return m_pixels->status; }
+
+    /// The rays of a bounce (0: from the camera) of the last batch, and those to lights, as many as the lists tell.
+    /// Only of the last two bounces, and of the last bounce but one, they are still there.
+    [[nodiscard]] const vk::BufferOf<gpu::Ray>& rays(std::uint32_t bounce) const
+    {
+        return m_pixels->rays.at(bounce % 2);
+    }
+    [[nodiscard]] const vk::BufferOf<gpu::Ray>& shadowRays() const { return m_pixels->shadow_rays; }
 
     /// The lists of the last batch (shaders/path/path.h): lengths count its rays.
     [[nodiscard]] const vk::BufferOf<gpu::DispatchArgs>& lists() const { return m_pixels->lists; }

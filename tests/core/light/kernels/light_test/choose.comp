@@ -11,6 +11,7 @@
 
 layout(constant_id = 0) const uint kNodeLevels = 5u;
 layout(constant_id = 1) const bool kChoose = false;
+const bool kByPower = false;
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push
