@@ -117,7 +117,9 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
     addValue(
         render, "--environment", paths.environment,
         [](std::string_view, const std::string& text) { return std::filesystem::path(text); }, "FILE",
-        "a map of the light from all directions, .hdr or .exr, in place of sun and sky; --sun adds the sun");
+        "a map of the light from all directions, .hdr or .exr, in place of sun and sky, or none for no light; --sun "
+        "adds "
+        "the sun");
     addValue(render, "--environment-turn", paths.environment_turn, parseDegrees, "DEGREES",
              "turns the map about the vertical, counterclockwise from above (default 0)");
     addValue(render, "--environment-strength", paths.environment_strength, parsePositive, "FACTOR",

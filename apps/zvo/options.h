@@ -27,7 +27,7 @@ struct PathRenderOptions
     PathOptions path;
     std::uint32_t samples = 64;                       // a pixel
     std::optional<double> time_limit;                 // seconds, after which no sample begins
-    std::optional<std::filesystem::path> environment; // a map; none: the simple sky
+    std::optional<std::filesystem::path> environment; // a map, or "none": no light; not given: the simple sky
     double environment_turn = 0.0;                    // degrees, counterclockwise from above
     float environment_strength = 1.0F;
 };

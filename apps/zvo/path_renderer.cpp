@@ -19,6 +19,22 @@ namespace zvo::cli
 namespace
 {
 
+// Of "none", a map without light.
+HdrImage readMap(const std::filesystem::path& file)
+{
+    if (file == "none")
+    {
+        return {1, 1, {glm::vec3(0.0F)}};
+    }
+    std::vector<std::string> warnings;
+    HdrImage map = decodeHdrImage(readFile(file), file.string(), warnings);
+    for (const std::string& warning : warnings)
+    {
+        talk("warning: " + warning);
+    }
+    return map;
+}
+
 Environment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& options)
 {
     const PathRenderOptions& paths = options.paths;
@@ -30,14 +46,8 @@ Environment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& opt
         environment.setSun(sun);
         return environment;
     }
-    std::vector<std::string> warnings;
-    const HdrImage map = decodeHdrImage(readFile(*paths.environment), paths.environment->string(), warnings);
-    for (const std::string& warning : warnings)
-    {
-        talk("warning: " + warning);
-    }
-    Environment environment(device.device(), map, paths.environment_turn * std::numbers::pi / 180.0,
-                            double{paths.environment_strength});
+    Environment environment(device.device(), readMap(*paths.environment),
+                            paths.environment_turn * std::numbers::pi / 180.0, double{paths.environment_strength});
     if (options.to_sun)
     {
         environment.setSun(sun);

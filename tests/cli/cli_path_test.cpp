@@ -59,13 +59,10 @@ TEST_F(CliPath, EachOptionChangesThePicture)
     const std::string plain = picture({});
     EXPECT_EQ(picture({}), plain);
     const std::vector<std::vector<std::string>> others = {
-        {"--seed", "1"},
-        {"--bounces", "0"},
-        {"--exposure", "3"},
-        {"--aperture", "0.2", "--focus", "3"},
-        {"--sun", "1,1,1"},
-        {"--environment", "sky.exr"},
-        {"--structure", "svo", "--environment", "sky.hdr", "--environment-strength", "2"}};
+        {"--seed", "1"},           {"--bounces", "0"},
+        {"--exposure", "3"},       {"--aperture", "0.2", "--focus", "3"},
+        {"--sun", "1,1,1"},        {"--environment", "sky.exr"},
+        {"--environment", "none"}, {"--structure", "svo", "--environment", "sky.hdr", "--environment-strength", "2"}};
     for (const std::vector<std::string>& more : others)
     {
         EXPECT_NE(picture(more), plain) << more.front();
