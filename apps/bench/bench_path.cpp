@@ -76,7 +76,7 @@ struct SpeedRow
     double embree_bounces = 0; // Mrays/s; 0: not measured
 };
 
-/// The variance of a sample's luminance, mean over the pixels, by the way in which light is found.
+/// The relative variance of a sample's luminance, mean over the pixels, by the way in which light is found.
 struct VarianceRow
 {
     std::string scene;
@@ -188,9 +188,10 @@ public:
         PathOptions by_power;
         by_power.lights_by_power = true;
         VarianceRow row = {m_name, fmt::format("{} emissive voxels", m_tree.emission.count())};
-        row.chosen = variance(night, {});
-        row.plain = variance(night, by_power);
-        row.chance = variance(night, {.sampling = LightSampling::Chance});
+        const std::vector<Pixel> best = tracePixels(night, {});
+        row.chosen = relativeVariance(best, best);
+        row.plain = relativeVariance(tracePixels(night, by_power), best);
+        row.chance = relativeVariance(tracePixels(night, {.sampling = LightSampling::Chance}), best);
         return row;
     }
 
@@ -202,9 +203,10 @@ public:
         Environment evenly(m_device.device(), map, 0.0, 1.0);
         evenly.chooseEvenly();
         VarianceRow row = {m_name, file.stem().string()};
-        row.chosen = variance(by_light, {});
-        row.plain = variance(evenly, {});
-        row.chance = variance(by_light, {.sampling = LightSampling::Chance});
+        const std::vector<Pixel> best = tracePixels(by_light, {});
+        row.chosen = relativeVariance(best, best);
+        row.plain = relativeVariance(tracePixels(evenly, {}), best);
+        row.chance = relativeVariance(tracePixels(by_light, {.sampling = LightSampling::Chance}), best);
         return row;
     }
 
@@ -238,8 +240,14 @@ private:
         }
     }
 
-    // The mean over all pixels of the variance of a sample.
-    double variance(Environment& light, const PathOptions& options)
+    /// A pixel's mean luminance, and the variance of a sample.
+    struct Pixel
+    {
+        double mean = 0;
+        double variance = 0;
+    };
+
+    std::vector<Pixel> tracePixels(Environment& light, const PathOptions& options)
     {
         PathTracer tracer(m_device.device());
         tracer.resize(kVarianceWidth, kVarianceHeight);
@@ -248,15 +256,31 @@ private:
         {
             m_device.run([&](vk::FrameGraph& graph) { tracer.addSample(graph, m_tree, light, camera, options); });
         }
-        const std::vector<gpu::PixelSum> sums = m_device.download(tracer.sums());
-        double sum = 0;
-        for (const gpu::PixelSum& pixel : sums)
+        std::vector<Pixel> pixels;
+        for (const gpu::PixelSum& sum : m_device.download(tracer.sums()))
         {
             const double mean =
-                glm::dot(glm::dvec3(pixel.radiance), glm::dvec3(0.2126, 0.7152, 0.0722)) / kVarianceSamples;
-            sum += std::max(double{pixel.luminance_squared} / kVarianceSamples - mean * mean, 0.0);
+                glm::dot(glm::dvec3(sum.radiance), glm::dvec3(0.2126, 0.7152, 0.0722)) / kVarianceSamples;
+            pixels.push_back({mean, std::max(double{sum.luminance_squared} / kVarianceSamples - mean * mean, 0.0)});
         }
-        return sum / static_cast<double>(sums.size());
+        return pixels;
+    }
+
+    // The mean over all pixels of the variance over the square of the pixel's luminance in the best picture, to which a
+    // hundredth of the picture's is added.
+    static double relativeVariance(const std::vector<Pixel>& pixels, const std::vector<Pixel>& best)
+    {
+        double mean = 0;
+        for (const Pixel& pixel : best)
+        {
+            mean += pixel.mean / static_cast<double>(best.size());
+        }
+        double sum = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+        {
+            sum += pixels[i].variance / (best[i].mean * best[i].mean + 0.01 * mean * mean);
+        }
+        return sum / static_cast<double>(pixels.size());
     }
 
 #ifdef ZVO_EMBREE
@@ -375,7 +399,8 @@ void benchPath(const BenchOptions& options)
         {
             text += columnValues(speedColumns(), row);
         }
-        text += fmt::format("\nVariance of a sample's luminance, mean over {} x {} pixels of {} samples.\n\n{}",
+        text += fmt::format("\nVariance of a sample's luminance over the square of its mean, mean over {} x {} pixels "
+                            "of {} samples.\n\n{}",
                             kVarianceWidth, kVarianceHeight, kVarianceSamples, columnNames(varianceColumns()));
         for (const VarianceRow& row : variances)
         {
