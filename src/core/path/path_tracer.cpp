@@ -46,7 +46,7 @@ PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std:
                                 batch * (3 * sizeof(gpu::Ray) + 2 * sizeof(gpu::PathState) + sizeof(gpu::Hit) +
                                          sizeof(gpu::ShadowState) + sizeof(gpu::vec3) +
                                          gpu::kListCount * sizeof(gpu::uint)),
-                            "the paths");
+                            "path tracing");
     sums = {device, "path/sums", pixel_count};
     for (std::size_t i = 0; i < rays.size(); ++i)
     {
