@@ -50,4 +50,14 @@ private:
     std::deque<Thing> m_things; // in order of frames
 };
 
+/// Puts `made` in the place of `old`, which queue keeps; without a queue it is destroyed at once.
+template <typename T> void replace(DeletionQueue* queue, std::unique_ptr<T>& old, std::unique_ptr<T> made)
+{
+    std::swap(old, made);
+    if (queue != nullptr && made != nullptr)
+    {
+        queue->keep(std::move(made));
+    }
+}
+
 } // namespace zvo::vk

@@ -1,25 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/tree_tracer.h"
 
-#include <utility>
-
 namespace zvo
 {
-
-template <typename T> void TreeTracer::replace(std::unique_ptr<T>& old, std::unique_ptr<T> made)
-{
-    std::swap(old, made);
-    if (m_deletion_queue != nullptr && made != nullptr)
-    {
-        m_deletion_queue->keep(std::move(made));
-    }
-}
 
 void TreeTracer::resize(std::uint32_t width, std::uint32_t height)
 {
     if (m_buffers == nullptr || m_buffers->width != width || m_buffers->height != height)
     {
-        replace(m_buffers, std::make_unique<TraceBuffers>(m_device, width, height, m_texels));
+        vk::replace(m_deletion_queue, m_buffers, std::make_unique<TraceBuffers>(m_device, width, height, m_texels));
     }
 }
 
@@ -27,7 +16,7 @@ void TreeTracer::reserve(const DeviceTree& tree)
 {
     if (m_beam == nullptr || (tree.isDag() && !m_beam_is_for_dags))
     {
-        replace(m_beam, std::make_unique<BeamGrid>(m_device, tree.isDag()));
+        vk::replace(m_deletion_queue, m_beam, std::make_unique<BeamGrid>(m_device, tree.isDag()));
         m_beam_is_for_dags = tree.isDag();
         forget();
     }

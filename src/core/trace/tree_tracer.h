@@ -47,8 +47,6 @@ public:
     [[nodiscard]] const TraceBuffers& buffers() const { return *m_buffers; }
 
 private:
-    template <typename T> void replace(std::unique_ptr<T>& old, std::unique_ptr<T> made);
-
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;
     TexelFormat m_texels;
