@@ -65,7 +65,7 @@ void Renderer::forget()
     m_tracer.forget();
     if (m_paths != nullptr)
     {
-        m_paths->tracer.forget();
+        m_deletion_queue.keep(std::exchange(m_paths, nullptr)); // begin() makes new ones
     }
 }
 

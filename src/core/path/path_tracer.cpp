@@ -71,20 +71,11 @@ struct PathTracer::Batch
     std::uint32_t pixel_count;
 };
 
-template <typename T> void PathTracer::replace(std::unique_ptr<T>& old, std::unique_ptr<T> made)
-{
-    std::swap(old, made);
-    if (m_deletion_queue != nullptr && made != nullptr)
-    {
-        m_deletion_queue->keep(std::move(made));
-    }
-}
-
 void PathTracer::resize(std::uint32_t width, std::uint32_t height)
 {
     if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height)
     {
-        replace(m_pixels, std::make_unique<Pixels>(m_device, width, height));
+        vk::replace(m_deletion_queue, m_pixels, std::make_unique<Pixels>(m_device, width, height));
         m_subject = {};
     }
 }
@@ -97,9 +88,13 @@ void PathTracer::forget()
 
 std::uint64_t PathTracer::Pixels::bytes() const
 {
-    return sums.bytes() + 2 * (rays[0].bytes() + states[0].bytes()) + hits.bytes() + shadow_rays.bytes() +
-           shadow_states.bytes() + radiance.bytes() + lists.bytes() + numbers.bytes() + rounds.bytes() +
-           status.bytes() + brightness.bytes() + exposure.bytes() + table.bytes();
+    // Every member has a name here, or this does not compile: none is forgotten.
+    const auto& [own_width, own_height, sums_, rays_, states_, hits_, shadow_rays_, shadow_states_, radiance_, lists_,
+                 numbers_, rounds_, status_, brightness_, exposure_, table_, is_clear] = *this;
+    return sums_.bytes() + rays_[0].bytes() + rays_[1].bytes() + states_[0].bytes() + states_[1].bytes() +
+           hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() + lists_.bytes() +
+           numbers_.bytes() + rounds_.bytes() + status_.bytes() + brightness_.bytes() + exposure_.bytes() +
+           table_.bytes();
 }
 
 std::uint64_t PathTracer::bytes() const
@@ -112,9 +107,10 @@ std::uint64_t PathTracer::bytes() const
     return (m_pixels == nullptr ? 0 : m_pixels->bytes()) + (m_lights == nullptr ? 0 : ofLights(*m_lights));
 }
 
-void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment)
+// Records what is needed before the first sample of a subject.
+void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree)
 {
-    environment.prepare(graph);
+    graph.fill(m_pixels->sums, 0);
     if (!m_pixels->is_status_clear)
     {
         graph.fill(m_pixels->status, 0);
@@ -127,7 +123,7 @@ void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environm
     }
     if (m_lights == nullptr || !m_lights->suffices(tree))
     {
-        replace(m_lights, std::make_unique<LightTree>(m_device, tree));
+        vk::replace(m_deletion_queue, m_lights, std::make_unique<LightTree>(m_device, tree));
     }
     m_lights_version = 0; // should the next line throw
     buildLightTree(graph, tree, m_pixels->table, *m_lights);
@@ -143,12 +139,11 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Enviro
     {
         m_sample_count = 0;
     }
-    m_subject = {}; // should the next line throw
-    prepare(graph, tree, environment);
-    m_subject = subject;
+    m_subject = {}; // should anything below throw: some pixels may have got the sample
+    environment.prepare(graph);
     if (m_sample_count == 0)
     {
-        graph.fill(m_pixels->sums, 0);
+        prepare(graph, tree);
     }
     const std::uint64_t pixel_count = m_pixels->sums.count();
     for (std::uint64_t first = 0; first < pixel_count; first += kBatchMax)
@@ -157,6 +152,7 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Enviro
                            static_cast<std::uint32_t>(std::min(kBatchMax, pixel_count - first))});
     }
     ++m_sample_count;
+    m_subject = subject;
 }
 
 void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)

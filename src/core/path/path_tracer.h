@@ -104,14 +104,13 @@ private:
     struct Pixels;
     struct Batch;
 
-    void prepare(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment);
+    void prepare(vk::FrameGraph& graph, const DeviceTree& tree);
     void traceBatch(vk::FrameGraph& graph, const Batch& batch);
     void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);
     void expose(vk::FrameGraph& graph, float sample_part, float factor);
     template <typename Kernel>
     void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
                   std::uint32_t bounce);
-    template <typename T> void replace(std::unique_ptr<T>& old, std::unique_ptr<T> made);
 
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;
