@@ -85,16 +85,38 @@ TEST(PathEdges, NoVoxelsShowTheMap)
     EXPECT_TRUE(isConstant(pictures.take(light, {}), glm::vec3(0.75F), 1e-6F));
 }
 
+// More pixels than a batch has.
+TEST(PathEdges, EveryPixelOfALargePictureIsTracedOnce)
+{
+    const DeviceTree tree = oneVoxel(3, glm::vec3(1.0F));
+    Environment light = constantLight(0.75F);
+    const ViewCamera view = ViewCamera::lookAt({7.5, 7.5, 30.0}, {7.5, 7.5, 7.5}, 0.1);
+    const HdrImage image = Pictures(tree, view, 730).take(light, {.bounces = 0}, 1);
+    std::size_t lit = 0;
+    for (const glm::vec3& texel : image.texels)
+    {
+        ASSERT_TRUE(texel == glm::vec3(0.75F) || texel == glm::vec3(1.0F));
+        lit += texel == glm::vec3(1.0F) ? 1 : 0;
+    }
+    // The square's edge is 1 / (2 * 22 * tan(0.05)) of the picture's.
+    const double edge = 730.0 / (44.0 * std::tan(0.05));
+    EXPECT_NEAR(static_cast<double>(lit), edge * edge, 4.0 * edge);
+    EXPECT_EQ(image.texels[365 * 730 + 365], glm::vec3(1.0F));
+}
+
 // In grids of every depth, whose rays take several rounds from depth 14 on.
 TEST(PathEdges, OneVoxelIsSeenInEveryDepth)
 {
     for (const std::uint32_t depth : {1U, 2U, 3U, 9U, 13U, 14U, 17U})
     {
-        const DeviceTree tree = oneVoxel(depth, glm::vec3(0.0F));
+        const DeviceTree tree = oneVoxel(depth, {0.25F, 0.5F, 1.5F});
         const glm::dvec3 middle(std::ldexp(1.0, static_cast<int>(depth)) - 0.5);
-        Environment light = constantLight(1.0F);
-        Pictures pictures(tree, ViewCamera::lookAt(middle + glm::dvec3(2.0, 3.0, 4.0), middle, 0.2), 6);
-        EXPECT_TRUE(isConstant(pictures.take(light, {}, 64), glm::vec3(1.0F), 0.02F)) << depth;
+        Environment light = constantLight(0.0F);
+        Pictures pictures(tree, ViewCamera::lookAt(middle + glm::dvec3(2.0, 3.0, 4.0), middle, 0.5), 7);
+        const HdrImage image = pictures.take(light, {});
+        EXPECT_EQ(image.texels[3 * 7 + 3], glm::vec3(0.25F, 0.5F, 1.5F)) << depth;
+        EXPECT_EQ(image.texels.front(), glm::vec3(0.0F)) << depth;
+        EXPECT_EQ(image.texels.back(), glm::vec3(0.0F)) << depth;
     }
 }
 
@@ -150,12 +172,18 @@ TEST(PathEdges, ALensBlursWhatIsOutOfFocus)
 
 TEST(PathEdges, OrthographicCamerasSeeTheSameLight)
 {
-    const DeviceTree tree = oneVoxel(3, glm::vec3(0.0F));
-    ViewCamera view = ViewCamera::lookAt({12.0, 13.0, 14.0}, {7.5, 7.5, 7.5}, 0.2);
+    // Seen along z, the voxel is a square of a quarter of the picture's edge.
+    const DeviceTree tree = oneVoxel(3, glm::vec3(1.0F));
+    ViewCamera view = ViewCamera::lookAt({7.5, 7.5, 30.0}, {7.5, 7.5, 7.5}, 0.2);
     view.orthographic = true;
-    view.half_height = 1.0;
-    Environment light = constantLight(1.0F);
-    EXPECT_TRUE(isConstant(Pictures(tree, view, 6).take(light, {}, 64), glm::vec3(1.0F), 0.02F));
+    view.half_height = 2.0;
+    Environment light = constantLight(0.0F);
+    const HdrImage image = Pictures(tree, view, 16).take(light, {});
+    for (std::uint32_t i = 0; i < 256; ++i)
+    {
+        const bool inside = i % 16 >= 6 && i % 16 < 10 && i / 16 >= 6 && i / 16 < 10;
+        EXPECT_EQ(image.texels[i], glm::vec3(inside ? 1.0F : 0.0F)) << i;
+    }
 }
 
 // No pixel of any scene is infinite, NaN or negative, whatever the seed.

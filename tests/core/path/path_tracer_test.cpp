@@ -101,6 +101,7 @@ TEST(PathFurnace, AWhiteCubeCannotBeSeen)
     test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     Environment sky = constantSky({0.5F, 1.0F, 2.0F});
+    EXPECT_LT(pictureOf(tree, sky, outside(), 16, 1, {.bounces = 0}).mean.g, 0.9) << "it is there";
     for (const LightSampling way : kWays)
     {
         PathOptions options;
@@ -123,6 +124,7 @@ TEST(PathFurnace, AWhiteBowlCannotBeSeen)
     test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     Environment sky = constantSky(glm::vec3(1.0F));
+    EXPECT_LT(pictureOf(tree, sky, outside(), 16, 1, {.bounces = 0}).luminance, 0.6) << "it is there";
     for (const LightSampling way : kWays)
     {
         PathOptions options;
