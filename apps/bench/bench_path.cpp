@@ -257,7 +257,7 @@ private:
             m_device.run([&](vk::FrameGraph& graph) { tracer.addSample(graph, m_tree, light, camera, options); });
         }
         std::vector<Pixel> pixels;
-        for (const gpu::PixelSum& sum : m_device.download(tracer.sums()))
+        for (const gpu::PixelSum& sum : m_device.download(tracer.picture().sums))
         {
             const double mean =
                 glm::dot(glm::dvec3(sum.radiance), glm::dvec3(0.2126, 0.7152, 0.0722)) / kVarianceSamples;

@@ -99,13 +99,15 @@ std::vector<std::uint8_t> PathRenderer::encode()
     const std::string extension = extensionOf(m_options.output.path);
     if (extension == ".exr" || extension == ".hdr")
     {
-        const HdrImage picture =
-            pictureOf(m_device.download(m_tracer.sums()), m_options.width, m_options.height, m_tracer.sampleCount());
+        const HdrImage picture = pictureOf(m_device.download(m_tracer.picture().sums), m_options.width,
+                                           m_options.height, m_tracer.sampleCount());
         return extension == ".exr" ? encodeExr(picture) : encodeHdr(picture);
     }
     const Exposure exposure = {!m_options.exposure.has_value(), m_options.exposure.value_or(1.0F)};
     vk::BufferOf<gpu::uint> image(m_device.device(), "picture", std::uint64_t{m_options.width} * m_options.height);
-    m_device.run([&](vk::FrameGraph& graph) { m_tracer.develop(graph, TexelFormat::Rgba8, exposure, image); });
+    Developer developer(m_device.device());
+    m_device.run([&](vk::FrameGraph& graph)
+                 { developer.develop(graph, m_tracer.picture(), TexelFormat::Rgba8, exposure, image); });
     const std::vector<gpu::uint> texels = m_device.download(image);
     return encodePng(m_options.width, m_options.height,
                      {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});

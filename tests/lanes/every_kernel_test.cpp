@@ -151,6 +151,7 @@ Names tracePaths(const DeviceTree& tree)
 {
     Environment sky(device().device());
     PathTracer tracer(device().device());
+    Developer developer(device().device());
     tracer.resize(9, 10);
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     const TraceCamera camera = traceCamera(view, tree.grid, 10);
@@ -160,7 +161,7 @@ Names tracePaths(const DeviceTree& tree)
                         [&](vk::FrameGraph& graph)
                         {
                             tracer.addSample(graph, tree, sky, camera, {.bounces = 1});
-                            tracer.develop(graph, TexelFormat::Rgba8, {}, picture);
+                            developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
                         }));
     return names;
 }

@@ -23,7 +23,8 @@ void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture&
 
 std::uint64_t Renderer::pictureBytes() const
 {
-    const std::uint64_t path_bytes = m_paths == nullptr ? 0 : m_paths->tracer.bytes() + m_paths->image.bytes();
+    const std::uint64_t path_bytes =
+        m_paths == nullptr ? 0 : m_paths->tracer.bytes() + m_paths->developer.bytes() + m_paths->image.bytes();
     return m_compose == nullptr ? 0 : m_tracer.buffers().bytes() + m_compose->bytes() + path_bytes;
 }
 
@@ -57,7 +58,8 @@ void Renderer::tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const T
     const double strength = view.shadows ? TraceOptions().sun : 0.0;
     m_paths->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
     m_paths->tracer.addSample(graph, tree, m_paths->sky, camera, {});
-    m_paths->tracer.develop(graph, TexelFormat::Rgba8, {.factor = view.exposure}, m_paths->image);
+    m_paths->developer.develop(graph, m_paths->tracer.picture(), TexelFormat::Rgba8, {.factor = view.exposure},
+                               m_paths->image);
 }
 
 void Renderer::forget()

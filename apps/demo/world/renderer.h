@@ -74,11 +74,12 @@ private:
     struct Paths
     {
         Paths(vk::HeadlessDevice& device, vk::DeletionQueue* deletion_queue)
-            : tracer(device.device(), deletion_queue), sky(device.device())
+            : tracer(device.device(), deletion_queue), developer(device.device()), sky(device.device())
         {
         }
 
         PathTracer tracer;
+        Developer developer;
         Environment sky;
         vk::BufferOf<gpu::uint> image; // [width * height] of the internal size
     };

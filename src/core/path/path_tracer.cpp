@@ -37,7 +37,6 @@ PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std:
     : width(picture_width), height(picture_height),
       lists(device, "path/lists", std::uint64_t{kBouncesMax + 2} * gpu::kListElements),
       rounds(device, "path/rounds", gpu::kTraceRoundsMax), status(device, "path/status", 1),
-      brightness(device, "path/brightness", gpu::kMeterBins), exposure(device, "path/exposure", 1),
       table(device, "path/tree", 1)
 {
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
@@ -90,11 +89,10 @@ std::uint64_t PathTracer::Pixels::bytes() const
 {
     // Every member has a name here, or this does not compile: none is forgotten.
     const auto& [own_width, own_height, sums_, rays_, states_, hits_, shadow_rays_, shadow_states_, radiance_, lists_,
-                 numbers_, rounds_, status_, brightness_, exposure_, table_, is_clear] = *this;
+                 numbers_, rounds_, status_, table_, is_clear] = *this;
     return sums_.bytes() + rays_[0].bytes() + rays_[1].bytes() + states_[0].bytes() + states_[1].bytes() +
            hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() + lists_.bytes() +
-           numbers_.bytes() + rounds_.bytes() + status_.bytes() + brightness_.bytes() + exposure_.bytes() +
-           table_.bytes();
+           numbers_.bytes() + rounds_.bytes() + status_.bytes() + table_.bytes();
 }
 
 std::uint64_t PathTracer::bytes() const
@@ -287,62 +285,6 @@ void PathTracer::takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint
     params.sample_index = m_sample_count;
     params.batch = static_cast<std::uint32_t>(pixels.radiance.count());
     pass.dispatchIndirect(pixels.lists, argsOf(bounce, list), params, divideUp(batch.pixel_count, gpu::kPathGroup));
-}
-
-void PathTracer::expose(vk::FrameGraph& graph, float sample_part, float factor)
-{
-    graph.fill(m_pixels->brightness, 0);
-    {
-        vk::Pass pass = graph.addPass(gpu::path::Meter{});
-        const gpu::PathMeterParams params = {pass.read(m_pixels->sums), pass.readWrite(m_pixels->brightness),
-                                             static_cast<std::uint32_t>(m_pixels->sums.count()), sample_part};
-        pass.dispatch(divideUp(m_pixels->sums.count(), gpu::kMeterPixels) * gpu::kPathGroup, params);
-    }
-    vk::Pass pass = graph.addPass(gpu::path::Expose{});
-    pass.dispatch(1, {pass.read(m_pixels->brightness), pass.write(m_pixels->exposure), factor});
-}
-
-void PathTracer::develop(vk::FrameGraph& graph, TexelFormat texels, const Exposure& exposure,
-                         vk::BufferOf<gpu::uint>& image)
-{
-    const float sample_part = 1.0F / static_cast<float>(std::max(m_sample_count, 1U));
-    if (exposure.automatic)
-    {
-        expose(graph, sample_part, exposure.factor);
-    }
-    else
-    {
-        graph.update(m_pixels->exposure, 0, std::array{exposure.factor});
-    }
-    vk::Pass pass = graph.addPass(gpu::path::Develop{.texels = texels});
-    gpu::PathDevelopParams params{};
-    params.sums = pass.read(m_pixels->sums);
-    params.exposure = pass.read(m_pixels->exposure);
-    params.image = pass.write(image);
-    params.width = m_pixels->width;
-    params.height = m_pixels->height;
-    params.sample_part = sample_part;
-    pass.dispatch(m_pixels->sums.count(), params);
-}
-
-HdrImage pictureOf(std::span<const gpu::PixelSum> sums, std::uint32_t width, std::uint32_t height,
-                   std::uint32_t sample_count)
-{
-    HdrImage picture = {width, height, std::vector<glm::vec3>(sums.size())};
-    const float part = 1.0F / static_cast<float>(sample_count);
-    std::size_t number = 0;
-    for (std::uint32_t strip = 0; strip < height; strip += gpu::kStripRows)
-    {
-        const std::uint32_t end = std::min(strip + gpu::kStripRows, height);
-        for (std::uint32_t x = 0; x < width; ++x)
-        {
-            for (std::uint32_t y = strip; y < end; ++y)
-            {
-                picture.texels[std::size_t{y} * width + x] = part * sums[number++].radiance;
-            }
-        }
-    }
-    return picture;
 }
 
 } // namespace zvo

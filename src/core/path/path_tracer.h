@@ -3,8 +3,8 @@
 
 #include "core/light/environment.h"
 #include "core/light/light_tree.h"
+#include "core/path/develop.h"
 #include "core/scene/camera.h"
-#include "core/scene/hdr_image.h"
 #include "core/trace/trace.h"
 #include "core/tree/device_tree.h"
 #include "path/path.h"
@@ -14,7 +14,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
 
 namespace zvo
 {
@@ -42,14 +41,6 @@ struct PathOptions
     bool operator==(const PathOptions&) const = default;
 };
 
-/// How bright a picture is.
-struct Exposure
-{
-    /// The mean of the pixels' brightness, in stops, becomes middle grey before the factor is applied.
-    bool automatic = true;
-    float factor = 1.0F;
-};
-
 /// The most bounces that PathOptions::bounces asks for.
 inline constexpr std::uint32_t kBouncesMax = 1024;
 
@@ -75,16 +66,16 @@ public:
     void addSample(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment, const TraceCamera& camera,
                    const PathOptions& options);
 
-    /// Records the passes that make the picture of all samples: image, [width * height * texelWords(texels)].
-    void develop(vk::FrameGraph& graph, TexelFormat texels, const Exposure& exposure, vk::BufferOf<gpu::uint>& image);
-
     /// Device memory of all buffers.
     [[nodiscard]] std::uint64_t bytes() const;
 
     [[nodiscard]] std::uint32_t sampleCount() const { return m_sample_count; }
 
-    /// Sums over all samples of each pixel, in the order of shaders/path/path.h.
-    [[nodiscard]] const vk::BufferOf<gpu::PixelSum>& sums() const { return m_pixels->sums; }
+    /// The samples so far.
+    [[nodiscard]] SampledPicture picture() const
+    {
+        return {m_pixels->sums, m_pixels->width, m_pixels->height, m_sample_count};
+    }
 
     /// Rays that were given up (TraceStatus::capped_rays), since the last resize().
     [[nodiscard]] const vk::BufferOf<gpu::TraceStatus>& status() const { return m_pixels->status; }
@@ -107,7 +98,6 @@ private:
     void prepare(vk::FrameGraph& graph, const DeviceTree& tree);
     void traceBatch(vk::FrameGraph& graph, const Batch& batch);
     void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);
-    void expose(vk::FrameGraph& graph, float sample_part, float factor);
     template <typename Kernel>
     void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
                   std::uint32_t bounce);
@@ -148,17 +138,11 @@ private:
         vk::BufferOf<gpu::uint> numbers;                    // [kListCount][batch]
         vk::BufferOf<gpu::DispatchArgs> rounds;             // [kTraceRoundsMax]
         vk::BufferOf<gpu::TraceStatus> status;              // [1]
-        vk::BufferOf<gpu::uint> brightness;                 // [kMeterBins] numbers of pixels
-        vk::BufferOf<float> exposure;                       // [1]
         vk::BufferOf<gpu::TreeTable> table;                 // [1] of the tree
         bool is_status_clear = false;
     };
     std::unique_ptr<Pixels> m_pixels;
     std::unique_ptr<LightTree> m_lights;
 };
-
-/// The mean radiance of each pixel, from the sums of PathTracer::sums() of a picture of that size.
-HdrImage pictureOf(std::span<const gpu::PixelSum> sums, std::uint32_t width, std::uint32_t height,
-                   std::uint32_t sample_count);
 
 } // namespace zvo

@@ -40,7 +40,7 @@ public:
             device().run([&](vk::FrameGraph& graph) { m_tracer.addSample(graph, m_tree, light, m_camera, options); });
         }
         EXPECT_EQ(device().download(m_tracer.status()).front().capped_rays, 0U);
-        return pictureOf(device().download(m_tracer.sums()), m_edge, m_edge, samples);
+        return pictureOf(device().download(m_tracer.picture().sums), m_edge, m_edge, samples);
     }
 
 private:

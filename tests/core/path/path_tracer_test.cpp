@@ -50,7 +50,7 @@ PathPicture pictureOf(const DeviceTree& tree, Environment& environment, const Vi
     {
         device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, tree, environment, camera, options); });
     }
-    const std::vector<gpu::PixelSum> sums = device().download(tracer.sums());
+    const std::vector<gpu::PixelSum> sums = device().download(tracer.picture().sums);
     PathPicture picture;
     picture.pixels.resize(sums.size());
     double variance = 0.0;

@@ -78,7 +78,7 @@ Traced tracePaths(const DeviceTree& tree)
     }
     const std::vector<gpu::DispatchArgs> lists = device().download(tracer.lists());
     const auto* words = reinterpret_cast<const gpu::uint*>(lists.data() + gpu::kListLengths);
-    return {device().download(tracer.sums()), words[gpu::kListVoxelLights]};
+    return {device().download(tracer.picture().sums), words[gpu::kListVoxelLights]};
 }
 
 TEST(PathTrees, OctreesAndDagsLookTheSame)

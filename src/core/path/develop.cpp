@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "core/path/develop.h"
+
+#include "core/base/divide_up.h"
+
+#include <algorithm>
+#include <array>
+
+namespace zvo
+{
+
+namespace
+{
+
+float partOf(const SampledPicture& picture)
+{
+    return 1.0F / static_cast<float>(std::max(picture.sample_count, 1U));
+}
+
+} // namespace
+
+void Developer::expose(vk::FrameGraph& graph, const SampledPicture& picture, float factor)
+{
+    graph.fill(m_brightness, 0);
+    {
+        vk::Pass pass = graph.addPass(gpu::path::Meter{});
+        const gpu::PathMeterParams params = {pass.read(picture.sums), pass.readWrite(m_brightness),
+                                             static_cast<std::uint32_t>(picture.sums.count()), partOf(picture)};
+        pass.dispatch(divideUp(picture.sums.count(), gpu::kMeterPixels) * gpu::kPathGroup, params);
+    }
+    vk::Pass pass = graph.addPass(gpu::path::Expose{});
+    pass.dispatch(1, {pass.read(m_brightness), pass.write(m_exposure), factor});
+}
+
+void Developer::develop(vk::FrameGraph& graph, const SampledPicture& picture, TexelFormat texels,
+                        const Exposure& exposure, vk::BufferOf<gpu::uint>& image)
+{
+    if (exposure.automatic)
+    {
+        expose(graph, picture, exposure.factor);
+    }
+    else
+    {
+        graph.update(m_exposure, 0, std::array{exposure.factor});
+    }
+    vk::Pass pass = graph.addPass(gpu::path::Develop{.texels = texels});
+    gpu::PathDevelopParams params{};
+    params.sums = pass.read(picture.sums);
+    params.exposure = pass.read(m_exposure);
+    params.image = pass.write(image);
+    params.width = picture.width;
+    params.height = picture.height;
+    params.sample_part = partOf(picture);
+    pass.dispatch(picture.sums.count(), params);
+}
+
+HdrImage pictureOf(std::span<const gpu::PixelSum> sums, std::uint32_t width, std::uint32_t height,
+                   std::uint32_t sample_count)
+{
+    HdrImage picture = {width, height, std::vector<glm::vec3>(sums.size())};
+    const float part = 1.0F / static_cast<float>(sample_count);
+    std::size_t number = 0;
+    for (std::uint32_t strip = 0; strip < height; strip += gpu::kStripRows)
+    {
+        const std::uint32_t end = std::min(strip + gpu::kStripRows, height);
+        for (std::uint32_t x = 0; x < width; ++x)
+        {
+            for (std::uint32_t y = strip; y < end; ++y)
+            {
+                picture.texels[std::size_t{y} * width + x] = part * sums[number++].radiance;
+            }
+        }
+    }
+    return picture;
+}
+
+} // namespace zvo
