@@ -6,6 +6,8 @@
 #include "lib/dispatch.glsl"
 #include "lib/luminance.glsl"
 
+layout(constant_id = 0) const bool kFeatures = false;
+
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push
 {
@@ -19,6 +21,11 @@ void main()
         return;
     vec3 radiance = params.radiance.data[slot];
     float light = luminance(radiance);
+    if (kFeatures)
+    {
+        float scattered = light - params.direct.data[slot];
+        params.features.data[params.first_pixel + slot].scattered_squared += scattered * scattered;
+    }
     PixelSum sum = params.sums.data[params.first_pixel + slot];
     params.sums.data[params.first_pixel + slot] =
         PixelSum(sum.radiance + radiance, sum.luminance_squared + light * light);

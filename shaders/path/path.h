@@ -16,6 +16,7 @@
 //     trace/rays     what the rays hit                                       these and the following for each bounce
 //     path/shade     the next ray of each path that has hit something, and lists for the following kernels
 //     path/miss, path/emitter                light that the rays have met
+//     path/features                          sums of what the camera sees, where they are asked for
 //     path/map_light, path/voxel_light       a chosen light, and a shadow ray to it
 //     trace/rays, path/connect               shadow rays, and the light that they bring
 //   path/finish    adds the sample to the pixels' sums
@@ -177,14 +178,48 @@ struct PixelSum
 };
 GPU_BUFFER(PixelSum, 16);
 
-struct PathFinishParams // push constants of path/finish: a thread a pixel
+/// The sums of what the camera's rays see, over all samples of a pixel.
+struct PixelFeatures
 {
-    GPU_CONST_PTR(vec3) radiance;
-    GPU_PTR(PixelSum) sums; // [width * height] in the order of strips
+    vec3 albedo;             // of faces; 0 where a ray hits none, like the next three
+    float depth;             // unit space, along the camera's direction
+    vec3 normal;             // of faces
+    float hits;              // number of samples that hit a face from outside of its voxel
+    vec3 direct;             // radiance that the camera sees directly: of the map, the sun and emissive voxels
+    float scattered_squared; // luminance of all other radiance, squared
+};
+GPU_BUFFER(PixelFeatures, 16);
+
+struct PathFeaturesParams // push constants of path/features: a thread a pixel
+{
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
+    GPU_CONST_PTR(Ray) rays;             // of the camera, like hits and radiance
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(vec3) radiance;    // [batch] that was met so far
+    GPU_PTR(float) direct;           // [batch] its luminance
+    GPU_PTR(PixelFeatures) features; // [width * height] in the order of strips
+    vec3 origin;                     // of CameraRays, like forward
+    vec3 forward;
     uint first_pixel;
     uint pixel_count;
 };
-GPU_KERNEL(path, finish, Finish, PathFinishParams)
+GPU_KERNEL_BEGIN(path, features, Features, PathFeaturesParams)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+GPU_KERNEL_END
+
+struct PathFinishParams // push constants of path/finish: a thread a pixel
+{
+    GPU_CONST_PTR(vec3) radiance;
+    GPU_CONST_PTR(float) direct;     // kFeatures only, like the next
+    GPU_PTR(PixelFeatures) features; // [width * height] in the order of strips
+    GPU_PTR(PixelSum) sums;          // [width * height] likewise
+    uint first_pixel;
+    uint pixel_count;
+};
+GPU_KERNEL_BEGIN(path, finish, Finish, PathFinishParams)
+    GPU_CONSTANT(bool, features, false)
+GPU_KERNEL_END
 
 // The automatic exposure: counts of pixels by the logarithm of their luminance.
 const uint kMeterBins = 256u;

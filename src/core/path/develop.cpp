@@ -2,6 +2,7 @@
 #include "core/path/develop.h"
 
 #include "core/base/divide_up.h"
+#include "core/path/strips.h"
 
 #include <algorithm>
 #include <array>
@@ -59,18 +60,9 @@ HdrImage pictureOf(std::span<const gpu::PixelSum> sums, std::uint32_t width, std
 {
     HdrImage picture = {width, height, std::vector<glm::vec3>(sums.size())};
     const float part = 1.0F / static_cast<float>(sample_count);
-    std::size_t number = 0;
-    for (std::uint32_t strip = 0; strip < height; strip += gpu::kStripRows)
-    {
-        const std::uint32_t end = std::min(strip + gpu::kStripRows, height);
-        for (std::uint32_t x = 0; x < width; ++x)
-        {
-            for (std::uint32_t y = strip; y < end; ++y)
-            {
-                picture.texels[std::size_t{y} * width + x] = part * sums[number++].radiance;
-            }
-        }
-    }
+    forEachPixel(width, height,
+                 [&](std::size_t number, std::uint32_t x, std::uint32_t y)
+                 { picture.texels[std::size_t{y} * width + x] = part * sums[number].radiance; });
     return picture;
 }
 

@@ -31,6 +31,13 @@ RayListLength lengthOf(const vk::BufferOf<gpu::DispatchArgs>& lists, std::uint32
     return {lists, argsOf(bounce, list), kWords * argsOf(bounce, gpu::kListLengths) + list};
 }
 
+// The attributes of voxels, in the format of the tree.
+gpu::ConstPtr<gpu::Attribute> readAttributes(vk::AnyPass& pass, const DeviceTree& tree)
+{
+    return isPacked(tree.attributeFormat()) ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
+                                            : pass.read(tree.voxel_attributes);
+}
+
 } // namespace
 
 PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
@@ -57,6 +64,15 @@ PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std:
     shadow_states = {device, "path/shadow_states", batch};
     radiance = {device, "path/radiance", batch};
     numbers = {device, "path/numbers", gpu::kListCount * batch};
+}
+
+void PathTracer::Pixels::addFeatures(vk::Device& device)
+{
+    const std::uint64_t batch = radiance.count();
+    device.memory().require(sums.count() * sizeof(gpu::PixelFeatures) + batch * sizeof(float), "path tracing");
+    vk::BufferOf<float> new_direct(device, "path/direct", batch);
+    features = {device, "path/features", sums.count()};
+    direct = std::move(new_direct);
 }
 
 /// What a sample of a batch of pixels is traced with.
@@ -88,11 +104,11 @@ void PathTracer::forget()
 std::uint64_t PathTracer::Pixels::bytes() const
 {
     // Every member has a name here, or this does not compile: none is forgotten.
-    const auto& [own_width, own_height, sums_, rays_, states_, hits_, shadow_rays_, shadow_states_, radiance_, lists_,
-                 numbers_, rounds_, status_, table_, is_clear] = *this;
+    const auto& [own_width, own_height, sums_, rays_, states_, hits_, shadow_rays_, shadow_states_, radiance_,
+                 features_, direct_, lists_, numbers_, rounds_, status_, table_, is_clear] = *this;
     return sums_.bytes() + rays_[0].bytes() + rays_[1].bytes() + states_[0].bytes() + states_[1].bytes() +
-           hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() + lists_.bytes() +
-           numbers_.bytes() + rounds_.bytes() + status_.bytes() + table_.bytes();
+           hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() + features_.bytes() +
+           direct_.bytes() + lists_.bytes() + numbers_.bytes() + rounds_.bytes() + status_.bytes() + table_.bytes();
 }
 
 std::uint64_t PathTracer::bytes() const
@@ -106,15 +122,36 @@ std::uint64_t PathTracer::bytes() const
 }
 
 // Records what is needed before the first sample of a subject.
-void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree)
+void PathTracer::begin(vk::FrameGraph& graph, const DeviceTree& tree, const Environment& environment,
+                       const TraceCamera& camera, const PathOptions& options)
 {
     graph.fill(m_pixels->sums, 0);
+    if (options.features)
+    {
+        graph.fill(m_pixels->features, 0);
+    }
     if (!m_pixels->is_status_clear)
     {
         graph.fill(m_pixels->status, 0);
         m_pixels->is_status_clear = true;
     }
     graph.update(m_pixels->table, 0, std::array{treeTable(tree)});
+    makeLights(graph, tree);
+
+    ++m_subject_number;
+    m_camera = camera;
+    m_voxel_edge = 1.0F / static_cast<float>(tree.grid.rootResolution());
+    Lighting lighting = {environment.version(), {tree.grid.origin, tree.grid.voxel_size}, options};
+    lighting.options.seed = 0;
+    if (m_lighting != lighting)
+    {
+        m_lighting = lighting;
+        ++m_lighting_number;
+    }
+}
+
+void PathTracer::makeLights(vk::FrameGraph& graph, const DeviceTree& tree)
+{
     if (m_lights_version == tree.version || !hasEmission(tree))
     {
         return;
@@ -139,9 +176,13 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Enviro
     }
     m_subject = {}; // should anything below throw: some pixels may have got the sample
     environment.prepare(graph);
+    if (options.features && m_pixels->features.count() == 0)
+    {
+        m_pixels->addFeatures(m_device);
+    }
     if (m_sample_count == 0)
     {
-        prepare(graph, tree);
+        begin(graph, tree, environment, camera, options);
     }
     const std::uint64_t pixel_count = m_pixels->sums.count();
     for (std::uint64_t first = 0; first < pixel_count; first += kBatchMax)
@@ -175,6 +216,10 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
         params.pixel_count = batch.pixel_count;
         params.sample_index = m_sample_count;
         params.seed = batch.options.seed;
+        if (batch.options.reseeds)
+        {
+            params.seed += static_cast<std::uint32_t>(m_subject_number - 1);
+        }
         params.lens_radius = batch.options.lens_radius * unit;
         params.focus = batch.options.focus_distance * unit;
         pass.dispatch(batch.pixel_count, params);
@@ -197,6 +242,10 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
             takeList(graph, gpu::path::Emitter{.sampling = sampling, .node_levels = levels, .by_power = by_power},
                      gpu::kListEmitters, batch, bounce);
         }
+        if (bounce == 0 && batch.options.features)
+        {
+            addFeatures(graph, batch);
+        }
         if (bounce == bounces || sampling == LightSampling::Chance)
         {
             continue;
@@ -214,9 +263,43 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
                                                pass.readWrite(pixels.radiance), pass.readWrite(pixels.lists), bounce};
         pass.dispatchIndirect(pixels.lists, shadows.args, params, divideUp(batch.pixel_count, gpu::kPathGroup));
     }
-    vk::Pass pass = graph.addPass(gpu::path::Finish{});
-    const gpu::PathFinishParams params = {pass.read(pixels.radiance), pass.readWrite(pixels.sums), batch.first_pixel,
-                                          batch.pixel_count};
+    finish(graph, batch);
+}
+
+// Behind what adds the light that the camera sees directly.
+void PathTracer::addFeatures(vk::FrameGraph& graph, const Batch& batch)
+{
+    Pixels& pixels = *m_pixels;
+    const DeviceTree& tree = batch.tree;
+    vk::Pass pass =
+        graph.addPass(gpu::path::Features{.node_levels = tree.grid.nodeLevels(), .format = tree.attributeFormat()});
+    gpu::PathFeaturesParams params{};
+    params.attributes = readAttributes(pass, tree);
+    params.rays = pass.read(pixels.rays[0]);
+    params.hits = pass.read(pixels.hits);
+    params.radiance = pass.read(pixels.radiance);
+    params.direct = pass.write(pixels.direct);
+    params.features = pass.readWrite(pixels.features);
+    params.origin = batch.camera.rays.origin;
+    params.forward = batch.camera.rays.forward;
+    params.first_pixel = batch.first_pixel;
+    params.pixel_count = batch.pixel_count;
+    pass.dispatch(batch.pixel_count, params);
+}
+
+void PathTracer::finish(vk::FrameGraph& graph, const Batch& batch)
+{
+    vk::Pass pass = graph.addPass(gpu::path::Finish{.features = batch.options.features});
+    gpu::PathFinishParams params{};
+    params.radiance = pass.read(m_pixels->radiance);
+    if (batch.options.features)
+    {
+        params.direct = pass.read(m_pixels->direct);
+        params.features = pass.readWrite(m_pixels->features);
+    }
+    params.sums = pass.readWrite(m_pixels->sums);
+    params.first_pixel = batch.first_pixel;
+    params.pixel_count = batch.pixel_count;
     pass.dispatch(batch.pixel_count, params);
 }
 
@@ -232,9 +315,7 @@ void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t 
                                                    .last = bounce == std::min(batch.options.bounces, kBouncesMax),
                                                    .roulette = batch.options.roulette});
     gpu::PathShadeParams params{};
-    params.attributes = isPacked(tree.attributeFormat())
-                            ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
-                            : pass.read(tree.voxel_attributes);
+    params.attributes = readAttributes(pass, tree);
     params.hits = pass.read(pixels.hits);
     params.gives = pass.read(batch.environment.gives());
     if (emits)

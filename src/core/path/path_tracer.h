@@ -36,6 +36,8 @@ struct PathOptions
     LightSampling sampling = LightSampling::Both;
     bool lights_by_power = false; // chooses voxels by their light alone, wherever they are; for comparisons
     bool roulette = false;        // ends paths early that would bring little light, by chance
+    bool reseeds = false;         // has other random numbers whenever it begins anew
+    bool features = false;        // sums up what the camera sees, too (PathTracer::guided())
     TraceStack stack = TraceStack::Registers;
 
     bool operator==(const PathOptions&) const = default;
@@ -43,6 +45,17 @@ struct PathOptions
 
 /// The most bounces that PathOptions::bounces asks for.
 inline constexpr std::uint32_t kBouncesMax = 1024;
+
+/// The samples of a picture, and what else is known of its pixels.
+struct GuidedPicture
+{
+    SampledPicture picture;
+    const vk::BufferOf<gpu::PixelFeatures>& features; // [width * height] in the order of shaders/path/path.h
+    const TraceCamera& camera;
+    float voxel_edge;       // unit space
+    std::uint64_t subject;  // another number where samples began anew
+    std::uint64_t lighting; // another number where pictures of the same place may have no light in common
+};
 
 /// Path traces pictures of a tree, a sample for each pixel at a time, and keeps their sum. Owns all buffers.
 class PathTracer
@@ -77,6 +90,12 @@ public:
         return {m_pixels->sums, m_pixels->width, m_pixels->height, m_sample_count};
     }
 
+    /// Likewise, of a picture with PathOptions::features.
+    [[nodiscard]] GuidedPicture guided() const
+    {
+        return {picture(), m_pixels->features, m_camera, m_voxel_edge, m_subject_number, m_lighting_number};
+    }
+
     /// Rays that were given up (TraceStatus::capped_rays), since the last resize().
     [[nodiscard]] const vk::BufferOf<gpu::TraceStatus>& status() const { return m_pixels->status; }
 
@@ -95,9 +114,13 @@ private:
     struct Pixels;
     struct Batch;
 
-    void prepare(vk::FrameGraph& graph, const DeviceTree& tree);
+    void begin(vk::FrameGraph& graph, const DeviceTree& tree, const Environment& environment, const TraceCamera& camera,
+               const PathOptions& options);
+    void makeLights(vk::FrameGraph& graph, const DeviceTree& tree);
     void traceBatch(vk::FrameGraph& graph, const Batch& batch);
     void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);
+    void addFeatures(vk::FrameGraph& graph, const Batch& batch);
+    void finish(vk::FrameGraph& graph, const Batch& batch);
     template <typename Kernel>
     void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
                   std::uint32_t bounce);
@@ -118,11 +141,27 @@ private:
         bool operator==(const Subject&) const = default;
     };
     Subject m_subject;
+    std::uint64_t m_subject_number = 0; // how often samples began anew
+    std::uint64_t m_lighting_number = 0;
+    TraceCamera m_camera; // of the subject
+    float m_voxel_edge = 0.0F;
+
+    /// What its light depends on, beside voxels.
+    struct Lighting
+    {
+        std::uint64_t environment_version = 0;
+        glm::vec4 grid{0.0F}; // origin and edge of a voxel
+        PathOptions options;  // but for the seed
+
+        bool operator==(const Lighting&) const = default;
+    };
+    Lighting m_lighting;
     std::uint64_t m_lights_version = 0; // of the tree of which m_lights were made; 0: none
     struct Pixels
     {
         Pixels(vk::Device& device, std::uint32_t width, std::uint32_t height);
 
+        void addFeatures(vk::Device& device);
         [[nodiscard]] std::uint64_t bytes() const;
 
         std::uint32_t width;
@@ -134,6 +173,8 @@ private:
         vk::BufferOf<gpu::Ray> shadow_rays;                 // [batch]
         vk::BufferOf<gpu::ShadowState> shadow_states;       // [batch]
         vk::BufferOf<gpu::vec3> radiance;                   // [batch]
+        vk::BufferOf<gpu::PixelFeatures> features;          // [width * height], empty until they are asked for
+        vk::BufferOf<float> direct;                         // [batch] likewise
         vk::BufferOf<gpu::DispatchArgs> lists;              // [kBouncesMax + 2][kListElements]
         vk::BufferOf<gpu::uint> numbers;                    // [kListCount][batch]
         vk::BufferOf<gpu::DispatchArgs> rounds;             // [kTraceRoundsMax]

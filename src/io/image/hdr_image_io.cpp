@@ -391,7 +391,7 @@ std::vector<std::uint8_t> encodeHdr(const HdrImage& image)
     return bytes;
 }
 
-std::vector<std::uint8_t> encodeExr(const HdrImage& image)
+std::vector<std::uint8_t> encodeExr(const HdrImage& image, std::span<const ExrChannel> others)
 {
     try
     {
@@ -399,14 +399,18 @@ std::vector<std::uint8_t> encodeExr(const HdrImage& image)
         {
             Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
             Imf::FrameBuffer buffer;
-            constexpr std::array kNames = {"R", "G", "B"};
-            for (std::size_t i = 0; i < kNames.size(); ++i)
+            const auto add = [&](const ExrChannel& channel)
             {
-                header.channels().insert(kNames.at(i), Imf::Channel(Imf::FLOAT));
-                auto* const first = const_cast<char*>(reinterpret_cast<const char*>(image.texels.data()));
-                buffer.insert(kNames.at(i), Imf::Slice(Imf::FLOAT, first + i * sizeof(float), sizeof(glm::vec3),
-                                                       image.width * sizeof(glm::vec3)));
-            }
+                header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+                auto* const first = const_cast<char*>(reinterpret_cast<const char*>(channel.values));
+                const std::size_t bytes = channel.stride * sizeof(float);
+                buffer.insert(channel.name, Imf::Slice(Imf::FLOAT, first, bytes, image.width * bytes));
+            };
+            const float* const red = &image.texels.front().x;
+            add({"R", red, kChannels});
+            add({"G", red + 1, kChannels});
+            add({"B", red + 2, kChannels});
+            std::ranges::for_each(others, add);
             Imf::OutputFile file(sink, header, 0);
             file.setFrameBuffer(buffer);
             file.writePixels(static_cast<int>(image.height));

@@ -3,6 +3,7 @@
 
 #include "core/scene/hdr_image.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -23,7 +24,17 @@ HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string
 /// A Radiance picture (.hdr): 8 bits of mantissa with a common exponent. Throws Error{Memory}.
 std::vector<std::uint8_t> encodeHdr(const HdrImage& image);
 
-/// An OpenEXR picture of 32-bit floats, compressed without loss. Throws Error{Memory}.
-std::vector<std::uint8_t> encodeExr(const HdrImage& image);
+/// A channel of an OpenEXR picture, such as "depth.Z": a number for each texel, each a number of floats behind the one
+/// before.
+struct ExrChannel
+{
+    std::string name;
+    const float* values;
+    std::size_t stride = 1;
+};
+
+/// An OpenEXR picture of 32-bit floats with the channels R, G and B, and others of the same size, compressed without
+/// loss. Throws Error{Memory}.
+std::vector<std::uint8_t> encodeExr(const HdrImage& image, std::span<const ExrChannel> others = {});
 
 } // namespace zvo
