@@ -1,0 +1,41 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Divides the light of each pixel by its albedo, and makes its guide.
+#extension GL_GOOGLE_include_directive : require
+#include "denoise/denoise.h"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/luminance.glsl"
+#include "path/features.glsl"
+#include "path/strip.glsl"
+#include "denoise/guide.glsl"
+
+layout(local_size_x = kPathGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    DenoiseDemodulateParams params;
+};
+
+#include "denoise/albedo.glsl"
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= params.width * params.height)
+        return;
+    uint number = numberOfPixel(uvec2(i % params.width, i / params.width), uvec2(params.width, params.height));
+    PixelFeatures sum = loadFeatures(params.features, number);
+    float part = 1.0 / params.sample_count;
+    vec3 scattered = part * max(params.sums.data[number].radiance - sum.direct, 0.0);
+    vec3 albedo = divisorOf(part * sum.albedo);
+    float mean = luminance(scattered);
+    float spread = max(part * sum.scattered_squared - mean * mean, 0.0);
+    float scale = luminance(albedo);
+    vec3 light = scattered / albedo;
+    float light_mean = luminance(light);
+    storeLight(params.light, i, vec4(light, light_mean * light_mean + spread / (scale * scale)));
+    vec3 normal = sum.normal / max(sum.hits, 1.0);
+    uint64_t_Ptr(uint64_t(params.guides)).data[i] = packUint2x32(
+        uvec2(floatBitsToUint(sum.depth / max(sum.hits, 1.0)), packSurface(normal, part * sum.hits)));
+    params.samples.data[i] = params.sample_count;
+}

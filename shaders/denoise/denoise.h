@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Denoising of path-traced pictures: what its kernels share with the host.
+//
+// A variance-guided filter that keeps edges (C. Schied et al., Spatiotemporal Variance-Guided Filtering, 2017). What is
+// filtered is the light that arrives at surfaces: the radiance without what the camera sees directly, divided by the
+// albedo. A pixel takes from its neighbours what lies in the same plane, has the same normal, and differs by no more
+// than the noise of both explains.
+//
+//   denoise/demodulate  light of each pixel, its moments, and the guide: depth, normal, coverage
+//   denoise/reproject   the light of an earlier picture, where it shows the same place
+//   denoise/estimate    means over the pixels around that show the same face of a voxel, and their variance
+//   denoise/filter      kDenoiseLevels times: 5x5 pixels that are 1, 2, 4, ... pixels apart
+//   denoise/modulate    multiplies by the albedo, and adds what the camera sees directly
+//
+// Light is a vec4: red, green, blue, and in w the second moment of the samples' luminance until denoise/estimate, the
+// variance of the pixel's luminance from there on. Pixels are stored row by row, but for the sums (path/path.h).
+#ifndef ZVO_SHADERS_DENOISE_DENOISE_H
+#define ZVO_SHADERS_DENOISE_DENOISE_H
+
+#include "path/path.h"
+
+GPU_NAMESPACE_BEGIN
+
+GPU_BUFFER(vec4, 8);
+GPU_BUFFER(CameraRays, 4);
+
+const uint kDenoiseLevels = 5u;
+const uint kDenoiseTile = 8u; // pixels along the edge of a workgroup's tile
+
+/// What a pixel shows, for comparisons with others.
+struct DenoiseGuide
+{
+    float depth;  // unit space, along the camera's direction
+    uint surface; // normal 3 x 9 bits, part of the samples that hit a face 5 bits
+};
+GPU_BUFFER(DenoiseGuide, 8);
+
+struct DenoiseDemodulateParams // push constants of denoise/demodulate: a thread a pixel
+{
+    GPU_CONST_PTR(PixelSum) sums; // in the order of strips, like the next
+    GPU_CONST_PTR(PixelFeatures) features;
+    GPU_PTR(vec4) light;
+    GPU_PTR(DenoiseGuide) guides;
+    GPU_PTR(float) samples; // behind light
+    uint width;
+    uint height;
+    float sample_count;
+};
+GPU_KERNEL(denoise, demodulate, Demodulate, DenoiseDemodulateParams)
+
+struct DenoiseReprojectParams // push constants of denoise/reproject: a thread a pixel
+{
+    GPU_PTR(vec4) light;
+    GPU_PTR(float) samples;
+    GPU_CONST_PTR(DenoiseGuide) guides;
+    GPU_CONST_PTR(vec4) old_light; // of the earlier picture, like the next three
+    GPU_CONST_PTR(float) old_samples;
+    GPU_CONST_PTR(DenoiseGuide) old_guides;
+    GPU_CONST_PTR(CameraRays) cameras; // [2] of this and the earlier picture
+    uint width;
+    uint height;
+    float history_max; // samples of the earlier picture that count at most
+    float edge;        // of a voxel, unit space
+};
+GPU_KERNEL_BEGIN(denoise, reproject, Reproject, DenoiseReprojectParams)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(bool, old_orthographic, false)
+GPU_KERNEL_END
+
+struct DenoiseFilterParams // push constants of denoise/estimate and denoise/filter: a thread a pixel
+{
+    GPU_CONST_PTR(vec4) light;
+    GPU_CONST_PTR(DenoiseGuide) guides;
+    GPU_CONST_PTR(float) samples; // denoise/estimate only
+    GPU_PTR(vec4) filtered;
+    vec3 forward; // of CameraRays, like the next two
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    uint width;
+    uint height;
+    uint step;  // pixels between two of the filter's
+    float edge; // of a voxel, unit space
+};
+GPU_KERNEL_BEGIN(denoise, estimate, Estimate, DenoiseFilterParams)
+    GPU_CONSTANT(bool, orthographic, false)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(denoise, filter, Filter, DenoiseFilterParams)
+    GPU_CONSTANT(bool, orthographic, false)
+GPU_KERNEL_END
+
+struct DenoiseModulateParams // push constants of denoise/modulate: a thread a pixel
+{
+    GPU_CONST_PTR(vec4) light;
+    GPU_CONST_PTR(PixelFeatures) features;
+    GPU_PTR(PixelSum) sums; // in the order of strips; luminance_squared is 0
+    uint width;
+    uint height;
+    float sample_part; // 1 / number of samples
+};
+GPU_KERNEL(denoise, modulate, Modulate, DenoiseModulateParams)
+
+GPU_NAMESPACE_END
+
+#endif

@@ -1,0 +1,48 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Makes radiance of the filtered light. A pixel that nothing around it is like was not filtered: it becomes no brighter
+// than the brightest pixel around it.
+#extension GL_GOOGLE_include_directive : require
+#include "denoise/denoise.h"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/luminance.glsl"
+#include "path/features.glsl"
+#include "path/strip.glsl"
+#include "denoise/albedo.glsl"
+#include "denoise/guide.glsl"
+
+layout(local_size_x = kPathGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    DenoiseModulateParams params;
+};
+
+// The largest luminance of the eight pixels around one.
+float brightestAround(ivec2 pixel)
+{
+    ivec2 size = ivec2(params.width, params.height);
+    float brightest = 0.0;
+    for (int k = 0; k < 9; ++k)
+    {
+        ivec2 other = pixel + ivec2(k % 3, k / 3) - 1;
+        if (k != 4 && all(greaterThanEqual(other, ivec2(0))) && all(lessThan(other, size)))
+            brightest = max(brightest, luminance(loadLight(params.light, uint(other.y * size.x + other.x)).rgb));
+    }
+    return brightest;
+}
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= params.width * params.height)
+        return;
+    uint number = numberOfPixel(uvec2(i % params.width, i / params.width), uvec2(params.width, params.height));
+    PixelFeatures sum = loadFeatures(params.features, number);
+    vec3 light = loadLight(params.light, i).rgb;
+    float brightest = brightestAround(ivec2(i % params.width, i / params.width));
+    if (brightest > 0.0) // else there is nothing around
+        light *= min(1.0, brightest / max(luminance(light), 1e-30));
+    vec3 scattered = light * divisorOf(params.sample_part * sum.albedo);
+    params.sums.data[number] = PixelSum(params.sample_part * sum.direct + scattered, 0.0);
+}
