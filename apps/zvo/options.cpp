@@ -124,6 +124,10 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              "turns the map about the vertical, counterclockwise from above (default 0)");
     addValue(render, "--environment-strength", paths.environment_strength, parsePositive, "FACTOR",
              "factor for the map's light (default 1)");
+    render.add_flag("--denoise", paths.denoise,
+                    "smooth the noise of few paths, but not edges; in sequences with the help of earlier pictures");
+    render.add_flag("--aov", paths.aovs,
+                    "write albedo, normal, depth and motion as channels of the picture, which must be an .exr");
     addValue(render, "--time-limit", paths.time_limit, parseSeconds, "SECONDS",
              "begin no more paths after this time; the picture shows those that were traced");
 }

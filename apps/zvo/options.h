@@ -30,6 +30,8 @@ struct PathRenderOptions
     std::optional<std::filesystem::path> environment; // a map, or "none": no light; not given: the simple sky
     double environment_turn = 0.0;                    // degrees, counterclockwise from above
     float environment_strength = 1.0F;
+    bool denoise = false;
+    bool aovs = false; // writes what the picture shows beside its light, too
 };
 
 struct RenderOptions

@@ -4,6 +4,7 @@
 #include "common/output.h"
 #include "common/signals.h"
 #include "core/base/read_file.h"
+#include "core/path/aov.h"
 #include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
 
@@ -12,6 +13,7 @@
 #include <chrono>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace zvo::cli
 {
@@ -60,6 +62,10 @@ Environment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& opt
 PathRenderer::PathRenderer(vk::HeadlessDevice& device, const RenderOptions& options)
     : m_device(device), m_options(options), m_tracer(device.device()), m_environment(makeEnvironment(device, options))
 {
+    if (options.paths.denoise)
+    {
+        m_denoiser.emplace(device.device());
+    }
 }
 
 std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const ViewCamera& view, Progress& progress,
@@ -69,8 +75,12 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
     const Clock::time_point begin = Clock::now();
     const PathRenderOptions& paths = m_options.paths;
     const TraceCamera camera = traceCamera(view, tree.grid, m_options.height);
+    m_camera_before = std::exchange(m_camera, camera);
     m_tracer.resize(m_options.width, m_options.height);
     m_tracer.forget();
+    PathOptions path = paths.path;
+    path.features = paths.denoise || paths.aovs;
+    path.reseeds = paths.denoise; // earlier pictures help if they have other noise
     const InterruptWatch watch;
     std::uint32_t samples = 0;
     const auto goesOn = [&]
@@ -81,8 +91,8 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
     };
     while (goesOn())
     {
-        const std::vector<vk::PassTime> sample = m_device.run(
-            [&](vk::FrameGraph& graph) { m_tracer.addSample(graph, tree, m_environment, camera, paths.path); });
+        const std::vector<vk::PassTime> sample =
+            m_device.run([&](vk::FrameGraph& graph) { m_tracer.addSample(graph, tree, m_environment, camera, path); });
         passes.insert(passes.end(), sample.begin(), sample.end());
         ++samples;
         progress.within(static_cast<double>(m_tracer.sampleCount()) / paths.samples);
@@ -91,26 +101,59 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
     {
         talk(fmt::format("stopped after {} of {} samples a pixel", m_tracer.sampleCount(), paths.samples));
     }
-    return encode();
+    return encode(paths.denoise ? denoise(passes) : m_tracer.picture(), tree.grid);
 }
 
-std::vector<std::uint8_t> PathRenderer::encode()
+SampledPicture PathRenderer::denoise(std::vector<vk::PassTime>& passes)
+{
+    constexpr std::uint32_t kHistory = 8; // earlier pictures that count
+    m_denoiser->resize(m_options.width, m_options.height);
+    const std::vector<vk::PassTime> denoising =
+        m_device.run([&](vk::FrameGraph& graph)
+                     { m_denoiser->denoise(graph, m_tracer.guided(), kHistory * m_tracer.sampleCount()); });
+    passes.insert(passes.end(), denoising.begin(), denoising.end());
+    return m_denoiser->picture();
+}
+
+std::vector<std::uint8_t> PathRenderer::encode(const SampledPicture& picture, const Grid& grid)
 {
     const std::string extension = extensionOf(m_options.output.path);
     if (extension == ".exr" || extension == ".hdr")
     {
-        const HdrImage picture = pictureOf(m_device.download(m_tracer.picture().sums), m_options.width,
-                                           m_options.height, m_tracer.sampleCount());
-        return extension == ".exr" ? encodeExr(picture) : encodeHdr(picture);
+        const HdrImage image =
+            pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
+        return extension == ".hdr"    ? encodeHdr(image)
+               : m_options.paths.aovs ? encodeWithAovs(image, grid)
+                                      : encodeExr(image);
     }
     const Exposure exposure = {!m_options.exposure.has_value(), m_options.exposure.value_or(1.0F)};
     vk::BufferOf<gpu::uint> image(m_device.device(), "picture", std::uint64_t{m_options.width} * m_options.height);
     Developer developer(m_device.device());
     m_device.run([&](vk::FrameGraph& graph)
-                 { developer.develop(graph, m_tracer.picture(), TexelFormat::Rgba8, exposure, image); });
+                 { developer.develop(graph, picture, TexelFormat::Rgba8, exposure, image); });
     const std::vector<gpu::uint> texels = m_device.download(image);
     return encodePng(m_options.width, m_options.height,
                      {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});
+}
+
+std::vector<std::uint8_t> PathRenderer::encodeWithAovs(const HdrImage& image, const Grid& grid)
+{
+    const GuidedPicture guided = m_tracer.guided();
+    const AovImages aovs =
+        aovsOf(m_device.download(guided.features), image.width, image.height, guided.picture.sample_count, grid,
+               guided.camera, m_camera_before.value_or(guided.camera));
+    std::vector<ExrChannel> channels = {{"depth.Z", aovs.depth.data()}};
+    const auto add = [&](const std::string& layer, const char* names, const float* values, std::size_t count)
+    {
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            channels.push_back({layer + '.' + names[i], values + i, count});
+        }
+    };
+    add("albedo", "RGB", &aovs.albedo.front().x, 3);
+    add("normal", "XYZ", &aovs.normal.front().x, 3);
+    add("motion", "XY", &aovs.motion.front().x, 2);
+    return encodeExr(image, channels);
 }
 
 std::uint64_t PathRenderer::cappedRays()

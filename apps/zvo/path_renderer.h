@@ -2,11 +2,13 @@
 #pragma once
 
 #include "common/progress.h"
+#include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
 #include "options.h"
 #include "vk/headless.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace zvo::cli
@@ -31,12 +33,17 @@ public:
     [[nodiscard]] std::uint32_t sampleCount() const { return m_tracer.sampleCount(); }
 
 private:
-    [[nodiscard]] std::vector<std::uint8_t> encode();
+    SampledPicture denoise(std::vector<vk::PassTime>& passes);
+    [[nodiscard]] std::vector<std::uint8_t> encode(const SampledPicture& picture, const Grid& grid);
+    [[nodiscard]] std::vector<std::uint8_t> encodeWithAovs(const HdrImage& image, const Grid& grid);
 
     vk::HeadlessDevice& m_device;
     const RenderOptions& m_options;
     PathTracer m_tracer;
+    std::optional<Denoiser> m_denoiser; // where pictures are denoised
     Environment m_environment;
+    std::optional<TraceCamera> m_camera;        // of the last picture
+    std::optional<TraceCamera> m_camera_before; // of the one before
 };
 
 } // namespace zvo::cli

@@ -263,6 +263,8 @@ void checkPathOptions(const RenderOptions& options)
         {"--environment", paths.environment.has_value()},
         {"--environment-turn", paths.environment_turn != plain.environment_turn},
         {"--environment-strength", paths.environment_strength != plain.environment_strength},
+        {"--denoise", paths.denoise},
+        {"--aov", paths.aovs},
         {"--time-limit", paths.time_limit.has_value()},
     };
     const std::pair<const char*, bool> of_primary[] = {
@@ -276,6 +278,11 @@ void checkPathOptions(const RenderOptions& options)
         {
             throw Error(ErrorCode::Usage, fmt::format("{} needs --integrator path", name));
         }
+    }
+    if (paths.aovs && extensionOf(options.output.path) != ".exr")
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("--aov adds channels to an OpenEXR picture: name {} .exr", options.output.path));
     }
     for (const auto& [name, is_given] : of_primary)
     {

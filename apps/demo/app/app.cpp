@@ -52,6 +52,7 @@ ViewState viewOf(const DemoOptions& options, const Settings& settings)
     ViewState view = settings.view;
     view.view = options.view.value_or(view.view);
     view.integrator = options.integrator.value_or(view.integrator);
+    view.denoise = options.denoise || view.denoise;
     view.occlusion_rays = options.occlusion_rays.value_or(view.occlusion_rays);
     view.to_sun = options.to_sun.value_or(view.to_sun);
     view.exposure = options.exposure.value_or(view.exposure);

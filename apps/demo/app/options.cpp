@@ -107,6 +107,7 @@ void addViewOptions(CLI::App& app, DemoOptions& options)
         },
         "primary|path", "light by a ray to the sun and a simple sky, or by path tracing (default primary)")
         ->group(kGroup);
+    app.add_flag("--denoise", options.denoise, "smooth the noise of few paths, but not edges")->group(kGroup);
     cli::addValue(app, "--occlusion", options.occlusion_rays, parseCount<0, kOcclusionRaysMax>, "RAYS",
                   "rays a pixel that find how much of the sky it sees (default 0)")
         ->group(kGroup);

@@ -31,6 +31,7 @@ struct DemoOptions
     std::optional<std::filesystem::path> camera_path;
     std::optional<View> view;
     std::optional<Integrator> integrator;
+    bool denoise = false;
     std::optional<std::uint32_t> occlusion_rays;
     std::optional<glm::dvec3> to_sun;
     std::optional<float> exposure;

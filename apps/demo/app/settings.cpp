@@ -57,13 +57,14 @@ template <typename Read> void with(const JsonCursor& object, const char* name, R
 
 void readViewState(const JsonCursor& object, ViewState& view)
 {
-    object.allowKeys(
-        {"view", "integrator", "shadows", "occlusion", "sun", "exposure", "detail", "internal_scale", "present"});
+    object.allowKeys({"view", "integrator", "denoise", "shadows", "occlusion", "sun", "exposure", "detail",
+                      "internal_scale", "present"});
     with(object, "view", [&](const JsonCursor& value) { view.view = readView(value); });
     with(object, "integrator",
          [&](const JsonCursor& value) {
              view.integrator = static_cast<Integrator>(value.oneOf({"primary", "path"}));
          });
+    with(object, "denoise", [&](const JsonCursor& value) { view.denoise = value.flag(); });
     with(object, "shadows", [&](const JsonCursor& value) { view.shadows = value.flag(); });
     with(object, "occlusion",
          [&](const JsonCursor& value) { view.occlusion_rays = value.whole(0, kOcclusionRaysMax); });
@@ -128,6 +129,7 @@ std::string settingsText(const Settings& settings)
     Json& shown = json["view"];
     shown["view"] = std::ranges::find(views, view.view, &cli::NamedView::view)->name;
     shown["integrator"] = view.integrator == Integrator::Path ? "path" : "primary";
+    shown["denoise"] = view.denoise;
     shown["shadows"] = view.shadows;
     shown["occlusion"] = view.occlusion_rays;
     shown["sun"] = {view.to_sun.x, view.to_sun.y, view.to_sun.z};

@@ -128,6 +128,7 @@ void viewPanel(ViewState& view, const ViewInfo& info)
         if (info.samples)
         {
             tell(fmt::format("{} paths a pixel", *info.samples));
+            ImGui::Checkbox("denoise", &view.denoise);
         }
         ImGui::Checkbox(view.integrator == Integrator::Path ? "sun" : "shadows", &view.shadows);
         int rays = static_cast<int>(view.occlusion_rays);

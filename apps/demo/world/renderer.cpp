@@ -8,6 +8,14 @@
 namespace zvo::demo
 {
 
+namespace
+{
+
+// Samples of earlier frames that count at most, where pictures are denoised.
+constexpr std::uint32_t kHistoryMax = 16;
+
+} // namespace
+
 void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture& picture, bool encodes_srgb)
 {
     m_deletion_queue.beginFrame(frame);
@@ -23,8 +31,9 @@ void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture&
 
 std::uint64_t Renderer::pictureBytes() const
 {
-    const std::uint64_t path_bytes =
-        m_paths == nullptr ? 0 : m_paths->tracer.bytes() + m_paths->developer.bytes() + m_paths->image.bytes();
+    const std::uint64_t path_bytes = m_paths == nullptr ? 0
+                                                        : m_paths->tracer.bytes() + m_paths->denoiser.bytes() +
+                                                              m_paths->developer.bytes() + m_paths->image.bytes();
     return m_compose == nullptr ? 0 : m_tracer.buffers().bytes() + m_compose->bytes() + path_bytes;
 }
 
@@ -50,6 +59,10 @@ void Renderer::preparePaths(const Picture& picture)
         m_deletion_queue.keep(std::exchange(m_paths->image, std::move(image)));
     }
     m_paths->tracer.resize(picture.internal.width, picture.internal.height);
+    if (picture.view.denoise)
+    {
+        m_paths->denoiser.resize(picture.internal.width, picture.internal.height);
+    }
 }
 
 void Renderer::tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
@@ -57,9 +70,13 @@ void Renderer::tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const T
 {
     const double strength = view.shadows ? TraceOptions().sun : 0.0;
     m_paths->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
-    m_paths->tracer.addSample(graph, tree, m_paths->sky, camera, {});
-    m_paths->developer.develop(graph, m_paths->tracer.picture(), TexelFormat::Rgba8, {.factor = view.exposure},
-                               m_paths->image);
+    m_paths->tracer.addSample(graph, tree, m_paths->sky, camera, {.reseeds = view.denoise, .features = view.denoise});
+    if (view.denoise)
+    {
+        m_paths->denoiser.denoise(graph, m_paths->tracer.guided(), kHistoryMax);
+    }
+    const SampledPicture shown = view.denoise ? m_paths->denoiser.picture() : m_paths->tracer.picture();
+    m_paths->developer.develop(graph, shown, TexelFormat::Rgba8, {.factor = view.exposure}, m_paths->image);
 }
 
 void Renderer::forget()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
 #include "core/present/present.h"
 #include "core/trace/tree_tracer.h"
@@ -74,11 +75,13 @@ private:
     struct Paths
     {
         Paths(vk::HeadlessDevice& device, vk::DeletionQueue* deletion_queue)
-            : tracer(device.device(), deletion_queue), developer(device.device()), sky(device.device())
+            : tracer(device.device(), deletion_queue), denoiser(device.device(), deletion_queue),
+              developer(device.device()), sky(device.device())
         {
         }
 
         PathTracer tracer;
+        Denoiser denoiser;
         Developer developer;
         Environment sky;
         vk::BufferOf<gpu::uint> image; // [width * height] of the internal size

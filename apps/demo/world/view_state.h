@@ -16,6 +16,7 @@ struct ViewState
 {
     View view = TraceOptions().view;
     Integrator integrator = Integrator::Primary;
+    bool denoise = false; // of paths
     bool shadows = TraceOptions().shadows;
     std::uint32_t occlusion_rays = TraceOptions().occlusion_rays;
     glm::dvec3 to_sun = TraceOptions().to_sun;
