@@ -121,7 +121,7 @@ const Columns<VarianceRow>& varianceColumns()
     return all;
 }
 
-SunInfo daylight()
+Sun daylight()
 {
     const TraceOptions plain;
     return {.direction = plain.to_sun, .irradiance = double{plain.sun} * kSunColor};
@@ -148,7 +148,7 @@ public:
         row.scene = m_name;
         row.resolution = m_grid.resolution();
         row.voxels = m_tree.voxel_count;
-        Environment sky(m_device.device());
+        DeviceEnvironment sky(m_device.device());
         sky.setSun(daylight());
         const TraceCamera camera = traceCamera(m_view, m_grid, kPathHeight);
         PathTracer tracer(m_device.device());
@@ -184,7 +184,7 @@ public:
         {
             return std::nullopt;
         }
-        Environment night(m_device.device(), HdrImage{1, 1, {glm::vec3(0.0F)}}, 0.0, 1.0);
+        DeviceEnvironment night(m_device.device(), HdrImage{1, 1, {glm::vec3(0.0F)}}, 0.0, 1.0);
         PathOptions by_power;
         by_power.lights_by_power = true;
         VarianceRow row = {m_name, fmt::format("{} emissive voxels", m_tree.emission.count())};
@@ -199,8 +199,8 @@ public:
     {
         std::vector<std::string> warnings;
         const HdrImage map = decodeHdrImage(readFile(file), file.string(), warnings);
-        Environment by_light(m_device.device(), map, 0.0, 1.0);
-        Environment evenly(m_device.device(), map, 0.0, 1.0);
+        DeviceEnvironment by_light(m_device.device(), map, 0.0, 1.0);
+        DeviceEnvironment evenly(m_device.device(), map, 0.0, 1.0);
         evenly.chooseEvenly();
         VarianceRow row = {m_name, file.stem().string()};
         const std::vector<Pixel> best = tracePixels(by_light, {});
@@ -247,7 +247,7 @@ private:
         double variance = 0;
     };
 
-    std::vector<Pixel> tracePixels(Environment& light, const PathOptions& options)
+    std::vector<Pixel> tracePixels(DeviceEnvironment& light, const PathOptions& options)
     {
         PathTracer tracer(m_device.device());
         tracer.resize(kVarianceWidth, kVarianceHeight);
@@ -285,7 +285,7 @@ private:
 
 #ifdef ZVO_EMBREE
     // Traces the rays of all bounces by Embree, one by one, and returns their rate.
-    double measureEmbree(PathTracer& tracer, Environment& sky, const TraceCamera& camera)
+    double measureEmbree(PathTracer& tracer, DeviceEnvironment& sky, const TraceCamera& camera)
     {
         std::vector<PrimaryRay> rays;
         const float t_min = 1e-3F / static_cast<float>(m_grid.rootResolution()); // behind the face where it starts

@@ -37,19 +37,20 @@ HdrImage readMap(const std::filesystem::path& file)
     return map;
 }
 
-Environment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& options)
+DeviceEnvironment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& options)
 {
     const PathRenderOptions& paths = options.paths;
     const TraceOptions plain;
-    SunInfo sun = {.direction = options.to_sun.value_or(plain.to_sun), .irradiance = double{plain.sun} * kSunColor};
+    Sun sun = {.direction = options.to_sun.value_or(plain.to_sun), .irradiance = double{plain.sun} * kSunColor};
     if (!paths.environment)
     {
-        Environment environment(device.device());
+        DeviceEnvironment environment(device.device());
         environment.setSun(sun);
         return environment;
     }
-    Environment environment(device.device(), readMap(*paths.environment),
-                            paths.environment_turn * std::numbers::pi / 180.0, double{paths.environment_strength});
+    DeviceEnvironment environment(device.device(), readMap(*paths.environment),
+                                  paths.environment_turn * std::numbers::pi / 180.0,
+                                  double{paths.environment_strength});
     if (options.to_sun)
     {
         environment.setSun(sun);

@@ -41,7 +41,7 @@ private:
     const RenderOptions& m_options;
     PathTracer m_tracer;
     std::optional<Denoiser> m_denoiser; // where pictures are denoised
-    Environment m_environment;
+    DeviceEnvironment m_environment;
     std::optional<TraceCamera> m_camera;        // of the last picture
     std::optional<TraceCamera> m_camera_before; // of the one before
 };

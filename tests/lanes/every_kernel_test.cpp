@@ -149,7 +149,7 @@ Names tracePictures(const DeviceTree& tree)
 // Traces paths through a tree with emissive voxels.
 Names tracePaths(const DeviceTree& tree)
 {
-    Environment sky(device().device());
+    DeviceEnvironment sky(device().device());
     PathTracer tracer(device().device());
     Developer developer(device().device());
     tracer.resize(9, 10);

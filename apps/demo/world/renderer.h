@@ -83,7 +83,7 @@ private:
         PathTracer tracer;
         Denoiser denoiser;
         Developer developer;
-        Environment sky;
+        DeviceEnvironment sky;
         vk::BufferOf<gpu::uint> image; // [width * height] of the internal size
     };
 

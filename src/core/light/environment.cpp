@@ -41,7 +41,8 @@ gpu::EnvironmentMap mapOf(std::uint32_t width, std::uint32_t height, double turn
 
 } // namespace
 
-Environment::Environment(vk::Device& device, std::uint32_t width, std::uint32_t height, double turn, double strength)
+DeviceEnvironment::DeviceEnvironment(vk::Device& device, std::uint32_t width, std::uint32_t height, double turn,
+                                     double strength)
     : m_version(newVersion())
 {
     if (width == 0 || height == 0)
@@ -68,15 +69,15 @@ Environment::Environment(vk::Device& device, std::uint32_t width, std::uint32_t 
     setSun({});
 }
 
-Environment::Environment(vk::Device& device) : Environment(device, kSkyWidth, kSkyHeight, 0.0, 1.0) {}
+DeviceEnvironment::DeviceEnvironment(vk::Device& device) : DeviceEnvironment(device, kSkyWidth, kSkyHeight, 0.0, 1.0) {}
 
-Environment::Environment(vk::Device& device, const HdrImage& picture, double turn, double strength)
-    : Environment(device, picture.width, picture.height, turn, strength)
+DeviceEnvironment::DeviceEnvironment(vk::Device& device, const HdrImage& picture, double turn, double strength)
+    : DeviceEnvironment(device, picture.width, picture.height, turn, strength)
 {
     m_upload = picture.texels;
 }
 
-void Environment::setSun(const SunInfo& sun)
+void DeviceEnvironment::setSun(const Sun& sun)
 {
     const double length = glm::length(sun.direction);
     const glm::dvec3 direction = length > 0.0 ? sun.direction / length : glm::dvec3(0.0, 1.0, 0.0);
@@ -93,13 +94,13 @@ void Environment::setSun(const SunInfo& sun)
     }
 }
 
-void Environment::chooseEvenly()
+void DeviceEnvironment::chooseEvenly()
 {
     m_chooses_evenly = true;
     m_version = newVersion();
 }
 
-void Environment::prepare(vk::FrameGraph& graph)
+void DeviceEnvironment::prepare(vk::FrameGraph& graph)
 {
     if (!m_is_prepared)
     {
@@ -131,7 +132,7 @@ void Environment::prepare(vk::FrameGraph& graph)
     }
 }
 
-void Environment::buildTables(vk::FrameGraph& graph)
+void DeviceEnvironment::buildTables(vk::FrameGraph& graph)
 {
     const std::uint64_t cell_count = m_cells.count() / gpu::kNormals;
     const std::uint64_t block_count = divideUp(cell_count, gpu::kAliasBlock);
@@ -163,7 +164,7 @@ void Environment::buildTables(vk::FrameGraph& graph)
     run(gpu::light::AliasFill{}, gpu::kNormals * cell_count);
 }
 
-gpu::ConstPtr<gpu::Environment> Environment::read(vk::AnyPass& pass) const
+gpu::ConstPtr<gpu::Environment> DeviceEnvironment::read(vk::AnyPass& pass) const
 {
     pass.read(m_texels);
     pass.read(m_cells);

@@ -14,7 +14,7 @@ namespace zvo
 {
 
 /// The sun: a disc.
-struct SunInfo
+struct Sun
 {
     glm::dvec3 direction = {0.0, 1.0, 0.0}; // towards its middle, any length
     glm::dvec3 irradiance{0.0};             // of a surface that faces it, over pi
@@ -25,18 +25,18 @@ struct SunInfo
 inline constexpr glm::dvec3 kSunColor = {1.0, 0.93, 0.82};
 
 /// Light from outside of the grid: a map, or the simple sky, and a sun.
-class Environment
+class DeviceEnvironment
 {
 public:
     /// The simple sky (shaders/lib/sky.glsl).
-    explicit Environment(vk::Device& device);
+    explicit DeviceEnvironment(vk::Device& device);
 
     /// A map of radiance in all directions (shaders/light/environment.h says which one is where). All values must be
     /// finite and at least 0. turn: the angle, in radians, by which it is turned about y, counterclockwise as seen from
     /// above. strength: factor for its radiance. Throws Error{Usage} for a picture of no texels, and Error{Memory}.
-    Environment(vk::Device& device, const HdrImage& picture, double turn, double strength);
+    DeviceEnvironment(vk::Device& device, const HdrImage& picture, double turn, double strength);
 
-    void setSun(const SunInfo& sun);
+    void setSun(const Sun& sun);
 
     /// From the next prepare() on, directions to the map are chosen evenly, whatever light comes from there; for
     /// comparisons.
@@ -52,14 +52,14 @@ public:
     /// Declares that pass reads all of it.
     [[nodiscard]] gpu::ConstPtr<gpu::Environment> read(vk::AnyPass& pass) const;
 
-    /// [kNormals] as Environment::gives in shaders/light/environment.h.
+    /// [kNormals] as gpu::Environment::gives in shaders/light/environment.h.
     [[nodiscard]] const vk::BufferOf<gpu::vec2>& gives() const { return m_gives; }
     [[nodiscard]] const vk::BufferOf<gpu::AliasCell>& cells() const { return m_cells; }
     [[nodiscard]] const vk::BufferOf<gpu::AliasTotals>& totals() const { return m_totals; }
     [[nodiscard]] const gpu::EnvironmentMap& map() const { return m_values.map; }
 
 private:
-    Environment(vk::Device& device, std::uint32_t width, std::uint32_t height, double turn, double strength);
+    DeviceEnvironment(vk::Device& device, std::uint32_t width, std::uint32_t height, double turn, double strength);
 
     void buildTables(vk::FrameGraph& graph);
 

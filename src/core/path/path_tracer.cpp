@@ -79,7 +79,7 @@ void PathTracer::Pixels::addFeatures(vk::Device& device)
 struct PathTracer::Batch
 {
     const DeviceTree& tree;
-    const Environment& environment;
+    const DeviceEnvironment& environment;
     const TraceCamera& camera;
     const PathOptions& options;
     std::uint32_t first_pixel;
@@ -165,7 +165,7 @@ void PathTracer::makeLights(vk::FrameGraph& graph, const DeviceTree& tree)
     m_lights_version = tree.version;
 }
 
-void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment,
+void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
                            const TraceCamera& camera, const PathOptions& options)
 {
     const Subject subject = {tree.version, environment.version(), std::bit_cast<decltype(Subject::camera)>(camera.rays),

@@ -76,8 +76,8 @@ public:
 
     /// Records the passes that add a sample to each pixel. Begins anew where tree or environment has another version,
     /// or camera or options are others. Throws Error{Memory}. Cost: pixels times bounces.
-    void addSample(vk::FrameGraph& graph, const DeviceTree& tree, Environment& environment, const TraceCamera& camera,
-                   const PathOptions& options);
+    void addSample(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                   const TraceCamera& camera, const PathOptions& options);
 
     /// Device memory of all buffers.
     [[nodiscard]] std::uint64_t bytes() const;

@@ -33,7 +33,7 @@ struct Tables
     [[nodiscard]] std::size_t cellCount() const { return cells.size() / gpu::kNormals; }
 };
 
-Tables tablesOf(Environment& environment)
+Tables tablesOf(DeviceEnvironment& environment)
 {
     lightDevice().run([&](vk::FrameGraph& graph) { environment.prepare(graph); });
     return {environment.map(), lightDevice().download(environment.cells()),
@@ -134,7 +134,7 @@ TEST(Environment, ChoosesCellsByTheLightThatFacesReceive)
     for (const double turn : {0.0, 0.37})
     {
         const HdrImage image = contrastMap(64, 32);
-        Environment environment(lightDevice().device(), image, turn, 3.0);
+        DeviceEnvironment environment(lightDevice().device(), image, turn, 3.0);
         const Tables tables = tablesOf(environment);
         ASSERT_EQ(tables.cellCount(), 64U * 32U);
         for (std::uint32_t normal = 0; normal < gpu::kNormals; ++normal)
@@ -169,7 +169,7 @@ TEST(Environment, MakesTablesForMapsOfEverySize)
     const std::pair<std::uint32_t, std::uint32_t> sizes[] = {{1, 1}, {3, 1}, {2, 5}, {17, 9}, {2048, 700}};
     for (const auto& [width, height] : sizes)
     {
-        Environment environment(lightDevice().device(), contrastMap(width, height), 0.1, 1.0);
+        DeviceEnvironment environment(lightDevice().device(), contrastMap(width, height), 0.1, 1.0);
         const Tables tables = tablesOf(environment);
         EXPECT_LE(tables.cellCount(), gpu::kAliasCellsMax);
         for (std::uint32_t normal = 0; normal < gpu::kNormals; ++normal)
@@ -184,7 +184,7 @@ TEST(Environment, MakesTablesForMapsOfEverySize)
 
 TEST(Environment, OfNoLightGivesNone)
 {
-    Environment environment(lightDevice().device(), {8, 4, std::vector<glm::vec3>(32)}, 0.0, 1.0);
+    DeviceEnvironment environment(lightDevice().device(), {8, 4, std::vector<glm::vec3>(32)}, 0.0, 1.0);
     const Tables tables = tablesOf(environment);
     for (std::uint32_t normal = 0; normal < gpu::kNormals; ++normal)
     {
@@ -199,14 +199,14 @@ TEST(Environment, OfNoLightGivesNone)
 
 TEST(Environment, WithoutTexelsIsRefused)
 {
-    const auto make = [] { const Environment environment(lightDevice().device(), HdrImage{0, 4, {}}, 0.0, 1.0); };
+    const auto make = [] { const DeviceEnvironment environment(lightDevice().device(), HdrImage{0, 4, {}}, 0.0, 1.0); };
     test::expectParts(test::messageOf(make, ErrorCode::Usage), {"no texels"});
 }
 
 // A sun on the horizon gives light to faces that see a part of its disc.
 TEST(Environment, SunGivesLightToFacesThatSeeAPartOfIt)
 {
-    Environment environment(lightDevice().device(), {8, 4, std::vector<glm::vec3>(32)}, 0.0, 1.0);
+    DeviceEnvironment environment(lightDevice().device(), {8, 4, std::vector<glm::vec3>(32)}, 0.0, 1.0);
     environment.setSun({.direction = {1.0, -0.001, 0.0}, .irradiance = glm::dvec3(1.0)});
     const Tables tables = tablesOf(environment);
     EXPECT_NEAR(tables.gives[0].y, kPi, 0.02);

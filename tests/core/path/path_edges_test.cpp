@@ -31,7 +31,7 @@ public:
     {
     }
 
-    HdrImage take(Environment& light, const PathOptions& options, std::uint32_t samples = 8)
+    HdrImage take(DeviceEnvironment& light, const PathOptions& options, std::uint32_t samples = 8)
     {
         m_tracer.resize(m_edge, m_edge);
         m_tracer.forget();
@@ -50,7 +50,7 @@ private:
     PathTracer m_tracer;
 };
 
-Environment constantLight(float radiance)
+DeviceEnvironment constantLight(float radiance)
 {
     return {device().device(), HdrImage{2, 1, std::vector(2, glm::vec3(radiance))}, 0.0, 1.0};
 }
@@ -80,7 +80,7 @@ TEST(PathEdges, NoVoxelsShowTheMap)
 {
     DeviceTree empty;
     empty.grid.depth = 4;
-    Environment light = constantLight(0.75F);
+    DeviceEnvironment light = constantLight(0.75F);
     Pictures pictures(empty, ViewCamera::lookAt({20, 20, 20}, {0, 0, 0}, 0.7), 9);
     EXPECT_TRUE(isConstant(pictures.take(light, {}), glm::vec3(0.75F), 1e-6F));
 }
@@ -89,7 +89,7 @@ TEST(PathEdges, NoVoxelsShowTheMap)
 TEST(PathEdges, EveryPixelOfALargePictureIsTracedOnce)
 {
     const DeviceTree tree = oneVoxel(3, glm::vec3(1.0F));
-    Environment light = constantLight(0.75F);
+    DeviceEnvironment light = constantLight(0.75F);
     const ViewCamera view = ViewCamera::lookAt({7.5, 7.5, 30.0}, {7.5, 7.5, 7.5}, 0.1);
     const HdrImage image = Pictures(tree, view, 730).take(light, {.bounces = 0}, 1);
     std::size_t lit = 0;
@@ -111,7 +111,7 @@ TEST(PathEdges, OneVoxelIsSeenInEveryDepth)
     {
         const DeviceTree tree = oneVoxel(depth, {0.25F, 0.5F, 1.5F});
         const glm::dvec3 middle(std::ldexp(1.0, static_cast<int>(depth)) - 0.5);
-        Environment light = constantLight(0.0F);
+        DeviceEnvironment light = constantLight(0.0F);
         Pictures pictures(tree, ViewCamera::lookAt(middle + glm::dvec3(2.0, 3.0, 4.0), middle, 0.5), 7);
         const HdrImage image = pictures.take(light, {});
         EXPECT_EQ(image.texels[3 * 7 + 3], glm::vec3(0.25F, 0.5F, 1.5F)) << depth;
@@ -123,7 +123,7 @@ TEST(PathEdges, OneVoxelIsSeenInEveryDepth)
 TEST(PathEdges, ACameraInAVoxelSeesItsEmission)
 {
     const DeviceTree tree = oneVoxel(3, {0.5F, 1.0F, 1.5F});
-    Environment light = constantLight(1.0F);
+    DeviceEnvironment light = constantLight(1.0F);
     Pictures pictures(tree, ViewCamera::lookAt({7.5, 7.25, 7.5}, {0, 0, 0}, 0.7), 6);
     EXPECT_TRUE(isConstant(pictures.take(light, {}), {0.5F, 1.0F, 1.5F}, 0.0F));
 }
@@ -136,7 +136,7 @@ TEST(PathEdges, WithoutBouncesOnlyLightItselfIsSeen)
     test::addBox(voxels, {0, 1, 0}, {8, 2, 8}, {{}, glm::uvec3(255), glm::vec3(1.25F)});
     const DeviceTree lit = test::litTree(device(), voxels, 3);
     const ViewCamera above = ViewCamera::lookAt({4.0, 12.0, 4.01}, {4.0, 1.0, 4.0}, 0.2);
-    Environment light = constantLight(1.0F);
+    DeviceEnvironment light = constantLight(1.0F);
     EXPECT_TRUE(isConstant(Pictures(dark, above, 6).take(light, {.bounces = 0}), glm::vec3(0.0F), 0.0F));
     EXPECT_TRUE(isConstant(Pictures(lit, above, 6).take(light, {.bounces = 0}), glm::vec3(1.25F), 0.0F));
 }
@@ -144,7 +144,7 @@ TEST(PathEdges, WithoutBouncesOnlyLightItselfIsSeen)
 TEST(PathEdges, WithoutLightAllIsBlack)
 {
     const DeviceTree tree = oneVoxel(3, glm::vec3(0.0F));
-    Environment light = constantLight(0.0F);
+    DeviceEnvironment light = constantLight(0.0F);
     Pictures pictures(tree, ViewCamera::lookAt({9.0, 11.0, 12.0}, {7.5, 7.5, 7.5}, 0.2), 6);
     EXPECT_TRUE(isConstant(pictures.take(light, {}), glm::vec3(0.0F), 0.0F));
 }
@@ -157,7 +157,7 @@ TEST(PathEdges, ALensBlursWhatIsOutOfFocus)
     test::addBox(voxels, {4, 0, 0}, {8, 8, 1}, {{}, glm::uvec3(0), glm::vec3(0.0F)});
     const DeviceTree tree = test::litTree(device(), voxels, 3);
     const ViewCamera view = ViewCamera::lookAt({4.0, 4.0, 11.0}, {4.0, 4.0, 1.0}, 0.4);
-    Environment dark = constantLight(0.0F);
+    DeviceEnvironment dark = constantLight(0.0F);
     Pictures pictures(tree, view, 16);
     const auto mixed = [](const HdrImage& image)
     {
@@ -177,7 +177,7 @@ TEST(PathEdges, OrthographicCamerasSeeTheSameLight)
     ViewCamera view = ViewCamera::lookAt({7.5, 7.5, 30.0}, {7.5, 7.5, 7.5}, 0.2);
     view.orthographic = true;
     view.half_height = 2.0;
-    Environment light = constantLight(0.0F);
+    DeviceEnvironment light = constantLight(0.0F);
     const HdrImage image = Pictures(tree, view, 16).take(light, {});
     for (std::uint32_t i = 0; i < 256; ++i)
     {
@@ -202,7 +202,7 @@ TEST_P(PathScenes, HaveFinitePixels)
     const Grid grid = Grid::around(scene.bounds(), 6);
     const DeviceTree tree =
         buildOctree(device(), uploadScene(device(), scene, true, brightestEmission(scene)), grid, {}).octree;
-    Environment sky(device().device());
+    DeviceEnvironment sky(device().device());
     sky.setSun({.direction = {-0.6, 0.75, 0.45}, .irradiance = 2.2 * kSunColor});
     Pictures pictures(tree, ViewCamera::framing(scene, 1.0), 12);
     double sum = 0.0;

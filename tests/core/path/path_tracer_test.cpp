@@ -40,8 +40,8 @@ double luminanceOf(const glm::dvec3& color)
 }
 
 /// A picture of edge x edge pixels.
-PathPicture pictureOf(const DeviceTree& tree, Environment& environment, const ViewCamera& view, std::uint32_t edge,
-                      std::uint32_t samples, const PathOptions& options)
+PathPicture pictureOf(const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
+                      std::uint32_t edge, std::uint32_t samples, const PathOptions& options)
 {
     PathTracer tracer(device().device());
     tracer.resize(edge, edge);
@@ -74,7 +74,7 @@ PathPicture pictureOf(const DeviceTree& tree, Environment& environment, const Vi
     return picture;
 }
 
-Environment constantSky(const glm::vec3& radiance)
+DeviceEnvironment constantSky(const glm::vec3& radiance)
 {
     return {device().device(), {4, 2, std::vector(8, radiance)}, 0.0, 1.0};
 }
@@ -100,7 +100,7 @@ TEST(PathFurnace, AWhiteCubeCannotBeSeen)
     std::vector<LitVoxel> voxels;
     test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
-    Environment sky = constantSky({0.5F, 1.0F, 2.0F});
+    DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
     EXPECT_LT(pictureOf(tree, sky, outside(), 16, 1, {.bounces = 0}).mean.g, 0.9) << "it is there";
     for (const LightSampling way : kWays)
     {
@@ -123,7 +123,7 @@ TEST(PathFurnace, AWhiteBowlCannotBeSeen)
     test::addBox(voxels, {1, 1, 0}, {8, 4, 1}, white());
     test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
-    Environment sky = constantSky(glm::vec3(1.0F));
+    DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
     EXPECT_LT(pictureOf(tree, sky, outside(), 16, 1, {.bounces = 0}).luminance, 0.6) << "it is there";
     for (const LightSampling way : kWays)
     {
@@ -149,7 +149,7 @@ TEST(PathEnergy, OfEachBounceIsThePowerOfTheAlbedo)
                              glm::all(glm::lessThan(v.cell, glm::uvec3(7)));
                   });
     const DeviceTree tree = test::litTree(device(), voxels, 3);
-    Environment sky = constantSky(glm::vec3(0.0F));
+    DeviceEnvironment sky = constantSky(glm::vec3(0.0F));
     const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
     const double albedo = test::albedoOf(wall).r;
     for (const LightSampling way : kWays)
@@ -178,7 +178,7 @@ TEST(PathLight, OfASquareIsItsFormFactor)
     lamp.emission = glm::vec3(1.5F);
     test::addBox(voxels, {6, 9, 6}, {10, 10, 10}, lamp);
     const DeviceTree tree = test::litTree(device(), voxels, 4);
-    Environment sky = constantSky(glm::vec3(0.0F));
+    DeviceEnvironment sky = constantSky(glm::vec3(0.0F));
     // A small part of the floor below the lamp, seen from below the lamp.
     const ViewCamera view = ViewCamera::lookAt({8.0, 4.0, 8.001}, {8.0, 1.0, 8.0}, 0.02);
     const double x = 2.0 / 8.0;
@@ -199,7 +199,7 @@ TEST(PathLight, OfASunIsItsIrradiance)
     std::vector<LitVoxel> voxels;
     test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, grey());
     const DeviceTree tree = test::litTree(device(), voxels, 3);
-    Environment sky = constantSky(glm::vec3(0.0F));
+    DeviceEnvironment sky = constantSky(glm::vec3(0.0F));
     const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.3, 0.8, 0.2));
     sky.setSun({.direction = to_sun, .irradiance = glm::dvec3(2.0, 3.0, 4.0)});
     const ViewCamera view = ViewCamera::lookAt({4.0, 7.0, 4.001}, {4.0, 1.0, 4.0}, 0.3);
@@ -239,7 +239,7 @@ glm::dvec3 roomSky(const glm::dvec3& direction)
 }
 
 // The sky in so many texels that steps between them do not matter.
-Environment roomEnvironment(double turn)
+DeviceEnvironment roomEnvironment(double turn)
 {
     HdrImage picture = {128, 64, {}};
     for (std::uint32_t y = 0; y < picture.height; ++y)
@@ -261,7 +261,7 @@ TEST(PathLight, IsThatOfAPathTracerOfBoxes)
     constexpr std::uint32_t kEdge = 8;
     constexpr std::uint32_t kBounces = 3;
     const DeviceTree tree = test::litTree(device(), voxels, 3);
-    Environment sky = roomEnvironment(0.7);
+    DeviceEnvironment sky = roomEnvironment(0.7);
     PathOptions options;
     options.bounces = kBounces;
     const PathPicture picture = pictureOf(tree, sky, intoTheRoom(), kEdge, 512, options);
@@ -282,7 +282,7 @@ TEST(PathLight, IsTheSameInEachWay)
 {
     const DeviceTree flagged = test::litTree(device(), room(), 3);
     const DeviceTree plain = test::litTree(device(), room(), 3, false);
-    Environment sky = roomEnvironment(0.0);
+    DeviceEnvironment sky = roomEnvironment(0.0);
     sky.setSun({.direction = {0.5, 1.0, 0.7}, .irradiance = glm::dvec3(0.7), .angle = 0.2});
     PathOptions options;
     const PathPicture both = pictureOf(flagged, sky, intoTheRoom(), 16, 128, options);

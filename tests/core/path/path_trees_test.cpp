@@ -65,7 +65,7 @@ struct Traced
 
 Traced tracePaths(const DeviceTree& tree)
 {
-    Environment sky(device().device());
+    DeviceEnvironment sky(device().device());
     PathTracer tracer(device().device());
     tracer.resize(30, 21);
     const ViewCamera view = ViewCamera::lookAt({30.0, 22.0, 35.0}, {8.0, 8.0, 8.0}, 0.7);
