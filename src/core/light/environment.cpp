@@ -69,12 +69,22 @@ DeviceEnvironment::DeviceEnvironment(vk::Device& device, std::uint32_t width, st
     setSun({});
 }
 
-DeviceEnvironment::DeviceEnvironment(vk::Device& device) : DeviceEnvironment(device, kSkyWidth, kSkyHeight, 0.0, 1.0) {}
+DeviceEnvironment::DeviceEnvironment(vk::Device& device) : DeviceEnvironment(device, kSkyWidth, kSkyHeight, 0.0, 1.0)
+{
+    m_is_sky = true;
+}
 
 DeviceEnvironment::DeviceEnvironment(vk::Device& device, const HdrImage& picture, double turn, double strength)
     : DeviceEnvironment(device, picture.width, picture.height, turn, strength)
 {
     m_upload = picture.texels;
+}
+
+DeviceEnvironment::DeviceEnvironment(vk::Uploader& uploads, std::uint32_t width, std::uint32_t height,
+                                     std::span<const glm::vec3> texels, double turn, double strength)
+    : DeviceEnvironment(uploads.device(), width, height, turn, strength)
+{
+    uploads.upload(m_texels, texels);
 }
 
 void DeviceEnvironment::setSun(const Sun& sun)
@@ -104,7 +114,7 @@ void DeviceEnvironment::prepare(vk::FrameGraph& graph)
 {
     if (!m_is_prepared)
     {
-        if (m_upload.empty())
+        if (m_is_sky)
         {
             vk::Pass pass = graph.addPass(gpu::light::SkyTexels{});
             const gpu::SkyTexelsParams params = {pass.write(m_texels), m_values.map.width, m_values.map.height};
@@ -112,10 +122,10 @@ void DeviceEnvironment::prepare(vk::FrameGraph& graph)
         }
         else
         {
-            graph.update(m_texels, 0, m_upload);
-            m_upload = {};
+            graph.update(m_texels, 0, m_upload); // none where they were uploaded
         }
         buildTables(graph);
+        m_upload = {};
         m_is_prepared = true;
     }
     if (!m_is_current)

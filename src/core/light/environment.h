@@ -5,9 +5,11 @@
 #include "light/environment.h"
 #include "vk/buffer.h"
 #include "vk/frame_graph.h"
+#include "vk/uploader.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace zvo
@@ -36,6 +38,10 @@ public:
     /// above. strength: factor for its radiance. Throws Error{Usage} for a picture of no texels, and Error{Memory}.
     DeviceEnvironment(vk::Device& device, const HdrImage& picture, double turn, double strength);
 
+    /// Likewise, of texels [width * height], which are uploaded at once.
+    DeviceEnvironment(vk::Uploader& uploads, std::uint32_t width, std::uint32_t height,
+                      std::span<const glm::vec3> texels, double turn, double strength);
+
     void setSun(const Sun& sun);
 
     /// From the next prepare() on, directions to the map are chosen evenly, whatever light comes from there; for
@@ -45,6 +51,10 @@ public:
     /// Records what is needed before kernels use the environment, if anything has changed: uploads, and the passes that
     /// make the alias tables.
     void prepare(vk::FrameGraph& graph);
+
+    /// Has the next prepare() record the sun anew, because the last frame was lost. The tables must be in an earlier
+    /// one.
+    void forgetSun() { m_is_current = false; }
 
     /// Changes whenever the light does.
     [[nodiscard]] std::uint64_t version() const { return m_version; }
@@ -65,7 +75,8 @@ private:
 
     std::uint64_t m_version;
     gpu::Environment m_values{};
-    std::vector<glm::vec3> m_upload; // texels that the device does not have yet; empty: none, or the simple sky
+    std::vector<glm::vec3> m_upload; // texels that the device does not have yet
+    bool m_is_sky = false;           // the simple one
     bool m_chooses_evenly = false;
     bool m_is_prepared = false; // texels and tables
     bool m_is_current = false;  // m_buffer
