@@ -5,6 +5,7 @@
 #include "zvo/dynamic_tree.h"
 #include "zvo/export.h"
 #include "zvo/image_target.h"
+#include "zvo/light.h"
 #include "zvo/tree.h"
 #include "zvo/types.h"
 
@@ -42,6 +43,21 @@ struct TraceInfo
     float detail_pixels = 0.0F;       // stop at nodes that are at most this many pixels wide; 0: go on to voxels
 };
 
+/// Options of a path-traced picture (docs/light.md).
+struct PathInfo
+{
+    std::uint32_t bounces = 8;   // diffuse reflections of a path, at most 1024; 0: light that the camera sees directly
+    std::uint32_t seed = 0;      // of the random numbers
+    float lens_radius = 0.0F;    // world units; 0: a pinhole
+    float focus_distance = 1.0F; // world units along CameraInfo::forward, where the picture is sharp; more than 0
+    bool roulette = false;       // ends paths early that would bring little light, by chance
+
+    // Another value of these does not begin anew.
+    bool automatic_exposure = true; // the pixels' mean brightness, in stops, becomes middle grey before exposure counts
+    float exposure = 1.0F;          // factor
+    std::uint32_t samples = 1;      // paths of each pixel that a call adds, 1 to 1024
+};
+
 /// A depth image beside a picture, in the host's own projection, so that the host can composite voxels with what it
 /// draws.
 struct DepthTarget
@@ -54,7 +70,8 @@ struct DepthTarget
 };
 
 /// Buffers in which pictures of one size and format are traced, one after the other. One Tracer serves any number of
-/// pictures in a frame, and all frames in flight. Another size or kind of format needs another Tracer.
+/// pictures in a frame, and all frames in flight. Another size or kind of format needs another Tracer, and so does each
+/// picture that tracePaths() makes in the course of frames.
 class ZVO_API Tracer
 {
 public:
@@ -83,6 +100,32 @@ public:
                const ImageTarget& color, const DepthTarget* depth = nullptr);
     void trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& camera, const TraceInfo& info,
                const ImageTarget& color, const DepthTarget* depth = nullptr);
+
+    /// Records the passes that add samples to each pixel of a path-traced picture, and the copy of the picture so far
+    /// to the host's image. Samples add up over calls, recordings and frames, for as long as nothing changes that the
+    /// picture shows: it begins anew by itself where the tree, the environment, the camera or one of the options above
+    /// automatic_exposure is not that of the last call, and after a frame with a call was lost. On every device the
+    /// picture has the same bytes as that of `zvo render --integrator path` with the same options and as many samples.
+    ///
+    /// Stages, barriers and what images need: as trace(). Memory, from the first call on: 16 bytes a pixel; 252 for
+    /// each of the pixels whose paths advance together, at most 524,288; 0.1 MB; and for lights of the tree at most 76
+    /// bytes an emissive voxel, and 88 more for each second level of the tree. Cost: pixels times samples, times two
+    /// rays for each bounce.
+    ///
+    /// Throws Error{Usage} as trace() does for images and cameras, for numbers of PathInfo that are out of range,
+    /// negative or not finite, and for an environment that was lost; then nothing is recorded, and the samples stay.
+    /// Throws Error{Memory}, and what making a kernel throws; then no image is written.
+    void tracePaths(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
+                    const PathInfo& info, const ImageTarget& color);
+    void tracePaths(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
+                    const PathInfo& info, const ImageTarget& color);
+
+    /// Samples of each pixel in the picture that tracePaths() has recorded last; 0: none, or the call failed, or its
+    /// frame was lost.
+    [[nodiscard]] std::uint32_t sampleCount() const;
+
+    /// Has the next tracePaths() begin anew. Records nothing.
+    void forgetSamples();
 
 private:
     struct Impl;

@@ -40,6 +40,7 @@ typedef struct ZvoTree ZvoTree;
 typedef struct ZvoTreeBuild ZvoTreeBuild;
 typedef struct ZvoTreeCompression ZvoTreeCompression;
 typedef struct ZvoDynamicTree ZvoDynamicTree;
+typedef struct ZvoEnvironment ZvoEnvironment;
 typedef struct ZvoTracer ZvoTracer;
 
 // Enumerations. Their types are integers of a fixed size, so that every value is one that can be refused.
@@ -627,6 +628,47 @@ ZVO_C_API ZvoResult zvoDynamicTreeTakeUpdate(ZvoDynamicTree* tree, ZvoUpdateStat
 ZVO_C_API ZvoResult zvoDynamicTreeInfo(const ZvoDynamicTree* tree, ZvoTreeInfo* info);
 ZVO_C_API ZvoResult zvoDynamicTreeAddress(const ZvoDynamicTree* tree, uint64_t* address);
 
+// zvo::Environment.
+
+/// As zvo::SunInfo.
+typedef struct ZvoSunInfo
+{
+    size_t struct_size;
+    double direction[3];
+    double irradiance[3];
+} ZvoSunInfo;
+
+#define ZVO_SUN_INFO_INIT                                                                                              \
+    {                                                                                                                  \
+        sizeof(ZvoSunInfo), {-0.6, 0.75, 0.45},                                                                        \
+        {                                                                                                              \
+            2.2F, 2.2F * 0.93, 2.2F * 0.82                                                                             \
+        }                                                                                                              \
+    }
+
+/// As zvo::EnvironmentMapInfo.
+typedef struct ZvoEnvironmentMapInfo
+{
+    size_t struct_size;
+    const float* texels; // [3 * width * height]
+    uint32_t width;
+    uint32_t height;
+    double turn;
+    float strength;
+    uint32_t reserved;
+} ZvoEnvironmentMapInfo;
+
+#define ZVO_ENVIRONMENT_MAP_INFO_INIT                                                                                  \
+    {                                                                                                                  \
+        sizeof(ZvoEnvironmentMapInfo), NULL, 0, 0, 0, 1, 0                                                             \
+    }
+
+/// map: null: the simple sky, with the sun of ZVO_SUN_INFO_INIT. A map has no sun.
+ZVO_C_API ZvoResult zvoEnvironmentCreate(ZvoRecorder* recorder, const ZvoEnvironmentMapInfo* map,
+                                         ZvoEnvironment** environment);
+ZVO_C_API void zvoEnvironmentDestroy(ZvoEnvironment* environment);
+ZVO_C_API ZvoResult zvoEnvironmentSetSun(ZvoEnvironment* environment, const ZvoSunInfo* sun);
+
 // zvo::Tracer.
 
 /// As zvo::CameraInfo.
@@ -665,6 +707,25 @@ typedef struct ZvoTraceInfo
 #define ZVO_TRACE_INFO_INIT                                                                                            \
     {                                                                                                                  \
         sizeof(ZvoTraceInfo), {-0.6, 0.75, 0.45}, ZVO_VIEW_COLOR, VK_TRUE, 2.2F, 1, 0, 0.1F, 0, 0                      \
+    }
+
+/// As zvo::PathInfo.
+typedef struct ZvoPathInfo
+{
+    size_t struct_size;
+    uint32_t bounces;
+    uint32_t seed;
+    float lens_radius;
+    float focus_distance;
+    VkBool32 roulette;
+    VkBool32 automatic_exposure;
+    float exposure;
+    uint32_t samples;
+} ZvoPathInfo;
+
+#define ZVO_PATH_INFO_INIT                                                                                             \
+    {                                                                                                                  \
+        sizeof(ZvoPathInfo), 8, 0, 0, 1, VK_FALSE, VK_TRUE, 1, 1                                                       \
     }
 
 /// As zvo::ImageTarget.
@@ -715,6 +776,15 @@ ZVO_C_API ZvoResult zvoTracerTrace(ZvoTracer* tracer, ZvoRecorder* recorder, con
 ZVO_C_API ZvoResult zvoTracerTraceDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
                                           const ZvoCameraInfo* camera, const ZvoTraceInfo* info,
                                           const ZvoImageTarget* color, const ZvoDepthTarget* depth);
+
+ZVO_C_API ZvoResult zvoTracerTracePaths(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
+                                        ZvoEnvironment* environment, const ZvoCameraInfo* camera,
+                                        const ZvoPathInfo* info, const ZvoImageTarget* color);
+ZVO_C_API ZvoResult zvoTracerTracePathsDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                               ZvoEnvironment* environment, const ZvoCameraInfo* camera,
+                                               const ZvoPathInfo* info, const ZvoImageTarget* color);
+ZVO_C_API ZvoResult zvoTracerSampleCount(const ZvoTracer* tracer, uint32_t* count);
+ZVO_C_API ZvoResult zvoTracerForgetSamples(ZvoTracer* tracer);
 
 /// zvo::CameraInfo::lookAt(). camera: its size is set.
 ZVO_C_API ZvoResult zvoCameraLookAt(const double eye[3], const double target[3], double vertical_fov,

@@ -229,6 +229,22 @@ BrushInfo ofC(const ZvoBrushInfo& info)
     return result;
 }
 
+SunInfo ofC(const ZvoSunInfo& info)
+{
+    return {arrayOf(info.direction), arrayOf(info.irradiance)};
+}
+
+EnvironmentMapInfo ofC(const ZvoEnvironmentMapInfo& map)
+{
+    EnvironmentMapInfo result;
+    result.width = map.width;
+    result.height = map.height;
+    result.texels = spanOf<Vec3>(map.texels, std::size_t{map.width} * map.height, "ZvoEnvironmentMapInfo::texels");
+    result.turn = map.turn;
+    result.strength = map.strength;
+    return result;
+}
+
 CameraInfo ofC(const ZvoCameraInfo& info)
 {
     CameraInfo result;
@@ -252,6 +268,20 @@ TraceInfo ofC(const ZvoTraceInfo& info)
     result.occlusion_rays = info.occlusion_rays;
     result.occlusion_reach = info.occlusion_reach;
     result.detail_pixels = info.detail_pixels;
+    return result;
+}
+
+PathInfo ofC(const ZvoPathInfo& info)
+{
+    PathInfo result;
+    result.bounces = info.bounces;
+    result.seed = info.seed;
+    result.lens_radius = info.lens_radius;
+    result.focus_distance = info.focus_distance;
+    result.roulette = info.roulette != VK_FALSE;
+    result.automatic_exposure = info.automatic_exposure != VK_FALSE;
+    result.exposure = info.exposure;
+    result.samples = info.samples;
     return result;
 }
 

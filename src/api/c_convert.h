@@ -45,8 +45,11 @@ GridInfo ofC(const ZvoGrid& grid);
 TreeBuildInfo ofC(const ZvoTreeBuildInfo& info);
 DynamicTreeInfo ofC(const ZvoDynamicTreeInfo& info);
 BrushInfo ofC(const ZvoBrushInfo& info);
+SunInfo ofC(const ZvoSunInfo& info);
+EnvironmentMapInfo ofC(const ZvoEnvironmentMapInfo& map);
 CameraInfo ofC(const ZvoCameraInfo& info);
 TraceInfo ofC(const ZvoTraceInfo& info);
+PathInfo ofC(const ZvoPathInfo& info);
 ImageTarget ofC(const ZvoImageTarget& target);
 DepthTarget ofC(const ZvoDepthTarget& target);
 

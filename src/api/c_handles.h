@@ -61,6 +61,11 @@ struct ZvoDynamicTree
     std::deque<zvo::UpdateStats> updates = {}; // that the host has not taken
 };
 
+struct ZvoEnvironment
+{
+    zvo::Environment object;
+};
+
 struct ZvoTracer
 {
     zvo::Tracer object;

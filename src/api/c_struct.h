@@ -43,8 +43,11 @@ ZVO_C_STRUCT(ZvoDroppedTriangles, zero_area, ZVO_DROPPED_TRIANGLES_INIT);
 ZVO_C_STRUCT(ZvoDynamicTreeInfo, edit_bytes, ZVO_DYNAMIC_TREE_INFO_INIT);
 ZVO_C_STRUCT(ZvoBrushInfo, reserved, ZVO_BRUSH_INFO_INIT);
 ZVO_C_STRUCT(ZvoUpdateStats, reserved, ZVO_UPDATE_STATS_INIT);
+ZVO_C_STRUCT(ZvoSunInfo, irradiance, ZVO_SUN_INFO_INIT);
+ZVO_C_STRUCT(ZvoEnvironmentMapInfo, reserved, ZVO_ENVIRONMENT_MAP_INFO_INIT);
 ZVO_C_STRUCT(ZvoCameraInfo, reserved, ZVO_CAMERA_INFO_INIT);
 ZVO_C_STRUCT(ZvoTraceInfo, reserved, ZVO_TRACE_INFO_INIT);
+ZVO_C_STRUCT(ZvoPathInfo, samples, ZVO_PATH_INFO_INIT);
 ZVO_C_STRUCT(ZvoImageTarget, extent, ZVO_IMAGE_TARGET_INIT);
 ZVO_C_STRUCT(ZvoDepthTarget, reserved, ZVO_DEPTH_TARGET_INIT);
 

@@ -33,6 +33,21 @@ ZvoResult trace(const char* function, ZvoTracer* tracer, ZvoRecorder* recorder, 
                    });
 }
 
+template <typename TreeHandle>
+ZvoResult tracePaths(const char* function, ZvoTracer* tracer, ZvoRecorder* recorder, TreeHandle* tree,
+                     ZvoEnvironment* environment, const ZvoCameraInfo* camera, const ZvoPathInfo* info,
+                     const ZvoImageTarget* color)
+{
+    return guarded(function,
+                   [&]
+                   {
+                       at(tracer, "tracer")
+                           .object.tracePaths(at(recorder, "recorder").object, at(tree, "tree").object,
+                                              at(environment, "environment").object, ofC(readStruct(camera, "camera")),
+                                              ofC(readStruct(info, "info")), ofC(readStruct(color, "color")));
+                   });
+}
+
 DVec3 vectorOf(const double* values, const char* name)
 {
     DVec3 result{};
@@ -72,6 +87,30 @@ ZvoResult zvoTracerTraceDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDyn
                                 const ZvoDepthTarget* depth)
 {
     return trace(__func__, tracer, recorder, tree, camera, info, color, depth);
+}
+
+ZvoResult zvoTracerTracePaths(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
+                              ZvoEnvironment* environment, const ZvoCameraInfo* camera, const ZvoPathInfo* info,
+                              const ZvoImageTarget* color)
+{
+    return tracePaths(__func__, tracer, recorder, tree, environment, camera, info, color);
+}
+
+ZvoResult zvoTracerTracePathsDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                     ZvoEnvironment* environment, const ZvoCameraInfo* camera, const ZvoPathInfo* info,
+                                     const ZvoImageTarget* color)
+{
+    return tracePaths(__func__, tracer, recorder, tree, environment, camera, info, color);
+}
+
+ZvoResult zvoTracerSampleCount(const ZvoTracer* tracer, uint32_t* count)
+{
+    return guarded(__func__, [&] { at(count, "count") = at(tracer, "tracer").object.sampleCount(); });
+}
+
+ZvoResult zvoTracerForgetSamples(ZvoTracer* tracer)
+{
+    return guarded(__func__, [&] { at(tracer, "tracer").object.forgetSamples(); });
 }
 
 ZvoResult zvoCameraLookAt(const double eye[3], const double target[3], double vertical_fov, ZvoCameraInfo* camera)

@@ -2,6 +2,7 @@
 #include "api/checked.h"
 
 #include "api/convert.h"
+#include "core/path/path_tracer.h"
 #include "core/trace/trace.h"
 
 #include <fmt/format.h>
@@ -17,6 +18,15 @@ namespace
 
 // Each frame in flight has its own buffers and memory.
 constexpr std::uint32_t kFramesInFlightMax = 16;
+
+// Environment maps have the limits of `zvo render --environment`.
+constexpr std::uint32_t kMapEdgeMax = 16384;
+constexpr std::uint64_t kMapTexelsMax = std::uint64_t{1} << 25;
+
+constexpr std::uint32_t kSamplesMax = 1024; // of a call, so that a command buffer stays of a sensible size
+
+// The irradiance over pi of a sun whose radiance is far below the largest float.
+constexpr double kSunMax = 1e30;
 
 template <typename Values> bool areFinite(const Values& values)
 {
@@ -43,6 +53,23 @@ void requireOne(std::uint64_t count, const char* name)
     if (count == 0)
     {
         throw Error(ErrorCode::Usage, fmt::format("{} is 0: it must be at least 1", name));
+    }
+}
+
+void requireDirection(const DVec3& direction, const char* name)
+{
+    if (!(std::abs(glm::length(glm::normalize(toGlm(direction))) - 1) < 0.5)) // also for NaN and 0
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} is ({}, {}, {}): that is no direction", name, direction[0],
+                                                  direction[1], direction[2]));
+    }
+}
+
+void requireAtMost(std::uint64_t count, std::uint64_t most, const char* name)
+{
+    if (count > most)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} is {}: it must be at most {}", name, count, most));
     }
 }
 
@@ -145,13 +172,75 @@ const TraceInfo& checked(const TraceInfo& info)
     checkedAmount(info.exposure, "TraceInfo::exposure");
     checkedAmount(info.occlusion_reach, "TraceInfo::occlusion_reach");
     checkedAmount(info.detail_pixels, "TraceInfo::detail_pixels");
-    const glm::dvec3 direction = glm::normalize(toGlm(info.to_sun));
-    if (info.view == View::Color && !(std::abs(glm::length(direction) - 1) < 0.5)) // also for NaN and 0
+    if (info.view == View::Color)
     {
-        throw Error(ErrorCode::Usage, fmt::format("TraceInfo::to_sun is ({}, {}, {}): that is no direction",
-                                                  info.to_sun[0], info.to_sun[1], info.to_sun[2]));
+        requireDirection(info.to_sun, "TraceInfo::to_sun");
     }
     return info;
+}
+
+const PathInfo& checked(const PathInfo& info)
+{
+    requireAtMost(info.bounces, kBouncesMax, "PathInfo::bounces");
+    checkedAmount(info.lens_radius, "PathInfo::lens_radius");
+    if (!(checkedAmount(info.focus_distance, "PathInfo::focus_distance") > 0))
+    {
+        throw Error(ErrorCode::Usage, "PathInfo::focus_distance is 0: it must be more");
+    }
+    checkedAmount(info.exposure, "PathInfo::exposure");
+    requireOne(info.samples, "PathInfo::samples");
+    requireAtMost(info.samples, kSamplesMax, "PathInfo::samples");
+    return info;
+}
+
+const SunInfo& checked(const SunInfo& info)
+{
+    requireDirection(info.direction, "SunInfo::direction");
+    for (const double irradiance : info.irradiance)
+    {
+        if (!(irradiance >= 0 && irradiance <= kSunMax))
+        {
+            throw Error(ErrorCode::Usage,
+                        fmt::format("SunInfo::irradiance is ({}, {}, {}): it must be from 0 to {}", info.irradiance[0],
+                                    info.irradiance[1], info.irradiance[2], kSunMax));
+        }
+    }
+    return info;
+}
+
+const EnvironmentMapInfo& checked(const EnvironmentMapInfo& map)
+{
+    const std::uint64_t texel_count = std::uint64_t{map.width} * map.height;
+    if (texel_count == 0 || std::max(map.width, map.height) > kMapEdgeMax || texel_count > kMapTexelsMax)
+    {
+        throw Error(ErrorCode::Usage,
+                    fmt::format("an environment map has edges from 1 to {} texels, and at most {} texels in all, not "
+                                "{} x {}",
+                                kMapEdgeMax, kMapTexelsMax, map.width, map.height));
+    }
+    if (map.texels.size() != texel_count)
+    {
+        throw Error(ErrorCode::Usage, fmt::format("EnvironmentMapInfo::texels has {} elements, not {} x {}",
+                                                  map.texels.size(), map.width, map.height));
+    }
+    if (!std::isfinite(map.turn))
+    {
+        throw Error(ErrorCode::Usage, fmt::format("EnvironmentMapInfo::turn is {}: it must be finite", map.turn));
+    }
+    checkedAmount(map.strength, "EnvironmentMapInfo::strength");
+    for (std::size_t i = 0; i < map.texels.size(); ++i)
+    {
+        const Vec3& texel = map.texels[i];
+        if (!std::ranges::all_of(texel, [&](float value)
+                                 { return value >= 0 && std::isfinite(std::max(value, value * map.strength)); }))
+        {
+            throw Error(ErrorCode::Usage,
+                        fmt::format("texel ({}, {}) of an environment map is ({}, {}, {}), times {}: it must be finite "
+                                    "and 0 or more",
+                                    i % map.width, i / map.width, texel[0], texel[1], texel[2], map.strength));
+        }
+    }
+    return map;
 }
 
 const DepthTarget& checked(const DepthTarget& target)

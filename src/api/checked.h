@@ -6,6 +6,7 @@
 #include "core/base/grid.h"
 #include "zvo/dynamic_tree.h"
 #include "zvo/error.h"
+#include "zvo/light.h"
 #include "zvo/tracer.h"
 #include "zvo/tree.h"
 #include "zvo/types.h"
@@ -45,6 +46,11 @@ const TreeBuildInfo& checked(const TreeBuildInfo& info);
 const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);
+const PathInfo& checked(const PathInfo& info);
+const SunInfo& checked(const SunInfo& info);
+
+/// Looks at every texel.
+const EnvironmentMapInfo& checked(const EnvironmentMapInfo& map);
 
 /// Checks everything but the image, which core/present/image_target.h checks.
 const DepthTarget& checked(const DepthTarget& target);

@@ -4,7 +4,9 @@
 #include "api/checked.h"
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
+#include "api/environment_impl.h"
 #include "api/tree_impl.h"
+#include "core/path/path_tracer.h"
 #include "core/present/image_target.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace_depth.h"
@@ -77,6 +79,18 @@ TraceOptions optionsOf(const TraceInfo& info)
     return options;
 }
 
+PathOptions pathOptionsOf(const PathInfo& info)
+{
+    checked(info);
+    PathOptions options;
+    options.bounces = info.bounces;
+    options.seed = info.seed;
+    options.lens_radius = info.lens_radius;
+    options.focus_distance = info.focus_distance;
+    options.roulette = info.roulette;
+    return options;
+}
+
 void requireImage(const ImageTarget& target, const char* name)
 {
     if (target.image == VK_NULL_HANDLE)
@@ -89,6 +103,26 @@ Vec3 arrayOf(const gpu::vec3& v)
 {
     return {v.x, v.y, v.z};
 }
+
+// The samples of tracePaths(), and what makes pictures of them.
+struct PathPicture
+{
+    explicit PathPicture(Context::Impl& context)
+        : tracer(context.device, &context.deletion_queue), developer(context.device)
+    {
+    }
+
+    void forget()
+    {
+        tracer.forget();
+        sample_count = 0;
+    }
+
+    PathTracer tracer;
+    Developer developer;
+    std::shared_ptr<FrameState> frame = nullptr; // of the last call
+    std::uint32_t sample_count = 0;              // of the picture that it has recorded; 0: none
+};
 
 } // namespace
 
@@ -105,6 +139,7 @@ struct ZVO_LOCAL Tracer::Impl
     {
         context.deleteLater(std::move(tracer));
         context.deleteLater(std::move(depths));
+        context.deleteLater(std::move(paths));
     }
 
     Impl(const Impl&) = delete;
@@ -114,13 +149,7 @@ struct ZVO_LOCAL Tracer::Impl
                const ImageTarget& color, const DepthTarget* depth)
     {
         const TraceBuffers& buffers = tracer->buffers();
-        if (texelFormat(color.format) != buffers.texels)
-        {
-            throw Error(ErrorCode::Usage, "this Tracer makes pictures for images of another format: make one with "
-                                          "the format of the image");
-        }
-        requireImage(color, "color");
-        requireCopyable(buffers, color);
+        requireColor(color);
         if (depth != nullptr)
         {
             requireImage(checked(*depth).image, "DepthTarget::image");
@@ -150,6 +179,57 @@ struct ZVO_LOCAL Tracer::Impl
                   });
     }
 
+    void tracePaths(Recorder& recorder, const DeviceTree& tree, Environment::Impl& environment,
+                    const CameraInfo& camera_info, const PathInfo& info, const ImageTarget& color)
+    {
+        const TraceBuffers& buffers = tracer->buffers();
+        requireColor(color);
+        const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, buffers.height);
+        const PathOptions options = pathOptionsOf(info);
+        recording(recorder,
+                  [&](Recorder::Impl& impl)
+                  {
+                      makePaths();
+                      if (paths->frame && paths->frame->is_lost)
+                      {
+                          paths->forget();
+                      }
+                      paths->frame = impl.frame;
+                      paths->sample_count = 0; // should anything below throw
+                      environment.enter(impl.frame);
+                      for (std::uint32_t i = 0; i < info.samples; ++i)
+                      {
+                          paths->tracer.addSample(impl.graph, tree, environment.light, camera, options);
+                      }
+                      const Exposure exposure = {info.automatic_exposure, info.exposure};
+                      paths->developer.develop(impl.graph, paths->tracer.picture(), buffers.texels, exposure,
+                                               tracer->image());
+                      copyToImage(impl.graph, buffers, color);
+                      paths->sample_count = paths->tracer.sampleCount();
+                  });
+    }
+
+    void makePaths()
+    {
+        if (paths == nullptr)
+        {
+            auto made = std::make_unique<PathPicture>(context);
+            made->tracer.resize(tracer->buffers().width, tracer->buffers().height);
+            paths = std::move(made);
+        }
+    }
+
+    void requireColor(const ImageTarget& color)
+    {
+        if (texelFormat(color.format) != tracer->buffers().texels)
+        {
+            throw Error(ErrorCode::Usage, "this Tracer makes pictures for images of another format: make one with "
+                                          "the format of the image");
+        }
+        requireImage(color, "color");
+        requireCopyable(tracer->buffers(), color);
+    }
+
     void traceDepthOf(vk::FrameGraph& graph, const Grid& grid, const TraceCamera& camera, const DepthTarget& target)
     {
         const TraceBuffers& buffers = tracer->buffers();
@@ -162,8 +242,9 @@ struct ZVO_LOCAL Tracer::Impl
 
     Context::Impl& context;
     std::unique_ptr<TreeTracer> tracer;
-    std::shared_ptr<FrameState> frame = nullptr; // of the last picture
-    vk::BufferOf<float> depths = {};             // empty until depth is requested
+    std::shared_ptr<FrameState> frame = nullptr;  // of the last picture of trace()
+    vk::BufferOf<float> depths = {};              // empty until depth is requested
+    std::unique_ptr<PathPicture> paths = nullptr; // null until paths are requested
 };
 
 CameraInfo CameraInfo::lookAt(const DVec3& eye, const DVec3& target, double vertical_fov)
@@ -207,6 +288,44 @@ void Tracer::trace(Recorder& recorder, DynamicTree& tree, const CameraInfo& came
     requireSame(tracer.context, impl.context);
     impl.enter(recorder.impl());
     tracer.trace(recorder, impl.octree->tree(), camera, info, color, depth);
+}
+
+void Tracer::tracePaths(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
+                        const PathInfo& info, const ImageTarget& color)
+{
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    const Tree::Impl& impl = usable(tree);
+    Environment::Impl& light = usable(environment);
+    requireSame(tracer.context, impl.context);
+    requireSame(tracer.context, light.context);
+    requireSame(tracer.context, recorder.impl().context);
+    tracer.tracePaths(recorder, impl.fixed, light, camera, info, color);
+}
+
+void Tracer::tracePaths(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,
+                        const PathInfo& info, const ImageTarget& color)
+{
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    DynamicTree::Impl& impl = usable(tree);
+    Environment::Impl& light = usable(environment);
+    requireSame(tracer.context, impl.context);
+    requireSame(tracer.context, light.context);
+    impl.enter(recorder.impl());
+    tracer.tracePaths(recorder, impl.octree->tree(), light, camera, info, color);
+}
+
+std::uint32_t Tracer::sampleCount() const
+{
+    const PathPicture* const paths = contentOf(m_impl.get(), "tracer").paths.get();
+    return paths == nullptr || (paths->frame && paths->frame->is_lost) ? 0 : paths->sample_count;
+}
+
+void Tracer::forgetSamples()
+{
+    if (PathPicture* const paths = contentOf(m_impl.get(), "tracer").paths.get())
+    {
+        paths->forget();
+    }
 }
 
 CameraRays cameraRays(const CameraInfo& camera, const GridInfo& grid, std::uint32_t height)

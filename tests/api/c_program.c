@@ -20,6 +20,7 @@ typedef struct Program
     ZvoTreeBuild* build;
     ZvoTreeCompression* compression;
     ZvoDynamicTree* dynamic;
+    ZvoEnvironment* environment;
     ZvoTracer* tracer;
     uint32_t picture_count;
 } Program;
@@ -193,18 +194,76 @@ static int show(Program* program)
     return 1;
 }
 
+// A map of two colours above a tree that stands, the simple sky above one that moves.
+static int makeEnvironment(Program* program)
+{
+    static const float kTexels[8 * 3] = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 2, 1, 0, 2, 1, 0, 2, 1, 0, 2, 1, 0};
+    ZvoEnvironmentMapInfo map = ZVO_ENVIRONMENT_MAP_INFO_INIT;
+    map.texels = kTexels;
+    map.width = 4;
+    map.height = 2;
+    map.strength = 0.5F;
+    ZvoSunInfo sun = ZVO_SUN_INFO_INIT;
+    sun.direction[0] = 1;
+    zvoEnvironmentDestroy(program->environment);
+    program->environment = NULL;
+    return beginFrame(program) &&
+           isOk(zvoEnvironmentCreate(program->recorder, program->dynamic != NULL ? NULL : &map,
+                                     &program->environment)) &&
+           isOk(zvoEnvironmentSetSun(program->environment, &sun)) && endFrame(program);
+}
+
+static int showPaths(Program* program)
+{
+    const CHost* host = program->host;
+    const double eye[3] = {22, 17, 25};
+    const double target[3] = {5, 5, 5};
+    ZvoCameraInfo camera = ZVO_CAMERA_INFO_INIT;
+    ZvoPathInfo info = ZVO_PATH_INFO_INIT;
+    info.bounces = 1;
+    uint32_t count = 1;
+    if (!isOk(zvoCameraLookAt(eye, target, 0.6, &camera)) || !makeEnvironment(program) ||
+        !isOk(zvoTracerForgetSamples(program->tracer)) || !isOk(zvoTracerSampleCount(program->tracer, &count)))
+    {
+        return 0;
+    }
+    while (count < 2)
+    {
+        if (!beginFrame(program))
+        {
+            return 0;
+        }
+        host->beginCopies(host->user, program->commands);
+        const ZvoResult result = program->dynamic != NULL
+                                     ? zvoTracerTracePathsDynamic(program->tracer, program->recorder, program->dynamic,
+                                                                  program->environment, &camera, &info, &host->image)
+                                     : zvoTracerTracePaths(program->tracer, program->recorder, program->tree,
+                                                           program->environment, &camera, &info, &host->image);
+        host->endCopies(host->user, program->commands);
+        if (!isOk(result) || !endFrame(program) || !isOk(zvoTracerSampleCount(program->tracer, &count)))
+        {
+            return 0;
+        }
+    }
+    host->keep(host->user);
+    ++program->picture_count;
+    return 1;
+}
+
 uint32_t runCProgram(const CHost* host)
 {
     Program program = {0};
     program.host = host;
     if (isOk(zvoTracerCreate(host->context, host->width, host->height, VK_FORMAT_R8G8B8A8_UNORM, &program.tracer)) &&
         upload(&program) && build(&program) && show(&program) && compress(&program) && show(&program) &&
-        addObject(&program) && update(&program) && show(&program) && edit(&program) && update(&program))
+        showPaths(&program) && addObject(&program) && update(&program) && show(&program) && edit(&program) &&
+        update(&program) && show(&program))
     {
-        show(&program);
+        showPaths(&program);
     }
     zvoRecorderEnd(program.recorder); // null where all went well
     zvoTracerDestroy(program.tracer);
+    zvoEnvironmentDestroy(program.environment);
     zvoDynamicTreeDestroy(program.dynamic);
     zvoTreeCompressionDestroy(program.compression);
     zvoTreeBuildDestroy(program.build);

@@ -9,7 +9,7 @@ extern "C"
 {
 #endif
 
-#define C_PROGRAM_PICTURES 4
+#define C_PROGRAM_PICTURES 6
 
     // What the program cannot do by zvo: all of it works on one image of width * height texels.
     typedef struct CHost
@@ -29,8 +29,8 @@ extern "C"
     extern const float kCBoxCorners[24];
     extern const uint32_t kCBoxTriangles[36];
 
-    // Shows an octree of a box, the same as a DAG, a dynamic tree with a dynamic object, and that after a dab of a
-    // brush. Returns how many pictures it has kept.
+    // Shows an octree of a box, the same as a DAG, that with paths, a dynamic tree with a dynamic object, that after a
+    // dab of a brush, and again with paths. Returns how many pictures it has kept.
     uint32_t runCProgram(const CHost* host);
 
 #ifdef __cplusplus

@@ -58,8 +58,8 @@ protected:
 using Structs =
     testing::Types<ZvoOptionalFeatures, ZvoDeviceInfo, ZvoContextInfo, ZvoMemoryUse, ZvoPassTime, ZvoTextureInfo,
                    ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelStats, ZvoTreeInfo,
-                   ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats,
-                   ZvoCameraInfo, ZvoTraceInfo, ZvoImageTarget, ZvoDepthTarget>;
+                   ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo,
+                   ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget>;
 TYPED_TEST_SUITE(CStruct, Structs);
 
 TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
@@ -290,6 +290,33 @@ void expectSame(const TraceInfo& a, const TraceInfo& b)
     EXPECT_EQ(a.detail_pixels, b.detail_pixels);
 }
 
+void expectSame(const SunInfo& a, const SunInfo& b)
+{
+    EXPECT_EQ(a.direction, b.direction);
+    EXPECT_EQ(a.irradiance, b.irradiance);
+}
+
+void expectSame(const EnvironmentMapInfo& a, const EnvironmentMapInfo& b)
+{
+    expectSame(a.texels, b.texels);
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.turn, b.turn);
+    EXPECT_EQ(a.strength, b.strength);
+}
+
+void expectSame(const PathInfo& a, const PathInfo& b)
+{
+    EXPECT_EQ(a.bounces, b.bounces);
+    EXPECT_EQ(a.seed, b.seed);
+    EXPECT_EQ(a.lens_radius, b.lens_radius);
+    EXPECT_EQ(a.focus_distance, b.focus_distance);
+    EXPECT_EQ(a.roulette, b.roulette);
+    EXPECT_EQ(a.automatic_exposure, b.automatic_exposure);
+    EXPECT_EQ(a.exposure, b.exposure);
+    EXPECT_EQ(a.samples, b.samples);
+}
+
 void expectSame(const ImageTarget& a, const ImageTarget& b)
 {
     EXPECT_EQ(a.image, b.image);
@@ -321,6 +348,10 @@ TEST(CStructs, CountsThatNoMemoryHasAreRefused)
     model.meshes = &mesh;
     model.mesh_count = std::size_t{1} << 62;
     expectUsage([&] { ModelOfC{model}; }, "ZvoModelInfo::meshes has more elements");
+    auto map = initial<ZvoEnvironmentMapInfo>();
+    map.texels = floats;
+    map.width = map.height = UINT32_MAX;
+    expectUsage([&] { ofC(map); }, "ZvoEnvironmentMapInfo::texels has more elements");
 }
 
 TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
@@ -334,8 +365,11 @@ TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
     expectSame(ofC(initial<ZvoTreeBuildInfo>()), TreeBuildInfo());
     expectSame(ofC(initial<ZvoDynamicTreeInfo>()), DynamicTreeInfo());
     expectSame(ofC(initial<ZvoBrushInfo>()), BrushInfo());
+    expectSame(ofC(initial<ZvoSunInfo>()), SunInfo());
+    expectSame(ofC(initial<ZvoEnvironmentMapInfo>()), EnvironmentMapInfo());
     expectSame(ofC(initial<ZvoCameraInfo>()), CameraInfo());
     expectSame(ofC(initial<ZvoTraceInfo>()), TraceInfo());
+    expectSame(ofC(initial<ZvoPathInfo>()), PathInfo());
     expectSame(ofC(initial<ZvoImageTarget>()), ImageTarget());
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).pass_times, OptionalFeatures().pass_times);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).subgroup_sizes, OptionalFeatures().subgroup_sizes);
@@ -459,6 +493,12 @@ TEST(CStructs, EveryMemberOfTheOthersIsPassedOn)
     expectSame(ofC(toC(camera)), camera);
     expectSame(ofC(ZvoTraceInfo{sizeof(ZvoTraceInfo), {1, 2, 3}, ZVO_VIEW_BRICKS, VK_FALSE, 4, 5, 6, 7, 8, 0}),
                {View::Bricks, false, {1, 2, 3}, 4, 5, 6, 7, 8});
+    expectSame(ofC(ZvoSunInfo{sizeof(ZvoSunInfo), {1, 2, 3}, {4, 5, 6}}), SunInfo{{1, 2, 3}, {4, 5, 6}});
+    const float texels[18] = {};
+    expectSame(ofC(ZvoEnvironmentMapInfo{sizeof(ZvoEnvironmentMapInfo), texels, 3, 2, 4, 5, 0}),
+               EnvironmentMapInfo{3, 2, {reinterpret_cast<const Vec3*>(texels), 6}, 4, 5});
+    expectSame(ofC(ZvoPathInfo{sizeof(ZvoPathInfo), 1, 2, 3, 4, VK_TRUE, VK_FALSE, 5, 6}),
+               PathInfo{1, 2, 3, 4, true, false, 5, 6});
     const ZvoImageTarget image = {
         sizeof(image), handle<VkImage>(8), VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4, {5, 6}};
     const ImageTarget cpp_image = {image.image, VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4, {5, 6}};
@@ -528,6 +568,9 @@ TEST(CStructs, ArraysThatAreNullAndNotEmptyAreRefused)
     context.device_extension_count = 1;
     expectUsage([&] { ofC(context); }, "ZvoContextInfo::device_extensions is null");
     expectUsage([] { ofC(initial<ZvoDepthTarget>()); }, "ZvoDepthTarget::image is null");
+    ZvoEnvironmentMapInfo map = ZVO_ENVIRONMENT_MAP_INFO_INIT;
+    map.width = map.height = 1;
+    expectUsage([&] { ofC(map); }, "ZvoEnvironmentMapInfo::texels is null");
 }
 
 // Calls a function with each of its pointers null in turn and the others as given, and expects Usage. Arguments that
@@ -576,6 +619,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     ZvoTree* taken = host.build(model, build_info);
     const ZvoDynamicTreeInfo dynamic_info = ZVO_DYNAMIC_TREE_INFO_INIT;
     ZvoDynamicTree* dynamic = nullptr;
+    ZvoEnvironment* environment = nullptr;
     ZvoTracer* tracer = nullptr;
     ZvoTreeBuild* build = nullptr;
     ZvoTreeCompression* compression = nullptr;
@@ -585,8 +629,12 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     ASSERT_EQ(zvoFeatureStorageCreate(&storage), ZVO_OK);
     ASSERT_EQ(zvoTreeBuildCreate(host.context, model, &build_info, &build), ZVO_OK);
     ASSERT_EQ(zvoTracerCreate(host.context, 8, 8, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_OK);
-    host.frame([&](ZvoRecorder* recorder)
-               { ASSERT_EQ(zvoDynamicTreeCreate(recorder, taken, &dynamic_info, &dynamic), ZVO_OK); });
+    host.frame(
+        [&](ZvoRecorder* recorder)
+        {
+            ASSERT_EQ(zvoDynamicTreeCreate(recorder, taken, &dynamic_info, &dynamic), ZVO_OK);
+            ASSERT_EQ(zvoEnvironmentCreate(recorder, nullptr, &environment), ZVO_OK);
+        });
     taken = host.build(model, build_info);
     ASSERT_EQ(zvoTreeCompressionCreate(host.context, taken, &compression), ZVO_OK);
 
@@ -621,6 +669,8 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     const ZvoBrushInfo brush = ZVO_BRUSH_INFO_INIT;
     const ZvoModelInfo model_info = ZVO_MODEL_INFO_INIT;
     const ZvoTraceInfo trace_info = ZVO_TRACE_INFO_INIT;
+    const ZvoPathInfo path_info = ZVO_PATH_INFO_INIT;
+    const ZvoSunInfo sun = ZVO_SUN_INFO_INIT;
     const ZvoImageTarget color = host.target();
     REFUSES_NULLS(zvoQuery, host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device,
                   &made_report);
@@ -658,6 +708,9 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoDynamicTreeInfo, dynamic, &tree_info);
     REFUSES_NULLS(zvoDynamicTreeAddress, dynamic, &address);
     REFUSES_NULLS(zvoTracerCreate, host.context, 8, 8, VK_FORMAT_R8G8B8A8_UNORM, &made_tracer);
+    REFUSES_NULLS(zvoTracerSampleCount, tracer, &count);
+    REFUSES_NULLS(zvoTracerForgetSamples, tracer);
+    REFUSES_NULLS(zvoEnvironmentSetSun, environment, &sun);
     REFUSES_NULLS(zvoCameraLookAt, eye, eye, 0.5, &camera);
     REFUSES_NULLS(zvoCameraRays, &camera, &grid, 8, &rays);
     host.frame(
@@ -677,6 +730,11 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoDynamicTreeEdit, dynamic, recorder, &brush, &flag);
             REFUSES_NULLS(zvoDynamicTreeUndoEdit, dynamic, recorder, &flag);
             REFUSES_NULLS(zvoDynamicTreeRedoEdit, dynamic, recorder, &flag);
+            REFUSES_NULLS(zvoTracerTracePaths, tracer, recorder, tree, environment, &camera, &path_info, &color);
+            REFUSES_NULLS(zvoTracerTracePathsDynamic, tracer, recorder, dynamic, environment, &camera, &path_info,
+                          &color);
+            EXPECT_EQ(zvoEnvironmentCreate(nullptr, nullptr, &environment), ZVO_ERROR_USAGE);
+            EXPECT_EQ(zvoEnvironmentCreate(recorder, nullptr, nullptr), ZVO_ERROR_USAGE);
             for (int missing = 0; missing < 6; ++missing)
             {
                 const auto given = [&](int index, auto* pointer) { return index == missing ? nullptr : pointer; };
@@ -700,6 +758,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     zvoDeviceReportDestroy(nullptr);
     zvoContextDestroy(nullptr);
     zvoTracerDestroy(tracer);
+    zvoEnvironmentDestroy(environment);
     zvoDynamicTreeDestroy(dynamic);
     zvoTreeCompressionDestroy(compression);
     zvoTreeBuildDestroy(build);

@@ -46,6 +46,9 @@ public:
     /// The buffers of the last picture.
     [[nodiscard]] const TraceBuffers& buffers() const { return *m_buffers; }
 
+    /// [pixels * texelWords()] The last picture, for passes that make it in another way.
+    [[nodiscard]] vk::BufferOf<gpu::uint>& image() { return m_buffers->image; }
+
 private:
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "zvo/light.h"
+
+#include "api/checked.h"
+#include "api/convert.h"
+#include "api/environment_impl.h"
+
+namespace zvo
+{
+
+namespace
+{
+
+static_assert(sizeof(Vec3) == sizeof(glm::vec3) && alignof(Vec3) == alignof(glm::vec3));
+
+DeviceEnvironment uploaded(vk::Uploader& uploads, const EnvironmentMapInfo& map)
+{
+    const std::span texels(reinterpret_cast<const glm::vec3*>(map.texels.data()), map.texels.size());
+    return {uploads, map.width, map.height, texels, map.turn, double{map.strength}};
+}
+
+Sun sunOf(const SunInfo& info)
+{
+    return {.direction = toGlm(info.direction), .irradiance = toGlm(info.irradiance)};
+}
+
+} // namespace
+
+Environment::Impl& usable(const Environment& environment)
+{
+    Environment::Impl& impl = contentOf(environment.impl(), "environment");
+    requireUsable(*impl.made_in, "environment");
+    return impl;
+}
+
+Environment::Environment(Recorder& recorder)
+{
+    recording(recorder,
+              [&](Recorder::Impl& impl)
+              {
+                  m_impl = std::make_unique<Impl>(impl, DeviceEnvironment(impl.context.device));
+                  m_impl->light.setSun(sunOf({}));
+                  m_impl->light.prepare(impl.graph);
+              });
+}
+
+Environment::Environment(Recorder& recorder, const EnvironmentMapInfo& map)
+{
+    checked(map);
+    recording(recorder,
+              [&](Recorder::Impl& impl)
+              {
+                  vk::RecordedUploads& uploads = impl.context.uploads;
+                  m_impl = std::make_unique<Impl>(impl, uploaded(uploads, map));
+                  uploads.flush();
+                  m_impl->light.prepare(impl.graph);
+              });
+}
+
+Environment::~Environment() = default;
+Environment::Environment(Environment&&) noexcept = default;
+Environment& Environment::operator=(Environment&&) noexcept = default;
+
+void Environment::setSun(const SunInfo& sun)
+{
+    usable(*this).light.setSun(sunOf(checked(sun)));
+}
+
+} // namespace zvo
