@@ -81,11 +81,11 @@ public:
     void frameDone(std::uint64_t frame);
 
     /// Tells that a frame, the one that was begun last, did not reach the device: its command buffers were thrown away,
-    /// and none of them was submitted. Models, trees, dynamic trees and dynamic objects that were made in the frame are
-    /// lost: using them throws Error{Usage}. Dynamic trees are as they were before the frame. Steps of TreeBuild and
-    /// TreeCompression are recorded again, unless their source was lost. The number can be used again. Nothing happens
-    /// for a frame that never began, such as one whose Recorder could not be made. Throws Error{Usage} for frames
-    /// before the last one, which must reach the device.
+    /// and none of them was submitted. Models, trees, environments, dynamic trees and dynamic objects that were made in
+    /// the frame are lost: using them throws Error{Usage}. Dynamic trees are as they were before the frame. Steps of
+    /// TreeBuild and TreeCompression are recorded again, unless their source was lost. The number can be used again.
+    /// Nothing happens for a frame that never began, such as one whose Recorder could not be made. Throws Error{Usage}
+    /// for frames before the last one, which must reach the device.
     ///
     /// A frame that has reached the device in part is not lost: memory that the device may be using would be freed, and
     /// what the device has changed would not be restored. Submit the frame's other command buffers as well. Where that

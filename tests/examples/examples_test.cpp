@@ -162,6 +162,17 @@ TEST_F(Examples, TwoContextsShowTheSame)
     EXPECT_EQ(ppm("b_bare.ppm"), expected);
 }
 
+TEST_F(Examples, FramesAddUpToThePathsOfTheCommandLine)
+{
+    writeKnot();
+    const Picture expected = render(kKnot, {"--integrator", "path", "--spp", "3"});
+    EXPECT_NE(expected, render(kKnot, {"--integrator", "path", "--spp", "2"}));
+    run("progressive", {"paths.ppm", "3"});
+    EXPECT_EQ(ppm("paths.ppm"), expected);
+    run("progressive", {"bare.ppm", "3", "--no-optional"});
+    EXPECT_EQ(ppm("bare.ppm"), expected);
+}
+
 // After many frames of updates, a dynamic tree looks like one that another program builds at once.
 TEST_F(Examples, FramesInFlightEndWhereARebuildDoes)
 {
@@ -258,7 +269,7 @@ TEST(ExampleSources, AreShortAndSeePublicHeadersOnly)
             ++example_count;
         }
     }
-    EXPECT_EQ(example_count, 5U);
+    EXPECT_EQ(example_count, 6U);
 }
 
 } // namespace
