@@ -5,6 +5,7 @@
 #include "expect_usage.h"
 #include "support/engine_device.h"
 #include "support/failing_vulkan.h"
+#include "zvo/error.h"
 
 #include <gtest/gtest.h>
 
@@ -553,6 +554,7 @@ TEST_F(ApiPaths, EveryBufferMayFailAndEveryKernelToo)
             catch (const Error& error)
             {
                 EXPECT_EQ(error.code(), ErrorCode::Memory) << error.what();
+                EXPECT_EQ(tracer->sampleCount(), 0U);
                 ++failures;
             }
             test::failCall(UINT64_MAX);
@@ -564,11 +566,35 @@ TEST_F(ApiPaths, EveryBufferMayFailAndEveryKernelToo)
     EXPECT_GE(sweep(pipelines, 1, 0, trace), 3U);
     EXPECT_EQ(tracer->sampleCount(), 1U);
     const Words first = image.words();
-    EXPECT_GE(sweep("vkCreateBuffer", 0, 1, makeEnvironment), 10U);
     tracer.emplace(host.context, kWidth, kHeight, kFormat);
+    EXPECT_GE(sweep("vkCreateBuffer", 0, 1, makeEnvironment), 10U);
     EXPECT_GE(sweep("vkCreateBuffer", 0, 1, trace), 15U);
     EXPECT_EQ(tracer->sampleCount(), 1U);
     EXPECT_EQ(image.words(), first);
+    CameraInfo other = test::apiCamera();
+    other.orthographic = true; // takes a kernel that is not there yet
+    other.half_height = 8;
+    for (const std::uint32_t expected : {0U, 1U})
+    {
+        test::failCallOf(pipelines, expected); // the second call needs only one
+        host.frame(
+            [&](Recorder& recorder, VkCommandBuffer commands)
+            {
+                image.beginCopies(commands);
+                const auto add = [&]
+                { tracer->tracePaths(recorder, octree, *environment, other, kFewBounces, image.target()); };
+                if (expected == 0)
+                {
+                    EXPECT_THROW(add(), Error);
+                }
+                else
+                {
+                    EXPECT_NO_THROW(add());
+                }
+            });
+        EXPECT_EQ(tracer->sampleCount(), expected);
+    }
+    test::failCall(UINT64_MAX);
     const Tree same = this->octree(4);
     Environment same_map = spotMap();
     EXPECT_EQ(first, newPaths(same, same_map));
