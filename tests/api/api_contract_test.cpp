@@ -61,10 +61,29 @@ public:
         }
         m_host.frame([&](Recorder& recorder, VkCommandBuffer) { tree->update(recorder); });
         pictures.push_back(m_host.picture(*tree, test::apiCamera()));
+        pictures.push_back(paths(*tree));
         return pictures;
     }
 
 private:
+    std::vector<std::uint32_t> paths(DynamicTree& tree)
+    {
+        constexpr std::uint32_t kEdge = 16;
+        Tracer tracer(m_host.context, kEdge, kEdge, VK_FORMAT_R8G8B8A8_UNORM);
+        test::TargetImage image(m_host.device, VK_FORMAT_R8G8B8A8_UNORM, kEdge, kEdge);
+        const std::vector<Vec3> texels(8, {1, 2, 3});
+        m_host.frame(
+            [&](Recorder& recorder, VkCommandBuffer commands)
+            {
+                Environment environment(recorder, {.width = 4, .height = 2, .texels = texels});
+                environment.setSun({});
+                image.beginCopies(commands);
+                tracer.tracePaths(recorder, tree, environment, test::apiCamera(), {.bounces = 1}, image.target());
+                image.read(commands);
+            });
+        return image.words();
+    }
+
     test::EmbeddingHost& m_host;
     Scene m_scene = test::boxScene(glm::vec3(2), glm::vec3(6));
 };
