@@ -2,8 +2,12 @@
 // The alias tables of environment maps, compared with integrals on the host.
 #include "core/light/environment.h"
 
+#include "core/base/kernels.h"
+#include "support/device.h"
 #include "support/errors.h"
+#include "support/failing_vulkan.h"
 #include "support/light_device.h"
+#include "zvo/error.h"
 
 #include <gtest/gtest.h>
 
@@ -201,6 +205,21 @@ TEST(Environment, WithoutTexelsIsRefused)
 {
     const auto make = [] { const DeviceEnvironment environment(lightDevice().device(), HdrImage{0, 4, {}}, 0.0, 1.0); };
     test::expectParts(test::messageOf(make, ErrorCode::Usage), {"no texels"});
+}
+
+// The map is dark, the sky is not.
+TEST(Environment, IsTheMapAlsoWhereItsTablesCouldNotBeMadeAtFirst)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.get_instance_proc_addr = test::failingVulkan();
+    vk::HeadlessDevice device(options, zvoKernels());
+    DeviceEnvironment environment(device.device(), {8, 4, std::vector<glm::vec3>(32)}, 0.0, 1.0);
+    const auto prepare = [&] { device.run([&](vk::FrameGraph& graph) { environment.prepare(graph); }); };
+    test::failCallOf("vkCreateComputePipelines", 1);
+    EXPECT_THROW(prepare(), Error);
+    test::failCall(UINT64_MAX);
+    prepare();
+    EXPECT_EQ(device.download(environment.totals()).front().irradiance[1], 0.0F);
 }
 
 // A sun on the horizon gives light to faces that see a part of its disc.
