@@ -122,7 +122,7 @@ std::uint64_t PathTracer::bytes() const
 }
 
 // Records what is needed before the first sample of a subject.
-void PathTracer::begin(vk::FrameGraph& graph, const DeviceTree& tree, const Environment& environment,
+void PathTracer::begin(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
                        const TraceCamera& camera, const PathOptions& options)
 {
     graph.fill(m_pixels->sums, 0);

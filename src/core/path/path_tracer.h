@@ -114,8 +114,8 @@ private:
     struct Pixels;
     struct Batch;
 
-    void begin(vk::FrameGraph& graph, const DeviceTree& tree, const Environment& environment, const TraceCamera& camera,
-               const PathOptions& options);
+    void begin(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
+               const TraceCamera& camera, const PathOptions& options);
     void makeLights(vk::FrameGraph& graph, const DeviceTree& tree);
     void traceBatch(vk::FrameGraph& graph, const Batch& batch);
     void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);

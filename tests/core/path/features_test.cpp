@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// What a picture shows beside its light: albedo, normal, depth and motion of places that the tests know.
+#include "core/path/aov.h"
+#include "core/path/path_tracer.h"
+#include "support/engine_device.h"
+#include "support/lit_voxels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::device;
+using test::LitVoxel;
+
+constexpr std::uint32_t kWidth = 40;
+constexpr std::uint32_t kHeight = 30;
+constexpr std::uint32_t kSamples = 3;
+constexpr glm::uvec3 kColor = {200, 120, 40};
+
+// A wall at z = 4, towards +z.
+DeviceTree wall()
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 3}, {16, 16, 4}, {{}, kColor});
+    return test::litTree(device(), voxels, 4);
+}
+
+AovImages aovs(const DeviceTree& tree, const ViewCamera& view, const ViewCamera& before)
+{
+    DeviceEnvironment sky(device().device());
+    PathTracer tracer(device().device());
+    tracer.resize(kWidth, kHeight);
+    const TraceCamera camera = traceCamera(view, tree.grid, kHeight);
+    for (std::uint32_t i = 0; i < kSamples; ++i)
+    {
+        device().run([&](vk::FrameGraph& graph)
+                     { tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = true}); });
+    }
+    return aovsOf(device().download(tracer.guided().features), kWidth, kHeight, kSamples, tree.grid, camera,
+                  traceCamera(before, tree.grid, kHeight));
+}
+
+// Where a camera sees a place, in pixels.
+glm::dvec2 pixelOf(const ViewCamera& view, const glm::dvec3& place)
+{
+    const glm::dvec3 way = place - view.position;
+    const double scale =
+        view.orthographic ? view.half_height : std::tan(view.vertical_fov / 2) * glm::dot(way, view.forward);
+    return {kWidth / 2.0 + kHeight / 2.0 * glm::dot(way, view.right) / scale - 0.5,
+            kHeight / 2.0 - kHeight / 2.0 * glm::dot(way, view.up) / scale - 0.5};
+}
+
+// The place on the wall at the middle of a pixel.
+glm::dvec3 placeOf(const ViewCamera& view, std::uint32_t x, std::uint32_t y)
+{
+    const double half = view.orthographic ? view.half_height : std::tan(view.vertical_fov / 2);
+    const glm::dvec3 offset =
+        half * ((2.0 * x + 1.0 - kWidth) / kHeight * view.right - (2.0 * y + 1.0 - kHeight) / kHeight * view.up);
+    const glm::dvec3 origin = view.position + (view.orthographic ? offset : glm::dvec3(0));
+    const glm::dvec3 direction = view.forward + (view.orthographic ? glm::dvec3(0) : offset);
+    return origin + (4.0 - origin.z) / direction.z * direction;
+}
+
+TEST(PathFeatures, OfAWall)
+{
+    const DeviceTree tree = wall();
+    for (const bool orthographic : {false, true})
+    {
+        ViewCamera view = ViewCamera::lookAt({9.0, 7.0, 14.0}, {8.0, 8.0, 4.0}, 0.5);
+        ViewCamera before = ViewCamera::lookAt({8.5, 6.0, 15.0}, {8.0, 8.5, 4.0}, 0.5);
+        view.orthographic = before.orthographic = orthographic;
+        view.half_height = before.half_height = 3.0;
+        const AovImages images = aovs(tree, view, before);
+        const glm::dvec3 albedo = test::albedoOf({{}, kColor});
+        for (std::uint32_t i = 0; i < kWidth * kHeight; ++i)
+        {
+            const glm::dvec3 place = placeOf(view, i % kWidth, i / kWidth);
+            EXPECT_LT(glm::distance(glm::dvec3(images.albedo[i]), albedo), 1e-5);
+            EXPECT_LT(glm::distance(images.normal[i], glm::vec3(0, 0, 1)), 1e-5F);
+            // Samples are anywhere in the pixel, whose edges are up to 0.2 units apart.
+            EXPECT_NEAR(images.depth[i], glm::dot(place - view.position, view.forward), 0.05);
+            const glm::dvec2 motion = pixelOf(before, place) - glm::dvec2(i % kWidth, i / kWidth);
+            EXPECT_LT(glm::distance(glm::dvec2(images.motion[i]), motion), 0.1) << i;
+        }
+    }
+}
+
+TEST(PathFeatures, OfTheSky)
+{
+    const DeviceTree tree = wall();
+    const ViewCamera view = ViewCamera::lookAt({8.0, 8.0, 14.0}, {8.0, 12.0, 30.0}, 0.5);
+    const ViewCamera before = ViewCamera::lookAt({0.0, 3.0, 14.0}, {0.5, 7.0, 30.0}, 0.5); // the place does not matter
+    const AovImages images = aovs(tree, view, before);
+    ViewCamera from_here = before;
+    from_here.position = view.position;
+    for (std::uint32_t i = 0; i < kWidth * kHeight; ++i)
+    {
+        EXPECT_EQ(images.albedo[i], glm::vec3(0.0F));
+        EXPECT_EQ(images.normal[i], glm::vec3(0.0F));
+        EXPECT_EQ(images.depth[i], AovImages::kNoDepth);
+        const glm::dvec3 place = placeOf(view, i % kWidth, i / kWidth);
+        const glm::dvec3 ahead = view.position + (view.position - place);
+        const glm::dvec2 motion = pixelOf(from_here, ahead) - glm::dvec2(i % kWidth, i / kWidth);
+        EXPECT_LT(glm::distance(glm::dvec2(images.motion[i]), motion), 0.01);
+    }
+}
+
+// Features change nothing of the picture, and a picture that has them begins anew.
+TEST(PathFeatures, ThePictureIsTheSame)
+{
+    const DeviceTree tree = wall();
+    DeviceEnvironment sky(device().device());
+    const TraceCamera camera =
+        traceCamera(ViewCamera::lookAt({9.0, 7.0, 14.0}, {8.0, 8.0, 4.0}, 0.5), tree.grid, kHeight);
+    PathTracer tracer(device().device());
+    tracer.resize(kWidth, kHeight);
+    const auto sample = [&](bool features)
+    {
+        device().run([&](vk::FrameGraph& graph)
+                     { tracer.addSample(graph, tree, sky, camera, {.bounces = 2, .features = features}); });
+        std::vector<glm::vec3> pixels;
+        for (const gpu::PixelSum& sum : device().download(tracer.picture().sums))
+        {
+            pixels.push_back(sum.radiance);
+        }
+        return pixels;
+    };
+    const std::vector<glm::vec3> plain = sample(false);
+    EXPECT_EQ(sample(true), plain);
+    EXPECT_EQ(tracer.sampleCount(), 1U);
+}
+
+} // namespace
+} // namespace zvo
