@@ -71,7 +71,7 @@ struct DenoiseFilterParams // push constants of denoise/estimate and denoise/fil
 {
     GPU_CONST_PTR(vec4) light;
     GPU_CONST_PTR(DenoiseGuide) guides;
-    GPU_CONST_PTR(float) samples; // denoise/estimate only
+    GPU_CONST_PTR(float) samples;
     GPU_PTR(vec4) filtered;
     vec3 forward; // of CameraRays, like the next two
     vec3 half_pixel_x;

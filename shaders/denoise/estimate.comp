@@ -18,12 +18,35 @@ layout(push_constant, scalar) uniform Push
 };
 
 const float kFewSamples = 4.0;
+const float kFaceNoise = 10.0; // standard deviations
 
 // A place at a pixel, from the camera's origin.
 vec3 placeOf(ivec2 pixel, float depth)
 {
     return placeAt(pixel, depth, uvec2(params.width, params.height), kOrthographic, params.forward, params.half_pixel_x,
                    params.half_pixel_y);
+}
+
+struct Neighbour
+{
+    vec3 light;
+    float mean;     // luminance of the light
+    float variance; // of the mean, by its samples
+    float weight;   // how much it tells of the pixel in the middle
+    float on_face;  // whether it shows the same face of a voxel, from 0 to 1
+};
+
+Neighbour loadNeighbour(ivec2 pixel, Guide guide, vec3 place)
+{
+    ivec2 inside = clamp(pixel, ivec2(0), ivec2(params.width, params.height) - 1);
+    uint index = uint(inside.y) * params.width + uint(inside.x);
+    Guide other = loadGuide(params.guides, index);
+    vec4 light = loadLight(params.light, index);
+    vec3 way = placeOf(inside, other.depth) - place;
+    float mean = luminance(light.rgb);
+    float variance = max(light.w - mean * mean, 0.0) / max(params.samples.data[index] - 1.0, 1.0);
+    float weight = alikeness(guide, other, way, params.edge);
+    return Neighbour(light.rgb, mean, variance, weight, exp(-dot(way, way) / (params.edge * params.edge)));
 }
 
 void main()
@@ -41,36 +64,34 @@ void main()
         return;
     }
     vec3 place = placeOf(pixel, guide.depth);
+
     float weights = 0.0;
-    float within = 0.0;       // variance of pixels, by the samples of each
-    vec2 moments = vec2(0.0); // of the light of pixels: how they differ
-    float face_weights = 0.0; // of the same face of a voxel, as far as it is here
-    float face_squares = 0.0;
-    vec3 face_light = vec3(0.0);
-    for (int y = -1; y <= 1; ++y)
+    float variance = 0.0;
+    vec2 moments = vec2(0.0); // of the means: how pixels differ
+    for (int k = 0; k < 9; ++k)
     {
-        for (int x = -1; x <= 1; ++x)
-        {
-            ivec2 other = clamp(pixel + ivec2(x, y), ivec2(0), ivec2(size) - 1);
-            uint index = uint(other.y) * params.width + uint(other.x);
-            Guide other_guide = loadGuide(params.guides, index);
-            vec4 other_light = loadLight(params.light, index);
-            vec3 way = placeOf(other, other_guide.depth) - place;
-            float mean = luminance(other_light.rgb);
-            float weight = alikeness(guide, other_guide, way, params.edge);
-            weights += weight;
-            within += weight * max(other_light.w - mean * mean, 0.0) / max(params.samples.data[index] - 1.0, 1.0);
-            moments += weight * vec2(mean, mean * mean);
-            weight *= exp(-dot(way, way) / (params.edge * params.edge));
-            face_weights += weight;
-            face_squares += weight * weight;
-            face_light += weight * other_light.rgb;
-        }
+        Neighbour other = loadNeighbour(pixel + ivec2(k % 3, k / 3) - 1, guide, place);
+        weights += other.weight;
+        variance += other.weight * other.variance;
+        moments += other.weight * vec2(other.mean, other.mean * other.mean);
     }
+    variance /= weights;
     moments /= weights;
-    float variance = within / weights;
     if (params.samples.data[center] < kFewSamples)
         variance = max(variance, moments.y - moments.x * moments.x);
-    storeLight(params.filtered, center,
-               vec4(face_light / face_weights, variance * face_squares / (face_weights * face_weights)));
+
+    float mean = luminance(light.rgb);
+    float tolerance = 1.0 / (kFaceNoise * sqrt(variance) + 1e-30);
+    float squares = 0.0;
+    vec3 sum = vec3(0.0);
+    weights = 0.0;
+    for (int k = 0; k < 9; ++k)
+    {
+        Neighbour other = loadNeighbour(pixel + ivec2(k % 3, k / 3) - 1, guide, place);
+        float weight = other.weight * other.on_face * exp(-abs(other.mean - mean) * tolerance);
+        weights += weight;
+        squares += weight * weight;
+        sum += weight * other.light;
+    }
+    storeLight(params.filtered, center, vec4(sum / weights, variance * squares / (weights * weights)));
 }

@@ -16,7 +16,11 @@ layout(push_constant, scalar) uniform Push
     DenoiseFilterParams params;
 };
 
-const float kNoise = 6.0; // standard deviations that two pixels of the same light may differ by
+// How many standard deviations two pixels of the same light may differ by: more where few samples tell the deviation.
+float noiseOf(float samples)
+{
+    return min(2.0 + 16.0 / samples, 10.0);
+}
 
 // The cubic B-spline at -2, -1, 0, 1, 2.
 float spline(int x)
@@ -47,7 +51,7 @@ void main()
     }
     vec3 place = placeOf(pixel, guide.depth);
     float mean = luminance(light.rgb);
-    float tolerance = 1.0 / (kNoise * sqrt(light.w) + 1e-3 * mean + 1e-30);
+    float tolerance = 1.0 / (noiseOf(params.samples.data[center]) * sqrt(light.w) + 1e-3 * mean + 1e-30);
     float weights = 0.0;
     vec4 sum = vec4(0.0);
     for (int y = -2; y <= 2; ++y)

@@ -3,6 +3,7 @@
 #include "attributes/attributes.h"
 #include "core/base/kernels.h"
 #include "deform/deform.h"
+#include "denoise/denoise.h"
 #include "edit/compact.h"
 #include "edit/edit.h"
 #include "glsl/host_kernels.h"

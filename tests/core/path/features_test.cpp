@@ -18,8 +18,8 @@ namespace
 using test::device;
 using test::LitVoxel;
 
-constexpr std::uint32_t kWidth = 40;
-constexpr std::uint32_t kHeight = 30;
+constexpr std::uint32_t kWallWidth = 40;
+constexpr std::uint32_t kWallHeight = 30;
 constexpr std::uint32_t kSamples = 3;
 constexpr glm::uvec3 kColor = {200, 120, 40};
 
@@ -35,15 +35,15 @@ AovImages aovs(const DeviceTree& tree, const ViewCamera& view, const ViewCamera&
 {
     DeviceEnvironment sky(device().device());
     PathTracer tracer(device().device());
-    tracer.resize(kWidth, kHeight);
-    const TraceCamera camera = traceCamera(view, tree.grid, kHeight);
+    tracer.resize(kWallWidth, kWallHeight);
+    const TraceCamera camera = traceCamera(view, tree.grid, kWallHeight);
     for (std::uint32_t i = 0; i < kSamples; ++i)
     {
         device().run([&](vk::FrameGraph& graph)
                      { tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = true}); });
     }
-    return aovsOf(device().download(tracer.guided().features), kWidth, kHeight, kSamples, tree.grid, camera,
-                  traceCamera(before, tree.grid, kHeight));
+    return aovsOf(device().download(tracer.guided().features), kWallWidth, kWallHeight, kSamples, tree.grid, camera,
+                  traceCamera(before, tree.grid, kWallHeight));
 }
 
 // Where a camera sees a place, in pixels.
@@ -52,16 +52,16 @@ glm::dvec2 pixelOf(const ViewCamera& view, const glm::dvec3& place)
     const glm::dvec3 way = place - view.position;
     const double scale =
         view.orthographic ? view.half_height : std::tan(view.vertical_fov / 2) * glm::dot(way, view.forward);
-    return {kWidth / 2.0 + kHeight / 2.0 * glm::dot(way, view.right) / scale - 0.5,
-            kHeight / 2.0 - kHeight / 2.0 * glm::dot(way, view.up) / scale - 0.5};
+    return {kWallWidth / 2.0 + kWallHeight / 2.0 * glm::dot(way, view.right) / scale - 0.5,
+            kWallHeight / 2.0 - kWallHeight / 2.0 * glm::dot(way, view.up) / scale - 0.5};
 }
 
 // The place on the wall at the middle of a pixel.
 glm::dvec3 placeOf(const ViewCamera& view, std::uint32_t x, std::uint32_t y)
 {
     const double half = view.orthographic ? view.half_height : std::tan(view.vertical_fov / 2);
-    const glm::dvec3 offset =
-        half * ((2.0 * x + 1.0 - kWidth) / kHeight * view.right - (2.0 * y + 1.0 - kHeight) / kHeight * view.up);
+    const glm::dvec3 offset = half * ((2.0 * x + 1.0 - kWallWidth) / kWallHeight * view.right -
+                                      (2.0 * y + 1.0 - kWallHeight) / kWallHeight * view.up);
     const glm::dvec3 origin = view.position + (view.orthographic ? offset : glm::dvec3(0));
     const glm::dvec3 direction = view.forward + (view.orthographic ? glm::dvec3(0) : offset);
     return origin + (4.0 - origin.z) / direction.z * direction;
@@ -78,14 +78,14 @@ TEST(PathFeatures, OfAWall)
         view.half_height = before.half_height = 3.0;
         const AovImages images = aovs(tree, view, before);
         const glm::dvec3 albedo = test::albedoOf({{}, kColor});
-        for (std::uint32_t i = 0; i < kWidth * kHeight; ++i)
+        for (std::uint32_t i = 0; i < kWallWidth * kWallHeight; ++i)
         {
-            const glm::dvec3 place = placeOf(view, i % kWidth, i / kWidth);
+            const glm::dvec3 place = placeOf(view, i % kWallWidth, i / kWallWidth);
             EXPECT_LT(glm::distance(glm::dvec3(images.albedo[i]), albedo), 1e-5);
             EXPECT_LT(glm::distance(images.normal[i], glm::vec3(0, 0, 1)), 1e-5F);
             // Samples are anywhere in the pixel, whose edges are up to 0.2 units apart.
             EXPECT_NEAR(images.depth[i], glm::dot(place - view.position, view.forward), 0.05);
-            const glm::dvec2 motion = pixelOf(before, place) - glm::dvec2(i % kWidth, i / kWidth);
+            const glm::dvec2 motion = pixelOf(before, place) - glm::dvec2(i % kWallWidth, i / kWallWidth);
             EXPECT_LT(glm::distance(glm::dvec2(images.motion[i]), motion), 0.1) << i;
         }
     }
@@ -99,14 +99,14 @@ TEST(PathFeatures, OfTheSky)
     const AovImages images = aovs(tree, view, before);
     ViewCamera from_here = before;
     from_here.position = view.position;
-    for (std::uint32_t i = 0; i < kWidth * kHeight; ++i)
+    for (std::uint32_t i = 0; i < kWallWidth * kWallHeight; ++i)
     {
         EXPECT_EQ(images.albedo[i], glm::vec3(0.0F));
         EXPECT_EQ(images.normal[i], glm::vec3(0.0F));
         EXPECT_EQ(images.depth[i], AovImages::kNoDepth);
-        const glm::dvec3 place = placeOf(view, i % kWidth, i / kWidth);
+        const glm::dvec3 place = placeOf(view, i % kWallWidth, i / kWallWidth);
         const glm::dvec3 ahead = view.position + (view.position - place);
-        const glm::dvec2 motion = pixelOf(from_here, ahead) - glm::dvec2(i % kWidth, i / kWidth);
+        const glm::dvec2 motion = pixelOf(from_here, ahead) - glm::dvec2(i % kWallWidth, i / kWallWidth);
         EXPECT_LT(glm::distance(glm::dvec2(images.motion[i]), motion), 0.01);
     }
 }
@@ -117,9 +117,9 @@ TEST(PathFeatures, ThePictureIsTheSame)
     const DeviceTree tree = wall();
     DeviceEnvironment sky(device().device());
     const TraceCamera camera =
-        traceCamera(ViewCamera::lookAt({9.0, 7.0, 14.0}, {8.0, 8.0, 4.0}, 0.5), tree.grid, kHeight);
+        traceCamera(ViewCamera::lookAt({9.0, 7.0, 14.0}, {8.0, 8.0, 4.0}, 0.5), tree.grid, kWallHeight);
     PathTracer tracer(device().device());
-    tracer.resize(kWidth, kHeight);
+    tracer.resize(kWallWidth, kWallHeight);
     const auto sample = [&](bool features)
     {
         device().run([&](vk::FrameGraph& graph)
