@@ -2,6 +2,7 @@
 #include "bench/bench.h"
 
 #include "bench/bench_balance.h"
+#include "bench/bench_denoise.h"
 #include "bench/bench_dynamic.h"
 #include "bench/bench_edit.h"
 #include "bench/bench_path.h"
@@ -187,6 +188,11 @@ void bench(const BenchOptions& options)
     if (options.path)
     {
         benchPath(options);
+        return;
+    }
+    if (options.denoise)
+    {
+        benchDenoise(options);
         return;
     }
     if (options.edit)

@@ -21,6 +21,7 @@ Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scen
 --dynamic: the scenes are scene files (.scene.json), what they name lies beside them or in the folder of --scenes.
 --edit: N strokes for each radius and action, each undone and redone; then what a stroke takes after 10, 100 and 1000.
 
+--denoise: pictures of 1 to 64 paths a pixel, with and without denoising, beside one of very many.
 --path: the rays of paths beside primary rays and Embree's; each way of finding light beside chance.
 
 Examples:
@@ -29,6 +30,7 @@ Examples:
   zvo bench --balance scenes/knot.glb scenes/atrium.glb
   zvo bench --dynamic scenes/atrium_knot.scene.json
   zvo bench --edit scenes/atrium.glb --structure svdag
+  zvo bench --denoise scenes/atrium.glb --reference 4096
   zvo bench --path scenes/atrium.glb --environment forest.hdr)";
 
 } // namespace
@@ -43,7 +45,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
               "where the usual scenes are (default scenes), or what scene files name");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
              "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048, "
-             "with --dynamic, --edit and --path 512)");
+             "with --dynamic, --edit and --path 512, with --denoise 128)");
     addValue(
         *bench, "--runs", options.run_count,
         [](std::string_view option, std::string_view text)
@@ -85,6 +87,19 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
     bench->add_option("--environment", options.environments, "with --path, maps of light, .hdr or .exr")
         ->type_name("FILE")
         ->needs("--path");
+    bench
+        ->add_flag("--denoise", options.denoise,
+                   "measure instead how close denoised pictures of few paths come to one of many, by day and at night")
+        ->excludes("--balance")
+        ->excludes("--dynamic")
+        ->excludes("--edit")
+        ->excludes("--path")
+        ->excludes("--passes");
+    addValue(
+        *bench, "--reference", options.reference_samples,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1U << 20)); },
+        "N", "with --denoise, paths a pixel of the picture of many (default 1024)");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");

@@ -31,10 +31,12 @@ struct BenchOptions
     bool attributes = true;
     std::string camera; // as in RenderOptions
     bool passes = false;
-    bool balance = false; // load balance on generated scenes, and on scenes if any were named
-    bool dynamic = false; // updates against rebuilds of scenes with dynamic objects
-    bool edit = false;    // strokes of a brush
-    bool path = false;    // path tracing
+    bool balance = false;                   // load balance on generated scenes, and on scenes if any were named
+    bool dynamic = false;                   // updates against rebuilds of scenes with dynamic objects
+    bool edit = false;                      // strokes of a brush
+    bool path = false;                      // path tracing
+    bool denoise = false;                   // pictures of few paths
+    std::uint32_t reference_samples = 1024; // a pixel of the picture that they are compared with; with denoise
     std::vector<std::filesystem::path> environments; // maps; with path
     TreeStructure structure = TreeStructure::Svo;    // of the static part; with dynamic or edit
     DeviceOptions device;
