@@ -95,6 +95,75 @@ TEST_F(CliPath, RadianceIsWrittenAsItIs)
     }
 }
 
+// Of a cube in even light, denoising keeps what the camera sees of the light, and makes the rest smoother.
+TEST_F(CliPath, DenoisedPicturesAreSmoother)
+{
+    const auto radiance = [&](const std::vector<std::string>& more)
+    {
+        std::vector<std::string> options = {"--integrator", "path", "--spp", "2", "-o", "picture.exr"};
+        options.insert(options.end(), more.begin(), more.end());
+        const Outcome outcome = render(options);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        std::vector<std::string> warnings;
+        return decodeHdrImage(readFile(m_dir.path() / "picture.exr"), "picture.exr", warnings).texels;
+    };
+    const std::vector<glm::vec3> plain = radiance({});
+    const std::vector<glm::vec3> denoised = radiance({"--denoise"});
+    // Neighbours on the face towards +z.
+    const auto roughness = [](const std::vector<glm::vec3>& texels)
+    {
+        float sum = 0.0F;
+        for (std::size_t y = 13; y < 18; ++y)
+        {
+            for (std::size_t x = 17; x < 23; ++x)
+            {
+                sum += std::abs(texels[y * 40 + x].z - texels[y * 40 + x + 1].z);
+            }
+        }
+        return sum;
+    };
+    EXPECT_EQ(denoised.front(), plain.front()) << "the sky";
+    EXPECT_LT(roughness(denoised), 0.3F * roughness(plain));
+    EXPECT_EQ(radiance({"--aov"}), plain) << "channels beside the light do not change it";
+    const std::string file = contentOf(m_dir.path() / "picture.exr");
+    for (const char* channel :
+         {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "depth.Z", "motion.X", "motion.Y"})
+    {
+        EXPECT_NE(file.find(channel), std::string::npos) << channel;
+    }
+}
+
+// Each picture of a sequence has noise of its own, and knows of the ones before.
+TEST_F(CliPath, SequencesAreDenoisedTogether)
+{
+    const auto last = [&](const std::string& frames, const std::string& file)
+    {
+        const Outcome outcome = render({"--integrator", "path", "--spp", "1", "--denoise", "--frames", frames,
+                                        "--camera-path", "still.json", "-o", "frame_#.png"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return contentOf(m_dir.path() / file);
+    };
+    m_dir.write("still.json", std::string_view(R"({"schema": "zvo.camera_path/1", "keys": [
+        {"time": 0, "eye": [2, 2, 3], "target": [0, 0, 0]}, {"time": 9, "eye": [2, 2, 3], "target": [0, 0, 0]}]})"));
+    EXPECT_NE(last("0..2", "frame_2.png"), last("2..2", "frame_2.png"));
+    EXPECT_EQ(last("0..2", "frame_0.png"), last("0..0", "frame_0.png"));
+}
+
+TEST_F(CliPath, BenchTellsHowCloseDenoisedPicturesCome)
+{
+    const Outcome outcome = runZvo(
+        m_dir.path(), {"bench", "--denoise", "cube.glb", "--resolution", "8", "--reference", "16", "--json", "-"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    ASSERT_EQ(report["rows"].size(), 8U) << "by day alone";
+    const nlohmann::json& noisy = report["rows"][0];
+    const nlohmann::json& denoised = report["rows"][1];
+    EXPECT_EQ(noisy["samples"], 1);
+    EXPECT_TRUE(denoised["denoised"]);
+    EXPECT_GT(denoised["psnr_db"], noisy["psnr_db"]);
+    EXPECT_LE(denoised["ssim"], 1.0);
+}
+
 TEST_F(CliPath, MapsThatAreRepairedAreToldOf)
 {
     const Outcome outcome =
@@ -123,6 +192,8 @@ TEST_F(CliPath, ErrorsNameTheOption)
     expectErrorLine(render({"--spp", "3", "-o", "x.png"}), 2, {"--spp", "--integrator path"});
     expectErrorLine(render({"--environment", "sky.exr", "-o", "x.png"}), 2, {"--environment", "--integrator path"});
     expectErrorLine(render({"--integrator", "path", "--view", "normal", "-o", "x.png"}), 2, {"--view"});
+    expectErrorLine(render({"--denoise", "-o", "x.png"}), 2, {"--denoise", "--integrator path"});
+    expectErrorLine(render({"--integrator", "path", "--aov", "-o", "x.png"}), 2, {"--aov", "x.png"});
     expectErrorLine(render({"--integrator", "light", "-o", "x.png"}), 2, {"--integrator", "light"});
     expectErrorLine(render({"--integrator", "path", "--spp", "0", "-o", "x.png"}), 2, {"--spp"});
     expectErrorLine(render({"--integrator", "path", "--bounces", "5000", "-o", "x.png"}), 2, {"--bounces"});

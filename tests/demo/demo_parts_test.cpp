@@ -105,6 +105,7 @@ Settings otherSettings()
     settings.view.view = View::Bricks;
     settings.view.shadows = false;
     settings.view.occlusion_rays = 7;
+    settings.view.denoise = true;
     settings.view.to_sun = {0.1, 1.0 / 3.0, -2};
     settings.view.exposure = 1.3F;
     settings.view.detail_pixels = 2.6F;

@@ -70,6 +70,9 @@ TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
         pictures.insert(file("shown.png"));
     }
     EXPECT_EQ(pictures.size(), 2U);
+    const std::vector<std::string> denoised = common + std::vector<std::string>{"--denoise"};
+    show(denoised + kSteady + std::vector<std::string>{"--frames", "2", "--screenshot", "shown.png", "-f"});
+    EXPECT_EQ(file("shown.png"), render(denoised + std::vector<std::string>{"--spp", "2"}));
     const std::vector<std::string> moving =
         std::vector<std::string>{"moving.scene.json", "--integrator", "path"} + kCamera + kSize;
     show(moving + kSteady + std::vector<std::string>{"--frames", "3", "--screenshot", "shown.png", "-f"});
