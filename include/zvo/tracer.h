@@ -51,11 +51,13 @@ struct PathInfo
     float lens_radius = 0.0F;    // world units; 0: a pinhole
     float focus_distance = 1.0F; // world units along CameraInfo::forward, where the picture is sharp; more than 0
     bool roulette = false;       // ends paths early that would bring little light, by chance
+    bool denoise = false;        // filters out the noise of few samples; each picture has its own random numbers
 
     // Another value of these does not begin anew.
     bool automatic_exposure = true; // the pixels' mean brightness, in stops, becomes middle grey before exposure counts
     float exposure = 1.0F;          // factor
     std::uint32_t samples = 1;      // paths of each pixel that a call adds, 1 to 1024
+    std::uint32_t history_max = 16; // denoise: samples of earlier pictures that count at most in a pixel; 0: none
 };
 
 /// A depth image beside a picture, in the host's own projection, so that the host can composite voxels with what it
@@ -104,13 +106,19 @@ public:
     /// Records the passes that add samples to each pixel of a path-traced picture, and the copy of the picture so far
     /// to the host's image. Samples add up over calls, recordings and frames, for as long as nothing changes that the
     /// picture shows: it begins anew by itself where the tree, the environment, the camera or one of the options above
-    /// automatic_exposure is not that of the last call, and after a frame with a call was lost. On every device the
-    /// picture has the same bytes as that of `zvo render --integrator path` with the same options and as many samples.
+    /// automatic_exposure is not that of the last call, and after a call that failed or whose frame was lost. On every
+    /// device the picture has the same bytes as that of `zvo render --integrator path` with the same options and as
+    /// many samples; with PathInfo::denoise, that goes for the first picture of a Tracer.
+    ///
+    /// With PathInfo::denoise, light of earlier pictures counts, too, where they show the same place by the same light:
+    /// after the camera has moved, or the tree has changed. It does not after another option but the seed,
+    /// forgetSamples(), and a call that failed or whose frame was lost.
     ///
     /// Stages, barriers and what images need: as trace(). Memory, from the first call on: 16 bytes a pixel; 252 for
     /// each of the pixels whose paths advance together, at most 524,288; 0.1 MB; and for lights of the tree at most 76
-    /// bytes an emissive voxel, and 88 more for each second level of the tree. Cost: pixels times samples, times two
-    /// rays for each bounce.
+    /// bytes an emissive voxel, and 88 more for each second level of the tree. From the first call with
+    /// PathInfo::denoise on, 152 bytes a pixel more, and 4 for each of the pixels whose paths advance together. Cost:
+    /// pixels times samples, times two rays for each bounce; to denoise, pixels.
     ///
     /// Throws Error{Usage} as trace() does for images and cameras, for numbers of PathInfo that are out of range,
     /// negative or not finite, and for an environment that was lost; then nothing is recorded, and the samples stay.
@@ -124,7 +132,7 @@ public:
     /// frame was lost.
     [[nodiscard]] std::uint32_t sampleCount() const;
 
-    /// Has the next tracePaths() begin anew. Records nothing.
+    /// Has the next tracePaths() begin anew, without light of earlier pictures. Records nothing.
     void forgetSamples();
 
 private:

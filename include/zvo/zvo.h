@@ -721,11 +721,13 @@ typedef struct ZvoPathInfo
     VkBool32 automatic_exposure;
     float exposure;
     uint32_t samples;
+    VkBool32 denoise;
+    uint32_t history_max;
 } ZvoPathInfo;
 
 #define ZVO_PATH_INFO_INIT                                                                                             \
     {                                                                                                                  \
-        sizeof(ZvoPathInfo), 8, 0, 0, 1, VK_FALSE, VK_TRUE, 1, 1                                                       \
+        sizeof(ZvoPathInfo), 8, 0, 0, 1, VK_FALSE, VK_TRUE, 1, 1, VK_FALSE, 16                                         \
     }
 
 /// As zvo::ImageTarget.

@@ -282,6 +282,8 @@ PathInfo ofC(const ZvoPathInfo& info)
     result.automatic_exposure = info.automatic_exposure != VK_FALSE;
     result.exposure = info.exposure;
     result.samples = info.samples;
+    result.denoise = info.denoise != VK_FALSE;
+    result.history_max = info.history_max;
     return result;
 }
 

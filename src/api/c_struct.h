@@ -47,7 +47,7 @@ ZVO_C_STRUCT(ZvoSunInfo, irradiance, ZVO_SUN_INFO_INIT);
 ZVO_C_STRUCT(ZvoEnvironmentMapInfo, reserved, ZVO_ENVIRONMENT_MAP_INFO_INIT);
 ZVO_C_STRUCT(ZvoCameraInfo, reserved, ZVO_CAMERA_INFO_INIT);
 ZVO_C_STRUCT(ZvoTraceInfo, reserved, ZVO_TRACE_INFO_INIT);
-ZVO_C_STRUCT(ZvoPathInfo, samples, ZVO_PATH_INFO_INIT);
+ZVO_C_STRUCT(ZvoPathInfo, history_max, ZVO_PATH_INFO_INIT);
 ZVO_C_STRUCT(ZvoImageTarget, extent, ZVO_IMAGE_TARGET_INIT);
 ZVO_C_STRUCT(ZvoDepthTarget, reserved, ZVO_DEPTH_TARGET_INIT);
 

@@ -6,6 +6,7 @@
 #include "api/dynamic_tree_impl.h"
 #include "api/environment_impl.h"
 #include "api/tree_impl.h"
+#include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
 #include "core/present/image_target.h"
 #include "core/scene/camera.h"
@@ -88,6 +89,8 @@ PathOptions pathOptionsOf(const PathInfo& info)
     options.lens_radius = info.lens_radius;
     options.focus_distance = info.focus_distance;
     options.roulette = info.roulette;
+    options.reseeds = info.denoise; // earlier pictures help if they have other noise
+    options.features = info.denoise;
     return options;
 }
 
@@ -108,17 +111,20 @@ Vec3 arrayOf(const gpu::vec3& v)
 struct PathPicture
 {
     explicit PathPicture(Context::Impl& context)
-        : tracer(context.device, &context.deletion_queue), developer(context.device)
+        : tracer(context.device, &context.deletion_queue), denoiser(context.device, &context.deletion_queue),
+          developer(context.device)
     {
     }
 
     void forget()
     {
         tracer.forget();
+        denoiser.forget();
         sample_count = 0;
     }
 
     PathTracer tracer;
+    Denoiser denoiser;
     Developer developer;
     std::shared_ptr<FrameState> frame = nullptr; // of the last call
     std::uint32_t sample_count = 0;              // of the picture that it has recorded; 0: none
@@ -190,7 +196,7 @@ struct ZVO_LOCAL Tracer::Impl
                   [&](Recorder::Impl& impl)
                   {
                       makePaths();
-                      if (paths->frame && paths->frame->is_lost)
+                      if (paths->sample_count == 0 || (paths->frame && paths->frame->is_lost))
                       {
                           paths->forget();
                       }
@@ -201,9 +207,14 @@ struct ZVO_LOCAL Tracer::Impl
                       {
                           paths->tracer.addSample(impl.graph, tree, environment.light, camera, options);
                       }
+                      if (info.denoise)
+                      {
+                          paths->denoiser.resize(buffers.width, buffers.height);
+                          paths->denoiser.denoise(impl.graph, paths->tracer.guided(), info.history_max);
+                      }
+                      const SampledPicture shown = info.denoise ? paths->denoiser.picture() : paths->tracer.picture();
                       const Exposure exposure = {info.automatic_exposure, info.exposure};
-                      paths->developer.develop(impl.graph, paths->tracer.picture(), buffers.texels, exposure,
-                                               tracer->image());
+                      paths->developer.develop(impl.graph, shown, buffers.texels, exposure, tracer->image());
                       copyToImage(impl.graph, buffers, color);
                       paths->sample_count = paths->tracer.sampleCount();
                   });

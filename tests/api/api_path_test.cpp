@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Path-traced pictures, as a host makes them in the course of its frames.
 #include "api_scene.h"
+#include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
 #include "expect_usage.h"
 #include "support/engine_device.h"
@@ -33,6 +34,7 @@ constexpr std::uint32_t kWidth = 41;
 constexpr std::uint32_t kHeight = 27;
 constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
 constexpr PathInfo kFewBounces = {.bounces = 2};
+constexpr PathInfo kDenoised = {.bounces = 2, .denoise = true};
 
 const test::HostModel& pathModel()
 {
@@ -81,6 +83,51 @@ Words enginePicture(const DeviceTree& tree, DeviceEnvironment& environment, cons
             developer.develop(graph, tracer.picture(), texels, exposure, image);
         });
     return device().download(image);
+}
+
+/// Denoised pictures by the engine alone, one after the other.
+class DenoisingEngine
+{
+public:
+    DenoisingEngine()
+    {
+        m_tracer.resize(kWidth, kHeight);
+        m_denoiser.resize(kWidth, kHeight);
+    }
+
+    Words picture(const DeviceTree& tree, DeviceEnvironment& environment, const DVec3& eye, std::uint32_t history_max)
+    {
+        const PathOptions options = {.bounces = 2, .reseeds = true, .features = true};
+        const ViewCamera view = ViewCamera::lookAt({eye[0], eye[1], eye[2]}, {5, 5, 5}, 0.6);
+        vk::BufferOf<gpu::uint> image(device().device(), "picture", std::uint64_t{kWidth} * kHeight);
+        device().run(
+            [&](vk::FrameGraph& graph)
+            {
+                m_tracer.addSample(graph, tree, environment, traceCamera(view, tree.grid, kHeight), options);
+                m_denoiser.denoise(graph, m_tracer.guided(), history_max);
+                m_developer.develop(graph, m_denoiser.picture(), TexelFormat::Rgba8, {}, image);
+            });
+        return device().download(image);
+    }
+
+    void forget()
+    {
+        m_tracer.forget();
+        m_denoiser.forget();
+    }
+
+private:
+    PathTracer m_tracer{device().device()};
+    Denoiser m_denoiser{device().device()};
+    Developer m_developer{device().device()};
+};
+
+constexpr DVec3 kEye = {22, 17, 25}; // of test::apiCamera()
+constexpr DVec3 kNextEye = {21, 17.5, 25};
+
+CameraInfo cameraAt(const DVec3& eye)
+{
+    return CameraInfo::lookAt(eye, {5, 5, 5}, 0.6);
 }
 
 DeviceEnvironment engineSky()
@@ -333,6 +380,95 @@ TEST_F(ApiPaths, AnotherPictureBeginsAnew)
     expectAnew(smaller, other_sky, "forgotten");
 }
 
+TEST_F(ApiPaths, DenoisedPicturesAreThoseOfTheEngineAndEarlierOnesCount)
+{
+    const Tree octree = this->octree();
+    const DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid(5));
+    Environment environment = sky();
+    DeviceEnvironment engine_sky = engineSky();
+    std::vector<Words> seconds;
+    for (const std::uint32_t history_max : {PathInfo().history_max, 0U})
+    {
+        Tracer tracer = this->tracer();
+        DenoisingEngine engine;
+        PathInfo info = kDenoised;
+        info.history_max = history_max;
+        const auto expectSame = [&](const DVec3& eye, std::uint32_t sample_count)
+        {
+            Words picture = paths(tracer, octree, environment, info, cameraAt(eye));
+            EXPECT_EQ(picture, engine.picture(expected, engine_sky, eye, history_max)) << history_max;
+            EXPECT_EQ(tracer.sampleCount(), sample_count);
+            return picture;
+        };
+        const Words first = expectSame(kEye, 1);
+        EXPECT_NE(first, newPaths(octree, environment, kFewBounces, cameraAt(kEye)));
+        EXPECT_NE(expectSame(kEye, 2), first);
+        seconds.push_back(expectSame(kNextEye, 1));
+        expectSame(kNextEye, 2);
+        expectSame(kEye, 1);
+    }
+    EXPECT_NE(seconds[0], seconds[1]);
+}
+
+TEST_F(ApiPaths, DenoisingBeginsAnewWhereItIsTurnedOnOrOff)
+{
+    const Tree octree = this->octree();
+    const DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid(5));
+    Environment environment = sky();
+    DeviceEnvironment engine_sky = engineSky();
+    const Words plain = newPaths(octree, environment, kFewBounces, cameraAt(kEye));
+    Tracer tracer = this->tracer();
+    DenoisingEngine engine;
+    const auto next = [&](const PathInfo& info, const DVec3& eye)
+    { return paths(tracer, octree, environment, info, cameraAt(eye)); };
+    EXPECT_EQ(next(kDenoised, kEye), engine.picture(expected, engine_sky, kEye, kDenoised.history_max));
+    (void)next({.bounces = 2, .denoise = true, .history_max = 3}, kEye);
+    EXPECT_EQ(tracer.sampleCount(), 2U); // history_max begins nothing anew
+    EXPECT_EQ(next(kFewBounces, kEye), plain);
+    EXPECT_EQ(tracer.sampleCount(), 1U);
+    engine.forget();
+    (void)engine.picture(expected, engine_sky, kEye, 0); // its random numbers were the plain picture's
+    engine.forget();
+    EXPECT_EQ(next(kDenoised, kNextEye), engine.picture(expected, engine_sky, kNextEye, kDenoised.history_max));
+    EXPECT_EQ(tracer.sampleCount(), 1U);
+}
+
+TEST_F(ApiPaths, ALostFrameTakesEarlierPicturesAlong)
+{
+    const Tree octree = this->octree();
+    const DeviceTree expected = test::engineOctree(device(), test::apiScene(), test::apiGrid(5));
+    Environment environment = sky();
+    DeviceEnvironment engine_sky = engineSky();
+    Tracer tracer = this->tracer();
+    DenoisingEngine engine;
+    DenoisingEngine keeping; // which loses nothing
+    test::TargetImage image(m_host.device, kFormat, kWidth, kHeight);
+    const auto picture = [&](DenoisingEngine& of, const DVec3& eye)
+    { return of.picture(expected, engine_sky, eye, kDenoised.history_max); };
+    const auto next = [&](const DVec3& eye) { return paths(tracer, octree, environment, kDenoised, cameraAt(eye)); };
+    EXPECT_EQ(next(kEye), picture(engine, kEye));
+    (void)picture(keeping, kEye);
+    m_host.lostFrame(
+        [&](Recorder& recorder, VkCommandBuffer commands)
+        {
+            image.beginCopies(commands);
+            tracer.tracePaths(recorder, octree, environment, cameraAt(kNextEye), kDenoised, image.target());
+        });
+    EXPECT_EQ(tracer.sampleCount(), 0U);
+    (void)picture(engine, kNextEye);
+    (void)picture(keeping, kNextEye);
+    engine.forget();
+    const Words alone = next(kEye);
+    EXPECT_EQ(alone, picture(engine, kEye));
+    EXPECT_NE(alone, picture(keeping, kEye));
+    EXPECT_EQ(tracer.sampleCount(), 1U);
+    EXPECT_EQ(next(kNextEye), picture(engine, kNextEye)); // what comes after counts again
+
+    tracer.forgetSamples();
+    engine.forget();
+    EXPECT_EQ(next(kEye), picture(engine, kEye));
+}
+
 TEST_F(ApiPaths, ADynamicTreeBeginsAnewWhereItChangesAndLooksAsIfBuiltAtOnce)
 {
     const Model fixed_model = m_host.upload(pathModel().info());
@@ -449,7 +585,7 @@ TEST_F(ApiPaths, WhatPathsUseMayGoWhileFramesUseIt)
     const std::uint64_t before = used();
     auto tree = std::make_unique<Tree>(octree());
     auto environment = std::make_unique<Environment>(sky());
-    const Words expected = newPaths(*tree, *environment);
+    const Words expected = newPaths(*tree, *environment, kDenoised);
     auto tracer = std::make_unique<Tracer>(this->tracer());
     test::TargetImage image(m_host.device, kFormat, kWidth, kHeight);
     std::unique_ptr<Environment> made;
@@ -458,7 +594,7 @@ TEST_F(ApiPaths, WhatPathsUseMayGoWhileFramesUseIt)
         Recorder recorder(m_host.context, commands, ++m_host.last_frame);
         made = std::make_unique<Environment>(recorder, SpotMap().info());
         image.beginCopies(commands);
-        tracer->tracePaths(recorder, *tree, *environment, test::apiCamera(), kFewBounces, image.target());
+        tracer->tracePaths(recorder, *tree, *environment, test::apiCamera(), kDenoised, image.target());
         image.read(commands);
     }
     const std::uint64_t with = used();
@@ -496,17 +632,20 @@ TEST_F(ApiPaths, BuffersAreMadeForTheFirstPathsAndAreAsLargeAsTold)
         Tracer tracer(m_host.context, edge, edge, kFormat);
         test::TargetImage image(m_host.device, kFormat, edge, edge);
         const double pixels = static_cast<double>(edge * edge);
-        expectMore(16 * pixels + 252 * std::min(pixels, 524288.0) + 0.1e6, 0.05e6,
-                   [&]
-                   {
-                       m_host.frame(
-                           [&](Recorder& recorder, VkCommandBuffer commands)
-                           {
-                               image.beginCopies(commands);
-                               tracer.tracePaths(recorder, octree, *environment, test::apiCamera(), {.bounces = 0},
-                                                 image.target());
-                           });
-                   });
+        const double batch = std::min(pixels, 524288.0);
+        const auto trace = [&](bool denoise)
+        {
+            m_host.frame(
+                [&](Recorder& recorder, VkCommandBuffer commands)
+                {
+                    image.beginCopies(commands);
+                    tracer.tracePaths(recorder, octree, *environment, test::apiCamera(),
+                                      {.bounces = 0, .denoise = denoise}, image.target());
+                });
+        };
+        expectMore(16 * pixels + 252 * batch + 0.1e6, 0.05e6, [&] { trace(false); });
+        expectMore(152 * pixels + 4 * batch, 0.05e6, [&] { trace(true); });
+        expectMore(0, 0, [&] { trace(false); });
     }
 }
 
@@ -526,13 +665,14 @@ TEST_F(ApiPaths, EveryBufferMayFailAndEveryKernelToo)
     test::TargetImage image(host.device, kFormat, kWidth, kHeight);
     const auto makeEnvironment = [&]
     { host.frame([&](Recorder& recorder, VkCommandBuffer) { environment.emplace(recorder, map.info()); }); };
+    PathInfo info = kFewBounces;
     const auto trace = [&]
     {
         host.frame(
             [&](Recorder& recorder, VkCommandBuffer commands)
             {
                 image.beginCopies(commands);
-                tracer->tracePaths(recorder, octree, *environment, test::apiCamera(), kFewBounces, image.target());
+                tracer->tracePaths(recorder, octree, *environment, test::apiCamera(), info, image.target());
                 image.read(commands);
             });
     };
@@ -595,6 +735,15 @@ TEST_F(ApiPaths, EveryBufferMayFailAndEveryKernelToo)
         EXPECT_EQ(tracer->sampleCount(), expected);
     }
     test::failCall(UINT64_MAX);
+    info = kDenoised;
+    EXPECT_GE(sweep(pipelines, 1, 0, trace), 3U);
+    EXPECT_EQ(tracer->sampleCount(), 1U);
+    tracer.emplace(host.context, kWidth, kHeight, kFormat);
+    info = kFewBounces;
+    trace();
+    info = kDenoised;
+    EXPECT_GE(sweep("vkCreateBuffer", 0, 1, trace), 8U);
+    EXPECT_EQ(tracer->sampleCount(), 1U);
     const Tree same = this->octree(4);
     Environment same_map = spotMap();
     EXPECT_EQ(first, newPaths(same, same_map));
@@ -637,6 +786,7 @@ TEST_F(ApiPaths, WhatIsNotValidIsRefusedAndNothingIsRecorded)
     refusedInfo({.focus_distance = 0}, "PathInfo::focus_distance");
     refusedInfo({.samples = 0}, "PathInfo::samples is 0");
     refusedInfo({.samples = 1025}, "PathInfo::samples is 1025");
+    refusedInfo({.denoise = true, .samples = 0}, "PathInfo::samples is 0");
     CameraInfo camera = test::apiCamera();
     camera.up = camera.forward;
     refused(camera, {}, image.target(), "camera");

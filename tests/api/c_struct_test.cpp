@@ -315,6 +315,8 @@ void expectSame(const PathInfo& a, const PathInfo& b)
     EXPECT_EQ(a.automatic_exposure, b.automatic_exposure);
     EXPECT_EQ(a.exposure, b.exposure);
     EXPECT_EQ(a.samples, b.samples);
+    EXPECT_EQ(a.denoise, b.denoise);
+    EXPECT_EQ(a.history_max, b.history_max);
 }
 
 void expectSame(const ImageTarget& a, const ImageTarget& b)
@@ -497,8 +499,8 @@ TEST(CStructs, EveryMemberOfTheOthersIsPassedOn)
     const float texels[18] = {};
     expectSame(ofC(ZvoEnvironmentMapInfo{sizeof(ZvoEnvironmentMapInfo), texels, 3, 2, 4, 5, 0}),
                EnvironmentMapInfo{3, 2, {reinterpret_cast<const Vec3*>(texels), 6}, 4, 5});
-    expectSame(ofC(ZvoPathInfo{sizeof(ZvoPathInfo), 1, 2, 3, 4, VK_TRUE, VK_FALSE, 5, 6}),
-               PathInfo{1, 2, 3, 4, true, false, 5, 6});
+    expectSame(ofC(ZvoPathInfo{sizeof(ZvoPathInfo), 1, 2, 3, 4, VK_TRUE, VK_FALSE, 5, 6, VK_TRUE, 7}),
+               PathInfo{1, 2, 3, 4, true, true, false, 5, 6, 7});
     const ZvoImageTarget image = {
         sizeof(image), handle<VkImage>(8), VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4, {5, 6}};
     const ImageTarget cpp_image = {image.image, VK_FORMAT_B8G8R8A8_SRGB, VK_IMAGE_LAYOUT_GENERAL, {1, 2}, 3, 4, {5, 6}};
