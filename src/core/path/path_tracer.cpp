@@ -31,6 +31,12 @@ RayListLength lengthOf(const vk::BufferOf<gpu::DispatchArgs>& lists, std::uint32
     return {lists, argsOf(bounce, list), kWords * argsOf(bounce, gpu::kListLengths) + list};
 }
 
+// Elements of the lists of a batch: of all bounces, and of the one that no path reaches.
+std::uint64_t batchElements(const PathOptions& options)
+{
+    return std::uint64_t{std::min(options.bounces, kBouncesMax) + 2} * gpu::kListElements;
+}
+
 // The attributes of voxels, in the format of the tree.
 gpu::ConstPtr<gpu::Attribute> readAttributes(vk::AnyPass& pass, const DeviceTree& tree)
 {
@@ -39,6 +45,17 @@ gpu::ConstPtr<gpu::Attribute> readAttributes(vk::AnyPass& pass, const DeviceTree
 }
 
 } // namespace
+
+std::uint64_t rayCountOf(std::span<const gpu::DispatchArgs> lists)
+{
+    std::uint64_t count = 0;
+    for (std::size_t first = 0; first + gpu::kListElements <= lists.size(); first += gpu::kListElements)
+    {
+        const auto* const lengths = reinterpret_cast<const gpu::uint*>(&lists[first + gpu::kListLengths]);
+        count += std::uint64_t{lengths[gpu::kListPaths]} + lengths[gpu::kListShadows];
+    }
+    return count;
+}
 
 PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
     : width(picture_width), height(picture_height),
@@ -82,6 +99,7 @@ struct PathTracer::Batch
     const DeviceEnvironment& environment;
     const TraceCamera& camera;
     const PathOptions& options;
+    vk::BufferOf<gpu::DispatchArgs>* lists; // of all batches; may be null
     std::uint32_t first_pixel;
     std::uint32_t pixel_count;
 };
@@ -165,8 +183,14 @@ void PathTracer::makeLights(vk::FrameGraph& graph, const DeviceTree& tree)
     m_lights_version = tree.version;
 }
 
+std::uint64_t PathTracer::listElements(const PathOptions& options) const
+{
+    return divideUp(m_pixels->sums.count(), kBatchMax) * batchElements(options);
+}
+
 void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
-                           const TraceCamera& camera, const PathOptions& options)
+                           const TraceCamera& camera, const PathOptions& options,
+                           vk::BufferOf<gpu::DispatchArgs>* lists)
 {
     const Subject subject = {tree.version, environment.version(), std::bit_cast<decltype(Subject::camera)>(camera.rays),
                              camera.orthographic, options};
@@ -187,7 +211,7 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Device
     const std::uint64_t pixel_count = m_pixels->sums.count();
     for (std::uint64_t first = 0; first < pixel_count; first += kBatchMax)
     {
-        traceBatch(graph, {tree, environment, camera, options, static_cast<std::uint32_t>(first),
+        traceBatch(graph, {tree, environment, camera, options, lists, static_cast<std::uint32_t>(first),
                            static_cast<std::uint32_t>(std::min(kBatchMax, pixel_count - first))});
     }
     ++m_sample_count;
@@ -199,8 +223,8 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
     Pixels& pixels = *m_pixels;
     const Grid& grid = batch.tree.grid;
     const std::uint32_t bounces = std::min(batch.options.bounces, kBouncesMax);
-    const std::uint64_t list_words = (bounces + 2) * gpu::kListElements * sizeof(gpu::DispatchArgs) / sizeof(gpu::uint);
-    graph.fill(pixels.lists, 0, 0, list_words);
+    const std::uint64_t list_bytes = batchElements(batch.options) * sizeof(gpu::DispatchArgs);
+    graph.fill(pixels.lists, 0, 0, list_bytes / sizeof(gpu::uint));
     {
         vk::Pass pass = graph.addPass(gpu::path::Begin{.orthographic = batch.camera.orthographic});
         const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
@@ -264,6 +288,10 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
         pass.dispatchIndirect(pixels.lists, shadows.args, params, divideUp(batch.pixel_count, gpu::kPathGroup));
     }
     finish(graph, batch);
+    if (batch.lists != nullptr)
+    {
+        graph.copy(pixels.lists, 0, *batch.lists, batch.first_pixel / kBatchMax * list_bytes, list_bytes);
+    }
 }
 
 // Behind what adds the light that the camera sees directly.

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 namespace zvo
 {
@@ -46,6 +47,9 @@ struct PathOptions
 /// The most bounces that PathOptions::bounces asks for.
 inline constexpr std::uint32_t kBouncesMax = 1024;
 
+/// The rays of a sample, from the camera, of bounces and to lights, from the lists of all of its batches.
+std::uint64_t rayCountOf(std::span<const gpu::DispatchArgs> lists);
+
 /// The samples of a picture, and what else is known of its pixels.
 struct GuidedPicture
 {
@@ -75,9 +79,14 @@ public:
     void forget();
 
     /// Records the passes that add a sample to each pixel. Begins anew where tree or environment has another version,
-    /// or camera or options are others. Throws Error{Memory}. Cost: pixels times bounces.
+    /// or camera or options are others. lists: gets the lists of all batches, [listElements(options)]; may be null.
+    /// Throws Error{Memory}. Cost: pixels times bounces.
     void addSample(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
-                   const TraceCamera& camera, const PathOptions& options);
+                   const TraceCamera& camera, const PathOptions& options,
+                   vk::BufferOf<gpu::DispatchArgs>* lists = nullptr);
+
+    /// The number of elements of the lists of a sample.
+    [[nodiscard]] std::uint64_t listElements(const PathOptions& options) const;
 
     /// Device memory of all buffers.
     [[nodiscard]] std::uint64_t bytes() const;
