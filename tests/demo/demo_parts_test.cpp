@@ -196,8 +196,8 @@ TEST(FrameStats, PassesOfAnOperationAreAddedUp)
     EXPECT_EQ(operationOf("copy edit/states to edit/reports"), "edit");
     EXPECT_EQ(operationOf("fill image"), "other");
     FrameStats stats;
-    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 1.0}, {"edit/find", 0.5}, {"trace/shade", 2.0}}, 100);
-    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 5.0}}, 100);
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 1.0}, {"edit/find", 0.5}, {"trace/shade", 2.0}}, {100});
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 5.0}}, {100});
     EXPECT_EQ(stats.operations(), (std::vector<std::string>{"trace", "edit"}));
     EXPECT_EQ(stats.operation("trace").values(), (std::vector<float>{3.0F, 5.0F}));
     EXPECT_EQ(stats.operation("edit").values(), (std::vector<float>{0.5F, 0.0F}));
@@ -206,8 +206,8 @@ TEST(FrameStats, PassesOfAnOperationAreAddedUp)
 TEST(FrameStats, PassesOfTheSameNameCountTogetherAndMissingOnesAsNothing)
 {
     FrameStats stats;
-    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 1}, {"a", 2}, {"a", 3}, {"trace/primary", 4}}, 10'000);
-    stats.addPasses(std::vector<vk::PassTime>{{"b", 6}, {"a", 1}}, 10'000);
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/beam", 1}, {"a", 2}, {"a", 3}, {"trace/primary", 4}}, {10'000});
+    stats.addPasses(std::vector<vk::PassTime>{{"b", 6}, {"a", 1}}, {10'000});
     EXPECT_EQ(stats.names(), (std::vector<std::string>{"trace/beam", "a", "trace/primary", "b"}));
     EXPECT_EQ(stats.pass("a").values(), (std::vector<float>{5, 1}));
     EXPECT_EQ(stats.pass("trace/beam").values(), (std::vector<float>{1, 0}));
@@ -217,6 +217,28 @@ TEST(FrameStats, PassesOfTheSameNameCountTogetherAndMissingOnesAsNothing)
     stats.addFrame(20);
     stats.addFrame(30);
     EXPECT_DOUBLE_EQ(stats.framesPerSecond(), 40);
+}
+
+TEST(FrameStats, RaysOfPathsCountInTheTimeOfWhatFollowsPaths)
+{
+    FrameStats stats;
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/primary", 1}}, {5'000});
+    EXPECT_EQ(stats.integrator(), Integrator::Primary);
+    EXPECT_DOUBLE_EQ(stats.megaraysPerSecond(), 5.0);
+    // The first pass finds the hit of the pixel under the pointer.
+    stats.addPasses(std::vector<vk::PassTime>{{"trace/primary", 100},
+                                              {"fill path/lists", 0.5},
+                                              {"trace/rays", 2},
+                                              {"path/shade", 1},
+                                              {"trace/rays", 1},
+                                              {"path/finish", 0.5},
+                                              {"denoise/filter", 100},
+                                              {"path/meter", 100},
+                                              {"path/expose", 100},
+                                              {"path/develop", 100}},
+                    {10'000, Integrator::Path});
+    EXPECT_EQ(stats.integrator(), Integrator::Path);
+    EXPECT_DOUBLE_EQ(stats.megaraysPerSecond(), 2.0) << "10,000 rays in 5 ms, and nothing of primary rays";
 }
 
 TEST(ResolutionLadder, GoesDownWhereFramesTakeTooLongAndNoFurtherThanTheLastStep)

@@ -75,7 +75,9 @@ TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
     EXPECT_EQ(file("shown.png"), render(denoised + std::vector<std::string>{"--spp", "2"}));
     const std::vector<std::string> moving =
         std::vector<std::string>{"moving.scene.json", "--integrator", "path"} + kCamera + kSize;
-    show(moving + kSteady + std::vector<std::string>{"--frames", "3", "--screenshot", "shown.png", "-f"});
+    show(moving + kSteady +
+         std::vector<std::string>{"--frames", "3", "--screenshot", "shown.png", "--json", "stats.json", "-f"});
+    EXPECT_GT(json::parse(file("stats.json"))["mrays_per_second"], 0);
     ASSERT_EQ(
         runZvo(m_dir.path(), std::vector<std::string>{"render"} + moving +
                                  std::vector<std::string>{"-o", "frame_#.png", "--frames", "2..2", "--spp", "1", "-f"})

@@ -65,12 +65,22 @@ private:
         std::uint64_t number = 0;      // this program's number
         std::uint64_t world_frame = 0; // the world's number
         double internal_scale = 1;
-        std::uint64_t ray_count = 0;
+        std::uint64_t primary_ray_count = 0;
+        std::unique_ptr<vk::BufferOf<gpu::DispatchArgs>> ray_lists; // of path tracing
         std::unique_ptr<Screenshot> screenshot;
         bool is_last_picture = false;        // the screenshot is the one that the command line asks for
         std::optional<glm::uvec2> inspected; // pixel of the window
         std::uint64_t probe = 0;             // number of that request, for the editor
         std::unique_ptr<vk::BufferOf<gpu::PixelReport>> report;
+
+        /// Once the device is done.
+        [[nodiscard]] RaysOfFrame rays() const
+        {
+            return ray_lists == nullptr
+                       ? RaysOfFrame{primary_ray_count, Integrator::Primary}
+                       : RaysOfFrame{rayCountOf({ray_lists->mappedData(), ray_lists->count()}), Integrator::Path};
+        }
+
         /// Destroyed first: its destructor waits for the device, which writes to the other members.
         vk::Submission submission;
     };

@@ -78,6 +78,12 @@ void App::draw()
         picture.inspected = frame.inspected;
         picture.report = frame.report.get();
     }
+    if (const std::uint64_t elements = m_renderer.rayListElements(m_view); elements != 0)
+    {
+        frame.ray_lists = std::make_unique<vk::BufferOf<gpu::DispatchArgs>>(m_device.device(), "ray lists", elements,
+                                                                            vk::MemoryKind::Readback);
+        picture.ray_lists = frame.ray_lists.get();
+    }
     // Nothing that may fail stands between acquiring an image and the submission that waits for it.
     const std::optional<vk::SwapchainImage> target = m_swapchain.acquire({size.width, size.height}, m_drawn_count);
     picture.target = target ? &*target : nullptr;
@@ -117,7 +123,7 @@ void App::submit(Picture& picture, FrameInFlight frame)
 {
     frame.number = m_drawn_count;
     frame.internal_scale = internalScale();
-    frame.ray_count = m_renderer.rayCount();
+    frame.primary_ray_count = m_renderer.rayCount();
     frame.world_frame = m_world->scene.beginFrame();
     vk::SubmitSync sync;
     if (picture.target != nullptr)
@@ -151,7 +157,7 @@ void App::finishOldest()
     m_world->scene.frameDone(frame.world_frame, passes);
     m_renderer.frameDone(frame.number);
     m_swapchain.frameDone(frame.number);
-    m_stats.addPasses(passes, frame.ray_count);
+    m_stats.addPasses(passes, frame.rays());
     if (!m_first_frame_ms)
     {
         m_first_frame_ms = Milliseconds(Clock::now() - m_start).count();

@@ -16,6 +16,13 @@ bool isPrimary(const std::string& pass)
     return pass == "trace/beam" || pass == "trace/primary" || pass == "trace/primary_ranks" || pass == "trace/ranks";
 }
 
+// Whether a pass takes part in following paths, up to the sums of their light.
+bool isOfPaths(const std::string& pass)
+{
+    const bool develops = pass == "path/meter" || pass == "path/expose" || pass == "path/develop";
+    return pass == "trace/rays" || pass == "trace/ranks" || (operationOf(pass) == "path" && !develops);
+}
+
 // Adds a frame to histories. Entries that the frame lacks get 0.
 void addFrameTo(std::map<std::string, History>& histories, std::vector<std::string>& names,
                 const std::map<std::string, double>& times, const std::vector<std::string>& in_order)
@@ -75,19 +82,20 @@ double History::p95() const
     return double{sorted[rank]};
 }
 
-void FrameStats::addPasses(std::span<const vk::PassTime> passes, std::uint64_t ray_count)
+void FrameStats::addPasses(std::span<const vk::PassTime> passes, const RaysOfFrame& rays)
 {
     std::map<std::string, double> times;
     std::map<std::string, double> operation_times;
     std::vector<std::string> names;
     std::vector<std::string> operations;
     double all_ms = 0;
-    double primary_ms = 0;
+    double tracing_ms = 0;
     for (const vk::PassTime& pass : passes)
     {
         times[pass.name] += pass.ms;
         all_ms += pass.ms;
-        primary_ms += isPrimary(pass.name) ? pass.ms : 0.0;
+        const bool traces = rays.integrator == Integrator::Path ? isOfPaths(pass.name) : isPrimary(pass.name);
+        tracing_ms += traces ? pass.ms : 0.0;
         names.push_back(pass.name);
         operations.push_back(operationOf(pass.name));
         operation_times[operations.back()] += pass.ms;
@@ -95,10 +103,15 @@ void FrameStats::addPasses(std::span<const vk::PassTime> passes, std::uint64_t r
     addFrameTo(m_passes, m_names, times, names);
     addFrameTo(m_operations, m_operation_names, operation_times, operations);
     m_gpu_ms.add(all_ms);
-    if (primary_ms > 0)
+    if (m_integrator != rays.integrator)
+    {
+        m_integrator = rays.integrator;
+        m_megarays = {};
+    }
+    if (tracing_ms > 0)
     {
         constexpr double kRaysPerMs = 1e3; // rays in a millisecond, for a megaray a second
-        m_megarays.add(static_cast<double>(ray_count) / primary_ms / kRaysPerMs);
+        m_megarays.add(static_cast<double>(rays.count) / tracing_ms / kRaysPerMs);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "demo/world/integrator.h"
 #include "vk/timer.h"
 
 #include <cstddef>
@@ -35,6 +36,13 @@ private:
     std::vector<float> m_values;
 };
 
+/// The rays of a frame by which its speed is measured.
+struct RaysOfFrame
+{
+    std::uint64_t count = 0;
+    Integrator integrator = Integrator::Primary; // Path: rays of paths, from the camera, of bounces and to lights
+};
+
 /// Durations of frames by the clock, and of their passes on the device.
 class FrameStats
 {
@@ -43,7 +51,7 @@ public:
     void addFrame(double ms) { m_frame_ms.add(ms); }
 
     /// Adds the passes of a frame. Times of passes with the same name are summed; missing passes count as 0.
-    void addPasses(std::span<const vk::PassTime> passes, std::uint64_t ray_count);
+    void addPasses(std::span<const vk::PassTime> passes, const RaysOfFrame& rays);
 
     [[nodiscard]] const History& frameMs() const { return m_frame_ms; }
     [[nodiscard]] const History& gpuMs() const { return m_gpu_ms; }
@@ -59,13 +67,17 @@ public:
     /// Average frames a second, by the clock.
     [[nodiscard]] double framesPerSecond() const;
 
-    /// Primary rays in a second of the passes that trace them, in millions.
+    /// The integrator of the last frame.
+    [[nodiscard]] Integrator integrator() const { return m_integrator; }
+
+    /// Its rays in a second of the passes that trace them, in millions. Those of paths find light, too.
     [[nodiscard]] double megaraysPerSecond() const { return m_megarays.mean(); }
 
 private:
     History m_frame_ms;
     History m_gpu_ms;
-    History m_megarays;
+    Integrator m_integrator = Integrator::Primary;
+    History m_megarays; // of frames with this integrator
     std::vector<std::string> m_names;
     std::map<std::string, History> m_passes;
     std::vector<std::string> m_operation_names;

@@ -57,7 +57,15 @@ void performancePanel(const FrameStats& stats, const MemoryUse& memory)
     }
     tell(fmt::format("{:.1f} frames/s, {:.1f} ms (95 %: {:.1f} ms)", stats.framesPerSecond(), stats.frameMs().mean(),
                      stats.frameMs().p95()));
-    tell(fmt::format("{:.1f} Mrays/s primary", stats.megaraysPerSecond()));
+    if (stats.integrator() == Integrator::Path) // each frame adds a path to every pixel
+    {
+        tell(fmt::format("{:.1f} paths a pixel/s, {:.1f} Mrays/s of paths", stats.framesPerSecond(),
+                         stats.megaraysPerSecond()));
+    }
+    else
+    {
+        tell(fmt::format("{:.1f} Mrays/s primary", stats.megaraysPerSecond()));
+    }
     const auto mib = [](std::uint64_t bytes) { return static_cast<double>(bytes) / kMiB; };
     tell(fmt::format("memory, MiB: {:.1f} used, {:.1f} held", mib(memory.used), mib(memory.held)));
     const std::uint64_t known = memory.geometry + memory.attributes + memory.pictures;

@@ -14,6 +14,11 @@ namespace
 // Samples of earlier frames that count at most, where pictures are denoised.
 constexpr std::uint32_t kHistoryMax = 16;
 
+PathOptions pathOptionsOf(const ViewState& view)
+{
+    return {.reseeds = view.denoise, .features = view.denoise};
+}
+
 } // namespace
 
 void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture& picture, bool encodes_srgb)
@@ -66,11 +71,12 @@ void Renderer::preparePaths(const Picture& picture)
 }
 
 void Renderer::tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
-                          const ViewState& view)
+                          const Picture& picture)
 {
+    const ViewState& view = picture.view;
     const double strength = view.shadows ? TraceOptions().sun : 0.0;
     m_paths->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
-    m_paths->tracer.addSample(graph, tree, m_paths->sky, camera, {.reseeds = view.denoise, .features = view.denoise});
+    m_paths->tracer.addSample(graph, tree, m_paths->sky, camera, pathOptionsOf(view), picture.ray_lists);
     if (view.denoise)
     {
         m_paths->denoiser.denoise(graph, m_paths->tracer.guided(), kHistoryMax);
@@ -93,6 +99,11 @@ std::optional<std::uint32_t> Renderer::sampleCount() const
     return m_paths == nullptr ? std::nullopt : std::optional(m_paths->tracer.sampleCount());
 }
 
+std::uint64_t Renderer::rayListElements(const ViewState& view) const
+{
+    return m_paths == nullptr ? 0 : m_paths->tracer.listElements(pathOptionsOf(view));
+}
+
 void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
 {
     const TraceBuffers& buffers = m_tracer.buffers();
@@ -104,7 +115,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     }
     else
     {
-        tracePaths(graph, tree, camera, picture.view);
+        tracePaths(graph, tree, camera, picture);
     }
     if (picture.inspected && m_paths != nullptr)
     {
@@ -136,7 +147,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     {
         m_compose->show(graph, *picture.target);
     }
-    if (picture.screenshot != nullptr || picture.inspected)
+    if (picture.screenshot != nullptr || picture.inspected || picture.ray_lists != nullptr)
     {
         graph.releaseToHost();
     }

@@ -32,6 +32,8 @@ struct Picture
     bool screenshot_has_panels = true;
     std::optional<glm::uvec2> inspected;              // pixel of the window
     vk::BufferOf<gpu::PixelReport>* report = nullptr; // gets the result for that pixel
+    /// Gets what tells how many rays the paths have (rayCountOf()), [Renderer::rayListElements()]; may be null.
+    vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr;
 };
 
 /// Records frames, from the world's tree to the image of the swapchain. Its buffers are made for the requested sizes;
@@ -64,6 +66,9 @@ public:
     /// Samples of each pixel of the picture, where it is path traced.
     [[nodiscard]] std::optional<std::uint32_t> sampleCount() const;
 
+    /// Elements of the lists of a frame's rays; 0 where it is not path traced.
+    [[nodiscard]] std::uint64_t rayListElements(const ViewState& view) const;
+
     /// Primary rays of a frame.
     [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(m_tracer.buffers()); }
 
@@ -88,7 +93,7 @@ private:
     };
 
     void preparePaths(const Picture& picture);
-    void tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const ViewState& view);
+    void tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const Picture& picture);
 
     TreeTracer m_tracer;
     std::unique_ptr<Paths> m_paths; // null: primary rays
