@@ -5,6 +5,7 @@
 #include "path/path.h"
 #include "lib/dispatch.glsl"
 #include "lib/luminance.glsl"
+#include "path/sum.glsl"
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -17,9 +18,5 @@ void main()
     uint slot = threadIndex();
     if (slot >= params.pixel_count)
         return;
-    vec3 radiance = params.radiance.data[slot];
-    float light = luminance(radiance);
-    PixelSum sum = params.sums.data[params.first_pixel + slot];
-    params.sums.data[params.first_pixel + slot] =
-        PixelSum(sum.radiance + radiance, sum.luminance_squared + light * light);
+    addSample(params.sums, params.first_pixel + slot, params.radiance.data[slot]);
 }

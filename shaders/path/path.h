@@ -77,21 +77,28 @@ const uint kListCount = 6u;
 const uint kListLengths = 6u;  // element where the lengths begin
 const uint kListElements = 8u; // of a bounce
 
+/// What the camera sees: a picture with a lens.
+struct PathView
+{
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint seed;
+    float lens_radius; // unit space
+    float focus;       // distance of the plane in focus along forward, unit space
+};
+GPU_BUFFER(PathView, 4);
+
 struct PathBeginParams // push constants of path/begin: a thread a pixel
 {
     GPU_PTR(Ray) rays;
     GPU_PTR(PathState) states;
     GPU_PTR(vec3) radiance; // [batch]
     GPU_PTR(DispatchArgs) lists;
-    CameraRays camera;
-    uint width;
-    uint height;
+    PathView view;
     uint first_pixel;
     uint pixel_count;
     uint sample_index;
-    uint seed;
-    float lens_radius; // unit space
-    float focus;       // distance of the plane in focus along forward, unit space
 };
 GPU_KERNEL_BEGIN(path, begin, Begin, PathBeginParams)
     GPU_CONSTANT(bool, orthographic, false)

@@ -168,15 +168,15 @@ void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
         params.states = pass.write(pixels.states[0]);
         params.radiance = pass.write(pixels.radiance);
         params.lists = pass.readWrite(pixels.lists);
-        params.camera = batch.camera.rays;
-        params.width = pixels.width;
-        params.height = pixels.height;
+        params.view = {.camera = batch.camera.rays,
+                       .width = pixels.width,
+                       .height = pixels.height,
+                       .seed = batch.options.seed,
+                       .lens_radius = batch.options.lens_radius * unit,
+                       .focus = batch.options.focus_distance * unit};
         params.first_pixel = batch.first_pixel;
         params.pixel_count = batch.pixel_count;
         params.sample_index = m_sample_count;
-        params.seed = batch.options.seed;
-        params.lens_radius = batch.options.lens_radius * unit;
-        params.focus = batch.options.focus_distance * unit;
         pass.dispatch(batch.pixel_count, params);
     }
     TraceOptions trace;

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Sums of samples. The includer includes path/path.h and lib/luminance.glsl before.
+
+// Adds a sample of a pixel, of which no other thread has one at the same time.
+void addSample(PixelSum_Ptr sums, uint pixel, vec3 radiance)
+{
+    float light = luminance(radiance);
+    PixelSum sum = sums.data[pixel];
+    sums.data[pixel] = PixelSum(sum.radiance + radiance, sum.luminance_squared + light * light);
+}
