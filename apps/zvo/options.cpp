@@ -124,6 +124,14 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
              "turns the map about the vertical, counterclockwise from above (default 0)");
     addValue(render, "--environment-strength", paths.environment_strength, parsePositive, "FACTOR",
              "factor for the map's light (default 1)");
+    addValue(
+        render, "--path-form", paths.form,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"stages", "kernel"}) == "kernel" ? PathForm::OneKernel : PathForm::Stages;
+        },
+        "stages|kernel",
+        "paths advance together, or one kernel follows each to its end; the picture is the same (default: as is faster "
+        "on the device)");
     addValue(render, "--time-limit", paths.time_limit, parseSeconds, "SECONDS",
              "begin no more paths after this time; the picture shows those that were traced");
 }

@@ -69,7 +69,7 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
     const Clock::time_point begin = Clock::now();
     const PathRenderOptions& paths = m_options.paths;
     const TraceCamera camera = traceCamera(view, tree.grid, m_options.height);
-    m_tracer.resize(m_options.width, m_options.height);
+    m_tracer.resize(m_options.width, m_options.height, paths.form);
     m_tracer.forget();
     const InterruptWatch watch;
     std::uint32_t samples = 0;

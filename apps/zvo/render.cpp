@@ -263,6 +263,7 @@ void checkPathOptions(const RenderOptions& options)
         {"--environment", paths.environment.has_value()},
         {"--environment-turn", paths.environment_turn != plain.environment_turn},
         {"--environment-strength", paths.environment_strength != plain.environment_strength},
+        {"--path-form", paths.form.has_value()},
         {"--time-limit", paths.time_limit.has_value()},
     };
     const std::pair<const char*, bool> of_primary[] = {

@@ -193,6 +193,36 @@ struct PathFinishParams // push constants of path/finish: a thread a pixel
 };
 GPU_KERNEL(path, finish, Finish, PathFinishParams)
 
+struct PathTraceParams // push constants of path/trace: a workgroup kPathGroup * paths_of_thread pixels
+{
+    GPU_CONST_PTR(TreeTable) tree;
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Attribute) attributes;    // of voxels, in the format of kFormat
+    GPU_CONST_PTR(uvec2) emission_words;    // kEmission only
+    GPU_CONST_PTR(LightNode) light_nodes;   // likewise
+    GPU_CONST_PTR(LightBrick) light_bricks; // likewise
+    GPU_CONST_PTR(Environment) environment;
+    GPU_CONST_PTR(vec2) gives; // [kNormals] as Environment::gives
+    GPU_CONST_PTR(PathView) view;
+    GPU_PTR(PixelSum) sums;
+    GPU_PTR(TraceStatus) status;
+    uint first_pixel; // numbers in the order of strips
+    uint end_pixel;
+    uint sample_index;
+    uint bounces;
+    uint paths_of_thread; // on average
+};
+GPU_KERNEL_BEGIN(path, trace, Trace, PathTraceParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, emission, false)
+    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
+    GPU_CONSTANT(bool, by_power, false)
+    GPU_CONSTANT(bool, roulette, false)
+    GPU_CONSTANT(bool, overlays, false)
+GPU_KERNEL_END
+
 // The automatic exposure: counts of pixels by the logarithm of their luminance.
 const uint kMeterBins = 256u;
 const uint kMeterPixels = 1024u;    // of a workgroup

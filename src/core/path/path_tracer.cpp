@@ -2,6 +2,7 @@
 #include "core/path/path_tracer.h"
 
 #include "core/base/divide_up.h"
+#include "core/trace/trace_passes.h"
 #include "core/tree/tree_table.h"
 #include "vk/device.h"
 
@@ -18,6 +19,13 @@ namespace
 /// Pixels whose paths advance together: so many that a device is busy, so few that their buffers stay small.
 constexpr std::uint64_t kBatchMax = std::uint64_t{1} << 19;
 
+/// Rays of one dispatch of path/trace, and pixels below which it is not split: so few that no driver takes it for hung.
+constexpr std::uint64_t kDispatchRaysMax = std::uint64_t{1} << 24;
+constexpr std::uint64_t kDispatchPixelsMin = std::uint64_t{1} << 17;
+
+/// Threads of a dispatch of path/trace on a GPU, if it has so many pixels: enough for the largest ones.
+constexpr std::uint64_t kDispatchThreads = std::uint64_t{1} << 16;
+
 // The element of PathTracer::Pixels::lists with the workgroups for a list.
 std::uint64_t argsOf(std::uint32_t bounce, std::uint32_t list)
 {
@@ -31,22 +39,66 @@ RayListLength lengthOf(const vk::BufferOf<gpu::DispatchArgs>& lists, std::uint32
     return {lists, argsOf(bounce, list), kWords * argsOf(bounce, gpu::kListLengths) + list};
 }
 
+// The paths that a thread of path/trace follows, on average. On CPUs one: threads run one after the other there, the
+// first of a workgroup would take all; and loops end early there (lib/traverse.glsl).
+std::uint32_t pathsOfThread(std::string_view device_type, std::uint64_t pixel_count)
+{
+    return device_type == "cpu" ? 1 : static_cast<std::uint32_t>(divideUp(pixel_count, kDispatchThreads));
+}
+
+gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOptions& options, std::uint32_t width,
+                     std::uint32_t height)
+{
+    const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
+    return {camera.rays, width, height, options.seed, options.lens_radius * unit, options.focus_distance * unit};
+}
+
+// Declares that pass reads the attributes of voxels, in whatever format they are, and returns where they are.
+gpu::ConstPtr<gpu::Attribute> readVoxelAttributes(vk::AnyPass& pass, const DeviceTree& tree)
+{
+    return isPacked(tree.attributeFormat()) ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
+                                            : pass.read(tree.voxel_attributes);
+}
+
+// Declares that pass reads the ranks of a DAG with attributes.
+void readRanks(vk::AnyPass& pass, const DeviceTree& tree)
+{
+    if (!tree.isDag() || !tree.hasAttributes() || tree.grid.nodeLevels() < 2)
+    {
+        return;
+    }
+    rankSource(pass, tree);
+    if (tree.hasOverlays())
+    {
+        pass.read(tree.overlays.ranks);
+    }
+}
+
 } // namespace
 
-PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
-    : width(picture_width), height(picture_height),
-      lists(device, "path/lists", std::uint64_t{kBouncesMax + 2} * gpu::kListElements),
-      rounds(device, "path/rounds", gpu::kTraceRoundsMax), status(device, "path/status", 1),
+PathForm pathFormOn(std::string_view device_type)
+{
+    return device_type == "cpu" ? PathForm::Stages : PathForm::OneKernel;
+}
+
+PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height,
+                           PathForm path_form)
+    : width(picture_width), height(picture_height), form(path_form), status(device, "path/status", 1),
       table(device, "path/tree", 1)
 {
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
-    const std::uint64_t batch = std::min(pixel_count, kBatchMax);
+    const std::uint64_t batch = form == PathForm::Stages ? std::min(pixel_count, kBatchMax) : 0;
     device.memory().require(pixel_count * sizeof(gpu::PixelSum) +
                                 batch * (3 * sizeof(gpu::Ray) + 2 * sizeof(gpu::PathState) + sizeof(gpu::Hit) +
                                          sizeof(gpu::ShadowState) + sizeof(gpu::vec3) +
                                          gpu::kListCount * sizeof(gpu::uint)),
                             "path tracing");
     sums = {device, "path/sums", pixel_count};
+    if (form == PathForm::OneKernel)
+    {
+        view = {device, "path/view", 1};
+        return;
+    }
     for (std::size_t i = 0; i < rays.size(); ++i)
     {
         rays.at(i) = {device, "path/rays", batch};
@@ -56,7 +108,9 @@ PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std:
     shadow_rays = {device, "path/shadow_rays", batch};
     shadow_states = {device, "path/shadow_states", batch};
     radiance = {device, "path/radiance", batch};
+    lists = {device, "path/lists", std::uint64_t{kBouncesMax + 2} * gpu::kListElements};
     numbers = {device, "path/numbers", gpu::kListCount * batch};
+    rounds = {device, "path/rounds", gpu::kTraceRoundsMax};
 }
 
 /// What a sample of a batch of pixels is traced with.
@@ -66,15 +120,17 @@ struct PathTracer::Batch
     const Environment& environment;
     const TraceCamera& camera;
     const PathOptions& options;
+    const gpu::PathView& view;
     std::uint32_t first_pixel;
     std::uint32_t pixel_count;
 };
 
-void PathTracer::resize(std::uint32_t width, std::uint32_t height)
+void PathTracer::resize(std::uint32_t width, std::uint32_t height, std::optional<PathForm> asked)
 {
-    if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height)
+    const PathForm form = asked.value_or(pathFormOn(m_device.report().type));
+    if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height || m_pixels->form != form)
     {
-        vk::replace(m_deletion_queue, m_pixels, std::make_unique<Pixels>(m_device, width, height));
+        vk::replace(m_deletion_queue, m_pixels, std::make_unique<Pixels>(m_device, width, height, form));
         m_subject = {};
     }
 }
@@ -88,11 +144,11 @@ void PathTracer::forget()
 std::uint64_t PathTracer::Pixels::bytes() const
 {
     // Every member has a name here, or this does not compile: none is forgotten.
-    const auto& [own_width, own_height, sums_, rays_, states_, hits_, shadow_rays_, shadow_states_, radiance_, lists_,
-                 numbers_, rounds_, status_, table_, is_clear] = *this;
+    const auto& [own_width, own_height, own_form, sums_, rays_, states_, hits_, shadow_rays_, shadow_states_, radiance_,
+                 lists_, numbers_, rounds_, status_, table_, view_, is_clear] = *this;
     return sums_.bytes() + rays_[0].bytes() + rays_[1].bytes() + states_[0].bytes() + states_[1].bytes() +
            hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() + lists_.bytes() +
-           numbers_.bytes() + rounds_.bytes() + status_.bytes() + table_.bytes();
+           numbers_.bytes() + rounds_.bytes() + status_.bytes() + table_.bytes() + view_.bytes();
 }
 
 std::uint64_t PathTracer::bytes() const
@@ -106,7 +162,7 @@ std::uint64_t PathTracer::bytes() const
 }
 
 // Records what is needed before the first sample of a subject.
-void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree)
+void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree, const gpu::PathView& view)
 {
     graph.fill(m_pixels->sums, 0);
     if (!m_pixels->is_status_clear)
@@ -115,6 +171,10 @@ void PathTracer::prepare(vk::FrameGraph& graph, const DeviceTree& tree)
         m_pixels->is_status_clear = true;
     }
     graph.update(m_pixels->table, 0, std::array{treeTable(tree)});
+    if (m_pixels->form == PathForm::OneKernel)
+    {
+        graph.update(m_pixels->view, 0, std::array{view});
+    }
     if (m_lights_version == tree.version || !hasEmission(tree))
     {
         return;
@@ -139,41 +199,99 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Enviro
     }
     m_subject = {}; // should anything below throw: some pixels may have got the sample
     environment.prepare(graph);
+    const gpu::PathView view = viewOf(tree.grid, camera, options, m_pixels->width, m_pixels->height);
     if (m_sample_count == 0)
     {
-        prepare(graph, tree);
+        prepare(graph, tree, view);
     }
     const std::uint64_t pixel_count = m_pixels->sums.count();
-    for (std::uint64_t first = 0; first < pixel_count; first += kBatchMax)
+    const std::uint64_t batch = batchPixels(options.bounces);
+    for (std::uint64_t first = 0; first < pixel_count; first += batch)
     {
-        traceBatch(graph, {tree, environment, camera, options, static_cast<std::uint32_t>(first),
-                           static_cast<std::uint32_t>(std::min(kBatchMax, pixel_count - first))});
+        const Batch pixels = {tree,
+                              environment,
+                              camera,
+                              options,
+                              view,
+                              static_cast<std::uint32_t>(first),
+                              static_cast<std::uint32_t>(std::min(batch, pixel_count - first))};
+        if (m_pixels->form == PathForm::OneKernel)
+        {
+            traceInOneKernel(graph, pixels);
+        }
+        else
+        {
+            traceInStages(graph, pixels);
+        }
     }
     ++m_sample_count;
     m_subject = subject;
 }
 
-void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
+// The most pixels whose paths are traced together.
+std::uint64_t PathTracer::batchPixels(std::uint32_t bounces) const
+{
+    const std::uint64_t rays = 2 * std::uint64_t{std::min(bounces, kBouncesMax)} + 1; // of a path
+    return m_pixels->form == PathForm::Stages ? kBatchMax : std::max(kDispatchRaysMax / rays, kDispatchPixelsMin);
+}
+
+void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
 {
     Pixels& pixels = *m_pixels;
-    const Grid& grid = batch.tree.grid;
+    const DeviceTree& tree = batch.tree;
+    const PathOptions& options = batch.options;
+    const bool emits = hasEmission(tree);
+    TraceOptions trace;
+    trace.stack = options.stack;
+    const gpu::path::Trace kernel{.orthographic = batch.camera.orthographic,
+                                  .format = tree.attributeFormat(),
+                                  .emission = emits,
+                                  .sampling = options.sampling,
+                                  .by_power = options.lights_by_power,
+                                  .roulette = options.roulette,
+                                  .overlays = tree.hasOverlays()};
+    vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, trace));
+    gpu::PathTraceParams params{};
+    params.tree = pass.read(pixels.table);
+    params.nodes = pass.read(tree.nodes);
+    params.attributes = readVoxelAttributes(pass, tree);
+    if (emits)
+    {
+        params.emission_words = pass.read(tree.emission_words);
+        pass.read(tree.emission);
+        params.light_nodes = pass.read(m_lights->nodes);
+        params.light_bricks = pass.read(m_lights->bricks);
+    }
+    readRanks(pass, tree);
+    params.environment = batch.environment.read(pass);
+    params.gives = pass.read(batch.environment.gives());
+    params.view = pass.read(pixels.view);
+    params.sums = pass.readWrite(pixels.sums);
+    params.status = pass.readWrite(pixels.status);
+    params.first_pixel = batch.first_pixel;
+    params.end_pixel = batch.first_pixel + batch.pixel_count;
+    params.sample_index = m_sample_count;
+    params.bounces = std::min(options.bounces, kBouncesMax);
+    params.paths_of_thread = options.paths_of_thread != 0 ? options.paths_of_thread
+                                                          : pathsOfThread(m_device.report().type, batch.pixel_count);
+    pass.dispatch(
+        divideUp(batch.pixel_count, std::uint64_t{gpu::kPathGroup} * params.paths_of_thread) * gpu::kPathGroup, params);
+}
+
+void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
+{
+    Pixels& pixels = *m_pixels;
     const std::uint32_t bounces = std::min(batch.options.bounces, kBouncesMax);
     const std::uint64_t list_words = (bounces + 2) * gpu::kListElements * sizeof(gpu::DispatchArgs) / sizeof(gpu::uint);
     graph.fill(pixels.lists, 0, 0, list_words);
     {
         vk::Pass pass = graph.addPass(gpu::path::Begin{.orthographic = batch.camera.orthographic});
-        const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
         gpu::PathBeginParams params{};
         params.rays = pass.write(pixels.rays[0]);
         params.states = pass.write(pixels.states[0]);
         params.radiance = pass.write(pixels.radiance);
         params.lists = pass.readWrite(pixels.lists);
-        params.view = {.camera = batch.camera.rays,
-                       .width = pixels.width,
-                       .height = pixels.height,
-                       .seed = batch.options.seed,
-                       .lens_radius = batch.options.lens_radius * unit,
-                       .focus = batch.options.focus_distance * unit};
+        params.view = batch.view;
         params.first_pixel = batch.first_pixel;
         params.pixel_count = batch.pixel_count;
         params.sample_index = m_sample_count;
@@ -232,9 +350,7 @@ void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t 
                                                    .last = bounce == std::min(batch.options.bounces, kBouncesMax),
                                                    .roulette = batch.options.roulette});
     gpu::PathShadeParams params{};
-    params.attributes = isPacked(tree.attributeFormat())
-                            ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
-                            : pass.read(tree.voxel_attributes);
+    params.attributes = readVoxelAttributes(pass, tree);
     params.hits = pass.read(pixels.hits);
     params.gives = pass.read(batch.environment.gives());
     if (emits)
