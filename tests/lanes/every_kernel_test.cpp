@@ -146,23 +146,26 @@ Names tracePictures(const DeviceTree& tree)
     return names;
 }
 
-// Traces paths through a tree with emissive voxels.
+// Traces paths through a tree with emissive voxels, in both forms.
 Names tracePaths(const DeviceTree& tree)
 {
     Environment sky(device().device());
     PathTracer tracer(device().device());
     Developer developer(device().device());
-    tracer.resize(9, 10);
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     const TraceCamera camera = traceCamera(view, tree.grid, 10);
     vk::BufferOf<gpu::uint> picture(device().device(), "picture", 90);
     Names names;
-    addNames(names, device().run(
-                        [&](vk::FrameGraph& graph)
-                        {
-                            tracer.addSample(graph, tree, sky, camera, {.bounces = 1});
-                            developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
-                        }));
+    for (const PathForm form : {PathForm::Stages, PathForm::OneKernel})
+    {
+        tracer.resize(9, 10, form);
+        addNames(names, device().run(
+                            [&](vk::FrameGraph& graph)
+                            {
+                                tracer.addSample(graph, tree, sky, camera, {.bounces = 1});
+                                developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
+                            }));
+    }
     return names;
 }
 
