@@ -8,9 +8,12 @@
 // both ways find is weighted by the balance heuristic (E. Veach, L. Guibas, Optimally Combining Sampling Techniques,
 // 1995).
 //
-// Paths of a batch of pixels advance together, a bounce at a time. Those that go on stand in a list, and so do the
-// shadow rays; lists are as long as the device says. Which path stands where in a list may differ from run to run, but
-// each adds to its own pixel alone.
+// Paths are traced in one of two forms. What happens to a path stands in functions that both include (path/*.glsl), and
+// its light is summed up in the same order, so both make the same picture, bit for bit.
+//
+// In stages, for devices that skip no branch: paths of a batch of pixels advance together, a bounce at a time. Those
+// that go on stand in a list, and so do the shadow rays; lists are as long as the device says. Which path stands where
+// in a list may differ from run to run, but each adds to its own pixel alone.
 //
 //   path/begin     a ray from the camera for each pixel
 //     trace/rays     what the rays hit                                       these and the following for each bounce
@@ -21,6 +24,9 @@
 //   path/finish    adds the sample to the pixels' sums
 //
 // So each kernel runs for those paths alone that need it, and what it loads is loaded for those alone.
+//
+// In one kernel, path/trace, for GPUs: a thread follows a path from the camera to its end, then another one. Nothing is
+// stored between bounces.
 //
 // Pixels are numbered in strips of kStripRows rows, column by column within a strip.
 #ifndef ZVO_SHADERS_PATH_PATH_H
@@ -34,7 +40,7 @@ GPU_ENUM(LightSampling, std::uint32_t) // kSampleBoth and so on
 
 GPU_NAMESPACE_BEGIN
 
-const uint kPathGroup = 64u; // threads of a workgroup; each takes one path
+const uint kPathGroup = 64u; // threads of a workgroup; in stages, each takes one path
 const uint kStripRows = 8u;
 
 // How light is found: a specialization constant of path/shade.
@@ -193,7 +199,7 @@ struct PathFinishParams // push constants of path/finish: a thread a pixel
 };
 GPU_KERNEL(path, finish, Finish, PathFinishParams)
 
-struct PathTraceParams // push constants of path/trace: a workgroup kPathGroup * paths_of_thread pixels
+struct PathTraceParams // push constants of path/trace: a workgroup takes kPathGroup * paths_of_thread pixels
 {
     GPU_CONST_PTR(TreeTable) tree;
     GPU_CONST_PTR(Node) nodes;
@@ -210,7 +216,7 @@ struct PathTraceParams // push constants of path/trace: a workgroup kPathGroup *
     uint end_pixel;
     uint sample_index;
     uint bounces;
-    uint paths_of_thread; // on average
+    uint paths_of_thread; // on average of a workgroup
 };
 GPU_KERNEL_BEGIN(path, trace, Trace, PathTraceParams)
     TRAVERSE_CONSTANTS
