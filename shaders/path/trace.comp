@@ -97,6 +97,10 @@ Path beginPath(uint number)
 // Traces a ray, or resumes it. An invalid one is replaced by one that ends before it starts.
 Traversal traceRay(Ray ray, uvec3 from)
 {
+    // No ray needs what another one has saved: the registers are free in between.
+    if (kStack == kStackRegisters)
+        [[unroll]] for (uint k = 0u; k < kSavedMax; ++k)
+            g_saved[k] = 0u;
     bool valid = isTraceable(ray) && uint64_t(g_halves) != 0ul;
     return traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0), valid ? ray.t_min : 1.0,
                     valid ? ray.t_max : 0.0, vec2(0.0), from, kIterationsMax);
