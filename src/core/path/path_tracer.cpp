@@ -40,7 +40,7 @@ RayListLength lengthOf(const vk::BufferOf<gpu::DispatchArgs>& lists, std::uint32
 }
 
 // The paths that a thread of path/trace follows, on average. On CPUs one: threads run one after the other there, the
-// first of a workgroup would take all; and loops end early there (lib/traverse.glsl).
+// first of a workgroup would take all; and loops end early there (shared/trace.h).
 std::uint32_t pathsOfThread(std::string_view device_type, std::uint64_t pixel_count)
 {
     return device_type == "cpu" ? 1 : static_cast<std::uint32_t>(divideUp(pixel_count, kDispatchThreads));
