@@ -62,14 +62,15 @@ struct Rays
     }
 };
 
-/// What the rays of a sample cost on the device, and the same rays by Embree, one by one.
+/// What a sample costs on the device in both forms, and its rays in stages, and by Embree, one by one.
 struct SpeedRow
 {
     std::string scene;
     std::uint32_t resolution = 0;
     std::uint64_t voxels = 0;
-    Spread sample_ms;
-    Rays all; // in the time of whole samples
+    Spread sample_ms;     // in stages
+    Spread one_kernel_ms; // of a sample, too
+    Rays all;             // in the time of whole samples, in stages
     Rays primary;
     Rays bounces;
     Rays shadows;
@@ -96,6 +97,7 @@ const Columns<SpeedRow>& speedColumns()
         {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.resolution); }},
         {"voxels", 9, [](const Row& row) { return fmt::format("{}", row.voxels); }},
         {"sample ms", 21, [](const Row& row) { return spreadText(row.sample_ms); }},
+        {"in one kernel", 21, [](const Row& row) { return spreadText(row.one_kernel_ms); }},
         {"Mrays/s in all", 14, [](const Row& row) { return fmt::format("{:.2f}", row.all.mraysPerSecond()); }},
         {"primary ns", 10, [](const Row& row) { return fmt::format("{:.0f}", row.primary.nsEach()); }},
         {"bounce ns", 12, [ratio](const Row& row) { return ratio(row.bounces, row.primary); }},
@@ -152,20 +154,27 @@ public:
         sky.setSun(daylight());
         const TraceCamera camera = traceCamera(m_view, m_grid, kPathHeight);
         PathTracer tracer(m_device.device());
-        tracer.resize(kPathWidth, kPathHeight);
+        PathTracer in_one_kernel(m_device.device());
+        tracer.resize(kPathWidth, kPathHeight, PathForm::Stages);
+        in_one_kernel.resize(kPathWidth, kPathHeight, PathForm::OneKernel);
         const PathOptions options;
+        const auto sampleBy = [&](PathTracer& form)
+        { return m_device.run([&](vk::FrameGraph& graph) { form.addSample(graph, m_tree, sky, camera, options); }); };
         std::vector<double> sample_ms;
+        std::vector<double> one_kernel_ms;
         for (std::uint32_t run = 0; run <= m_options.run_count; ++run)
         {
-            const std::vector<vk::PassTime> passes =
-                m_device.run([&](vk::FrameGraph& graph) { tracer.addSample(graph, m_tree, sky, camera, options); });
+            const std::vector<vk::PassTime> passes = sampleBy(tracer);
+            const std::vector<vk::PassTime> one_kernel_passes = sampleBy(in_one_kernel);
             if (run != 0) // the first one makes kernels, tables and lights
             {
                 sample_ms.push_back(sumMs(passes));
+                one_kernel_ms.push_back(sumMs(one_kernel_passes));
                 addRays(row, passes, m_device.download(tracer.lists()), options.bounces);
             }
         }
         row.sample_ms = Spread::of(sample_ms);
+        row.one_kernel_ms = Spread::of(one_kernel_ms);
         row.all = row.primary;
         row.all.add(row.bounces);
         row.all.add(row.shadows);
@@ -318,8 +327,9 @@ std::string pathTableHead(const vk::DeviceReport& device, const BenchOptions& op
 {
     return fmt::format(
         "zvo {} on {} ({}, {}). A sample is a path of {} bounces for each of {} x {} pixels; GPU milliseconds, medians "
-        "of {} runs. A ray's time is that of trace/rays alone, without beam; beside it, the ratio to primary rays. "
-        "Embree traces the same rays of bounces through the same voxels, one by one, on all processors.\n",
+        "of {} runs, in stages and in one kernel. A ray's time is that of trace/rays alone, without beam; beside it, "
+        "the ratio to primary rays. Embree traces the same rays of bounces through the same voxels, one by one, on all "
+        "processors.\n",
         ZVO_VERSION_TEXT, device.name, device.type, device.driver, PathOptions().bounces, kPathWidth, kPathHeight,
         options.run_count);
 }
@@ -342,6 +352,7 @@ Json pathReportJson(const vk::DeviceReport& device, const BenchOptions& options,
                                 {"resolution", row.resolution},
                                 {"voxels", row.voxels},
                                 {"sample_ms", spreadJson(row.sample_ms)},
+                                {"one_kernel_ms", spreadJson(row.one_kernel_ms)},
                                 {"all", raysJson(row.all)},
                                 {"primary", raysJson(row.primary)},
                                 {"bounces", raysJson(row.bounces)},

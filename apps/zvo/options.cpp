@@ -128,6 +128,14 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
                     "smooth the noise of few paths, but not edges; in sequences with the help of earlier pictures");
     render.add_flag("--aov", paths.aovs,
                     "write albedo, normal, depth and motion as channels of the picture, which must be an .exr");
+    addValue(
+        render, "--path-form", paths.form,
+        [](std::string_view option, std::string_view text) {
+            return oneOf(option, text, {"stages", "kernel"}) == "kernel" ? PathForm::OneKernel : PathForm::Stages;
+        },
+        "stages|kernel",
+        "paths advance together, or one kernel follows each to its end; the picture is the same (default: as is faster "
+        "on the device)");
     addValue(render, "--time-limit", paths.time_limit, parseSeconds, "SECONDS",
              "begin no more paths after this time; the picture shows those that were traced");
 }

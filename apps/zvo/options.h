@@ -25,6 +25,7 @@ namespace zvo::cli
 struct PathRenderOptions
 {
     PathOptions path;
+    std::optional<PathForm> form;                     // not given: by the device
     std::uint32_t samples = 64;                       // a pixel
     std::optional<double> time_limit;                 // seconds, after which no sample begins
     std::optional<std::filesystem::path> environment; // a map, or "none": no light; not given: the simple sky

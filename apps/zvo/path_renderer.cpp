@@ -77,7 +77,7 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
     const PathRenderOptions& paths = m_options.paths;
     const TraceCamera camera = traceCamera(view, tree.grid, m_options.height);
     m_camera_before = std::exchange(m_camera, camera);
-    m_tracer.resize(m_options.width, m_options.height);
+    m_tracer.resize(m_options.width, m_options.height, paths.form);
     m_tracer.forget();
     PathOptions path = paths.path;
     path.features = paths.denoise || paths.aovs;

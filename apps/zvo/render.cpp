@@ -265,6 +265,7 @@ void checkPathOptions(const RenderOptions& options)
         {"--environment-strength", paths.environment_strength != plain.environment_strength},
         {"--denoise", paths.denoise},
         {"--aov", paths.aovs},
+        {"--path-form", paths.form.has_value()},
         {"--time-limit", paths.time_limit.has_value()},
     };
     const std::pair<const char*, bool> of_primary[] = {

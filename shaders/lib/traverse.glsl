@@ -98,7 +98,7 @@ void saveNode(uint shift, uint node)
 {
     uint level = (kRootShift - shift) >> 1;
     if (kStack == kStackRegisters)
-        [[unroll]] for (uint k = 1u; k + 1u < TRAVERSE_LEVELS; ++k)
+        [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
             g_saved[k] = shift == kRootShift - 2u * k ? node : g_saved[k];
     else if (kStack == kStackPrivate)
         g_saved[level] = node;
@@ -114,7 +114,7 @@ uint savedNode(uint shift)
     uint level = min((kRootShift - shift) >> 1, kSavedMax - 1u);
     uint node = 0u;
     if (kStack == kStackRegisters)
-        [[unroll]] for (uint k = 1u; k + 1u < TRAVERSE_LEVELS; ++k)
+        [[unroll]] for (uint k = 1u; k < TRAVERSE_LEVELS - 1u; ++k)
             node = shift == kRootShift - 2u * k ? g_saved[k] : node;
     else if (kStack == kStackPrivate)
         node = g_saved[level];

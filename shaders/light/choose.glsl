@@ -57,7 +57,7 @@ ChosenLight chooseLight(LitPlace place, vec2 u)
         float chosen_weight = 0.0;
         for (uint i = 0u; i < count; ++i)
         {
-            float weight = lightImportance(place, first + i);
+            float weight = lightImportance(place, first + i, kByPower);
             bool chosen = isChosen(weight, total, u.x);
             node = chosen ? first + i : node;
             chosen_weight = chosen ? weight : chosen_weight;
@@ -67,7 +67,7 @@ ChosenLight chooseLight(LitPlace place, vec2 u)
     }
     vec3 up;
     vec3 down;
-    weighFaces(place, node, up, down);
+    weighFaces(place, node, kByPower, up, down);
     float total = 0.0;
     float chosen_weight = 0.0;
     [[unroll]] for (uint face = 0u; face < kLightFaces; ++face)
@@ -106,7 +106,7 @@ float lightProbability(LitPlace place, uvec3 voxel, uint face)
         float wanted_weight = 0.0;
         for (uint i = 0u; i < count; ++i)
         {
-            float weight = lightImportance(place, first + i);
+            float weight = lightImportance(place, first + i, kByPower);
             total += weight;
             wanted_weight = i == wanted ? weight : wanted_weight;
         }
@@ -115,7 +115,7 @@ float lightProbability(LitPlace place, uvec3 voxel, uint face)
     }
     vec3 up;
     vec3 down;
-    weighFaces(place, node, up, down);
+    weighFaces(place, node, kByPower, up, down);
     float total = 0.0;
     float wanted_weight = 0.0;
     [[unroll]] for (uint i = 0u; i < kLightFaces; ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How much a place may receive of the lights of a node of the light tree (light_tree.h). The includer includes
-// light/light_tree.h before, declares kNodeLevels and kByPower, and defines
+// light/light_tree.h before, declares kNodeLevels, and defines
 //   LIGHT_NODES    a LightNode_ConstPtr
 #include "light/bounds.glsl"
 
@@ -14,8 +14,8 @@ struct LitPlace
 // How much a place may receive of the faces of a node in each direction, up to a common factor. With d the distance to
 // the middle of the node's box and r half its diagonal, cosines at the light and at the place are bounded by those to
 // the box's corners as seen from d, and 1 / distance^2 by 1 / max(d, r)^2. A bound is 0 only if none of the faces can be
-// seen: where the place is behind the planes of all, or the box is behind the place's.
-void weighFaces(LitPlace place, uint node, out vec3 up, out vec3 down)
+// seen: where the place is behind the planes of all, or the box is behind the place's. by_power: whatever the place.
+void weighFaces(LitPlace place, uint node, bool by_power, out vec3 up, out vec3 down)
 {
     // Three loads: lavapipe pays for each, not for its bytes.
     uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(LIGHT_NODES) + uint64_t(node) * kLightNodeBytes);
@@ -24,7 +24,7 @@ void weighFaces(LitPlace place, uint node, out vec3 up, out vec3 down)
     vec3 high = 1.0 + edge * vec3(unpackLightCell(unpackUint2x32(words.data[1])) + 1u);
     uvec2 power = unpackUint2x32(words.data[2]);
 
-    if (kByPower)
+    if (by_power)
     {
         up = uintBitsToFloat(power.x) * unpackLightParts(power.y, 0u);
         down = uintBitsToFloat(power.x) * unpackLightParts(power.y, 3u);
@@ -43,10 +43,10 @@ void weighFaces(LitPlace place, uint node, out vec3 up, out vec3 down)
 }
 
 // How much a place may receive of the lights below a node.
-float lightImportance(LitPlace place, uint node)
+float lightImportance(LitPlace place, uint node, bool by_power)
 {
     vec3 up;
     vec3 down;
-    weighFaces(place, node, up, down);
+    weighFaces(place, node, by_power, up, down);
     return dot(up + down, vec3(1.0));
 }

@@ -5,6 +5,7 @@
 #include "path/path.h"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
+#include "path/reach.glsl"
 
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -21,7 +22,6 @@ void main()
         return;
     ShadowState state = params.shadow_states.data[i];
     Hit hit = loadHit(params.hits, i);
-    bool reaches = state.target == uvec2(kNoTarget) ? isMiss(hit) : !isMiss(hit) && hit.where == state.target;
-    if (reaches)
+    if (reachesLight(hit, state.target))
         params.radiance.data[state.slot] += state.light;
 }

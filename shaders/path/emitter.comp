@@ -26,21 +26,7 @@ layout(push_constant, scalar) uniform Push
 #include "path/lists.glsl"
 #include "path/state.glsl"
 #include "path/weights.glsl"
-
-// Light that the hit voxel gives off. origin: of the ray.
-vec3 lightOfHit(PathState state, Hit hit, vec3 origin, vec3 direction)
-{
-    float density = 0.0;
-    if (kSampling == kSampleBoth && hitFace(hit) != kFaceInside)
-    {
-        uint normal = normalOfHit(hitFace(hit), direction);
-        LitPlace from = LitPlace(origin, normalAxis(state.normal));
-        float cosine = abs(dot(normalAxis(normal), direction));
-        float area_density = lightProbability(from, hitCell(hit), normal) * exp2(4.0 * float(kNodeLevels));
-        density = state.kinds.z * area_density * hit.t * hit.t / max(cosine, 1e-20);
-    }
-    return emissionOf(hit.index) * chanceWeight(state, density);
-}
+#include "path/emitter.glsl"
 
 void main()
 {
@@ -49,8 +35,5 @@ void main()
         return;
     uint path = params.numbers.data[kListEmitters * params.batch + i];
     PathState state = loadState(params.states, path);
-    Ray ray = loadRay(params.rays, path);
-    vec3 direction = normalize(1.0 / ray.inverse_direction);
-    vec3 light = lightOfHit(state, loadHit(params.hits, path), ray.origin, direction);
-    params.radiance.data[state.slot] += state.throughput * light;
+    params.radiance.data[state.slot] += lightOfHit(state, loadRay(params.rays, path), loadHit(params.hits, path));
 }

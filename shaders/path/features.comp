@@ -22,24 +22,15 @@ layout(push_constant, scalar) uniform Push
 };
 
 #include "trace/surface.glsl"
+#include "path/feature_sum.glsl"
 
 void main()
 {
     uint slot = threadIndex();
     if (slot >= params.pixel_count)
         return;
-    Hit hit = loadHit(params.hits, slot);
-    Ray ray = loadRay(params.rays, slot);
     vec3 direct = params.radiance.data[slot];
-    PixelFeatures sum = loadFeatures(PixelFeatures_ConstPtr(uint64_t(params.features)), params.first_pixel + slot);
-    sum.direct += direct;
     params.direct.data[slot] = luminance(direct);
-    if (!isMiss(hit) && hitFace(hit) != kFaceInside)
-    {
-        sum.albedo += surfaceAt(hit, ray.inverse_direction, params.attributes, params.attributes).albedo;
-        sum.normal += faceNormal(hitFace(hit), ray.inverse_direction);
-        sum.depth += dot(ray.origin + hit.t / ray.inverse_direction - params.origin, params.forward);
-        sum.hits += 1.0;
-    }
-    storeFeatures(params.features, params.first_pixel + slot, sum);
+    addFeatures(params.first_pixel + slot, loadRay(params.rays, slot), loadHit(params.hits, slot), direct,
+                params.origin, params.forward);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Loads and stores of features as 64-bit words, as those of rays. The includer includes path/path.h before.
+// Loads, stores and sums of features; they move as 64-bit words, as rays do. The includer includes path/path.h before.
 
 PixelFeatures loadFeatures(PixelFeatures_ConstPtr features, uint i)
 {

@@ -5,6 +5,7 @@
 #include "path/path.h"
 #include "lib/dispatch.glsl"
 #include "lib/luminance.glsl"
+#include "path/sum.glsl"
 
 layout(constant_id = 0) const bool kFeatures = false;
 
@@ -19,14 +20,9 @@ void main()
     uint slot = threadIndex();
     if (slot >= params.pixel_count)
         return;
+    uint pixel = params.first_pixel + slot;
     vec3 radiance = params.radiance.data[slot];
-    float light = luminance(radiance);
+    addSample(params.sums, pixel, radiance);
     if (kFeatures)
-    {
-        float scattered = light - params.direct.data[slot];
-        params.features.data[params.first_pixel + slot].scattered_squared += scattered * scattered;
-    }
-    PixelSum sum = params.sums.data[params.first_pixel + slot];
-    params.sums.data[params.first_pixel + slot] =
-        PixelSum(sum.radiance + radiance, sum.luminance_squared + light * light);
+        addScattered(params.features, pixel, radiance, params.direct.data[slot]);
 }

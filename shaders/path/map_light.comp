@@ -21,6 +21,8 @@ layout(push_constant, scalar) uniform Push
 #include "path/lists.glsl"
 #include "path/state.glsl"
 #include "path/weights.glsl"
+#include "path/chosen.glsl"
+#include "path/map_light.glsl"
 #include "path/shadow.glsl"
 
 void main()
@@ -31,23 +33,5 @@ void main()
     uint path = params.numbers.data[kListMapLights * params.batch + min(i, length - 1u)];
     PathState state = loadState(params.states, path);
     vec3 origin = loadRay(params.rays, path).origin;
-    vec3 normal = normalAxis(state.normal);
-    uint pair = params.bounce * kPathPairs;
-    vec2 point = samplePair(params.sample_index, state.seed, pair + kPairPoint);
-    ChosenDirection chosen;
-    chosen.target = uvec2(kNoTarget);
-    if (samplePair(params.sample_index, state.seed, pair + kPairOther).x < state.kinds.x)
-    {
-        uvec2 choice = sampleBits(params.sample_index, state.seed, pair + kPairChoice);
-        chosen.direction = chooseMapDirection(params.environment, state.normal, choice, point, chosen.density);
-        chosen.density *= state.kinds.x;
-        chosen.light = mapRadiance(params.environment, chosen.direction);
-    }
-    else
-    {
-        chosen.direction = chooseSunDirection(params.environment, point);
-        chosen.density = state.kinds.y * sunDensity(params.environment);
-        chosen.light = params.environment.data[0].sun;
-    }
-    appendShadow(exists, origin, state, normal, chosen);
+    appendShadow(exists, origin, state, chooseMapLight(state, params.bounce));
 }

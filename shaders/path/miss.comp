@@ -17,18 +17,7 @@ layout(push_constant, scalar) uniform Push
 #include "path/lists.glsl"
 #include "path/state.glsl"
 #include "path/weights.glsl"
-
-// Light from outside of the grid.
-vec3 lightOfMiss(PathState state, vec3 direction)
-{
-    float map_density = 0.0;
-    if (kSampling == kSampleBoth)
-        map_density = state.kinds.x * mapDensity(params.environment, state.normal, direction);
-    vec3 light = mapRadiance(params.environment, direction) * chanceWeight(state, map_density);
-    if (meetsSun(params.environment, direction))
-        light += params.environment.data[0].sun * chanceWeight(state, state.kinds.y * sunDensity(params.environment));
-    return light;
-}
+#include "path/miss.glsl"
 
 void main()
 {
@@ -37,7 +26,5 @@ void main()
         return;
     uint path = params.numbers.data[kListMisses * params.batch + i];
     PathState state = loadState(params.states, path);
-    Ray ray = loadRay(params.rays, path);
-    vec3 direction = normalize(1.0 / ray.inverse_direction);
-    params.radiance.data[state.slot] += state.throughput * lightOfMiss(state, direction);
+    params.radiance.data[state.slot] += lightOfMiss(state, loadRay(params.rays, path));
 }

@@ -8,9 +8,12 @@
 // both ways find is weighted by the balance heuristic (E. Veach, L. Guibas, Optimally Combining Sampling Techniques,
 // 1995).
 //
-// Paths of a batch of pixels advance together, a bounce at a time. Those that go on stand in a list, and so do the
-// shadow rays; lists are as long as the device says. Which path stands where in a list may differ from run to run, but
-// each adds to its own pixel alone.
+// Paths are traced in one of two forms. What happens to a path stands in functions that both include (path/*.glsl), and
+// its light is summed up in the same order, so both make the same picture, bit for bit.
+//
+// In stages, for devices that skip no branch: paths of a batch of pixels advance together, a bounce at a time. Those
+// that go on stand in a list, and so do the shadow rays; lists are as long as the device says. Which path stands where
+// in a list may differ from run to run, but each adds to its own pixel alone.
 //
 //   path/begin     a ray from the camera for each pixel
 //     trace/rays     what the rays hit                                       these and the following for each bounce
@@ -22,6 +25,9 @@
 //   path/finish    adds the sample to the pixels' sums
 //
 // So each kernel runs for those paths alone that need it, and what it loads is loaded for those alone.
+//
+// In one kernel, path/trace, for GPUs: a thread follows a path from the camera to its end, then another one. Nothing is
+// stored between bounces.
 //
 // Pixels are numbered in strips of kStripRows rows, column by column within a strip.
 #ifndef ZVO_SHADERS_PATH_PATH_H
@@ -35,7 +41,7 @@ GPU_ENUM(LightSampling, std::uint32_t) // kSampleBoth and so on
 
 GPU_NAMESPACE_BEGIN
 
-const uint kPathGroup = 64u; // threads of a workgroup; each takes one path
+const uint kPathGroup = 64u; // threads of a workgroup; in stages, each takes one path
 const uint kStripRows = 8u;
 
 // How light is found: a specialization constant of path/shade.
@@ -78,21 +84,28 @@ const uint kListCount = 6u;
 const uint kListLengths = 6u;  // element where the lengths begin
 const uint kListElements = 8u; // of a bounce
 
+/// What the camera sees: a picture with a lens.
+struct PathView
+{
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint seed;
+    float lens_radius; // unit space
+    float focus;       // distance of the plane in focus along forward, unit space
+};
+GPU_BUFFER(PathView, 4);
+
 struct PathBeginParams // push constants of path/begin: a thread a pixel
 {
     GPU_PTR(Ray) rays;
     GPU_PTR(PathState) states;
     GPU_PTR(vec3) radiance; // [batch]
     GPU_PTR(DispatchArgs) lists;
-    CameraRays camera;
-    uint width;
-    uint height;
+    PathView view;
     uint first_pixel;
     uint pixel_count;
     uint sample_index;
-    uint seed;
-    float lens_radius; // unit space
-    float focus;       // distance of the plane in focus along forward, unit space
 };
 GPU_KERNEL_BEGIN(path, begin, Begin, PathBeginParams)
     GPU_CONSTANT(bool, orthographic, false)
@@ -218,6 +231,39 @@ struct PathFinishParams // push constants of path/finish: a thread a pixel
     uint pixel_count;
 };
 GPU_KERNEL_BEGIN(path, finish, Finish, PathFinishParams)
+    GPU_CONSTANT(bool, features, false)
+GPU_KERNEL_END
+
+struct PathTraceParams // push constants of path/trace: a workgroup takes kPathGroup * paths_of_thread pixels
+{
+    GPU_CONST_PTR(TreeTable) tree;
+    GPU_CONST_PTR(Node) nodes;
+    GPU_CONST_PTR(Attribute) attributes;    // of voxels, in the format of kFormat
+    GPU_CONST_PTR(uvec2) emission_words;    // kEmission only
+    GPU_CONST_PTR(LightNode) light_nodes;   // likewise
+    GPU_CONST_PTR(LightBrick) light_bricks; // likewise
+    GPU_CONST_PTR(Environment) environment;
+    GPU_CONST_PTR(vec2) gives; // [kNormals] as Environment::gives
+    GPU_CONST_PTR(PathView) view;
+    GPU_PTR(PixelSum) sums;
+    GPU_PTR(PixelFeatures) features; // kFeatures only
+    GPU_PTR(DispatchArgs) lists;     // [kListElements] whose lengths count the rays of paths and those to lights
+    GPU_PTR(TraceStatus) status;
+    uint first_pixel; // numbers in the order of strips
+    uint end_pixel;
+    uint sample_index;
+    uint bounces;
+    uint paths_of_thread; // on average of a workgroup
+};
+GPU_KERNEL_BEGIN(path, trace, Trace, PathTraceParams)
+    TRAVERSE_CONSTANTS
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, emission, false)
+    GPU_CONSTANT(LightSampling, sampling, kSampleBoth)
+    GPU_CONSTANT(bool, by_power, false)
+    GPU_CONSTANT(bool, roulette, false)
+    GPU_CONSTANT(bool, overlays, false)
     GPU_CONSTANT(bool, features, false)
 GPU_KERNEL_END
 

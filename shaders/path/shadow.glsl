@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Shadow rays to lights. The includer includes path/path.h, lib/ray.glsl, path/lists.glsl, path/state.glsl and
-// path/weights.glsl before
-// and declares params.
-
-// A light that was chosen for a place on a face.
-struct ChosenDirection
-{
-    vec3 direction; // length 1
-    float density;  // by solid angle, of choosing it; 0: no light can come from there
-    vec3 light;     // radiance from there, if nothing is in the way
-    uvec2 target;   // as in ShadowState
-};
+// Lists of shadow rays. The includer includes path/path.h, lib/ray.glsl, path/lists.glsl, path/state.glsl and
+// path/chosen.glsl before and declares params.
 
 // Lists a shadow ray, unless it cannot bring light. Threads without a path take part, too.
-void appendShadow(bool exists, vec3 origin, PathState state, vec3 normal, ChosenDirection chosen)
+void appendShadow(bool exists, vec3 origin, PathState state, ChosenDirection chosen)
 {
-    const float pi = 3.14159265358979;
-    float cosine = dot(normal, chosen.direction);
-    vec3 light = vec3(0.0);
-    if (exists && chosen.density > 0.0 && cosine > 0.0)
-        light = state.throughput * chosen.light *
-                (cosine / (pi * chosen.density) * balance(chosen.density, cosine / pi));
-    bool brings_light = max(light.r, max(light.g, light.b)) > 0.0;
+    vec3 light = lightOfChoice(state, chosen);
+    bool brings_light = exists && isLit(light);
     uint shadow = appendTo(params.bounce, kListShadows, brings_light);
     if (!brings_light)
         return;

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Loads and stores of paths as 64-bit words, as those of rays. The includer includes path/path.h before.
+// States of paths, and their loads and stores as 64-bit words, as those of rays. The includer includes path/path.h
+// before.
 #include "lib/ray_words.glsl"
+
+// The state of a path that begins.
+PathState stateOfCamera(uint slot, uint seed)
+{
+    return PathState(vec3(1.0), slot, seed, 0u, 0.0, vec3(0.0));
+}
 
 PathState loadState(PathState_ConstPtr states, uint i)
 {

@@ -29,14 +29,9 @@ layout(push_constant, scalar) uniform Push
 #include "path/lists.glsl"
 #include "path/state.glsl"
 #include "path/weights.glsl"
+#include "path/chosen.glsl"
+#include "path/voxel_light.glsl"
 #include "path/shadow.glsl"
-
-// A point of a face of a voxel with this edge, by two numbers in [0, 1).
-vec3 pointOfFace(uvec3 cell, uint normal, float edge, vec2 u)
-{
-    vec3 across = normal % 3u == 0u ? vec3(0.0, u) : normal % 3u == 1u ? vec3(u.x, 0.0, u.y) : vec3(u, 0.0);
-    return 1.0 + edge * (vec3(cell) + max(normalAxis(normal), 0.0) + across);
-}
 
 void main()
 {
@@ -46,24 +41,5 @@ void main()
     uint path = params.numbers.data[kListVoxelLights * params.batch + min(i, length - 1u)];
     PathState state = loadState(params.states, path);
     vec3 origin = loadRay(params.rays, path).origin;
-    vec3 normal = normalAxis(state.normal);
-    uint pair = params.bounce * kPathPairs;
-    vec2 point = samplePair(params.sample_index, state.seed, pair + kPairPoint);
-    ChosenLight light = chooseLight(LitPlace(origin, normal),
-                                    samplePair(params.sample_index, state.seed, pair + kPairChoice));
-    float edge = exp2(-2.0 * float(kNodeLevels));
-    vec3 way = pointOfFace(light.cell, light.face, edge, point) - origin;
-    float square = max(dot(way, way), 1e-30);
-    ChosenDirection chosen;
-    chosen.direction = way / sqrt(square);
-    chosen.target = unpackUint2x32(packHitCell(light.cell, kNodeLevels, light.face % 3u));
-    float cosine = -dot(normalAxis(light.face), chosen.direction);
-    chosen.density = 0.0;
-    chosen.light = vec3(0.0);
-    if (cosine > 0.0 && light.probability > 0.0)
-    {
-        chosen.density = state.kinds.z * light.probability / (edge * edge) * square / cosine;
-        chosen.light = emissionOf(light.voxel);
-    }
-    appendShadow(exists, origin, state, normal, chosen);
+    appendShadow(exists, origin, state, chooseVoxelLight(state, origin, params.bounce));
 }

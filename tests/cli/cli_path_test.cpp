@@ -68,6 +68,8 @@ TEST_F(CliPath, EachOptionChangesThePicture)
         EXPECT_NE(picture(more), plain) << more.front();
     }
     EXPECT_EQ(picture({"--structure", "svdag"}), plain);
+    EXPECT_EQ(picture({"--path-form", "stages"}), plain);
+    EXPECT_EQ(picture({"--path-form", "kernel"}), plain);
     EXPECT_EQ(picture({"--environment", "sky.exr"}), picture({"--environment", "sky.hdr"}));
     EXPECT_EQ(picture({"--environment", "sky.exr"}), picture({"--environment", "sky.exr", "--environment-turn", "360"}))
         << "of a map that is the same all around";
@@ -182,6 +184,8 @@ TEST_F(CliPath, BenchTellsOfRaysAndVariances)
     EXPECT_EQ(row["primary"]["count"], 640 * 360);
     EXPECT_LT(row["bounces"]["count"], row["primary"]["count"]) << "a cube sends no ray back to itself";
     EXPECT_GT(row["shadows"]["count"], 1000);
+    EXPECT_GT(row["sample_ms"]["median"], 0.0);
+    EXPECT_GT(row["one_kernel_ms"]["median"], 0.0);
     ASSERT_EQ(report["variances"].size(), 1U) << "nothing gives off light";
     EXPECT_EQ(report["variances"][0]["light"], "sky");
     expectErrorLine(runZvo(m_dir.path(), {"bench", "cube.glb", "--environment", "sky.exr"}), 2, {"--environment"});
@@ -191,6 +195,8 @@ TEST_F(CliPath, ErrorsNameTheOption)
 {
     expectErrorLine(render({"--spp", "3", "-o", "x.png"}), 2, {"--spp", "--integrator path"});
     expectErrorLine(render({"--environment", "sky.exr", "-o", "x.png"}), 2, {"--environment", "--integrator path"});
+    expectErrorLine(render({"--path-form", "stages", "-o", "x.png"}), 2, {"--path-form", "--integrator path"});
+    expectErrorLine(render({"--integrator", "path", "--path-form", "waves", "-o", "x.png"}), 2, {"--path-form"});
     expectErrorLine(render({"--integrator", "path", "--view", "normal", "-o", "x.png"}), 2, {"--view"});
     expectErrorLine(render({"--denoise", "-o", "x.png"}), 2, {"--denoise", "--integrator path"});
     expectErrorLine(render({"--integrator", "path", "--aov", "-o", "x.png"}), 2, {"--aov", "x.png"});

@@ -102,22 +102,25 @@ TEST_P(OctreeBytes, DoNotDependOnThreadsAndSubgroups)
     EXPECT_EQ(subgroup_sizes.size(), vector_bits.size());
 }
 
-// With light of voxels, sky and sun, in a scene that is open to one side. The channels of --aov are in the file, and
-// the picture is denoised.
-TEST(PathBytes, DoNotDependOnThreadsAndSubgroups)
+// With light of voxels, sky and sun, in a scene that is open to one side, and in both forms. The channels of --aov are
+// in the file, and the picture is denoised.
+TEST(PathBytes, DoNotDependOnThreadsSubgroupsAndForm)
 {
     const TempDir dir;
     std::set<std::string> pictures;
     for (const Machine& machine : machines())
     {
-        const Outcome outcome =
-            runZvo(dir.path(),
-                   {"render", ownScene("cornell_box.glb").string(), "-o", "x.exr", "-f", "--resolution", "64", "--size",
-                    "51x40", "--integrator", "path", "--spp", "3", "--denoise", "--aov"},
-                   {"LP_NUM_THREADS=" + std::to_string(machine.threads),
-                    "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
-        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-        pictures.insert(contentOf(dir.path() / "x.exr"));
+        for (const char* form : {"stages", "kernel"})
+        {
+            const Outcome outcome = runZvo(dir.path(),
+                                           {"render", ownScene("cornell_box.glb").string(), "-o", "x.exr", "-f",
+                                            "--resolution", "64", "--size", "51x40", "--integrator", "path", "--spp",
+                                            "3", "--path-form", form, "--denoise", "--aov"},
+                                           {"LP_NUM_THREADS=" + std::to_string(machine.threads),
+                                            "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            pictures.insert(contentOf(dir.path() / "x.exr"));
+        }
     }
     EXPECT_EQ(pictures.size(), 1U);
 }

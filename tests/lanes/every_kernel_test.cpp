@@ -147,32 +147,35 @@ Names tracePictures(const DeviceTree& tree)
     return names;
 }
 
-// Traces paths through a tree with emissive voxels, for two pictures that are denoised.
+// Traces paths through a tree with emissive voxels, in both forms, for two pictures that are denoised.
 Names tracePaths(const DeviceTree& tree)
 {
     DeviceEnvironment sky(device().device());
     PathTracer tracer(device().device());
     Denoiser denoiser(device().device());
     Developer developer(device().device());
-    tracer.resize(9, 10);
     denoiser.resize(9, 10);
     const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
     const TraceCamera camera = traceCamera(view, tree.grid, 10);
     vk::BufferOf<gpu::uint> picture(device().device(), "picture", 90);
     Names names;
-    for (const bool features : {false, true, true})
+    for (const PathForm form : {PathForm::Stages, PathForm::OneKernel})
     {
-        tracer.forget();
-        addNames(names, device().run(
-                            [&](vk::FrameGraph& graph)
-                            {
-                                tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = features});
-                                if (features)
+        tracer.resize(9, 10, form);
+        for (const bool features : {false, true, true})
+        {
+            tracer.forget();
+            addNames(names, device().run(
+                                [&](vk::FrameGraph& graph)
                                 {
-                                    denoiser.denoise(graph, tracer.guided(), 4);
-                                }
-                                developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
-                            }));
+                                    tracer.addSample(graph, tree, sky, camera, {.bounces = 1, .features = features});
+                                    if (features)
+                                    {
+                                        denoiser.denoise(graph, tracer.guided(), 4);
+                                    }
+                                    developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
+                                }));
+        }
     }
     return names;
 }

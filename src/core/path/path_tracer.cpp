@@ -2,6 +2,7 @@
 #include "core/path/path_tracer.h"
 
 #include "core/base/divide_up.h"
+#include "core/trace/trace_passes.h"
 #include "core/tree/tree_table.h"
 #include "vk/device.h"
 
@@ -17,6 +18,13 @@ namespace
 
 /// Pixels whose paths advance together: so many that a device is busy, so few that their buffers stay small.
 constexpr std::uint64_t kBatchMax = std::uint64_t{1} << 19;
+
+/// Rays of one dispatch of path/trace, and pixels below which it is not split: so few that no driver takes it for hung.
+constexpr std::uint64_t kDispatchRaysMax = std::uint64_t{1} << 24;
+constexpr std::uint64_t kDispatchPixelsMin = std::uint64_t{1} << 17;
+
+/// Threads of a dispatch of path/trace on a GPU, if it has so many pixels: enough for the largest ones.
+constexpr std::uint64_t kDispatchThreads = std::uint64_t{1} << 16;
 
 // The element of PathTracer::Pixels::lists with the workgroups for a list.
 std::uint64_t argsOf(std::uint32_t bounce, std::uint32_t list)
@@ -37,14 +45,47 @@ std::uint64_t batchElements(const PathOptions& options)
     return std::uint64_t{std::min(options.bounces, kBouncesMax) + 2} * gpu::kListElements;
 }
 
-// The attributes of voxels, in the format of the tree.
-gpu::ConstPtr<gpu::Attribute> readAttributes(vk::AnyPass& pass, const DeviceTree& tree)
+// The paths that a thread of path/trace follows, on average. On CPUs one: threads run one after the other there, the
+// first of a workgroup would take all; and loops end early there (shared/trace.h).
+std::uint32_t pathsOfThread(std::string_view device_type, std::uint64_t pixel_count)
+{
+    return device_type == "cpu" ? 1 : static_cast<std::uint32_t>(divideUp(pixel_count, kDispatchThreads));
+}
+
+gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOptions& options, std::uint32_t width,
+                     std::uint32_t height)
+{
+    const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
+    return {camera.rays, width, height, options.seed, options.lens_radius * unit, options.focus_distance * unit};
+}
+
+// Declares that pass reads the attributes of voxels, in whatever format they are, and returns where they are.
+gpu::ConstPtr<gpu::Attribute> readVoxelAttributes(vk::AnyPass& pass, const DeviceTree& tree)
 {
     return isPacked(tree.attributeFormat()) ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
                                             : pass.read(tree.voxel_attributes);
 }
 
+// Declares that pass reads the ranks of a DAG with attributes.
+void readRanks(vk::AnyPass& pass, const DeviceTree& tree)
+{
+    if (!tree.isDag() || !tree.hasAttributes() || tree.grid.nodeLevels() < 2)
+    {
+        return;
+    }
+    rankSource(pass, tree);
+    if (tree.hasOverlays())
+    {
+        pass.read(tree.overlays.ranks);
+    }
+}
+
 } // namespace
+
+PathForm pathFormOn(std::string_view device_type)
+{
+    return device_type == "cpu" ? PathForm::Stages : PathForm::OneKernel;
+}
 
 std::uint64_t rayCountOf(std::span<const gpu::DispatchArgs> lists)
 {
@@ -57,20 +98,25 @@ std::uint64_t rayCountOf(std::span<const gpu::DispatchArgs> lists)
     return count;
 }
 
-PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height)
-    : width(picture_width), height(picture_height),
-      lists(device, "path/lists", std::uint64_t{kBouncesMax + 2} * gpu::kListElements),
-      rounds(device, "path/rounds", gpu::kTraceRoundsMax), status(device, "path/status", 1),
+PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height,
+                           PathForm path_form)
+    : width(picture_width), height(picture_height), form(path_form), status(device, "path/status", 1),
       table(device, "path/tree", 1)
 {
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
-    const std::uint64_t batch = std::min(pixel_count, kBatchMax);
+    const std::uint64_t batch = form == PathForm::Stages ? std::min(pixel_count, kBatchMax) : 0;
     device.memory().require(pixel_count * sizeof(gpu::PixelSum) +
                                 batch * (3 * sizeof(gpu::Ray) + 2 * sizeof(gpu::PathState) + sizeof(gpu::Hit) +
                                          sizeof(gpu::ShadowState) + sizeof(gpu::vec3) +
                                          gpu::kListCount * sizeof(gpu::uint)),
                             "path tracing");
     sums = {device, "path/sums", pixel_count};
+    if (form == PathForm::OneKernel)
+    {
+        lists = {device, "path/lists", gpu::kListElements};
+        view = {device, "path/view", 1};
+        return;
+    }
     for (std::size_t i = 0; i < rays.size(); ++i)
     {
         rays.at(i) = {device, "path/rays", batch};
@@ -81,15 +127,19 @@ PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std:
     shadow_states = {device, "path/shadow_states", batch};
     radiance = {device, "path/radiance", batch};
     numbers = {device, "path/numbers", gpu::kListCount * batch};
+    rounds = {device, "path/rounds", gpu::kTraceRoundsMax};
+    lists = {device, "path/lists", std::uint64_t{kBouncesMax + 2} * gpu::kListElements};
 }
 
 void PathTracer::Pixels::addFeatures(vk::Device& device)
 {
-    const std::uint64_t batch = radiance.count();
+    const std::uint64_t batch = radiance.count(); // 0 in one kernel
     device.memory().require(sums.count() * sizeof(gpu::PixelFeatures) + batch * sizeof(float), "path tracing");
-    vk::BufferOf<float> new_direct(device, "path/direct", batch);
+    if (batch != 0)
+    {
+        direct = {device, "path/direct", batch};
+    }
     features = {device, "path/features", sums.count()};
-    direct = std::move(new_direct);
 }
 
 /// What a sample of a batch of pixels is traced with.
@@ -104,11 +154,12 @@ struct PathTracer::Batch
     std::uint32_t pixel_count;
 };
 
-void PathTracer::resize(std::uint32_t width, std::uint32_t height)
+void PathTracer::resize(std::uint32_t width, std::uint32_t height, std::optional<PathForm> asked)
 {
-    if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height)
+    const PathForm form = asked.value_or(pathFormOn(m_device.report().type));
+    if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height || m_pixels->form != form)
     {
-        vk::replace(m_deletion_queue, m_pixels, std::make_unique<Pixels>(m_device, width, height));
+        vk::replace(m_deletion_queue, m_pixels, std::make_unique<Pixels>(m_device, width, height, form));
         m_subject = {};
     }
 }
@@ -122,11 +173,12 @@ void PathTracer::forget()
 std::uint64_t PathTracer::Pixels::bytes() const
 {
     // Every member has a name here, or this does not compile: none is forgotten.
-    const auto& [own_width, own_height, sums_, rays_, states_, hits_, shadow_rays_, shadow_states_, radiance_,
-                 features_, direct_, lists_, numbers_, rounds_, status_, table_, is_clear] = *this;
-    return sums_.bytes() + rays_[0].bytes() + rays_[1].bytes() + states_[0].bytes() + states_[1].bytes() +
-           hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() + features_.bytes() +
-           direct_.bytes() + lists_.bytes() + numbers_.bytes() + rounds_.bytes() + status_.bytes() + table_.bytes();
+    const auto& [own_width, own_height, own_form, sums_, features_, rays_, states_, hits_, shadow_rays_, shadow_states_,
+                 radiance_, direct_, numbers_, rounds_, lists_, status_, table_, view_, is_clear] = *this;
+    return sums_.bytes() + features_.bytes() + rays_[0].bytes() + rays_[1].bytes() + states_[0].bytes() +
+           states_[1].bytes() + hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() +
+           direct_.bytes() + numbers_.bytes() + rounds_.bytes() + lists_.bytes() + status_.bytes() + table_.bytes() +
+           view_.bytes();
 }
 
 std::uint64_t PathTracer::bytes() const
@@ -158,6 +210,15 @@ void PathTracer::begin(vk::FrameGraph& graph, const DeviceTree& tree, const Devi
 
     ++m_subject_number;
     m_camera = camera;
+    m_view = viewOf(tree.grid, camera, options, m_pixels->width, m_pixels->height);
+    if (options.reseeds)
+    {
+        m_view.seed += static_cast<std::uint32_t>(m_subject_number - 1);
+    }
+    if (m_pixels->form == PathForm::OneKernel)
+    {
+        graph.update(m_pixels->view, 0, std::array{m_view});
+    }
     m_voxel_edge = 1.0F / static_cast<float>(tree.grid.rootResolution());
     Lighting lighting = {environment.version(), {tree.grid.origin, tree.grid.voxel_size}, options};
     lighting.options.seed = 0;
@@ -185,7 +246,8 @@ void PathTracer::makeLights(vk::FrameGraph& graph, const DeviceTree& tree)
 
 std::uint64_t PathTracer::listElements(const PathOptions& options) const
 {
-    return divideUp(m_pixels->sums.count(), kBatchMax) * batchElements(options);
+    return m_pixels->form == PathForm::OneKernel ? gpu::kListElements
+                                                 : divideUp(m_pixels->sums.count(), kBatchMax) * batchElements(options);
 }
 
 void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
@@ -208,44 +270,111 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Device
     {
         begin(graph, tree, environment, camera, options);
     }
-    const std::uint64_t pixel_count = m_pixels->sums.count();
-    for (std::uint64_t first = 0; first < pixel_count; first += kBatchMax)
+    if (m_pixels->form == PathForm::OneKernel)
     {
-        traceBatch(graph, {tree, environment, camera, options, lists, static_cast<std::uint32_t>(first),
-                           static_cast<std::uint32_t>(std::min(kBatchMax, pixel_count - first))});
+        graph.fill(m_pixels->lists, 0);
+    }
+    const std::uint64_t pixel_count = m_pixels->sums.count();
+    const std::uint64_t batch = batchPixels(options.bounces);
+    for (std::uint64_t first = 0; first < pixel_count; first += batch)
+    {
+        const Batch pixels = {tree,
+                              environment,
+                              camera,
+                              options,
+                              lists,
+                              static_cast<std::uint32_t>(first),
+                              static_cast<std::uint32_t>(std::min(batch, pixel_count - first))};
+        if (m_pixels->form == PathForm::OneKernel)
+        {
+            traceInOneKernel(graph, pixels);
+        }
+        else
+        {
+            traceInStages(graph, pixels);
+        }
+    }
+    if (m_pixels->form == PathForm::OneKernel && lists != nullptr)
+    {
+        graph.copy(m_pixels->lists, 0, *lists, 0, m_pixels->lists.bytes());
     }
     ++m_sample_count;
     m_subject = subject;
 }
 
-void PathTracer::traceBatch(vk::FrameGraph& graph, const Batch& batch)
+// The most pixels whose paths are traced together.
+std::uint64_t PathTracer::batchPixels(std::uint32_t bounces) const
+{
+    const std::uint64_t rays = 2 * std::uint64_t{std::min(bounces, kBouncesMax)} + 1; // of a path
+    return m_pixels->form == PathForm::Stages ? kBatchMax : std::max(kDispatchRaysMax / rays, kDispatchPixelsMin);
+}
+
+void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
 {
     Pixels& pixels = *m_pixels;
-    const Grid& grid = batch.tree.grid;
+    const DeviceTree& tree = batch.tree;
+    const PathOptions& options = batch.options;
+    const bool emits = hasEmission(tree);
+    TraceOptions trace;
+    trace.stack = options.stack;
+    const gpu::path::Trace kernel{.orthographic = batch.camera.orthographic,
+                                  .format = tree.attributeFormat(),
+                                  .emission = emits,
+                                  .sampling = options.sampling,
+                                  .by_power = options.lights_by_power,
+                                  .roulette = options.roulette,
+                                  .overlays = tree.hasOverlays(),
+                                  .features = options.features};
+    vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, trace));
+    gpu::PathTraceParams params{};
+    params.tree = pass.read(pixels.table);
+    params.nodes = pass.read(tree.nodes);
+    params.attributes = readVoxelAttributes(pass, tree);
+    if (emits)
+    {
+        params.emission_words = pass.read(tree.emission_words);
+        pass.read(tree.emission);
+        params.light_nodes = pass.read(m_lights->nodes);
+        params.light_bricks = pass.read(m_lights->bricks);
+    }
+    readRanks(pass, tree);
+    params.environment = batch.environment.read(pass);
+    params.gives = pass.read(batch.environment.gives());
+    params.view = pass.read(pixels.view);
+    params.sums = pass.readWrite(pixels.sums);
+    if (options.features)
+    {
+        params.features = pass.readWrite(pixels.features);
+    }
+    params.lists = pass.readWrite(pixels.lists);
+    params.status = pass.readWrite(pixels.status);
+    params.first_pixel = batch.first_pixel;
+    params.end_pixel = batch.first_pixel + batch.pixel_count;
+    params.sample_index = m_sample_count;
+    params.bounces = std::min(options.bounces, kBouncesMax);
+    params.paths_of_thread = options.paths_of_thread != 0 ? options.paths_of_thread
+                                                          : pathsOfThread(m_device.report().type, batch.pixel_count);
+    pass.dispatch(
+        divideUp(batch.pixel_count, std::uint64_t{gpu::kPathGroup} * params.paths_of_thread) * gpu::kPathGroup, params);
+}
+
+void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
+{
+    Pixels& pixels = *m_pixels;
     const std::uint32_t bounces = std::min(batch.options.bounces, kBouncesMax);
     const std::uint64_t list_bytes = batchElements(batch.options) * sizeof(gpu::DispatchArgs);
     graph.fill(pixels.lists, 0, 0, list_bytes / sizeof(gpu::uint));
     {
         vk::Pass pass = graph.addPass(gpu::path::Begin{.orthographic = batch.camera.orthographic});
-        const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
         gpu::PathBeginParams params{};
         params.rays = pass.write(pixels.rays[0]);
         params.states = pass.write(pixels.states[0]);
         params.radiance = pass.write(pixels.radiance);
         params.lists = pass.readWrite(pixels.lists);
-        params.camera = batch.camera.rays;
-        params.width = pixels.width;
-        params.height = pixels.height;
+        params.view = m_view;
         params.first_pixel = batch.first_pixel;
         params.pixel_count = batch.pixel_count;
         params.sample_index = m_sample_count;
-        params.seed = batch.options.seed;
-        if (batch.options.reseeds)
-        {
-            params.seed += static_cast<std::uint32_t>(m_subject_number - 1);
-        }
-        params.lens_radius = batch.options.lens_radius * unit;
-        params.focus = batch.options.focus_distance * unit;
         pass.dispatch(batch.pixel_count, params);
     }
     TraceOptions trace;
@@ -302,7 +431,7 @@ void PathTracer::addFeatures(vk::FrameGraph& graph, const Batch& batch)
     vk::Pass pass =
         graph.addPass(gpu::path::Features{.node_levels = tree.grid.nodeLevels(), .format = tree.attributeFormat()});
     gpu::PathFeaturesParams params{};
-    params.attributes = readAttributes(pass, tree);
+    params.attributes = readVoxelAttributes(pass, tree);
     params.rays = pass.read(pixels.rays[0]);
     params.hits = pass.read(pixels.hits);
     params.radiance = pass.read(pixels.radiance);
@@ -343,7 +472,7 @@ void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t 
                                                    .last = bounce == std::min(batch.options.bounces, kBouncesMax),
                                                    .roulette = batch.options.roulette});
     gpu::PathShadeParams params{};
-    params.attributes = readAttributes(pass, tree);
+    params.attributes = readVoxelAttributes(pass, tree);
     params.hits = pass.read(pixels.hits);
     params.gives = pass.read(batch.environment.gives());
     if (emits)

@@ -14,7 +14,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 
 namespace zvo
 {
@@ -26,6 +28,19 @@ enum class LightSampling : std::uint32_t
     Chance = gpu::kSampleChance, ///< only where rays happen to meet it
     Lights = gpu::kSampleLights, ///< only by shadow rays to chosen lights
 };
+
+/// How paths advance. In both forms a path does the same, and its light is summed up in the same order.
+enum class PathForm : std::uint8_t
+{
+    /// A bounce of all paths of a batch at a time, in small kernels over lists of those that need them. For devices
+    /// that skip no branch: software devices.
+    Stages,
+    /// One kernel, whose threads follow one path after the other. For GPUs: nothing is stored between bounces.
+    OneKernel,
+};
+
+/// The form for a device of this DeviceReport::type.
+PathForm pathFormOn(std::string_view device_type);
 
 /// Options of a path-traced picture.
 struct PathOptions
@@ -40,6 +55,7 @@ struct PathOptions
     bool reseeds = false;         // has other random numbers whenever it begins anew
     bool features = false;        // sums up what the camera sees, too (PathTracer::guided())
     TraceStack stack = TraceStack::Registers;
+    std::uint32_t paths_of_thread = 0; // PathForm::OneKernel only; 0: by device and picture
 
     bool operator==(const PathOptions&) const = default;
 };
@@ -71,15 +87,16 @@ public:
     {
     }
 
-    /// Sets the size of the pictures, and begins anew if that is another one. Must be called before the first sample.
-    /// Throws Error{Memory}; then the size stays as it was.
-    void resize(std::uint32_t width, std::uint32_t height);
+    /// Sets the size of the pictures, and begins anew if that, or the form, is another one. Must be called before the
+    /// first sample. form: by default pathFormOn() the device. Throws Error{Memory}; then all stays as it was.
+    void resize(std::uint32_t width, std::uint32_t height, std::optional<PathForm> form = std::nullopt);
 
     /// Forgets all samples, and what was made of trees: because the last frame was lost, or kernels may have changed.
     void forget();
 
     /// Records the passes that add a sample to each pixel. Begins anew where tree or environment has another version,
-    /// or camera or options are others. lists: gets the lists of all batches, [listElements(options)]; may be null.
+    /// or camera or options are others. lists: gets the lists of all batches, [listElements(options)], for
+    /// rayCountOf(); may be null.
     /// Throws Error{Memory}. Cost: pixels times bounces.
     void addSample(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
                    const TraceCamera& camera, const PathOptions& options,
@@ -108,15 +125,15 @@ public:
     /// Rays that were given up (TraceStatus::capped_rays), since the last resize().
     [[nodiscard]] const vk::BufferOf<gpu::TraceStatus>& status() const { return m_pixels->status; }
 
-    /// The rays of a bounce (0: from the camera) of the last batch, and those to lights, as many as the lists tell.
-    /// Only of the last two bounces, and of the last bounce but one, they are still there.
+    /// With PathForm::Stages: the rays of a bounce (0: from the camera) of the last batch, and those to lights, as many
+    /// as the lists tell. Only of the last two bounces, and of the last bounce but one, they are still there.
     [[nodiscard]] const vk::BufferOf<gpu::Ray>& rays(std::uint32_t bounce) const
     {
         return m_pixels->rays.at(bounce % 2);
     }
     [[nodiscard]] const vk::BufferOf<gpu::Ray>& shadowRays() const { return m_pixels->shadow_rays; }
 
-    /// The lists of the last batch (shaders/path/path.h): lengths count its rays.
+    /// With PathForm::Stages: the lists of the last batch (shaders/path/path.h). Lengths count its rays.
     [[nodiscard]] const vk::BufferOf<gpu::DispatchArgs>& lists() const { return m_pixels->lists; }
 
 private:
@@ -126,7 +143,9 @@ private:
     void begin(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
                const TraceCamera& camera, const PathOptions& options);
     void makeLights(vk::FrameGraph& graph, const DeviceTree& tree);
-    void traceBatch(vk::FrameGraph& graph, const Batch& batch);
+    [[nodiscard]] std::uint64_t batchPixels(std::uint32_t bounces) const;
+    void traceInOneKernel(vk::FrameGraph& graph, const Batch& batch);
+    void traceInStages(vk::FrameGraph& graph, const Batch& batch);
     void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);
     void addFeatures(vk::FrameGraph& graph, const Batch& batch);
     void finish(vk::FrameGraph& graph, const Batch& batch);
@@ -152,7 +171,8 @@ private:
     Subject m_subject;
     std::uint64_t m_subject_number = 0; // how often samples began anew
     std::uint64_t m_lighting_number = 0;
-    TraceCamera m_camera; // of the subject
+    TraceCamera m_camera; // of the subject, like the next two
+    gpu::PathView m_view{};
     float m_voxel_edge = 0.0F;
 
     /// What its light depends on, beside voxels.
@@ -168,27 +188,30 @@ private:
     std::uint64_t m_lights_version = 0; // of the tree of which m_lights were made; 0: none
     struct Pixels
     {
-        Pixels(vk::Device& device, std::uint32_t width, std::uint32_t height);
+        Pixels(vk::Device& device, std::uint32_t width, std::uint32_t height, PathForm form);
 
         void addFeatures(vk::Device& device);
         [[nodiscard]] std::uint64_t bytes() const;
 
         std::uint32_t width;
         std::uint32_t height;
-        vk::BufferOf<gpu::PixelSum> sums;                   // [width * height]
+        PathForm form;
+        vk::BufferOf<gpu::PixelSum> sums;          // [width * height]
+        vk::BufferOf<gpu::PixelFeatures> features; // [width * height], empty until they are asked for
+        // PathForm::Stages only, up to the rounds.
         std::array<vk::BufferOf<gpu::Ray>, 2> rays;         // [batch] of a bounce and the next one
         std::array<vk::BufferOf<gpu::PathState>, 2> states; // [batch] likewise
         vk::BufferOf<gpu::Hit> hits;                        // [batch]
         vk::BufferOf<gpu::Ray> shadow_rays;                 // [batch]
         vk::BufferOf<gpu::ShadowState> shadow_states;       // [batch]
         vk::BufferOf<gpu::vec3> radiance;                   // [batch]
-        vk::BufferOf<gpu::PixelFeatures> features;          // [width * height], empty until they are asked for
-        vk::BufferOf<float> direct;                         // [batch] likewise
-        vk::BufferOf<gpu::DispatchArgs> lists;              // [kBouncesMax + 2][kListElements]
+        vk::BufferOf<float> direct;                         // [batch], empty without features
         vk::BufferOf<gpu::uint> numbers;                    // [kListCount][batch]
         vk::BufferOf<gpu::DispatchArgs> rounds;             // [kTraceRoundsMax]
+        vk::BufferOf<gpu::DispatchArgs> lists;              // [kBouncesMax + 2][kListElements]; OneKernel: the first
         vk::BufferOf<gpu::TraceStatus> status;              // [1]
         vk::BufferOf<gpu::TreeTable> table;                 // [1] of the tree
+        vk::BufferOf<gpu::PathView> view;                   // [1] PathForm::OneKernel only
         bool is_status_clear = false;
     };
     std::unique_ptr<Pixels> m_pixels;

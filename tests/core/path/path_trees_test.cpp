@@ -63,11 +63,10 @@ struct Traced
     }
 };
 
-Traced tracePaths(const DeviceTree& tree)
+// Adds samples to a picture of a tree.
+void addSamples(PathTracer& tracer, const DeviceTree& tree)
 {
     DeviceEnvironment sky(device().device());
-    PathTracer tracer(device().device());
-    tracer.resize(30, 21);
     const ViewCamera view = ViewCamera::lookAt({30.0, 22.0, 35.0}, {8.0, 8.0, 8.0}, 0.7);
     const TraceCamera camera = traceCamera(view, tree.grid, 21);
     PathOptions options;
@@ -76,9 +75,21 @@ Traced tracePaths(const DeviceTree& tree)
     {
         device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, tree, sky, camera, options); });
     }
+}
+
+// Traces in both forms, which must make the same picture.
+Traced tracePaths(const DeviceTree& tree)
+{
+    PathTracer tracer(device().device());
+    tracer.resize(30, 21, PathForm::Stages);
+    addSamples(tracer, tree);
     const std::vector<gpu::DispatchArgs> lists = device().download(tracer.lists());
     const auto* words = reinterpret_cast<const gpu::uint*>(lists.data() + gpu::kListLengths);
-    return {device().download(tracer.picture().sums), words[gpu::kListVoxelLights]};
+    const Traced traced = {device().download(tracer.picture().sums), words[gpu::kListVoxelLights]};
+    tracer.resize(30, 21, PathForm::OneKernel);
+    addSamples(tracer, tree);
+    EXPECT_EQ((Traced{device().download(tracer.picture().sums), traced.voxel_lights}), traced);
+    return traced;
 }
 
 TEST(PathTrees, OctreesAndDagsLookTheSame)

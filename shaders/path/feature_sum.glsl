@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Sums of what the camera's rays see. The includer includes path/features.glsl and trace/surface.glsl before and declares
+// params.attributes and params.features.
+
+// Adds what the ray of a sample sees. direct: radiance that it has met.
+void addFeatures(uint pixel, Ray ray, Hit hit, vec3 direct, vec3 origin, vec3 forward)
+{
+    PixelFeatures sum = loadFeatures(PixelFeatures_ConstPtr(uint64_t(params.features)), pixel);
+    sum.direct += direct;
+    if (!isMiss(hit) && hitFace(hit) != kFaceInside)
+    {
+        sum.albedo += surfaceAt(hit, ray.inverse_direction, params.attributes, params.attributes).albedo;
+        sum.normal += faceNormal(hitFace(hit), ray.inverse_direction);
+        sum.depth += dot(ray.origin + hit.t / ray.inverse_direction - origin, forward);
+        sum.hits += 1.0;
+    }
+    storeFeatures(params.features, pixel, sum);
+}

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Both forms of path tracing, stages and one kernel, make the same pictures bit for bit.
+#include "core/headless/pipeline.h"
+#include "core/path/path_tracer.h"
+#include "core/upload/gpu_scene.h"
+#include "support/engine_device.h"
+#include "support/lit_voxels.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::device;
+using test::LitVoxel;
+
+/// What a form makes of a number of samples.
+struct FormPicture
+{
+    std::vector<gpu::PixelSum> sums;
+    std::uint32_t capped_rays = 0;
+    std::uint64_t bytes = 0;
+
+    friend bool operator==(const FormPicture& a, const FormPicture& b)
+    {
+        return a.sums.size() == b.sums.size() &&
+               std::memcmp(a.sums.data(), b.sums.data(), a.sums.size() * sizeof(gpu::PixelSum)) == 0;
+    }
+};
+
+/// What a picture shows, in which size.
+struct Motif
+{
+    const DeviceTree& tree;
+    DeviceEnvironment& light;
+    ViewCamera view;
+    std::uint32_t width = 19;
+    std::uint32_t height = 13;
+};
+
+FormPicture trace(const Motif& motif, PathForm form, const PathOptions& options, std::uint32_t samples = 2)
+{
+    PathTracer tracer(device().device());
+    tracer.resize(motif.width, motif.height, form);
+    const TraceCamera camera = traceCamera(motif.view, motif.tree.grid, motif.height);
+    for (std::uint32_t i = 0; i < samples; ++i)
+    {
+        device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, motif.tree, motif.light, camera, options); });
+    }
+    return {device().download(tracer.picture().sums), device().download(tracer.status()).front().capped_rays,
+            tracer.bytes()};
+}
+
+bool isLit(const FormPicture& picture)
+{
+    double sum = 0.0;
+    for (const gpu::PixelSum& pixel : picture.sums)
+    {
+        sum += double{pixel.luminance_squared};
+    }
+    return sum > 0.0;
+}
+
+void expectSame(const Motif& motif, const PathOptions& options)
+{
+    const FormPicture stages = trace(motif, PathForm::Stages, options);
+    const FormPicture kernel = trace(motif, PathForm::OneKernel, options);
+    EXPECT_TRUE(isLit(stages));
+    EXPECT_EQ(kernel, stages);
+    EXPECT_EQ(kernel.capped_rays, 0U);
+}
+
+// A room that is open to one side.
+std::vector<LitVoxel> openRoom(const glm::vec3& emission)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, {{}, glm::uvec3(188), glm::vec3(0.0F)});
+    test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, {{}, {220, 60, 40}, glm::vec3(0.0F)});
+    test::addBox(voxels, {1, 1, 0}, {7, 6, 1}, {{}, {60, 200, 40}, glm::vec3(0.0F)});
+    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, {{}, glm::uvec3(255), glm::vec3(0.0F)});
+    test::addBox(voxels, {2, 5, 3}, {4, 6, 4}, {{}, glm::uvec3(128), emission});
+    test::addBox(voxels, {6, 2, 2}, {7, 3, 3}, {{}, glm::uvec3(128), emission});
+    return voxels;
+}
+
+ViewCamera intoTheOpenRoom()
+{
+    return ViewCamera::lookAt({4.3, 4.5, 16.0}, {4.0, 2.6, 3.0}, 0.65);
+}
+
+DeviceEnvironment skyWithSun()
+{
+    DeviceEnvironment sky(device().device());
+    sky.setSun({.direction = {0.5, 1.0, 0.7}, .irradiance = glm::dvec3(1.5), .angle = 0.1});
+    return sky;
+}
+
+TEST(PathForms, AreTheSameInEveryWayOfFindingLight)
+{
+    const DeviceTree tree = test::litTree(device(), openRoom({1.5F, 1.25F, 0.5F}), 3);
+    DeviceEnvironment sky = skyWithSun();
+    for (const LightSampling sampling : {LightSampling::Both, LightSampling::Chance, LightSampling::Lights})
+    {
+        for (const bool by_power : {false, true})
+        {
+            for (const bool roulette : {false, true})
+            {
+                SCOPED_TRACE(testing::Message() << static_cast<int>(sampling) << by_power << roulette);
+                expectSame(
+                    {tree, sky, intoTheOpenRoom()},
+                    {.bounces = 5, .seed = 7, .sampling = sampling, .lights_by_power = by_power, .roulette = roulette});
+            }
+        }
+    }
+}
+
+TEST(PathForms, AreTheSameWithEveryStackAndNumberOfBounces)
+{
+    const DeviceTree tree = test::litTree(device(), openRoom({1.5F, 1.25F, 0.5F}), 3);
+    DeviceEnvironment sky = skyWithSun();
+    for (const TraceStack stack : {TraceStack::Registers, TraceStack::Private, TraceStack::Shared})
+    {
+        expectSame({tree, sky, intoTheOpenRoom()}, {.bounces = 3, .stack = stack});
+    }
+    for (const std::uint32_t bounces : {0U, 1U, 40U})
+    {
+        expectSame({tree, sky, intoTheOpenRoom()}, {.bounces = bounces});
+    }
+}
+
+TEST(PathForms, AreTheSameThroughEveryCamera)
+{
+    const DeviceTree tree = test::litTree(device(), openRoom({1.5F, 1.25F, 0.5F}), 3);
+    DeviceEnvironment sky = skyWithSun();
+    expectSame({tree, sky, intoTheOpenRoom()}, {.bounces = 2, .lens_radius = 0.5F, .focus_distance = 11.0F});
+    ViewCamera orthographic = intoTheOpenRoom();
+    orthographic.orthographic = true;
+    orthographic.half_height = 5.0;
+    expectSame({tree, sky, orthographic}, {.bounces = 2});
+    expectSame({tree, sky, orthographic}, {.bounces = 2, .lens_radius = 0.5F, .focus_distance = 11.0F});
+    expectSame({tree, sky, ViewCamera::lookAt({6.5, 2.5, 2.5}, {0, 0, 0}, 0.7)}, {.bounces = 2}); // in a lamp
+}
+
+TEST(PathForms, AreTheSameWithoutEmissionAttributesOrVoxels)
+{
+    DeviceEnvironment sky = skyWithSun();
+    const DeviceTree dark = test::litTree(device(), openRoom(glm::vec3(0.0F)), 3);
+    expectSame({dark, sky, intoTheOpenRoom()}, {.bounces = 3});
+    const Scene scene = test::randomTriangles(5, 40, 16.0F);
+    const Grid grid = {.origin = glm::vec3(0.0F), .voxel_size = 0.5F, .depth = 5};
+    BuildOptions geometry;
+    geometry.attributes = false;
+    const DeviceTree plain = buildOctree(device(), uploadScene(device(), scene, false, 1.0F), grid, geometry).octree;
+    ASSERT_FALSE(plain.hasAttributes());
+    expectSame({plain, sky, ViewCamera::lookAt({30.0, 22.0, 35.0}, {8.0, 8.0, 8.0}, 0.7)}, {.bounces = 3});
+    DeviceTree empty;
+    empty.grid.depth = 4;
+    expectSame({empty, sky, ViewCamera::lookAt({20, 20, 20}, {0, 0, 0}, 0.7)}, {});
+}
+
+// However many paths a thread follows: in workgroups that have none left, and in one that has all.
+TEST(PathForms, AreTheSameForAnyNumberOfThreads)
+{
+    const DeviceTree tree = test::litTree(device(), openRoom({1.5F, 1.25F, 0.5F}), 3);
+    DeviceEnvironment sky = skyWithSun();
+    for (const std::uint32_t paths_of_thread : {1U, 2U, 3U, 5U, 1000U})
+    {
+        expectSame({tree, sky, intoTheOpenRoom(), 23, 21}, {.bounces = 2, .paths_of_thread = paths_of_thread});
+    }
+}
+
+// More pixels than one dispatch takes.
+TEST(PathForms, AreTheSameInPicturesOfSeveralDispatches)
+{
+    const DeviceTree tree = test::litTree(device(), openRoom({1.5F, 1.25F, 0.5F}), 3);
+    DeviceEnvironment sky = skyWithSun();
+    const Motif motif = {tree, sky, ViewCamera::lookAt({4.3, 4.5, 60.0}, {4.0, 2.6, 3.0}, 0.65), 410, 390};
+    const PathOptions options = {.bounces = 64, .sampling = LightSampling::Chance};
+    EXPECT_EQ(trace(motif, PathForm::OneKernel, options, 1), trace(motif, PathForm::Stages, options, 1));
+}
+
+// A device that ends loops early loses paths, but not unnoticed.
+TEST(PathForms, WhatIsLostIsCounted)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 8, 8}, {{}, glm::uvec3(255), glm::vec3(0.5F)});
+    std::erase_if(voxels,
+                  [](const LitVoxel& v) {
+                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
+                             glm::all(glm::lessThan(v.cell, glm::uvec3(7)));
+                  });
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    DeviceEnvironment sky = skyWithSun();
+    const Motif motif = {tree, sky, ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0), 24, 24};
+    const FormPicture stages = trace(motif, PathForm::Stages, {.bounces = 96}, 1);
+    const FormPicture kernel = trace(motif, PathForm::OneKernel, {.bounces = 96, .paths_of_thread = 1000}, 1);
+    EXPECT_EQ(stages.capped_rays, 0U);
+    EXPECT_TRUE(kernel == stages || kernel.capped_rays != 0);
+}
+
+TEST(PathForms, OneKernelNeedsNoLists)
+{
+    const DeviceTree tree = test::litTree(device(), openRoom(glm::vec3(0.0F)), 3);
+    DeviceEnvironment sky = skyWithSun();
+    const Motif motif = {tree, sky, intoTheOpenRoom(), 200, 100};
+    const std::uint64_t pixels = 200 * 100;
+    EXPECT_LT(trace(motif, PathForm::OneKernel, {.bounces = 0}, 1).bytes, pixels * sizeof(gpu::PixelSum) + 4096);
+    EXPECT_GT(trace(motif, PathForm::Stages, {.bounces = 0}, 1).bytes, pixels * (sizeof(gpu::PixelSum) + 200));
+}
+
+TEST(PathForms, AreChosenByTheDevice)
+{
+    EXPECT_EQ(pathFormOn("cpu"), PathForm::Stages);
+    EXPECT_EQ(pathFormOn("discrete"), PathForm::OneKernel);
+    EXPECT_EQ(pathFormOn("integrated"), PathForm::OneKernel);
+}
+
+} // namespace
+} // namespace zvo
