@@ -7,6 +7,7 @@
 #include "oracle/box_paths.h"
 #include "support/engine_device.h"
 #include "support/lit_voxels.h"
+#include "support/path_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -20,64 +21,13 @@ namespace zvo
 namespace
 {
 
+using test::constantSky;
 using test::device;
+using test::kWays;
 using test::LitVoxel;
-
-constexpr std::array kWays = {LightSampling::Both, LightSampling::Chance, LightSampling::Lights};
-
-/// The mean of each pixel, row by row, and of the whole picture with its standard error.
-struct PathPicture
-{
-    std::vector<glm::dvec3> pixels;
-    glm::dvec3 mean{0.0};
-    double luminance = 0.0;
-    double error = 0.0; // standard error of luminance
-};
-
-double luminanceOf(const glm::dvec3& color)
-{
-    return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
-/// A picture of edge x edge pixels.
-PathPicture pictureOf(const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
-                      std::uint32_t edge, std::uint32_t samples, const PathOptions& options)
-{
-    PathTracer tracer(device().device());
-    tracer.resize(edge, edge);
-    const TraceCamera camera = traceCamera(view, tree.grid, edge);
-    for (std::uint32_t i = 0; i < samples; ++i)
-    {
-        device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, tree, environment, camera, options); });
-    }
-    const std::vector<gpu::PixelSum> sums = device().download(tracer.picture().sums);
-    PathPicture picture;
-    picture.pixels.resize(sums.size());
-    double variance = 0.0;
-    for (std::uint32_t y = 0; y < edge; ++y)
-    {
-        for (std::uint32_t x = 0; x < edge; ++x)
-        {
-            const std::uint32_t strip = y / gpu::kStripRows;
-            const std::uint32_t rows = std::min(gpu::kStripRows, edge - strip * gpu::kStripRows);
-            const gpu::PixelSum& sum = sums[strip * gpu::kStripRows * edge + x * rows + y % gpu::kStripRows];
-            const glm::dvec3 mean = glm::dvec3(sum.radiance) / static_cast<double>(samples);
-            picture.pixels[y * edge + x] = mean;
-            picture.mean += mean / double(sums.size());
-            const double light = luminanceOf(mean);
-            variance += std::max(double{sum.luminance_squared} / samples - light * light, 0.0) / samples;
-        }
-    }
-    picture.luminance = luminanceOf(picture.mean);
-    picture.error = std::sqrt(variance) / static_cast<double>(sums.size());
-    EXPECT_EQ(device().download(tracer.status()).front().capped_rays, 0U);
-    return picture;
-}
-
-DeviceEnvironment constantSky(const glm::vec3& radiance)
-{
-    return {device().device(), {4, 2, std::vector(8, radiance)}, 0.0, 1.0};
-}
+using test::luminanceOf;
+using test::PathPicture;
+using test::pictureOf;
 
 LitVoxel white()
 {
