@@ -44,6 +44,19 @@ ViewCamera outside()
     return ViewCamera::lookAt({19.0, 15.0, 23.0}, {4.0, 4.0, 4.0}, 0.4);
 }
 
+// A closed room of edge * edge * edge voxels.
+std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, glm::uvec3(0), glm::uvec3(edge), wall);
+    std::erase_if(voxels,
+                  [&](const LitVoxel& v) {
+                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
+                             glm::all(glm::lessThan(v.cell, glm::uvec3(edge - 1)));
+                  });
+    return voxels;
+}
+
 // A convex body of albedo 1 in a constant sky looks like the sky.
 TEST(PathFurnace, AWhiteCubeCannotBeSeen)
 {
@@ -57,7 +70,7 @@ TEST(PathFurnace, AWhiteCubeCannotBeSeen)
         PathOptions options;
         options.bounces = 1;
         options.sampling = way;
-        const PathPicture picture = pictureOf(tree, sky, outside(), 16, 256, options);
+        const PathPicture picture = pictureOf(tree, sky, outside(), 8, 1024, options);
         EXPECT_NEAR(picture.mean.r, 0.5, 0.0005);
         EXPECT_NEAR(picture.mean.g, 1.0, 0.001);
         EXPECT_NEAR(picture.mean.b, 2.0, 0.002);
@@ -86,19 +99,42 @@ TEST(PathFurnace, AWhiteBowlCannotBeSeen)
     }
 }
 
+// From inside, a closed white room looks like the sky in its window, and one whose walls glow looks as bright as all
+// its bounces together.
+TEST(PathFurnace, AWhiteRoomIsAsBrightAsItsLight)
+{
+    LitVoxel wall = white();
+    std::vector<LitVoxel> voxels = roomOf(wall, 6);
+    std::erase_if(voxels, [](const LitVoxel& v)
+                  { return v.cell.x == 5 && v.cell.y > 0 && v.cell.y < 5 && v.cell.z > 0 && v.cell.z < 5; });
+    const DeviceTree windowed = test::litTree(device(), voxels, 3);
+    wall.emission = glm::vec3(0.5F);
+    const DeviceTree glowing = test::litTree(device(), roomOf(wall, 6), 3);
+    const ViewCamera inside = ViewCamera::lookAt({3.2, 3.1, 3.3}, {1.0, 2.0, 3.0}, 1.0);
+    DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
+    const double sky_light = luminanceOf({0.5, 1.0, 2.0});
+    for (const LightSampling way : kWays)
+    {
+        const PathPicture picture = pictureOf(windowed, sky, inside, 16, 64, {.bounces = 48, .sampling = way});
+        // By chance each path has the light of the sky, but for the few that do not get out.
+        const double tolerance = 0.001 + (way == LightSampling::Chance ? 0.0 : 3.0 * picture.error);
+        EXPECT_NEAR(picture.luminance, sky_light, tolerance * sky_light);
+        EXPECT_LT(picture.error, 0.012);
+    }
+    for (const LightSampling way : {LightSampling::Both, LightSampling::Chance})
+    {
+        const std::uint32_t edge = way == LightSampling::Chance ? 4 : 16;
+        const PathPicture picture = pictureOf(glowing, sky, inside, edge, 1024, {.bounces = 3, .sampling = way});
+        EXPECT_NEAR(picture.luminance, 4.0 * 0.5, 0.001 * 4.0 * 0.5);
+    }
+}
+
 // In a closed room whose walls glow, each bounce adds the walls' albedo to its own power.
 TEST(PathEnergy, OfEachBounceIsThePowerOfTheAlbedo)
 {
     LitVoxel wall = grey();
     wall.emission = glm::vec3(0.5F);
-    std::vector<LitVoxel> voxels;
-    test::addBox(voxels, {0, 0, 0}, {8, 8, 8}, wall);
-    std::erase_if(voxels,
-                  [](const LitVoxel& v) {
-                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
-                             glm::all(glm::lessThan(v.cell, glm::uvec3(7)));
-                  });
-    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    const DeviceTree tree = test::litTree(device(), roomOf(wall, 8), 3);
     DeviceEnvironment sky = constantSky(glm::vec3(0.0F));
     const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
     const double albedo = test::albedoOf(wall).r;
