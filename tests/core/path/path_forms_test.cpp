@@ -29,8 +29,12 @@ struct FormPicture
 
     friend bool operator==(const FormPicture& a, const FormPicture& b)
     {
-        return a.sums.size() == b.sums.size() &&
-               std::memcmp(a.sums.data(), b.sums.data(), a.sums.size() * sizeof(gpu::PixelSum)) == 0;
+        return a.ray_count == b.ray_count && sameBytes(a.sums, b.sums) && sameBytes(a.features, b.features);
+    }
+
+    template <typename T> static bool sameBytes(const std::vector<T>& a, const std::vector<T>& b)
+    {
+        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
     }
 };
 
@@ -49,12 +53,19 @@ FormPicture trace(const Motif& motif, PathForm form, const PathOptions& options,
     PathTracer tracer(device().device());
     tracer.resize(motif.width, motif.height, form);
     const TraceCamera camera = traceCamera(motif.view, motif.tree.grid, motif.height);
+    vk::BufferOf<gpu::DispatchArgs> lists(device().device(), "lists", tracer.listElements(options));
     for (std::uint32_t i = 0; i < samples; ++i)
     {
-        device().run([&](vk::FrameGraph& graph) { tracer.addSample(graph, motif.tree, motif.light, camera, options); });
+        device().run([&](vk::FrameGraph& graph)
+                     { tracer.addSample(graph, motif.tree, motif.light, camera, options, &lists); });
     }
-    return {device().download(tracer.picture().sums), device().download(tracer.status()).front().capped_rays,
-            tracer.bytes()};
+    FormPicture picture = {device().download(tracer.picture().sums), {}, rayCountOf(device().download(lists)),
+                           device().download(tracer.status()).front().capped_rays, tracer.bytes()};
+    if (options.features)
+    {
+        picture.features = device().download(tracer.guided().features);
+    }
+    return picture;
 }
 
 bool isLit(const FormPicture& picture)
@@ -67,12 +78,15 @@ bool isLit(const FormPicture& picture)
     return sum > 0.0;
 }
 
-void expectSame(const Motif& motif, const PathOptions& options)
+void expectSame(const Motif& motif, PathOptions options)
 {
+    const FormPicture plain = trace(motif, PathForm::OneKernel, options);
+    options.features = true;
     const FormPicture stages = trace(motif, PathForm::Stages, options);
     const FormPicture kernel = trace(motif, PathForm::OneKernel, options);
     EXPECT_TRUE(isLit(stages));
-    EXPECT_EQ(kernel, stages);
+    EXPECT_TRUE(kernel == stages);
+    EXPECT_TRUE(FormPicture::sameBytes(plain.sums, stages.sums));
     EXPECT_EQ(kernel.capped_rays, 0U);
 }
 

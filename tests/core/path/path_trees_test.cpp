@@ -6,9 +6,12 @@
 #include "core/headless/pipeline.h"
 #include "core/path/path_tracer.h"
 #include "core/scene/animation.h"
+#include "support/dynamic_updates.h"
 #include "support/engine_device.h"
+#include "support/octree_contents.h"
 #include "support/scenes.h"
 
+#include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -64,9 +67,8 @@ struct Traced
 };
 
 // Adds samples to a picture of a tree.
-void addSamples(PathTracer& tracer, const DeviceTree& tree)
+void addSamples(PathTracer& tracer, DeviceEnvironment& sky, const DeviceTree& tree)
 {
-    DeviceEnvironment sky(device().device());
     const ViewCamera view = ViewCamera::lookAt({30.0, 22.0, 35.0}, {8.0, 8.0, 8.0}, 0.7);
     const TraceCamera camera = traceCamera(view, tree.grid, 21);
     PathOptions options;
@@ -77,17 +79,23 @@ void addSamples(PathTracer& tracer, const DeviceTree& tree)
     }
 }
 
+Traced tracePaths(PathTracer& tracer, DeviceEnvironment& sky, const DeviceTree& tree)
+{
+    tracer.resize(30, 21, PathForm::Stages);
+    addSamples(tracer, sky, tree);
+    const std::vector<gpu::DispatchArgs> lists = device().download(tracer.lists());
+    const auto* words = reinterpret_cast<const gpu::uint*>(lists.data() + gpu::kListLengths);
+    return {device().download(tracer.picture().sums), words[gpu::kListVoxelLights]};
+}
+
 // Traces in both forms, which must make the same picture.
 Traced tracePaths(const DeviceTree& tree)
 {
+    DeviceEnvironment sky(device().device());
     PathTracer tracer(device().device());
-    tracer.resize(30, 21, PathForm::Stages);
-    addSamples(tracer, tree);
-    const std::vector<gpu::DispatchArgs> lists = device().download(tracer.lists());
-    const auto* words = reinterpret_cast<const gpu::uint*>(lists.data() + gpu::kListLengths);
-    const Traced traced = {device().download(tracer.picture().sums), words[gpu::kListVoxelLights]};
+    const Traced traced = tracePaths(tracer, sky, tree);
     tracer.resize(30, 21, PathForm::OneKernel);
-    addSamples(tracer, tree);
+    addSamples(tracer, sky, tree);
     EXPECT_EQ((Traced{device().download(tracer.picture().sums), traced.voxel_lights}), traced);
     return traced;
 }
@@ -147,6 +155,90 @@ TEST(PathTrees, OverlaysLookAsIfBuiltAtOnce)
             octree.frameDone(frame);
         } while (octree.needsUpdate());
         EXPECT_EQ(tracePaths(octree.tree()), expected) << compressed;
+    }
+}
+
+// A path tracer that has made other lights before finds those that are there: of objects that have moved, and without
+// what brushes have carved and painted.
+TEST(PathTrees, LightsFollowMoversAndStrokes)
+{
+    const Scene fixed = litTriangles(5);
+    const Scene object = litTriangles(9);
+    const auto posed = [&](const glm::vec3& way)
+    {
+        Scene moved = object;
+        for (Instance& instance : moved.instances)
+        {
+            instance.transform = glm::translate(glm::mat4(1.0F), way) * instance.transform;
+        }
+        return moved;
+    };
+    const auto poseOf = [](const Scene& scene)
+    {
+        Pose pose;
+        for (const Instance& instance : scene.instances)
+        {
+            pose.transforms.push_back(instance.transform);
+        }
+        return pose;
+    };
+    for (const bool compressed : {false, true})
+    {
+        SCOPED_TRACE(compressed);
+        BuildResult built = build(fixed, 6);
+        FragmentSums sums = std::move(built.octree.sums);
+        DeviceTree base =
+            compressed ? std::move(compress(device(), std::move(built.octree)).dag) : std::move(built.octree);
+        base.sums = std::move(sums);
+        DynamicOctree octree(device(), std::move(base), {.merge = MergeRule::Average, .emission_scale = kEmission});
+        DeviceEnvironment sky(device().device());
+        PathTracer tracer(device().device());
+        Traced last = tracePaths(tracer, sky, octree.tree());
+        const auto expectLights = [&](const DeviceTree& expected)
+        {
+            test::updateAll(device(), octree);
+            const Traced now = tracePaths(tracer, sky, octree.tree());
+            EXPECT_EQ(now, tracePaths(expected));
+            EXPECT_FALSE(now == last) << "nothing has changed";
+            last = now;
+        };
+        const auto expectLightsOfMover = [&](const glm::vec3& way)
+        {
+            Scene both = fixed;
+            both.append(posed(way));
+            expectLights(build(both, 6).octree);
+        };
+        // Of the cells that are shown; other tests compare these with models.
+        const auto rebuilt = [&]
+        {
+            test::updateAll(device(), octree);
+            return test::octreeOf(device(), test::cellsOf(device(), octree.tree()), gridOf(6), kEmission);
+        };
+        const auto expectLightsAfter = [&](const auto& edit)
+        {
+            const std::uint64_t frame = octree.beginFrame();
+            device().run([&](vk::FrameGraph& graph) { ASSERT_TRUE(edit(graph)); });
+            octree.frameDone(frame);
+            octree.endStroke();
+            expectLights(rebuilt());
+        };
+        const auto dab = [&](BrushAction action)
+        {
+            const Brush brush = {BrushShape::Box, action, {36, 36, 36}, 20, 0xFF0000};
+            expectLightsAfter([&](vk::FrameGraph& graph) { return octree.edit(graph, brush); });
+        };
+        const DynamicObjectId mover =
+            octree.add(uploadDynamicMesh(device(), object, true, kEmission), poseOf(posed(glm::vec3(0.0F))));
+        expectLightsOfMover(glm::vec3(0.0F));
+        octree.setPose(mover, poseOf(posed({1.0F, 2.0F, -1.5F})));
+        expectLightsOfMover({1.0F, 2.0F, -1.5F});
+        dab(BrushAction::Paint);
+        dab(BrushAction::Carve);
+        dab(BrushAction::Fill);
+        octree.remove(mover);
+        expectLights(rebuilt());
+        expectLightsAfter([&](vk::FrameGraph& graph) { return octree.undoEdit(graph); });
+        expectLightsAfter([&](vk::FrameGraph& graph) { return octree.undoEdit(graph); });
     }
 }
 
