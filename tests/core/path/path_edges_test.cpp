@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Path tracing at its limits: no voxels, one voxel, no light, deep grids, cameras in odd places, scenes of all kinds.
+#include "core/base/read_file.h"
 #include "core/headless/pipeline.h"
 #include "core/path/path_tracer.h"
-#include "io/gltf/gltf_loader.h"
+#include "io/image/hdr_image_io.h"
+#include "io/scene/animated_scene.h"
 #include "support/engine_device.h"
 #include "support/lit_voxels.h"
 #include "support/scenes.h"
@@ -11,7 +13,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace zvo
@@ -186,40 +193,107 @@ TEST(PathEdges, OrthographicCamerasSeeTheSameLight)
     }
 }
 
-// No pixel of any scene is infinite, NaN or negative, whatever the seed.
-class PathScenes : public testing::TestWithParam<const char*>
+// No pixel of any scene is infinite, NaN or negative, whatever the seed. By default pictures are small, and each seed
+// has one of the lights; with ZVO_TEST_ALL_LIGHTS=1 every seed has all lights, with larger pictures of finer voxels.
+class PathScenes : public testing::TestWithParam<std::string>
 {
 };
 
+bool hasAllLights()
+{
+    const char* all = std::getenv("ZVO_TEST_ALL_LIGHTS");
+    return all != nullptr && std::string_view(all) == "1";
+}
+
+// The path of one of the project's scenes, or "models/NAME" for a model that does not come with it.
+std::optional<std::filesystem::path> pathOf(const std::string& name)
+{
+    constexpr std::string_view kModels = "models/";
+    return name.starts_with(kModels) ? test::sharedScene(name.substr(kModels.size())) : test::ownScene(name);
+}
+
+// A scene, or a scene file's at some time; nothing if a model is missing.
+std::optional<Scene> sceneOf(const std::string& name)
+{
+    const auto path = pathOf(name);
+    const std::string stem = name.substr(0, name.find('.'));
+    if (!path || (isSceneFile(*path) && !test::missingModelOf(stem).empty()))
+    {
+        return std::nullopt;
+    }
+    AnimatedSceneOptions options;
+    if (std::filesystem::is_directory(ZVO_SHARED_SCENES_DIR))
+    {
+        options.scenes_folder = ZVO_SHARED_SCENES_DIR;
+    }
+    return sceneAt(loadAnimatedScene(*path, options), 0.7);
+}
+
+// Black below, almost black above, but for one texel as bright as half floats can be.
+HdrImage hardMap()
+{
+    HdrImage map = {64, 32, std::vector<glm::vec3>(2048)};
+    std::fill_n(map.texels.begin(), 1024, glm::vec3(1e-6F));
+    map.texels[5 * 64 + 40] = glm::vec3(65504.0F);
+    return map;
+}
+
+std::vector<DeviceEnvironment> allLights()
+{
+    std::vector<DeviceEnvironment> lights;
+    lights.emplace_back(device().device()).setSun({.direction = {-0.6, 0.75, 0.45}, .irradiance = 2.2 * kSunColor});
+    lights.push_back(constantLight(0.0F));
+    lights.emplace_back(device().device(), hardMap(), 0.3, 1.0);
+    for (const char* name : {"kloppenheim_05_1k.hdr", "phalzer_forest_01_1k.hdr"})
+    {
+        const auto path = test::sharedScene(name);
+        if (path && hasAllLights())
+        {
+            std::vector<std::string> warnings;
+            lights.emplace_back(device().device(), decodeHdrImage(readFile(*path), name, warnings), 0.0, 1.0);
+        }
+    }
+    return lights;
+}
+
 TEST_P(PathScenes, HaveFinitePixels)
 {
-    const auto path = test::findScene(GetParam());
-    if (!path)
+    constexpr std::uint32_t kSeeds = 64;
+    const std::optional<Scene> scene = sceneOf(GetParam());
+    if (!scene)
     {
-        GTEST_SKIP() << GetParam() << " is not there";
+        GTEST_SKIP() << GetParam() << " is not there, or one of its models";
     }
-    const Scene scene = loadGltf(*path);
-    const Grid grid = Grid::around(scene.bounds(), 6);
-    const DeviceTree tree =
-        buildOctree(device(), uploadScene(device(), scene, true, brightestEmission(scene)), grid, {}).octree;
-    DeviceEnvironment sky(device().device());
-    sky.setSun({.direction = {-0.6, 0.75, 0.45}, .irradiance = 2.2 * kSunColor});
-    Pictures pictures(tree, ViewCamera::framing(scene, 1.0), 12);
-    double sum = 0.0;
-    for (std::uint32_t seed = 0; seed < 64; ++seed)
+    const bool all = hasAllLights();
+    const Grid grid = Grid::around(scene->bounds(), all ? 9 : 6);
+    const GpuScene uploaded = uploadScene(device(), *scene, true, brightestEmission(*scene));
+    const DeviceTree tree = buildOctree(device(), uploaded, grid, {}).octree;
+    std::vector<DeviceEnvironment> lights = allLights();
+    Pictures pictures(tree, ViewCamera::framing(*scene, 1.0), all ? 64 : 12);
+    glm::vec3 sum(0.0F);
+    for (std::uint32_t seed = 0; seed < kSeeds; ++seed)
     {
-        const HdrImage image = pictures.take(sky, {.seed = seed}, 1);
-        ASSERT_TRUE(isFinite(image)) << seed;
-        sum += image.texels[12 * 6 + 6].x;
+        for (std::size_t i = 0; i < lights.size(); ++i)
+        {
+            if (all || seed % lights.size() == i)
+            {
+                const HdrImage image = pictures.take(lights[i], {.seed = seed}, 1);
+                ASSERT_TRUE(isFinite(image)) << "seed " << seed << ", light " << i;
+                sum = std::accumulate(image.texels.begin(), image.texels.end(), sum);
+            }
+        }
     }
-    EXPECT_GT(sum, 0.0);
+    EXPECT_GT(sum.g, 0.0F);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, PathScenes,
-                         testing::Values("cornell_box.glb", "atrium.glb", "cube.glb", "knot.glb", "bunny_low.glb",
-                                         "buddha_113k.glb", "asian_dragon_28k.glb", "damaged_helmet.glb",
-                                         "alpha_blend_mode_test.glb", "milk_truck.glb", "box_textured.glb",
-                                         "duck/Duck.gltf", "sponza.glb", "dragon.glb", "bunny.glb"));
+                         testing::Values("cornell_box.glb", "atrium.glb", "cube.glb", "knot.glb",
+                                         "atrium_knot.scene.json", "buddha_dragon.scene.json",
+                                         "sponza_bunny.scene.json", "models/cornell_box.glb", "models/bunny_low.glb",
+                                         "models/buddha_113k.glb", "models/asian_dragon_28k.glb",
+                                         "models/damaged_helmet.glb", "models/alpha_blend_mode_test.glb",
+                                         "models/milk_truck.glb", "models/box_textured.glb", "models/duck/Duck.gltf",
+                                         "models/sponza.glb", "models/dragon.glb", "models/bunny.glb"));
 
 } // namespace
 } // namespace zvo
