@@ -12,6 +12,7 @@
 #include "core/base/kernels.h"
 #include "core/denoise/denoiser.h"
 #include "core/headless/pipeline.h"
+#include "core/path/daylight.h"
 #include "core/path/path_tracer.h"
 #include "core/upload/gpu_scene.h"
 #include "zvo/version.h"
@@ -204,6 +205,10 @@ void benchDenoise(const BenchOptions& options)
                 DeviceEnvironment light =
                     by_day ? DeviceEnvironment(device.device())
                            : DeviceEnvironment(device.device(), HdrImage{1, 1, {glm::vec3(0.0F)}}, 0.0, 1.0);
+                if (by_day)
+                {
+                    light.setSun(daylight());
+                }
                 DenoiseBench bench(device, tree, view, std::move(light));
                 const HdrImage reference = bench.traceReference(
                     options.reference_samples, [&](std::uint32_t samples)

@@ -99,7 +99,8 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         *bench, "--reference", options.reference_samples,
         [](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1U << 20)); },
-        "N", "with --denoise, paths a pixel of the picture of many (default 1024)");
+        "N", "with --denoise, paths a pixel of the picture of many (default 1024)")
+        ->needs("--denoise");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");

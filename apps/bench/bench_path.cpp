@@ -12,6 +12,7 @@
 #include "core/base/kernels.h"
 #include "core/base/read_file.h"
 #include "core/headless/pipeline.h"
+#include "core/path/daylight.h"
 #include "core/path/path_tracer.h"
 #include "core/upload/gpu_scene.h"
 #include "io/image/hdr_image_io.h"
@@ -121,12 +122,6 @@ const Columns<VarianceRow>& varianceColumns()
         {"by chance", 18, [times](const Row& row) { return times(row.chance, row.chosen); }},
     };
     return all;
-}
-
-Sun daylight()
-{
-    const TraceOptions plain;
-    return {.direction = plain.to_sun, .irradiance = double{plain.sun} * kSunColor};
 }
 
 /// Measures pictures of one tree.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace zvo::cli
@@ -22,21 +23,23 @@ double luminanceOf(const glm::dvec3& color)
     return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
-// That of the automatic exposure (docs/light.md), of all pixels with light.
+// The automatic exposure (docs/light.md).
 double exposureFor(const HdrImage& picture)
 {
-    double sum = 0;
-    double count = 0;
+    std::vector<double> stops; // of pixels with light
     for (const glm::vec3& texel : picture.texels)
     {
-        const double light = luminanceOf(texel);
-        if (light > 0)
+        if (const double light = luminanceOf(texel); light > 0)
         {
-            sum += std::log2(light);
-            count += 1;
+            stops.push_back(std::log2(light));
         }
     }
-    return count == 0 ? 1.0 : 0.2 / std::exp2(sum / count);
+    std::ranges::sort(stops);
+    const std::size_t first = stops.size() / 10;
+    const std::size_t end = stops.size() - stops.size() / 20;
+    const double sum = std::accumulate(stops.begin() + static_cast<std::ptrdiff_t>(first),
+                                       stops.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+    return stops.empty() ? 1.0 : 0.2 / std::exp2(sum / static_cast<double>(end - first));
 }
 
 // sRGB codes in [0, 1] (shaders/lib/color.glsl).

@@ -5,6 +5,7 @@
 #include "common/signals.h"
 #include "core/base/read_file.h"
 #include "core/path/aov.h"
+#include "core/path/daylight.h"
 #include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
 
@@ -40,8 +41,7 @@ HdrImage readMap(const std::filesystem::path& file)
 DeviceEnvironment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& options)
 {
     const PathRenderOptions& paths = options.paths;
-    const TraceOptions plain;
-    Sun sun = {.direction = options.to_sun.value_or(plain.to_sun), .irradiance = double{plain.sun} * kSunColor};
+    const Sun sun = options.to_sun ? daylight(*options.to_sun) : daylight();
     if (!paths.environment)
     {
         DeviceEnvironment environment(device.device());

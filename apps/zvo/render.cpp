@@ -283,7 +283,7 @@ void checkPathOptions(const RenderOptions& options)
     if (paths.aovs && extensionOf(options.output.path) != ".exr")
     {
         throw Error(ErrorCode::Usage,
-                    fmt::format("--aov adds channels to an OpenEXR picture: name {} .exr", options.output.path));
+                    fmt::format("--aov needs an output that ends in .exr, not {}", options.output.path));
     }
     for (const auto& [name, is_given] : of_primary)
     {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Division by the albedo. Where a channel of it is dark, the light is not known well in that channel.
-
-const float kDarkest = 0.01;
+// Division by the albedo. Where a channel of it is dark, the light is not known well in that channel. The includer
+// includes denoise/denoise.h before.
 
 bool isDark(vec3 albedo)
 {

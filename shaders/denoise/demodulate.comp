@@ -28,14 +28,15 @@ void main()
     float part = 1.0 / params.sample_count;
     vec3 scattered = part * max(params.sums.data[number].radiance - sum.direct, 0.0);
     vec3 albedo = part * sum.albedo;
-    float mean = luminance(scattered);
-    float spread = max(part * sum.scattered_squared - mean * mean, 0.0);
+    float mean = min(luminance(scattered), kBrightest);
+    float spread = max(min(part * sum.scattered_squared, kBrightest * kBrightest) - mean * mean, 0.0);
     float scale = luminance(divisorOf(albedo));
-    vec3 light = lightOf(scattered, albedo);
+    vec3 light = min(lightOf(scattered, albedo), kBrightest);
     float light_mean = luminance(light);
     storeLight(params.light, i, vec4(light, light_mean * light_mean + spread / (scale * scale)));
     vec3 normal = sum.normal / max(sum.hits, 1.0);
-    uint64_t_Ptr(uint64_t(params.guides)).data[i] = packUint2x32(
-        uvec2(floatBitsToUint(sum.depth / max(sum.hits, 1.0)), packSurface(normal, isDark(albedo) ? 0.0 : part * sum.hits)));
+    float coverage = isDark(albedo) ? 0.0 : part * sum.hits;
+    uint64_t_Ptr(uint64_t(params.guides)).data[i] =
+        packUint2x32(uvec2(floatBitsToUint(sum.depth / max(sum.hits, 1.0)), packSurface(normal, coverage)));
     params.samples.data[i] = params.sample_count;
 }

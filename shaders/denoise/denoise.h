@@ -8,12 +8,13 @@
 //
 //   denoise/demodulate  light of each pixel, its moments, and the guide: depth, normal, coverage
 //   denoise/reproject   the light of an earlier picture, where it shows the same place
-//   denoise/estimate    means over the pixels around that show the same face of a voxel, and their variance
+//   denoise/estimate    means over the pixels around that are less than about a voxel away, and their variance
 //   denoise/filter      kDenoiseLevels times: 5x5 pixels that are 1, 2, 4, ... pixels apart
 //   denoise/modulate    multiplies by the albedo, and adds what the camera sees directly
 //
 // Light is a vec4: red, green, blue, and in w the second moment of the samples' luminance until denoise/estimate, the
-// variance of the pixel's luminance from there on. Pixels are stored row by row, but for the sums (path/path.h).
+// variance of the pixel's luminance from there on. All arrays have width * height elements, row by row from the top
+// left, but for sums and features, which are in the order of strips (path/path.h).
 #ifndef ZVO_SHADERS_DENOISE_DENOISE_H
 #define ZVO_SHADERS_DENOISE_DENOISE_H
 
@@ -27,21 +28,39 @@ GPU_BUFFER(CameraRays, 4);
 const uint kDenoiseLevels = 5u;
 const uint kDenoiseTile = 8u; // pixels along the edge of a workgroup's tile
 
+const float kDarkest = 0.01f;   // albedo of a channel from which light is known
+const float kBrightest = 1e15f; // light: its square must be a float, too
+
+// Of another pixel that tells about this one's light.
+const float kPlanesApart = 8.0f; // voxels from the plane of this one at which it counts 1 / e
+const float kTurnLeast = 0.1f;   // square of the difference of exact normals, likewise
+
+// Of a pixel of the earlier picture that shows the same place.
+const float kDistanceMax = 1.5f; // voxels from the plane of this one
+const float kTurnMax = 3.0f;     // as turnOf() has it
+
+const float kFewSamples = 4.0f; // with fewer, their variance is not known
+const float kNearNoise = 10.0f; // standard deviations that pixels of denoise/estimate may differ by
+const float kNoiseMost = 10.0f; // likewise of denoise/filter: kNoiseLeast + kNoiseFew / samples, at most this
+const float kNoiseLeast = 2.0f;
+const float kNoiseFew = 16.0f;
+const float kSpikeSamples = 64.0f; // with as many, no pixel is dimmed to what is around it
+
 /// What a pixel shows, for comparisons with others.
 struct DenoiseGuide
 {
     float depth;  // unit space, along the camera's direction
-    uint surface; // normal 3 x 9 bits, part of the samples that hit a face 5 bits
+    uint surface; // normal.x 9 bits | y 9 | z 9 | part of the samples that hit a face 5, from the lowest bit on
 };
 GPU_BUFFER(DenoiseGuide, 8);
 
 struct DenoiseDemodulateParams // push constants of denoise/demodulate: a thread a pixel
 {
-    GPU_CONST_PTR(PixelSum) sums; // in the order of strips, like the next
+    GPU_CONST_PTR(PixelSum) sums;
     GPU_CONST_PTR(PixelFeatures) features;
     GPU_PTR(vec4) light;
     GPU_PTR(DenoiseGuide) guides;
-    GPU_PTR(float) samples; // behind light
+    GPU_PTR(float) samples; // number of samples that light is the mean of
     uint width;
     uint height;
     float sample_count;
@@ -92,7 +111,7 @@ struct DenoiseModulateParams // push constants of denoise/modulate: a thread a p
 {
     GPU_CONST_PTR(vec4) light;
     GPU_CONST_PTR(PixelFeatures) features;
-    GPU_PTR(PixelSum) sums; // in the order of strips; luminance_squared is 0
+    GPU_PTR(PixelSum) sums; // of one sample; luminance_squared is 0
     uint width;
     uint height;
     float sample_part; // 1 / number of samples

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Begins the filter: takes the mean over those of the 3x3 pixels around each that show the same face of a voxel, and
-// estimates its variance, from the samples of these pixels, or where they are few, from how the pixels differ.
+// Begins the filter: takes the mean over those of the 3x3 pixels around each that are alike and less than about a voxel
+// away, and estimates its variance from the samples of these pixels, or, where they are few, from how the pixels
+// differ.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
 #include "lib/camera.glsl"
@@ -17,9 +18,6 @@ layout(push_constant, scalar) uniform Push
     DenoiseFilterParams params;
 };
 
-const float kFewSamples = 4.0;
-const float kFaceNoise = 10.0; // standard deviations
-
 // A place at a pixel, from the camera's origin.
 vec3 placeOf(ivec2 pixel, float depth)
 {
@@ -32,8 +30,8 @@ struct Neighbour
     vec3 light;
     float mean;     // luminance of the light
     float variance; // of the mean, by its samples
-    float weight;   // how much it tells of the pixel in the middle
-    float on_face;  // whether it shows the same face of a voxel, from 0 to 1
+    float weight;   // how much it tells of the pixel in the middle; 0 outside of the picture
+    float nearness; // from 0 to 1, by the distance in voxels
 };
 
 Neighbour loadNeighbour(ivec2 pixel, Guide guide, vec3 place)
@@ -45,7 +43,7 @@ Neighbour loadNeighbour(ivec2 pixel, Guide guide, vec3 place)
     vec3 way = placeOf(inside, other.depth) - place;
     float mean = luminance(light.rgb);
     float variance = max(light.w - mean * mean, 0.0) / max(params.samples.data[index] - 1.0, 1.0);
-    float weight = alikeness(guide, other, way, params.edge);
+    float weight = inside == pixel ? alikeness(guide, other, way, params.edge) : 0.0;
     return Neighbour(light.rgb, mean, variance, weight, exp(-dot(way, way) / (params.edge * params.edge)));
 }
 
@@ -81,14 +79,14 @@ void main()
         variance = max(variance, moments.y - moments.x * moments.x);
 
     float mean = luminance(light.rgb);
-    float tolerance = 1.0 / (kFaceNoise * sqrt(variance) + 1e-30);
+    float tolerance = 1.0 / (kNearNoise * sqrt(variance) + 1e-30);
     float squares = 0.0;
     vec3 sum = vec3(0.0);
     weights = 0.0;
     for (int k = 0; k < 9; ++k)
     {
         Neighbour other = loadNeighbour(pixel + ivec2(k % 3, k / 3) - 1, guide, place);
-        float weight = other.weight * other.on_face * exp(-abs(other.mean - mean) * tolerance);
+        float weight = other.weight * other.nearness * exp(-abs(other.mean - mean) * tolerance);
         weights += weight;
         squares += weight * weight;
         sum += weight * other.light;

@@ -19,7 +19,7 @@ layout(push_constant, scalar) uniform Push
 // How many standard deviations two pixels of the same light may differ by: more where few samples tell the deviation.
 float noiseOf(float samples)
 {
-    return min(2.0 + 16.0 / samples, 10.0);
+    return min(kNoiseLeast + kNoiseFew / samples, kNoiseMost);
 }
 
 // The cubic B-spline at -2, -1, 0, 1, 2.

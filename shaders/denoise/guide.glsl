@@ -10,22 +10,26 @@ struct Guide
     float coverage; // part of the samples that hit a surface
 };
 
+const int kNormalBits = 9;
+const uint kNormalMask = (1u << kNormalBits) - 1u;
 const float kNormalSteps = 255.0;
 const float kCoverageSteps = 31.0;
 
 uint packSurface(vec3 normal, float coverage)
 {
-    uvec3 code = uvec3(ivec3(round(clamp(normal, -1.0, 1.0) * kNormalSteps)) & 511);
+    uvec3 code = uvec3(ivec3(round(clamp(normal, -1.0, 1.0) * kNormalSteps))) & kNormalMask;
     uint cover = coverage > 0.0 ? max(uint(coverage * kCoverageSteps + 0.5), 1u) : 0u;
-    return code.x | (code.y << 9) | (code.z << 18) | (cover << 27);
+    return code.x | (code.y << kNormalBits) | (code.z << (2 * kNormalBits)) | (cover << (3 * kNormalBits));
 }
 
 Guide loadGuide(DenoiseGuide_ConstPtr guides, uint pixel)
 {
     uvec2 word = unpackUint2x32(uint64_t_ConstPtr(uint64_t(guides)).data[pixel]);
-    ivec3 code = ivec3(bitfieldExtract(int(word.y), 0, 9), bitfieldExtract(int(word.y), 9, 9),
-                       bitfieldExtract(int(word.y), 18, 9));
-    return Guide(uintBitsToFloat(word.x), vec3(code) / kNormalSteps, float(word.y >> 27) / kCoverageSteps);
+    int bits = int(word.y);
+    ivec3 code = ivec3(bitfieldExtract(bits, 0, kNormalBits), bitfieldExtract(bits, kNormalBits, kNormalBits),
+                       bitfieldExtract(bits, 2 * kNormalBits, kNormalBits));
+    return Guide(uintBitsToFloat(word.x), vec3(code) / kNormalSteps,
+                 float(word.y >> (3 * kNormalBits)) / kCoverageSteps);
 }
 
 vec4 loadLight(vec4_ConstPtr light, uint pixel)
@@ -49,18 +53,24 @@ ivec2 pixelOfThread(uint workgroup, uint thread, uint width)
 }
 
 // A place at a pixel, from the camera's origin.
-vec3 placeAt(ivec2 pixel, float depth, uvec2 size, bool orthographic, vec3 forward, vec3 half_pixel_x, vec3 half_pixel_y)
+vec3 placeAt(ivec2 pixel, float depth, uvec2 size, bool orthographic, vec3 forward, vec3 half_pixel_x,
+             vec3 half_pixel_y)
 {
     vec3 offset = rayOffset(pixelOffset(uvec2(pixel), size), half_pixel_x, half_pixel_y);
     return depth * forward + (orthographic ? 1.0 : depth) * offset;
 }
 
-// The distance of a pixel's place from the plane of another one, in voxels; way: from that to the other place. 0 where
-// faces of all directions are seen, which have no plane.
+// Whether faces of about one direction are seen. Those of all directions have no plane.
+bool hasPlane(Guide guide)
+{
+    return dot(guide.normal, guide.normal) > 0.01;
+}
+
+// The distance of a place from the plane of a pixel, in voxels; 0 without a plane. way: from the pixel's place to that
+// one.
 float distanceFromPlane(Guide guide, vec3 way, float edge)
 {
-    float normal_length = length(guide.normal);
-    return normal_length > 0.1 ? abs(dot(guide.normal, way)) / (normal_length * edge) : 0.0;
+    return hasPlane(guide) ? abs(dot(guide.normal, way)) / (length(guide.normal) * edge) : 0.0;
 }
 
 // How different the normals of two pixels are; at 1, by as much as may be chance. Means over few samples of several
@@ -69,12 +79,11 @@ float turnOf(Guide a, Guide b)
 {
     vec3 turn = a.normal - b.normal;
     float mixed = max(1.0 - dot(a.normal, a.normal), 0.0) + max(1.0 - dot(b.normal, b.normal), 0.0);
-    return dot(turn, turn) / (0.1 + mixed);
+    return dot(turn, turn) / (kTurnLeast + mixed);
 }
 
 // How much the light of a pixel tells about that of another one.
 float alikeness(Guide guide, Guide other, vec3 way, float edge)
 {
-    const float planes_apart = 8.0; // voxels
-    return other.coverage * exp(-distanceFromPlane(guide, way, edge) / planes_apart - turnOf(guide, other));
+    return other.coverage * exp(-distanceFromPlane(guide, way, edge) / kPlanesApart - turnOf(guide, other));
 }

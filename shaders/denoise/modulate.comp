@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Makes radiance of the filtered light. A pixel that nothing around it is like was not filtered: it becomes no brighter
-// than the brightest pixel around it.
+// Makes radiance of the filtered light. Where a pixel of few samples is still brighter than all around it, nothing was
+// like it: it is dimmed to the brightest of them, the less the more samples it has.
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise.h"
 #include "lib/camera.glsl"
@@ -41,8 +41,9 @@ void main()
     PixelFeatures sum = loadFeatures(params.features, number);
     vec3 light = loadLight(params.light, i).rgb;
     float brightest = brightestAround(ivec2(i % params.width, i / params.width));
+    float dimmed = min(1.0, brightest / max(luminance(light), 1e-30));
     if (brightest > 0.0) // else there is nothing around
-        light *= min(1.0, brightest / max(luminance(light), 1e-30));
+        light *= mix(dimmed, 1.0, min(1.0 / (params.sample_part * kSpikeSamples), 1.0));
     vec3 scattered = light * divisorOf(params.sample_part * sum.albedo);
     params.sums.data[number] = PixelSum(params.sample_part * sum.direct + scattered, 0.0);
 }

@@ -18,10 +18,6 @@ layout(push_constant, scalar) uniform Push
 
 #include "denoise/motion.glsl"
 
-// Farther from the plane, and with normals that differ more, an earlier pixel shows another place.
-const float kDistanceMax = 1.5; // voxels
-const float kTurnMax = 3.0;
-
 void main()
 {
     uint i = threadIndex();
@@ -54,7 +50,8 @@ void main()
         vec3 way = placeAt(other, other_guide.depth, size, kOldOrthographic, before.forward, before.half_pixel_x,
                            before.half_pixel_y) - place;
         vec2 share = mix(1.0 - part, part, vec2(side));
-        bool same = exists && other_guide.coverage > 0.0 && distanceFromPlane(guide, way, params.edge) < kDistanceMax &&
+        float apart = hasPlane(guide) ? distanceFromPlane(guide, way, params.edge) : length(way) / params.edge;
+        bool same = exists && other_guide.coverage > 0.0 && apart < kDistanceMax &&
                     turnOf(guide, other_guide) < kTurnMax;
         float weight = same ? share.x * share.y * other_guide.coverage : 0.0;
         weights += weight;

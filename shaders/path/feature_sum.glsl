@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sums of what the camera's rays see. The includer includes path/features.glsl and trace/surface.glsl before and declares
-// params.attributes and params.features.
+// Sums of what the camera's rays see. The includer includes path/features.glsl and trace/surface.glsl before and
+// declares params.attributes and params.features.
 
 // Adds what the ray of a sample sees. direct: radiance that it has met.
 void addFeatures(uint pixel, Ray ray, Hit hit, vec3 direct, vec3 origin, vec3 forward)

@@ -31,7 +31,8 @@ public:
     /// Forgets earlier pictures: because the last frame was lost, or kernels may have changed.
     void forget();
 
-    /// Records the passes that make the denoised picture of the samples so far. The last picture of another subject
+    /// Records the passes that make the denoised picture of the samples so far. guided: a picture of this size with
+    /// features (PathOptions::features) and at least one sample. The last picture of another subject
     /// (GuidedPicture::subject) becomes the earlier one, if it shows the same light. history_max: samples of the
     /// earlier picture that count at most, in a pixel; more smooth better and follow changes of light later. Cost:
     /// pixels.

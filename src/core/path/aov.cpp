@@ -16,12 +16,22 @@ glm::dvec3 offsetOf(const TraceCamera& camera, const glm::dvec2& pixel, const gl
     return n.x * glm::dvec3(camera.rays.half_pixel_x) + n.y * glm::dvec3(camera.rays.half_pixel_y);
 }
 
-// Where a place is in a picture. is_direction: the place is infinitely far in that direction.
+// From a camera to a place. is_direction: the place is infinitely far in that direction.
+glm::dvec3 wayTo(const TraceCamera& camera, const glm::dvec3& place, bool is_direction)
+{
+    return is_direction ? place : place - glm::dvec3(camera.rays.origin);
+}
+
+double depthOf(const TraceCamera& camera, const glm::dvec3& place, bool is_direction)
+{
+    return glm::dot(wayTo(camera, place, is_direction), glm::dvec3(camera.rays.forward));
+}
+
+// Where a place before a camera is in its picture.
 glm::dvec2 pixelOf(const TraceCamera& camera, const glm::dvec3& place, bool is_direction, const glm::dvec2& size)
 {
-    const glm::dvec3 way = is_direction ? place : place - glm::dvec3(camera.rays.origin);
-    const double depth = glm::dot(way, glm::dvec3(camera.rays.forward));
-    const glm::dvec3 offset = camera.orthographic ? way : way / depth;
+    const glm::dvec3 way = wayTo(camera, place, is_direction);
+    const glm::dvec3 offset = camera.orthographic ? way : way / depthOf(camera, place, is_direction);
     const glm::dvec3 right = camera.rays.half_pixel_x;
     const glm::dvec3 down = camera.rays.half_pixel_y;
     const glm::dvec2 n = {glm::dot(offset, right) / glm::dot(right, right),
@@ -58,7 +68,11 @@ AovImages aovsOf(std::span<const gpu::PixelFeatures> features, std::uint32_t wid
                          depth * glm::dvec3(camera.rays.forward) + (camera.orthographic ? 1.0 : depth) * offset;
                      const bool is_direction = !hits && !camera.orthographic;
                      const glm::dvec3 place = is_direction ? way : way + glm::dvec3(camera.rays.origin);
-                     images.motion[pixel] = glm::vec2(pixelOf(camera_before, place, is_direction, size) - at);
+                     const bool is_behind =
+                         !camera_before.orthographic && depthOf(camera_before, place, is_direction) <= 0.0;
+                     images.motion[pixel] = is_behind
+                                                ? glm::vec2(AovImages::kNoMotion)
+                                                : glm::vec2(pixelOf(camera_before, place, is_direction, size) - at);
                  });
     return images;
 }

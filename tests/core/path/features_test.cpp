@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -109,6 +110,15 @@ TEST(PathFeatures, OfTheSky)
         const glm::dvec2 motion = pixelOf(from_here, ahead) - glm::dvec2(i % kWallWidth, i / kWallWidth);
         EXPECT_LT(glm::distance(glm::dvec2(images.motion[i]), motion), 0.01);
     }
+}
+
+TEST(PathFeatures, PlacesBehindTheCameraBeforeHaveNoMotion)
+{
+    const DeviceTree tree = wall();
+    const ViewCamera view = ViewCamera::lookAt({9.0, 7.0, 14.0}, {8.0, 8.0, 4.0}, 0.5);
+    const AovImages images = aovs(tree, view, ViewCamera::lookAt({9.0, 7.0, 14.0}, {8.0, 8.0, 24.0}, 0.5));
+    EXPECT_TRUE(std::ranges::all_of(images.motion,
+                                    [](const glm::vec2& motion) { return motion == glm::vec2(AovImages::kNoMotion); }));
 }
 
 // Features change nothing of the picture, and a picture that has them begins anew.

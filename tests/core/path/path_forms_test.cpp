@@ -24,6 +24,8 @@ using test::LitVoxel;
 struct FormPicture
 {
     std::vector<gpu::PixelSum> sums;
+    std::vector<gpu::PixelFeatures> features; // where they are asked for
+    std::uint64_t ray_count = 0;              // of the last sample
     std::uint32_t capped_rays = 0;
     std::uint64_t bytes = 0;
 
@@ -59,8 +61,11 @@ FormPicture trace(const Motif& motif, PathForm form, const PathOptions& options,
         device().run([&](vk::FrameGraph& graph)
                      { tracer.addSample(graph, motif.tree, motif.light, camera, options, &lists); });
     }
-    FormPicture picture = {device().download(tracer.picture().sums), {}, rayCountOf(device().download(lists)),
-                           device().download(tracer.status()).front().capped_rays, tracer.bytes()};
+    FormPicture picture = {device().download(tracer.picture().sums),
+                           {},
+                           rayCountOf(device().download(lists)),
+                           device().download(tracer.status()).front().capped_rays,
+                           tracer.bytes()};
     if (options.features)
     {
         picture.features = device().download(tracer.guided().features);
