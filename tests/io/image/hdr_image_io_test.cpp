@@ -2,6 +2,12 @@
 #include "io/image/hdr_image_io.h"
 
 #include "support/errors.h"
+#include "support/temp_dir.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +57,43 @@ TEST(HdrImageIo, ExrKeepsEveryNumber)
         EXPECT_EQ(decoded.width, width);
         EXPECT_EQ(decoded.height, height);
         EXPECT_EQ(decoded.texels, image.texels);
+    }
+}
+
+// Channels beside the light stand where their names say, and the light is read as before.
+TEST(HdrImageIo, ExrHasOtherChannelsToo)
+{
+    const HdrImage image = randomImage(9, 5);
+    std::vector<float> depth;
+    std::vector<glm::vec2> motion;
+    for (int i = 0; i < 45; ++i)
+    {
+        depth.push_back(static_cast<float>(i));
+        motion.emplace_back(0.5F * static_cast<float>(i), -1.0F * static_cast<float>(i));
+    }
+    const std::vector<ExrChannel> channels = {
+        {"depth.Z", depth.data()}, {"motion.X", &motion[0].x, 2}, {"motion.Y", &motion[0].y, 2}};
+    const std::vector<std::uint8_t> encoded = encodeExr(image, channels);
+    EXPECT_EQ(decode(encoded).texels, image.texels);
+
+    const test::TempDir dir;
+    dir.write("channels.exr", encoded);
+    Imf::InputFile file((dir.path() / "channels.exr").c_str());
+    Imf::FrameBuffer buffer;
+    std::vector<std::vector<float>> read(channels.size(), std::vector<float>(45));
+    for (std::size_t i = 0; i < channels.size(); ++i)
+    {
+        ASSERT_NE(file.header().channels().findChannel(channels[i].name), nullptr);
+        buffer.insert(channels[i].name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(read[i].data()), sizeof(float),
+                                                   9 * sizeof(float)));
+    }
+    file.setFrameBuffer(buffer);
+    file.readPixels(0, 4);
+    for (std::size_t i = 0; i < 45; ++i)
+    {
+        EXPECT_EQ(read[0][i], depth[i]);
+        EXPECT_EQ(read[1][i], motion[i].x);
+        EXPECT_EQ(read[2][i], motion[i].y);
     }
 }
 
