@@ -145,7 +145,7 @@ void TargetImage::change(VkCommandBuffer commands, VkImageLayout from, VkImageLa
 
 void TargetImage::beginCopies(VkCommandBuffer commands)
 {
-    change(commands, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, VK_ACCESS_2_NONE,
+    change(commands, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, VK_ACCESS_2_TRANSFER_WRITE_BIT,
            VK_ACCESS_2_TRANSFER_WRITE_BIT);
 }
 

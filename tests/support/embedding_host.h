@@ -35,7 +35,7 @@ public:
     TargetImage(const TargetImage&) = delete;
     TargetImage& operator=(const TargetImage&) = delete;
 
-    /// Records the barrier before zvo's copies, which discards the image's contents.
+    /// Records the barrier before zvo's copies, and behind earlier ones, which discards the image's contents.
     void beginCopies(VkCommandBuffer commands);
 
     /// Records the barrier after zvo's copies, and a copy to the host's memory. without_barrier: leaves the barrier
