@@ -6,15 +6,18 @@
 #include "bench/bench_dynamic.h"
 #include "bench/bench_edit.h"
 #include "bench/bench_path.h"
+#include "bench/bench_report.h"
 #include "bench/bench_runs.h"
 #include "bench/bench_scenes.h"
 #include "bench/bench_table.h"
 #include "bench/bench_trace.h"
+#include "bench/bench_tune.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/session.h"
 #include "common/view.h"
 #include "core/base/kernels.h"
+#include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "core/trace/tree_tracer.h"
@@ -24,7 +27,6 @@
 
 #ifdef ZVO_EMBREE
 #include "bench/bench_embree.h"
-#include "core/headless/compress.h"
 #endif
 
 #include <fmt/format.h>
@@ -180,6 +182,11 @@ private:
 
 void bench(const BenchOptions& options)
 {
+    if (!options.reports.empty())
+    {
+        benchReport(options);
+        return;
+    }
     if (options.dynamic)
     {
         benchDynamic(options);
@@ -193,6 +200,11 @@ void bench(const BenchOptions& options)
     if (options.denoise)
     {
         benchDenoise(options);
+        return;
+    }
+    if (options.tune)
+    {
+        benchTune(options);
         return;
     }
     if (options.edit)

@@ -3,14 +3,19 @@
 
 #include "common/option_groups.h"
 #include "common/parse.h"
+#include "zvo/error.h"
 
 #include <CLI/CLI.hpp>
+
+#include <tuple>
 
 namespace zvo::cli
 {
 
 namespace
 {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kBenchFooter = R"(
 Each row is one scene at one resolution: a warm-up, then N runs on the device's timers. Its octree is compressed to a
@@ -23,6 +28,8 @@ Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scen
 
 --denoise: pictures of 1 to 64 paths a pixel, with and without denoising, beside one of very many.
 --path: the rays of paths beside primary rays and Embree's; each way of finding light beside chance.
+--tune: choices one after the other, their values in turns.
+--report: the passes that take longest, with their time for each triangle, voxel, node and ray.
 
 Examples:
   zvo bench scenes/knot.glb --resolutions 256 --runs 3
@@ -31,7 +38,9 @@ Examples:
   zvo bench --dynamic scenes/atrium_knot.scene.json
   zvo bench --edit scenes/atrium.glb --structure svdag
   zvo bench --denoise scenes/atrium.glb --reference 4096
-  zvo bench --path scenes/atrium.glb --environment forest.hdr)";
+  zvo bench --path scenes/atrium.glb --environment forest.hdr
+  zvo bench --tune scenes/atrium.glb
+  zvo bench --report bench.json --targets bench/targets.json)";
 
 } // namespace
 
@@ -45,7 +54,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
               "where the usual scenes are (default scenes), or what scene files name");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
              "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048, "
-             "with --dynamic, --edit and --path 512, with --denoise 128)");
+             "with --dynamic, --edit and --path 512, with --tune 256, with --denoise 128)");
     addValue(
         *bench, "--runs", options.run_count,
         [](std::string_view option, std::string_view text)
@@ -87,6 +96,20 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
     bench->add_option("--environment", options.environments, "with --path, maps of light, .hdr or .exr")
         ->type_name("FILE")
         ->needs("--path");
+    CLI::Option* const size = bench->add_option_function<std::string>(
+        "--size",
+        [&options](const std::string& text)
+        { std::tie(options.path_width, options.path_height) = parseSize("--size", text); },
+        "with --path and --tune, pixels of the picture whose rays are measured (default 640x360)");
+    size->type_name("WxH");
+    bench->final_callback(
+        [size, &options]
+        {
+            if (size->count() != 0 && !options.path && !options.tune)
+            {
+                throw Error(ErrorCode::Usage, "--size goes with --path or --tune");
+            }
+        });
     bench
         ->add_flag("--denoise", options.denoise,
                    "measure instead how close denoised pictures of few paths come to one of many, by day and at night")
@@ -101,10 +124,35 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1U << 20)); },
         "N", "with --denoise, paths a pixel of the picture of many (default 1024)")
         ->needs("--denoise");
+    addDeviceOptions(*bench, options.device);
+    bench
+        ->add_flag("--tune", options.tune,
+                   "measure instead each form and size of kernels that zvo chooses by device, with one scene at one "
+                   "resolution, and print what is faster than its choice, for --tuning")
+        ->excludes("--balance")
+        ->excludes("--dynamic")
+        ->excludes("--edit")
+        ->excludes("--path")
+        ->excludes("--denoise")
+        ->excludes("--passes")
+        ->excludes("--tuning");
+    CLI::Option* const report =
+        bench
+            ->add_option("--report", options.reports,
+                         "measure nothing: tell in Markdown what these JSON reports have measured, pass by pass")
+            ->type_name("FILE");
+    for (const char* const other :
+         {"SCENE", "--balance", "--dynamic", "--edit", "--path", "--denoise", "--tune", "--passes"})
+    {
+        report->excludes(other);
+    }
+    addValue(
+        *bench, "--targets", options.targets, [](std::string_view, std::string_view text) { return fs::path(text); },
+        "FILE", "with --report, also tell what the figures in this file ask for, such as bench/targets.json")
+        ->needs("--report");
     addText(*bench, "--json", options.output.json, "FILE|-", "write a report; - is standard output, without the table")
         ->group("Output");
     bench->add_flag("-f,--force", options.output.overwrite, "overwrite files that exist")->group("Output");
-    addDeviceOptions(*bench, options.device);
     bench->footer(kBenchFooter);
     return bench;
 }

@@ -36,9 +36,14 @@ struct BenchOptions
     bool edit = false;                      // strokes of a brush
     bool path = false;                      // path tracing
     bool denoise = false;                   // pictures of few paths
+    bool tune = false;                      // what zvo chooses by device
     std::uint32_t reference_samples = 1024; // a pixel of the picture that they are compared with; with denoise
     std::vector<std::filesystem::path> environments; // maps; with path
-    TreeStructure structure = TreeStructure::Svo;    // of the static part; with dynamic or edit
+    std::uint32_t path_width = 640;                  // of the pictures whose rays path and tune measure
+    std::uint32_t path_height = 360;
+    TreeStructure structure = TreeStructure::Svo; // of the static part; with dynamic or edit
+    std::vector<std::filesystem::path> reports;   // earlier runs' JSON, to be told; empty: measure
+    std::optional<std::filesystem::path> targets; // figures to compare them with; with reports
     DeviceOptions device;
     OutputOptions output; // path: unused
 };

@@ -41,8 +41,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kPathDepth = 9;
-constexpr std::uint32_t kPathWidth = 640;
-constexpr std::uint32_t kPathHeight = 360;
 constexpr std::uint32_t kVarianceWidth = 160;
 constexpr std::uint32_t kVarianceHeight = 90;
 constexpr std::uint32_t kVarianceSamples = 256;
@@ -135,8 +133,8 @@ public:
         const float emission_scale = brightestEmission(scene);
         const GpuScene gpu_scene = uploadScene(device, scene, options.attributes, emission_scale);
         m_tree = buildOctree(device, gpu_scene, m_grid, {options.coverage, options.attributes, {}}).octree;
-        m_view =
-            chooseCamera(options.camera, scene, subjectOf(scene.bounds(), m_grid), double{kPathWidth} / kPathHeight);
+        m_view = chooseCamera(options.camera, scene, subjectOf(scene.bounds(), m_grid),
+                              static_cast<double>(options.path_width) / options.path_height);
     }
 
     SpeedRow measureSpeed()
@@ -147,11 +145,11 @@ public:
         row.voxels = m_tree.voxel_count;
         DeviceEnvironment sky(m_device.device());
         sky.setSun(daylight());
-        const TraceCamera camera = traceCamera(m_view, m_grid, kPathHeight);
+        const TraceCamera camera = traceCamera(m_view, m_grid, m_options.path_height);
         PathTracer tracer(m_device.device());
         PathTracer in_one_kernel(m_device.device());
-        tracer.resize(kPathWidth, kPathHeight, PathForm::Stages);
-        in_one_kernel.resize(kPathWidth, kPathHeight, PathForm::OneKernel);
+        tracer.resize(m_options.path_width, m_options.path_height, PathForm::Stages);
+        in_one_kernel.resize(m_options.path_width, m_options.path_height, PathForm::OneKernel);
         const PathOptions options;
         const auto sampleBy = [&](PathTracer& form)
         { return m_device.run([&](vk::FrameGraph& graph) { form.addSample(graph, m_tree, sky, camera, options); }); };
@@ -325,8 +323,8 @@ std::string pathTableHead(const vk::DeviceReport& device, const BenchOptions& op
         "of {} runs, in stages and in one kernel. A ray's time is that of trace/rays alone, without beam; beside it, "
         "the ratio to primary rays. Embree traces the same rays of bounces through the same voxels, one by one, on all "
         "processors.\n",
-        ZVO_VERSION_TEXT, device.name, device.type, device.driver, PathOptions().bounces, kPathWidth, kPathHeight,
-        options.run_count);
+        ZVO_VERSION_TEXT, device.name, device.type, device.driver, PathOptions().bounces, options.path_width,
+        options.path_height, options.run_count);
 }
 
 Json raysJson(const Rays& rays)
@@ -340,6 +338,8 @@ Json pathReportJson(const vk::DeviceReport& device, const BenchOptions& options,
     Json json = headJson("zvo.bench_path/1", device);
     json["coverage"] = coverageName(options.coverage);
     json["runs"] = options.run_count;
+    json["width"] = options.path_width;
+    json["height"] = options.path_height;
     json["rows"] = Json::array();
     for (const SpeedRow& row : speed)
     {

@@ -2,6 +2,7 @@
 #include "common/option_groups.h"
 
 #include "common/parse.h"
+#include "core/base/tuning.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -65,6 +66,10 @@ void addDeviceOptions(CLI::App& app, DeviceOptions& options)
         [](std::string_view option, std::string_view text)
         { return static_cast<std::uint32_t>(parseInteger(option, text, 0, 100000)); },
         "MS", "split work so that the device is busy about this long at a time, 0: never (default 400)")
+        ->group("Device");
+    addValue(
+        app, "--tuning", options.tuning, parseTuning, "NAME=VALUE,...",
+        "forms and sizes of kernels in place of those that zvo chooses, as zvo bench --tune prints them; results stay")
         ->group("Device");
     app.add_flag("--validation", options.validation,
                  "run with the Vulkan validation layers (core, synchronization); fail if they speak")

@@ -65,7 +65,7 @@ float parsePositive(std::string_view option, std::string_view text)
     const auto value = number<float>(text);
     if (!value || !std::isfinite(*value) || *value <= 0.0F)
     {
-        throw valueError(option, text, "a number above 0");
+        throw valueError(option, text, "a finite number above 0");
     }
     return *value;
 }

@@ -75,15 +75,15 @@ void Progress::begin(std::string_view what)
 {
     m_operation = std::min(m_operation + 1, m_operation_count);
     m_what = what;
-    draw(0);
+    draw(0, m_what);
 }
 
-void Progress::within(double done)
+void Progress::within(double done, std::string_view count)
 {
-    draw(std::clamp(done, 0.0, 1.0));
+    draw(std::clamp(done, 0.0, 1.0), count.empty() ? m_what : fmt::format("{}, {}", m_what, count));
 }
 
-void Progress::draw(double done) const
+void Progress::draw(double done, std::string_view what) const
 {
     if (::isatty(STDERR_FILENO) == 0)
     {
@@ -92,7 +92,7 @@ void Progress::draw(double done) const
     const double operations = static_cast<double>(m_operation - 1) + done;
     const auto filled = static_cast<std::size_t>(operations * kBarWidth / static_cast<double>(m_operation_count));
     const std::string line = fmt::format("{}[{:#<{}}{:.<{}}] {}/{} {:.48}", kClearLine, "", filled, "",
-                                         kBarWidth - filled, m_operation, m_operation_count, m_what);
+                                         kBarWidth - filled, m_operation, m_operation_count, what);
     g_bar_shown = true;
     std::fwrite(line.data(), 1, line.size(), stderr);
     std::fflush(stderr);

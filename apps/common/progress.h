@@ -41,11 +41,11 @@ public:
     /// Begins the next operation. what: a few words about it.
     void begin(std::string_view what);
 
-    /// Sets how much of the operation is done: 0 to 1.
-    void within(double done);
+    /// Sets how much of the operation is done: 0 to 1. count: the same in words, such as "3/64 samples".
+    void within(double done, std::string_view count = {});
 
 private:
-    void draw(double done) const;
+    void draw(double done, std::string_view what) const;
 
     std::size_t m_operation_count;
     std::size_t m_operation = 0; // the current operation, counted from 1

@@ -5,6 +5,7 @@
 #include "core/scene/scene.h"
 #include "core/tree/attribute_format.h"
 #include "io/scene/load_scene.h"
+#include "vk/tuning.h"
 #include "zvo/tree.h"
 #include "zvo/types.h"
 
@@ -25,6 +26,7 @@ struct DeviceOptions
     bool gpu_validation = false;             // also instruments the kernels
     std::uint64_t memory_limit = UINT64_MAX; // bytes
     std::uint32_t dispatch_ms = 400;         // target for one submission of work; 0: never split
+    vk::TuningValues tuning;                 // in place of what zvo chooses by device
 };
 
 /// Origin and voxel size of a grid, as a report states them.

@@ -5,11 +5,13 @@
 #include "common/progress.h"
 #include "common/report.h"
 #include "io/scene/load_scene.h"
+#include "vk/log_file.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -86,6 +88,8 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options)
     headless.memory_budget_bytes = options.memory_limit;
     headless.memory_budget_name = "--memory-limit";
     headless.slices.submission_ms = options.dispatch_ms;
+    headless.tuning = options.tuning;
+    headless.log = vk::logToFile(std::getenv("ZVO_LOG"));
     const std::filesystem::path folder = cacheFolder();
     headless.pipeline_cache_path = folder.empty() ? "" : (folder / "pipelines.bin").string();
     return headless;

@@ -18,7 +18,8 @@
 namespace zvo::cli
 {
 
-/// The options with which a command makes its device. Pipelines are kept below $XDG_CACHE_HOME/zvo, or ~/.cache/zvo.
+/// The options with which a command makes its device. Pipelines are kept below $XDG_CACHE_HOME/zvo, or ~/.cache/zvo;
+/// messages go to the file that $ZVO_LOG names, if any.
 vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
 
 /// Loads files as one scene and reports what was left out of it. Throws Error{Input}.

@@ -105,11 +105,12 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
         { return static_cast<std::uint32_t>(parseInteger(option, text, low, high)); };
     };
     PathRenderOptions& paths = options.paths;
-    addValue(render, "--spp", paths.samples, integer(1, 1U << 24), "N", "paths a pixel (default 64)");
+    addValue(render, "--spp", paths.samples, integer(1, 1U << 24), "N",
+             fmt::format("paths a pixel, 1 to {} (default 64)", 1U << 24));
     addValue(render, "--bounces", paths.path.bounces, integer(0, kBouncesMax), "N",
-             "diffuse reflections of a path (default 8)");
+             fmt::format("diffuse reflections of a path, 0 to {} (default 8)", kBouncesMax));
     addValue(render, "--seed", paths.path.seed, integer(0, UINT32_MAX), "N",
-             "of the paths' random numbers (default 0)");
+             fmt::format("of the paths' random numbers, 0 to {} (default 0)", UINT32_MAX));
     addValue(render, "--aperture", paths.path.lens_radius, parsePositive, "RADIUS",
              "radius of the lens of the camera, in world units (default: a pinhole)");
     addValue(render, "--focus", paths.path.focus_distance, parsePositive, "DISTANCE",
@@ -183,7 +184,8 @@ CLI::App* addRender(CLI::App& app, RenderOptions& options)
     render->add_flag("--rebuild", options.rebuild,
                      "voxelize everything anew for each picture of a scene in which something moves, instead of "
                      "merging what moves with what stands still");
-    addOutputOptions(*render, options.output, "the picture, a .png file; - is standard output");
+    addOutputOptions(*render, options.output,
+                     "the picture, a .png file, or of paths an .exr or .hdr file; - is standard output, of a .png");
     addDeviceOptions(*render, options.device);
     render->footer(kRenderFooter);
     return render;

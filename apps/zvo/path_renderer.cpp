@@ -2,12 +2,12 @@
 #include "path_renderer.h"
 
 #include "common/output.h"
-#include "common/signals.h"
 #include "core/base/read_file.h"
 #include "core/path/aov.h"
 #include "core/path/daylight.h"
 #include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
+#include "zvo/error.h"
 
 #include <fmt/format.h>
 
@@ -38,6 +38,24 @@ HdrImage readMap(const std::filesystem::path& file)
     return map;
 }
 
+// Limits a map, so that its light stays in range when it is multiplied by strength.
+void limit(HdrImage& map, float strength)
+{
+    const float most = kRadianceMax / strength;
+    std::uint64_t count = 0; // of brighter texels
+    for (glm::vec3& texel : map.texels)
+    {
+        const glm::vec3 limited = glm::min(texel, most);
+        count += limited == texel ? 0 : 1;
+        texel = limited;
+    }
+    if (count != 0)
+    {
+        talk(fmt::format("warning: --environment-strength {:g} brings {} of the map above {:g}; they are taken as that",
+                         strength, count == 1 ? "1 texel" : fmt::format("{} texels", count), kRadianceMax));
+    }
+}
+
 DeviceEnvironment makeEnvironment(vk::HeadlessDevice& device, const RenderOptions& options)
 {
     const PathRenderOptions& paths = options.paths;
@@ -48,8 +66,9 @@ DeviceEnvironment makeEnvironment(vk::HeadlessDevice& device, const RenderOption
         environment.setSun(sun);
         return environment;
     }
-    DeviceEnvironment environment(device.device(), readMap(*paths.environment),
-                                  paths.environment_turn * std::numbers::pi / 180.0,
+    HdrImage map = readMap(*paths.environment);
+    limit(map, paths.environment_strength);
+    DeviceEnvironment environment(device.device(), map, paths.environment_turn * std::numbers::pi / 180.0,
                                   double{paths.environment_strength});
     if (options.to_sun)
     {
@@ -77,17 +96,25 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
     const PathRenderOptions& paths = m_options.paths;
     const TraceCamera camera = traceCamera(view, tree.grid, m_options.height);
     m_camera_before = std::exchange(m_camera, camera);
-    m_tracer.resize(m_options.width, m_options.height, paths.form);
+    setSize();
     m_tracer.forget();
     PathOptions path = paths.path;
     path.features = paths.denoise || paths.aovs;
     path.reseeds = paths.denoise; // earlier pictures help if they have other noise
-    const InterruptWatch watch;
+    if (!m_watch)
+    {
+        m_watch.emplace();
+        if (paths.environment == "none" && !m_options.to_sun && !hasEmission(tree))
+        {
+            talk("warning: nothing gives off light: the scene has no emissive voxels, --environment is none, and there "
+                 "is no --sun");
+        }
+    }
     std::uint32_t samples = 0;
     const auto goesOn = [&]
     {
         const std::chrono::duration<double> seconds = Clock::now() - begin;
-        return samples == 0 || (samples < paths.samples && !watch.interrupted() &&
+        return samples == 0 || (samples < paths.samples && !interrupted() &&
                                 (!paths.time_limit || seconds.count() < *paths.time_limit));
     };
     while (goesOn())
@@ -96,13 +123,36 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
             m_device.run([&](vk::FrameGraph& graph) { m_tracer.addSample(graph, tree, m_environment, camera, path); });
         passes.insert(passes.end(), sample.begin(), sample.end());
         ++samples;
-        progress.within(static_cast<double>(m_tracer.sampleCount()) / paths.samples);
+        progress.within(static_cast<double>(samples) / paths.samples,
+                        fmt::format("{}/{} samples", samples, paths.samples));
     }
     if (m_tracer.sampleCount() < paths.samples)
     {
         talk(fmt::format("stopped after {} of {} samples a pixel", m_tracer.sampleCount(), paths.samples));
     }
     return encode(paths.denoise ? denoise(passes) : m_tracer.picture(), tree.grid);
+}
+
+void PathRenderer::setSize()
+{
+    const std::optional<PathForm>& form = m_options.paths.form;
+    try
+    {
+        m_tracer.resize(m_options.width, m_options.height, form);
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory)
+        {
+            throw;
+        }
+        const bool in_stages = form.value_or(pathFormOn(m_device.device())) == PathForm::Stages;
+        throw Error(ErrorCode::Memory,
+                    fmt::format("a picture of {} x {} pixels (--size) is too large for path tracing: {}, or make a "
+                                "smaller picture{}",
+                                m_options.width, m_options.height, error.what(),
+                                in_stages ? ", or choose --path-form kernel, which needs less" : ""));
+    }
 }
 
 SampledPicture PathRenderer::denoise(std::vector<vk::PassTime>& passes)
@@ -132,6 +182,7 @@ std::vector<std::uint8_t> PathRenderer::encode(const SampledPicture& picture, co
     Developer developer(m_device.device());
     m_device.run([&](vk::FrameGraph& graph)
                  { developer.develop(graph, picture, TexelFormat::Rgba8, exposure, image); });
+    m_exposure = m_device.download(developer.exposure()).front();
     const std::vector<gpu::uint> texels = m_device.download(image);
     return encodePng(m_options.width, m_options.height,
                      {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/progress.h"
+#include "common/signals.h"
 #include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
 #include "options.h"
@@ -26,15 +27,22 @@ public:
     std::vector<std::uint8_t> render(const DeviceTree& tree, const ViewCamera& view, Progress& progress,
                                      std::vector<vk::PassTime>& passes);
 
+    /// Whether the user has interrupted a picture: then no other one should begin.
+    [[nodiscard]] bool interrupted() const { return m_watch && m_watch->interrupted(); }
+
     /// The number of rays of the last picture that were given up.
     [[nodiscard]] std::uint64_t cappedRays();
 
     /// Samples a pixel of the last picture.
     [[nodiscard]] std::uint32_t sampleCount() const { return m_tracer.sampleCount(); }
 
+    /// The exposure of the last picture; nothing where it holds radiance as it is.
+    [[nodiscard]] std::optional<float> exposure() const { return m_exposure; }
+
 private:
+    void setSize();
     SampledPicture denoise(std::vector<vk::PassTime>& passes);
-    [[nodiscard]] std::vector<std::uint8_t> encode(const SampledPicture& picture, const Grid& grid);
+    std::vector<std::uint8_t> encode(const SampledPicture& picture, const Grid& grid);
     [[nodiscard]] std::vector<std::uint8_t> encodeWithAovs(const HdrImage& image, const Grid& grid);
 
     vk::HeadlessDevice& m_device;
@@ -42,6 +50,8 @@ private:
     PathTracer m_tracer;
     std::optional<Denoiser> m_denoiser; // where pictures are denoised
     DeviceEnvironment m_environment;
+    std::optional<InterruptWatch> m_watch;      // from the first picture on
+    std::optional<float> m_exposure;            // of the last picture
     std::optional<TraceCamera> m_camera;        // of the last picture
     std::optional<TraceCamera> m_camera_before; // of the one before
 };

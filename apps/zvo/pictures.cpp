@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <system_error>
+
 namespace zvo::cli
 {
 
@@ -31,6 +34,24 @@ Pictures::Pictures(const RenderOptions& options) : m_options(options)
     for (std::uint32_t i = 0; i < count(); ++i)
     {
         const Output look(pathOf(i), options.output.overwrite);
+    }
+}
+
+void Pictures::checkInputs(std::span<const std::filesystem::path> inputs) const
+{
+    checkPaths(m_options.output, inputs);
+    for (std::uint32_t i = 0; m_options.frames && i < count(); ++i)
+    {
+        const std::string path = pathOf(i);
+        std::error_code ignored;
+        if (std::filesystem::exists(path, ignored)) // else it is no input
+        {
+            checkOutputs(std::array{path}, inputs);
+        }
+        if (std::filesystem::path(path).filename() == std::filesystem::path(m_options.output.json).filename())
+        {
+            checkOutputs(std::array{path, m_options.output.json}, {});
+        }
     }
 }
 

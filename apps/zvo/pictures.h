@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ public:
     /// Checks at once whether all of them can be written. Throws Error{Usage} for a name that is not valid,
     /// Error{Output} for a path that cannot be written to.
     explicit Pictures(const RenderOptions& options);
+
+    /// Throws Error{Usage} if a picture would overwrite an input, or take the place of the report.
+    void checkInputs(std::span<const std::filesystem::path> inputs) const;
 
     [[nodiscard]] std::uint32_t count() const;
 

@@ -93,11 +93,15 @@ public:
         m_progress.begin("voxelizing what stands still");
         LiveScene scene(m_device, std::move(animated), grid,
                         {m_options.voxels.coverage, m_options.voxels.hasAttributes(), structure()});
-        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
+        for (std::uint32_t i = 0; goesOn(i); ++i)
         {
             m_progress.begin("updating");
             const double seconds = timeOf(scene.animated(), i);
             const LiveUpdate update = scene.updateAndWait(seconds);
+            if (m_renderer.interrupted())
+            {
+                break;
+            }
             const std::vector<vk::PassTime> beam_passes = m_renderer.show(scene.tree());
             if (i == 0)
             {
@@ -115,7 +119,7 @@ public:
     // Voxelizes everything anew at each time.
     void rebuild(const AnimatedScene& animated, const Grid& grid, const ViewCamera& camera)
     {
-        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
+        for (std::uint32_t i = 0; goesOn(i); ++i)
         {
             const double seconds = timeOf(animated, i);
             Json frame;
@@ -128,6 +132,10 @@ public:
                 frame = m_report.rebuiltFrame(m_pictures.number(i), seconds, built, m_triangle_count);
             };
             const DeviceTree tree = makeTree(sceneAt(animated, seconds), grid, report);
+            if (m_renderer.interrupted())
+            {
+                break;
+            }
             const std::vector<vk::PassTime> beam_passes = m_renderer.show(tree);
             if (i == 0)
             {
@@ -143,22 +151,28 @@ public:
     {
         if (file)
         {
-            writeReport(*file, m_report.json(m_pictures.count(), m_renderer.cappedRays()));
+            writeReport(*file, m_report.json(m_renderer.cappedRays()));
         }
-        m_report.tell(m_renderer.cappedRays());
+        m_report.tell(m_pictures.count(), m_renderer.cappedRays());
     }
 
 private:
     void turn(const DeviceTree& tree, const ViewCamera& camera, const glm::dvec3& center)
     {
         m_report.addBeam(m_renderer.show(tree));
-        for (std::uint32_t i = 0; i < m_pictures.count(); ++i)
+        for (std::uint32_t i = 0; goesOn(i); ++i)
         {
             const double turn = 2.0 * std::numbers::pi * m_pictures.number(i) / m_pictures.count();
             draw(i, m_camera_work.flies()
                         ? m_camera_work.at(m_pictures.number(i), AnimatedScene().frames_per_second, camera)
                         : camera.turnedAround(center, turn));
         }
+    }
+
+    // Whether the index-th picture is to be made.
+    [[nodiscard]] bool goesOn(std::uint32_t index) const
+    {
+        return index < m_pictures.count() && !m_renderer.interrupted();
     }
 
     [[nodiscard]] TreeStructure structure() const { return m_options.structure.value_or(TreeStructure::Svo); }
@@ -280,6 +294,19 @@ void checkPathOptions(const RenderOptions& options)
             throw Error(ErrorCode::Usage, fmt::format("{} needs --integrator path", name));
         }
     }
+    const bool has_map = paths.environment && *paths.environment != "none";
+    if (paths.environment_turn != plain.environment_turn && !has_map)
+    {
+        throw Error(ErrorCode::Usage, "--environment-turn needs a map: --environment FILE");
+    }
+    if (paths.environment_strength != plain.environment_strength && !has_map)
+    {
+        throw Error(ErrorCode::Usage, "--environment-strength needs a map: --environment FILE");
+    }
+    if (paths.path.focus_distance != plain.path.focus_distance && paths.path.lens_radius == plain.path.lens_radius)
+    {
+        throw Error(ErrorCode::Usage, "--focus needs --aperture: all is sharp without a lens");
+    }
     if (paths.aovs && extensionOf(options.output.path) != ".exr")
     {
         throw Error(ErrorCode::Usage,
@@ -328,8 +355,9 @@ void render(const RenderOptions& options)
         inputs.push_back(*options.paths.environment);
     }
     checkPaths(options.output, inputs);
-    const CameraWork camera_work(options);
     Pictures pictures(options);
+    pictures.checkInputs(inputs);
+    const CameraWork camera_work(options);
     std::optional<Output> report = openReport(options.output);
     if (hasZvoFile(options.voxels))
     {
@@ -350,7 +378,7 @@ void render(const RenderOptions& options)
     progress.expect(!moves            ? 3 + compressions + pictures.count()
                     : options.rebuild ? 1 + (3 + compressions) * pictures.count()
                                       : 2 + 2 * pictures.count());
-    checkPaths(options.output, animated.files);
+    pictures.checkInputs(animated.files);
     const Bounds bounds = boundsOverTime(animated);
     const Grid grid = placeGrid(options.voxels, animated, bounds);
     const Bounds subject = subjectOf(bounds, grid);

@@ -111,7 +111,7 @@ Json RenderReport::rebuiltFrame(std::uint32_t number, double seconds, const Buil
             {"build_ms", result.operationMs("octree")}};
 }
 
-Json RenderReport::json(std::uint32_t picture_count, std::uint64_t capped_rays) const
+Json RenderReport::json(std::uint64_t capped_rays) const
 {
     Json json = m_json;
     double trace_ms = 0;
@@ -134,10 +134,10 @@ Json RenderReport::json(std::uint32_t picture_count, std::uint64_t capped_rays) 
     json["shade_ms"] = shade_ms;
     json["beam_grid_ms"] = sumMs(m_beam_passes);
     json["capped_rays"] = capped_rays;
-    json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", picture_count}};
+    json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", m_times.size()}};
     if (m_times.front().path_samples != 0)
     {
-        json["paths"] = {{"samples", m_times.front().path_samples}, {"bounces", m_options.paths.path.bounces}};
+        json["paths"] = pathsJson();
     }
     if (!m_frames.empty())
     {
@@ -146,8 +146,46 @@ Json RenderReport::json(std::uint32_t picture_count, std::uint64_t capped_rays) 
     return json;
 }
 
-void RenderReport::tell(std::uint64_t capped_rays) const
+Json RenderReport::pathsJson() const
 {
+    const PathRenderOptions& paths = m_options.paths;
+    const PathForm form = paths.form.value_or(pathFormOn(m_device.device()));
+    Json pictures = Json::array();
+    bool stopped = m_options.frames && m_times.size() <= m_options.frames->second - m_options.frames->first;
+    for (const PictureTimes& times : m_times)
+    {
+        Json picture;
+        if (m_options.frames)
+        {
+            picture["frame"] = m_options.frames->first + pictures.size();
+        }
+        picture["samples"] = times.path_samples;
+        picture["exposure"] = times.exposure ? Json(*times.exposure) : Json(nullptr);
+        pictures.push_back(std::move(picture));
+        stopped = stopped || times.path_samples < paths.samples;
+    }
+    return {{"samples", m_times.front().path_samples},
+            {"samples_asked", paths.samples},
+            {"stopped", stopped},
+            {"bounces", paths.path.bounces},
+            {"seed", paths.path.seed},
+            {"form", form == PathForm::Stages ? "stages" : "kernel"},
+            {"environment", paths.environment ? Json(paths.environment->string()) : Json(nullptr)},
+            {"environment_turn", paths.environment_turn},
+            {"environment_strength", paths.environment_strength},
+            {"aperture", paths.path.lens_radius},
+            {"focus", paths.path.focus_distance},
+            {"denoise", paths.denoise},
+            {"time_limit", paths.time_limit ? Json(*paths.time_limit) : Json(nullptr)},
+            {"pictures", pictures}};
+}
+
+void RenderReport::tell(std::uint32_t picture_count, std::uint64_t capped_rays) const
+{
+    if (m_times.size() < picture_count)
+    {
+        talk(fmt::format("stopped after {} of {} pictures", m_times.size(), picture_count));
+    }
     if (capped_rays != 0)
     {
         talk(fmt::format("warning: {} rays took too many steps and were given up", capped_rays));

@@ -54,12 +54,14 @@ public:
                                     std::uint64_t triangle_count) const;
 
     /// The whole report, after all pictures.
-    [[nodiscard]] Json json(std::uint32_t picture_count, std::uint64_t capped_rays) const;
+    [[nodiscard]] Json json(std::uint64_t capped_rays) const;
 
-    /// Writes one line to standard error, after all pictures.
-    void tell(std::uint64_t capped_rays) const;
+    /// Tells of the run on standard error, after all pictures. picture_count: how many were asked for.
+    void tell(std::uint32_t picture_count, std::uint64_t capped_rays) const;
 
 private:
+    [[nodiscard]] Json pathsJson() const;
+
     const RenderOptions& m_options;
     vk::HeadlessDevice& m_device;
     std::vector<vk::PassTime> m_beam_passes;

@@ -81,6 +81,7 @@ std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, Progress& pro
         std::vector<std::uint8_t> picture = m_paths->render(*m_tree, view, progress, times.passes);
         times.trace_ms = sumMs(times.passes);
         times.path_samples = m_paths->sampleCount();
+        times.exposure = m_paths->exposure();
         m_capped_rays += m_paths->cappedRays();
         return picture;
     }

@@ -22,6 +22,7 @@ struct PictureTimes
     double trace_ms = 0;            // beam and primary rays
     double shade_ms = 0;            // shadow and occlusion rays, and colour
     std::uint32_t path_samples = 0; // a pixel; 0: not path traced, otherwise all is in trace_ms
+    std::optional<float> exposure;  // of paths; nothing where the picture holds radiance as it is
 };
 
 /// Renders pictures of one size, of one or several octrees or DAGs. The buffers are made for the first picture, so that
@@ -37,6 +38,9 @@ public:
 
     /// The picture as a file: a PNG, or of paths what the output's name tells.
     std::vector<std::uint8_t> render(const ViewCamera& view, Progress& progress, PictureTimes& times);
+
+    /// Whether the user has interrupted a picture: then no other one should begin.
+    [[nodiscard]] bool interrupted() const { return m_paths && m_paths->interrupted(); }
 
     /// The number of rays of all pictures that were given up.
     [[nodiscard]] std::uint64_t cappedRays() const { return m_capped_rays; }

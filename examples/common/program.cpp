@@ -26,7 +26,11 @@ Options parse(int count, char** arguments)
     {
         const std::string argument = arguments[i];
         const bool has_value = i + 1 < count;
-        if (argument == "--validation")
+        if (argument == "--help")
+        {
+            options.help = true;
+        }
+        else if (argument == "--validation")
         {
             options.validation = true;
         }
@@ -62,10 +66,16 @@ int run(int count, char** arguments, const char* usage, std::size_t arguments_mi
     try
     {
         const Options options = parse(count, arguments);
+        const std::string help = std::string("usage: ") + arguments[0] + " " + usage +
+                                 " [--device NAME] [--validation] [--no-optional] [--ply FILE]";
+        if (options.help)
+        {
+            std::printf("%s\n", help.c_str());
+            return 0;
+        }
         if (options.arguments.size() < arguments_min)
         {
-            throw std::runtime_error(std::string("usage: ") + arguments[0] + " " + usage +
-                                     " [--device NAME] [--validation] [--no-optional] [--ply FILE]");
+            throw std::runtime_error(help);
         }
         if (!options.ply.empty())
         {

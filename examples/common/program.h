@@ -14,6 +14,7 @@ namespace host
 /// What the command line says.
 struct Options
 {
+    bool help = false;         // --help: the usage is printed, and nothing else done
     bool validation = false;   // --validation: any message of the layers makes the program fail
     bool optional = true;      // --no-optional: no feature is enabled that zvo does without
     std::string device;        // --device NAME|NUMBER|cpu, or the environment variable ZVO_DEVICE

@@ -30,6 +30,7 @@ Start::Start(const Options& options, void* host_features, std::size_t number) : 
     zvo::OptionalFeatures optional;
     optional.pass_times = has("hostQueryReset");
     optional.subgroup_sizes = has("subgroupSizeControl");
+    optional.int64_atomics = has("shaderBufferInt64Atomics");
     m_info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     m_info.pNext = host_features;
     const std::vector<std::string> problems = zvo::patchFeatures(m_info, m_features, optional);

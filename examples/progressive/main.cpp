@@ -10,10 +10,14 @@
 //         --integrator path --spp 8
 #include "common/start.h"
 
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace
 {
@@ -23,8 +27,21 @@ constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
 constexpr host::Edge kZvoWrites = {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
 
+std::uint32_t sampleCountOf(const std::string& text)
+{
+    std::uint32_t count = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, count);
+    if (failure != std::errc() || stop != end || count == 0)
+    {
+        throw std::runtime_error("SAMPLES is a whole number from 1 to 4294967295, not " + text);
+    }
+    return count;
+}
+
 void embed(const host::Options& options)
 {
+    const std::uint32_t sample_count = sampleCountOf(options.arguments[1]);
     const host::Start start(options);
     const host::Device& device = start.device();
     zvo::Context context(start.contextInfo());
@@ -35,7 +52,6 @@ void embed(const host::Options& options)
     const host::Image image(device, kFormat, kSize, VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
     zvo::Tracer tracer(context, kSize.width, kSize.height, kFormat);
     std::optional<zvo::Environment> light;
-    const unsigned long sample_count = std::stoul(options.arguments[1]);
     const auto camera = zvo::CameraInfo::lookAt({1.5, 2, 3.5}, {0, 0, 0}, 26 * (std::numbers::pi / 180));
 
     // A renderer goes on for ever. It need not know whether the camera has moved: zvo looks, and begins anew.

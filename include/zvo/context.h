@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace zvo
@@ -41,9 +42,13 @@ struct ContextInfo
     std::uint64_t memory_budget_bytes = UINT64_MAX;              // of device memory that zvo holds
     LogCallback log = {};
     std::uint32_t subgroup_size = 0; // of kernels, from DeviceReport::min_subgroup_size to max_subgroup_size, a power
-                                     // of two; takes OptionalFeatures::subgroup_sizes. 0: the driver chooses
+                                     // of two; takes OptionalFeatures::subgroup_sizes. 0: the driver's, or 32 where
+                                     // it would take more and can be asked
     std::uint32_t timed_passes_per_frame = 0; // passes of a frame whose times passTimes() tells, at most 65536; 0:
                                               // none. Without OptionalFeatures::pass_times there are none either
+    std::string_view tuning = {}; // "NAME=VALUE,..." as `zvo bench --tune` prints it: forms and sizes of kernels in
+                                  // place of those that zvo chooses for the device (docs/performance.md). Results stay
+                                  // the same. Only the constructor reads it; subgroup_size, if not 0, goes before it
 };
 
 /// Device memory of a context, in bytes.
@@ -67,7 +72,8 @@ class ZVO_API Context
 {
 public:
     /// Throws Error{Device}, with every reason, when zvo cannot use the device or a required feature was not enabled;
-    /// Error{Usage} for null handles and for more timed passes than the maximum; Error{Memory}.
+    /// Error{Usage} for null handles, for more timed passes than the maximum, and for names and values that tuning
+    /// does not know; Error{Memory}.
     explicit Context(const ContextInfo& info);
     ~Context();
     Context(const Context&) = delete;

@@ -18,10 +18,10 @@ struct DeviceReport
 {
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     std::string name;
-    std::string driver;      // name and version, as the driver states them
-    std::string type;        // "discrete", "integrated", "virtual", "cpu" or "other"
-    std::string api_version; // "1.3.230"
-    std::uint32_t subgroup_size = 0;
+    std::string driver;                  // name and version, as the driver states them
+    std::string type;                    // "discrete", "integrated", "virtual", "cpu" or "other"
+    std::string api_version;             // "1.3.230"
+    std::uint32_t subgroup_size = 0;     // the driver's own; kernels may take another (ContextInfo::subgroup_size)
     std::uint64_t memory_bytes = 0;      // largest device-local heap
     std::uint64_t max_buffer_bytes = 0;  // largest buffer, and largest allocation of memory
     std::uint32_t min_subgroup_size = 0; // the smallest subgroup size that a kernel can ask for; 0: none
@@ -47,7 +47,9 @@ ZVO_API DeviceReport query(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkI
 struct OptionalFeatures
 {
     bool pass_times = false;     // hostQueryReset: the device's time of each pass
-    bool subgroup_sizes = false; // subgroupSizeControl: kernels in subgroups of a size that the host chooses
+    bool subgroup_sizes = false; // subgroupSizeControl: kernels in subgroups of a size that the host, or zvo, chooses
+                                 // (ContextInfo::subgroup_size)
+    bool int64_atomics = false;  // shaderBufferInt64Atomics: fewer atomics where attributes of voxels are summed up
 };
 
 /// Storage for the structs that patchFeatures() puts into a VkDeviceCreateInfo. It must stay where it is for as long as
@@ -66,6 +68,7 @@ struct FeatureStorage
     VkPhysicalDeviceSynchronization2Features synchronization2{};
     VkPhysicalDeviceMaintenance4Features maintenance4{};
     VkPhysicalDeviceSubgroupSizeControlFeatures subgroup_size_control{};
+    VkPhysicalDeviceShaderAtomicInt64Features shader_atomic_int64{};
 };
 
 /// Adds the features that zvo requires, and the optional ones asked for, to what a host is about to give to

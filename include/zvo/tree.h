@@ -65,7 +65,7 @@ struct TreeBuildInfo
     GridInfo grid;
     Coverage coverage = Coverage::Thin;
     AttributeFormat format = AttributeFormat::Bytes8; // None: no attributes
-    bool keep_sums = false; // for a DynamicTree with MergeRule::Average: 28 bytes a voxel more. Only with Bytes8
+    bool keep_sums = false; // for a DynamicTree with MergeRule::Average: 32 bytes a voxel more. Only with Bytes8
 };
 
 /// Voxelizes a model and builds its octree in steps. Between steps zvo reads sizes that only the device knows, and

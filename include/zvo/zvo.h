@@ -262,11 +262,13 @@ typedef struct ZvoOptionalFeatures
     size_t struct_size;
     VkBool32 pass_times;
     VkBool32 subgroup_sizes;
+    VkBool32 int64_atomics;
+    uint32_t reserved;
 } ZvoOptionalFeatures;
 
 #define ZVO_OPTIONAL_FEATURES_INIT                                                                                     \
     {                                                                                                                  \
-        sizeof(ZvoOptionalFeatures), VK_FALSE, VK_FALSE                                                                \
+        sizeof(ZvoOptionalFeatures), VK_FALSE, VK_FALSE, VK_FALSE, 0                                                   \
     }
 
 /// The storage lives for as long as the VkDeviceCreateInfo that it serves is used.
@@ -303,12 +305,13 @@ typedef struct ZvoContextInfo
     ZvoLogCallback log;
     uint32_t timed_passes_per_frame;
     uint32_t subgroup_size;
+    const char* tuning; // may be null
 } ZvoContextInfo;
 
 #define ZVO_CONTEXT_INFO_INIT                                                                                          \
     {                                                                                                                  \
         sizeof(ZvoContextInfo), NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE, 0, 0, NULL, NULL, 0, 0, NULL,    \
-            NULL, NULL, VK_NULL_HANDLE, {NULL, NULL, NULL}, UINT64_MAX, {NULL, NULL}, 0, 0                             \
+            NULL, NULL, VK_NULL_HANDLE, {NULL, NULL, NULL}, UINT64_MAX, {NULL, NULL}, 0, 0, NULL                       \
     }
 
 typedef struct ZvoMemoryUse

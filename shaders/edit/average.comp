@@ -1,10 +1,11 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Computes the attributes of the changed nodes of a level.
+// Computes the attributes of the changed leaves.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
-#include "lib/average.glsl"
 #include "lib/dispatch.glsl"
+
+layout(constant_id = 0) const uint kLanes = 1u;
 
 layout(local_size_x = kNodesGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -12,19 +13,11 @@ layout(push_constant, scalar) uniform Push
     EditAverageParams params;
 };
 
+#define AVERAGE_CHILDREN Attribute_ConstPtr
+#include "edit/average.glsl"
+
 void main()
 {
-    uint number = threadIndex();
-    if (number >= params.cell_count || params.states.data[params.to].failed != 0u)
-        return;
-    EditCell cell = params.cells.data[params.first_cell + number];
-    bool is_there = (cell.mask_lo | cell.mask_hi) != 0u;
-    bool is_root = params.first_cell + number == 0u;
-    if (cell.changed == 0u || !(is_there || is_root))
-        return;
-    Node node = Node(cell.mask_lo, cell.first + params.children_offset, cell.mask_hi, 0u);
-    Attribute look = Attribute(0u, 0u);
-    if (is_there)
-        look = averageChildren(params.scene, node, params.children);
-    params.averages.data[cell.node + params.attribute_offset] = look;
+    uint number = threadIndex() / kLanes;
+    averageCell(params.inner_count + number, number < params.cell_count - params.inner_count, params.voxels, 0u);
 }

@@ -43,6 +43,8 @@ const uint kBrushPaint = 2u; // gives voxels another colour, and takes their emi
 
 const uint kBrushRadiusMax = 64u; // voxels
 
+const uint kFewLeaves = 64u; // cells: so many are averaged by the same workgroup as the few hundred at most above them
+
 /// What a dab does, and where.
 struct Brush
 {
@@ -70,8 +72,9 @@ struct EditCell
     uint mask_lo; // after the dab
     uint mask_hi;
     uint changed; // 0 or 1
-    uint first;   // of changed ones: the first child node, or the first voxel of a leaf
-    uint node;    // of changed ones: the copy
+    uint first; // of changed ones: the first child node, or the first voxel of a leaf; before edit/allocate: of leaves,
+                // how many voxels the dab makes, modulo 2^32
+    uint node;  // of changed ones: the copy
 };
 GPU_BUFFER(EditCell, 4);
 
@@ -120,7 +123,6 @@ struct EditFindParams // push constants of edit/find: one thread a cell
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_CONST_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;
-    GPU_PTR(EditState) states;
     EditSlots slots;
     uint first_short_entry;
     Brush brush;
@@ -130,14 +132,6 @@ GPU_KERNEL_BEGIN(edit, find, Find, EditFindParams)
     GPU_CONSTANT(uint, entries_per_word, 0u)
     GPU_CONSTANT(bool, attributes, false)
 GPU_KERNEL_END
-
-struct EditParentsParams // push constants of edit/parents: one thread a cell of the level
-{
-    GPU_PTR(EditCell) cells;
-    EditBox box;
-    uint level;
-};
-GPU_KERNEL(edit, parents, Parents, EditParentsParams)
 
 struct EditAllocateParams // push constants of edit/allocate: one workgroup
 {
@@ -150,9 +144,11 @@ struct EditAllocateParams // push constants of edit/allocate: one workgroup
     uint kept;     // another slot whose room is not overwritten
     uint node_end; // of the region
     uint voxel_end;
+    EditBox box;
 };
 GPU_KERNEL_BEGIN(edit, allocate, Allocate, EditAllocateParams)
     GPU_CONSTANT(bool, attributes, false)
+    GPU_CONSTANT(uint, local_size_x, 1u)
 GPU_KERNEL_END
 
 struct EditNodesParams // push constants of edit/nodes: a workgroup for each cell that is no leaf, one at least
@@ -164,27 +160,20 @@ struct EditNodesParams // push constants of edit/nodes: a workgroup for each cel
     GPU_PTR(BeforeChild) ranks;
     GPU_PTR(EditCell) cells;
     GPU_CONST_PTR(EditState) states;
+    GPU_PTR(uvec2) emission_words; // kEmits only
     EditSlots slots;
+    uint kept; // as in EditAllocateParams
     uint first_short_entry;
     uint static_root;
     uint attribute_offset;
+    uint emission_offset; // from a voxel to the index of its word's first value, modulo 2^32
     EditBox box;
 };
 GPU_KERNEL_BEGIN(edit, nodes, Nodes, EditNodesParams)
     GPU_CONSTANT(uint, entries_per_word, 0u)
     GPU_CONSTANT(bool, attributes, false)
+    GPU_CONSTANT(bool, emits, false)
 GPU_KERNEL_END
-
-struct EditEmissionWordsParams // push constants of edit/emission_words: one thread a word
-{
-    GPU_PTR(uvec2) words;
-    GPU_CONST_PTR(EditState) states;
-    uint from;
-    uint to;
-    uint kept;            // as in EditAllocateParams
-    uint emission_offset; // from a voxel to the index of its word's first value, modulo 2^32
-};
-GPU_KERNEL(edit, emission_words, EmissionWords, EditEmissionWordsParams)
 
 struct EditVoxelsParams // push constants of edit/voxels and edit/emission: a workgroup for each cell that is a leaf
 {
@@ -204,20 +193,38 @@ GPU_KERNEL_BEGIN(edit, voxels, Voxels, EditVoxelsParams)
     GPU_CONSTANT(bool, emits, false)
 GPU_KERNEL_END
 
-struct EditAverageParams // push constants of edit/average: one thread a cell of the level
+struct EditAverageParams // push constants of edit/average: kLanes threads a cell that is a leaf
 {
     GPU_CONST_PTR(SceneView) scene;
     GPU_CONST_PTR(EditCell) cells;
     GPU_CONST_PTR(EditState) states;
-    GPU_CONST_PTR(Attribute) children; // of voxels for leaves, else of nodes
-    GPU_PTR(Attribute) averages;       // of nodes
-    uint first_cell;                   // of the level
-    uint cell_count;                   // likewise
+    GPU_CONST_PTR(Attribute) voxels; // attributes
+    GPU_PTR(Attribute) averages;     // of nodes
+    uint inner_count;
+    uint cell_count;
     uint to;
-    uint children_offset;  // from a cell's first child to children
     uint attribute_offset; // from a node to averages
 };
-GPU_KERNEL(edit, average, Average, EditAverageParams)
+GPU_KERNEL_BEGIN(edit, average, Average, EditAverageParams)
+    GPU_CONSTANT(uint, lanes, 1u)
+GPU_KERNEL_END
+
+struct EditAverageTopParams // push constants of edit/average_top: one workgroup
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(EditCell) cells;
+    GPU_CONST_PTR(EditState) states;
+    GPU_CONST_PTR(Attribute) voxels; // attributes
+    GPU_PTR(Attribute) averages;     // of nodes
+    EditBox box;
+    uint level_count; // the topmost ones are averaged
+    uint to;
+    uint attribute_offset; // from a node to averages
+};
+GPU_KERNEL_BEGIN(edit, average_top, AverageTop, EditAverageTopParams)
+    GPU_CONSTANT(uint, lanes, 1u)
+    GPU_CONSTANT(uint, local_size_x, 1u)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

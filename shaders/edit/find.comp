@@ -38,18 +38,46 @@ RankedNode baseNode(uint level, uvec3 cell)
     return at;
 }
 
-// Computes the leaf's mask after the dab, and whether the mask or a voxel changes.
+// Squares of the distances from the brush's centre, along an axis, of the four voxels that begin at `first`; 0 if only
+// the box counts. Voxels outside of the box are too far away.
+ivec4 axisSquares(int first, uint lo, uint hi, int center, bool is_box, int limit)
+{
+    ivec4 voxel = first + ivec4(0, 1, 2, 3);
+    ivec4 away = voxel - center;
+    ivec4 squares = is_box ? ivec4(0) : away * away;
+    uvec4 inside = uvec4(greaterThanEqual(voxel, ivec4(lo))) & uvec4(lessThanEqual(voxel, ivec4(hi)));
+    return mix(ivec4(limit + 1), squares, notEqual(inside, uvec4(0u)));
+}
+
+// The mask of a leaf's voxels that the brush covers, as isUnderBrush() says, and the grid has. leaf: among leaves.
+uvec2 voxelsUnderBrush(uvec3 leaf)
+{
+    bool is_box = params.brush.shape == kBrushBox;
+    int limit = is_box ? 0 : int(params.brush.radius * (params.brush.radius + 1u));
+    ivec3 first = 4 * ivec3(leaf);
+    uvec3 lo = params.box.lo;
+    uvec3 hi = params.box.hi;
+    ivec3 center = params.brush.center;
+    ivec4 x = axisSquares(first.x, lo.x, hi.x, center.x, is_box, limit);
+    ivec4 y = axisSquares(first.y, lo.y, hi.y, center.y, is_box, limit);
+    ivec4 z = axisSquares(first.z, lo.z, hi.z, center.z, is_box, limit);
+    uvec2 under = uvec2(0u);
+    [[unroll]] for (uint row = 0u; row < 16u; ++row)
+    {
+        uvec4 covered = uvec4(lessThanEqual(x, ivec4(limit - y[row & 3u] - z[row >> 2])));
+        uint shift = cellInBlock(uvec3(0u, row & 3u, row >> 2));
+        uint cells = covered.x | (covered.y << 1) | (covered.z << 8) | (covered.w << 9); // by Morton codes of x
+        under.x |= shift < 32u ? cells << shift : 0u;
+        under.y |= shift < 32u ? 0u : cells << (shift - 32u);
+    }
+    return under;
+}
+
+// Computes the leaf's mask after the dab, whether the mask or a voxel changes, and how many voxels more there are then.
 void dab(Node base, uvec3 leaf, inout EditCell cell)
 {
     uvec2 mask = uvec2(base.mask_lo, base.mask_hi);
-    uvec2 under = uvec2(0u);
-    for (uint bit = 0u; bit < 64u; ++bit)
-    {
-        uvec3 voxel = 4u * leaf + cellAt(bit);
-        bool covered = isInBox(params.box, params.box.level_count, voxel) && isUnderBrush(params.brush, voxel);
-        under.x |= covered && bit < 32u ? 1u << bit : 0u;
-        under.y |= covered && bit >= 32u ? 1u << (bit - 32u) : 0u;
-    }
+    uvec2 under = voxelsUnderBrush(leaf);
     uvec2 made = params.brush.action == kBrushFill ? under & ~mask : uvec2(0u);
     uvec2 taken = params.brush.action == kBrushCarve ? under & mask : uvec2(0u);
     uvec2 painted = params.brush.action == kBrushPaint && kAttributes ? under & mask : uvec2(0u);
@@ -57,9 +85,7 @@ void dab(Node base, uvec3 leaf, inout EditCell cell)
     cell.mask_lo = (mask.x | made.x) & ~taken.x;
     cell.mask_hi = (mask.y | made.y) & ~taken.y;
     cell.changed = (touched.x | touched.y) != 0u ? 1u : 0u;
-    uint more = bitCount(made.x) + bitCount(made.y) - bitCount(taken.x) - bitCount(taken.y);
-    if (more != 0u)
-        atomicAdd(params.states.data[params.slots.to].voxel_count, more); // cleared
+    cell.first = bitCount(made.x) + bitCount(made.y) - bitCount(taken.x) - bitCount(taken.y);
 }
 
 void main()

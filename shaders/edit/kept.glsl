@@ -13,8 +13,15 @@ layout(push_constant, scalar) uniform Push
     EditSumParams params;
 };
 
-uint keptIn(uint element)
+// What is kept of a thread's elements from `first` on. No load waits for another, so all are under way.
+void keptOfThread(uint first, out uint kept[kScanItems], out uint sum)
 {
-    uint mark = params.marks.data[element];
-    return kVoxels ? bitCount(mark) : mark != 0u ? 1u : 0u;
+    sum = 0u;
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
+    {
+        uint mark = params.marks.data[min(first + i, params.element_count - 1u)];
+        mark = first + i < params.element_count ? mark : 0u;
+        kept[i] = kVoxels ? bitCount(mark) : mark != 0u ? 1u : 0u;
+        sum += kept[i];
+    }
 }

@@ -7,11 +7,11 @@
 void main()
 {
     uint first = threadIndex() * kScanItems;
-    uint kept = 0u;
-    for (uint i = first; i < min(first + kScanItems, params.element_count); ++i)
-        kept += keptIn(i);
+    uint kept[kScanItems];
+    uint sum;
+    keptOfThread(first, kept, sum);
     uint total;
-    workgroupExclusiveAdd(kept, total);
+    workgroupExclusiveAdd(sum, total);
     if (gl_LocalInvocationIndex == 0u && workgroupIndex() * kScanBlock < params.element_count)
         params.partials.data[workgroupIndex()] = total;
 }

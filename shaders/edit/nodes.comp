@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Writes the root of the slot, and the children of changed cells: changed ones, and copies of the others.
+// Writes the root of the slot, and the children of changed cells: changed ones, and copies of the others. Clears the
+// words of the emission table that the dab takes.
 #extension GL_GOOGLE_include_directive : require
 #include "edit/edit.h"
 #include "edit/cells.glsl"
@@ -9,6 +10,7 @@
 
 layout(constant_id = 0) const uint kEntriesPerWord = 0u; // of the lists of a DAG; 0: the static tree is an octree
 layout(constant_id = 1) const bool kAttributes = false;
+layout(constant_id = 2) const bool kEmits = false;
 
 #include "lib/ranks.glsl"
 
@@ -64,8 +66,21 @@ void writeRoot(bool failed)
             params.node_attributes.data[from + params.attribute_offset];
 }
 
+// Every voxel has an index in its word, so that nothing needs to be counted.
+void clearEmission()
+{
+    EditSlots slots = params.slots;
+    uint begin = max(params.states.data[slots.from].voxel_top, params.states.data[params.kept].voxel_top);
+    uint end = params.states.data[slots.to].voxel_top;
+    uint thread_count = max(firstCell(params.box, params.box.level_count - 1u), 1u) * kEditGroup;
+    for (uint word = ((begin + 31u) >> 5) + threadIndex(); 32u * word < end; word += thread_count)
+        params.emission_words.data[word] = uvec2(0u, 32u * word + params.emission_offset);
+}
+
 void main()
 {
+    if (kEmits)
+        clearEmission();
     bool failed = params.states.data[params.slots.to].failed != 0u;
     if (workgroupIndex() == 0u && gl_LocalInvocationIndex == 0u)
         writeRoot(failed);

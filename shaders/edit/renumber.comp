@@ -7,17 +7,17 @@
 void main()
 {
     uint first = threadIndex() * kScanItems;
-    uint last = min(first + kScanItems, params.element_count);
-    uint kept = 0u;
-    for (uint i = first; i < last; ++i)
-        kept += keptIn(i);
+    uint kept[kScanItems];
+    uint sum;
+    keptOfThread(first, kept, sum);
     uint total;
-    uint before = workgroupExclusiveAdd(kept, total);
-    if (first < last)
+    uint before = workgroupExclusiveAdd(sum, total);
+    if (first < params.element_count)
         before += params.partials.data[workgroupIndex()];
-    for (uint i = first; i < last; ++i)
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
     {
-        params.numbers.data[i] = before;
-        before += keptIn(i);
+        if (first + i < params.element_count)
+            params.numbers.data[first + i] = before;
+        before += kept[i];
     }
 }

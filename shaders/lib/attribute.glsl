@@ -16,10 +16,15 @@ uint packColor(SceneView_ConstPtr scene, uvec3 linear, uint flags)
            (flags << 24);
 }
 
-// Linear 16-bit fractions of a packed colour.
+// Linear 16-bit fractions of a packed colour. srgb_to_linear: as in SceneView.
+uvec3 linearColor(uint_ConstPtr srgb_to_linear, uint color)
+{
+    return uvec3(srgb_to_linear.data[color & 255u], srgb_to_linear.data[(color >> 8) & 255u],
+                 srgb_to_linear.data[(color >> 16) & 255u]);
+}
+
 uvec3 unpackColor(SceneView_ConstPtr scene, uint color)
 {
-    return uvec3(scene.data[0].srgb_to_linear.data[color & 255u],
-                 scene.data[0].srgb_to_linear.data[(color >> 8) & 255u],
-                 scene.data[0].srgb_to_linear.data[(color >> 16) & 255u]);
+    uint_ConstPtr srgb_to_linear = scene.data[0].srgb_to_linear;
+    return linearColor(srgb_to_linear, color);
 }

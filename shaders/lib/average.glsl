@@ -1,21 +1,130 @@
 // SPDX-License-Identifier: MIT
-// The attribute of an inner node: the mean of its children's.
+// The attribute of an inner node: the mean of its children's, which stand together and have equal weights.
+//
+// A thread takes a node or, on devices with threads to spare, several do: its lanes, which stand side by side in a
+// workgroup. Sums are integers, so that any number of lanes gives the same bytes. The includer declares its local size,
+// a multiple of kLanes, and before this defines
+//   kLanes             of a node, a power of two; 1: nobody meets at barriers
+//   AVERAGE_CHILDREN   the pointer to children's attributes: Attribute_Ptr where the dispatch writes some of them itself
 #include "lib/attribute.glsl"
 
-// The mean of the attributes of a node's children, which stand together and have equal weights.
-Attribute averageChildren(SceneView_ConstPtr scene, Node node, Attribute_ConstPtr children)
+const uint kChildrenAtOnce = 4u; // that a lane loads before it looks at them
+const uint kSumWords = 7u;
+
+// The number of this lane in its node, and of its node in the workgroup.
+uint laneOfNode()
 {
-    uint count = bitCount(node.mask_lo) + bitCount(node.mask_hi);
-    uvec3 color = uvec3(0u);
-    ivec3 normal = ivec3(0);
-    uint flags = 0u;
-    for (uint i = 0u; i < count; ++i)
+    return gl_LocalInvocationIndex & (kLanes - 1u);
+}
+
+uint nodeOfGroup()
+{
+    return gl_LocalInvocationIndex / kLanes;
+}
+
+struct ChildSums
+{
+    uvec3 color;
+    ivec3 normal;
+    uint flags;
+};
+
+shared uint s_child_sums[kLanes > 1u ? gl_WorkGroupSize.x / kLanes * kSumWords : 1u];
+
+void addChild(uint_ConstPtr to_linear, Attribute child, inout ChildSums sums)
+{
+    sums.color += linearColor(to_linear, child.color);
+    sums.normal += decodeNormal(child.normal);
+    sums.flags |= child.color >> 24;
+}
+
+// The same for kChildrenAtOnce children, of which the first exists.
+void addChildren(uint_ConstPtr to_linear, AVERAGE_CHILDREN children, uvec4 indices, bvec4 exists, inout ChildSums sums)
+{
+    Attribute none = Attribute(0u, 0u);
+    Attribute a = children.data[indices.x];
+    Attribute b = none;
+    Attribute c = none;
+    Attribute d = none;
+    if (exists.y)
+        b = children.data[indices.y];
+    if (exists.z)
+        c = children.data[indices.z];
+    if (exists.w)
+        d = children.data[indices.w];
+    sums.flags |= (a.color | b.color | c.color | d.color) >> 24;
+    sums.normal += decodeNormal(a.normal) + (exists.y ? decodeNormal(b.normal) : ivec3(0)) +
+                   (exists.z ? decodeNormal(c.normal) : ivec3(0)) + (exists.w ? decodeNormal(d.normal) : ivec3(0));
+    uvec3 color_a = linearColor(to_linear, a.color);
+    uvec3 color_b = uvec3(0u);
+    uvec3 color_c = uvec3(0u);
+    uvec3 color_d = uvec3(0u);
+    if (exists.y)
+        color_b = linearColor(to_linear, b.color);
+    if (exists.z)
+        color_c = linearColor(to_linear, c.color);
+    if (exists.w)
+        color_d = linearColor(to_linear, d.color);
+    sums.color += color_a + color_b + color_c + color_d;
+}
+
+// Sums up what the lanes of a node have, for all of them. Call in uniform control flow.
+void addLanes(inout ChildSums sums)
+{
+    bool is_first = laneOfNode() == 0u;
+    uint at = nodeOfGroup() * kSumWords;
+    barrier(); // the array may still be read by an earlier call
+    if (is_first)
     {
-        Attribute child = children.data[node.base_lo + i];
-        color += unpackColor(scene, child.color);
-        normal += decodeNormal(child.normal);
-        flags |= child.color >> 24;
+        [[unroll]] for (uint axis = 0u; axis < 3u; ++axis)
+        {
+            s_child_sums[at + axis] = sums.color[axis];
+            s_child_sums[at + 3u + axis] = uint(sums.normal[axis]);
+        }
+        s_child_sums[at + 6u] = sums.flags;
     }
-    color = divideSmall(color + count / 2u, count);
-    return Attribute(packColor(scene, color, flags), encodeNormal(normal));
+    barrier();
+    if (!is_first)
+    {
+        [[unroll]] for (uint axis = 0u; axis < 3u; ++axis)
+        {
+            atomicAdd(s_child_sums[at + axis], sums.color[axis]);
+            atomicAdd(s_child_sums[at + 3u + axis], uint(sums.normal[axis]));
+        }
+        atomicOr(s_child_sums[at + 6u], sums.flags);
+    }
+    barrier();
+    [[unroll]] for (uint axis = 0u; axis < 3u; ++axis)
+    {
+        sums.color[axis] = s_child_sums[at + axis];
+        sums.normal[axis] = int(s_child_sums[at + 3u + axis]);
+    }
+    sums.flags = s_child_sums[at + 6u];
+}
+
+// The mean of the attributes of a node's children, for each of its lanes; of a node without children, black. Call in
+// uniform control flow.
+Attribute averageChildren(SceneView_ConstPtr scene, Node node, AVERAGE_CHILDREN children)
+{
+    uint_ConstPtr to_linear = scene.data[0].srgb_to_linear;
+    uint count = bitCount(node.mask_lo) + bitCount(node.mask_hi);
+    ChildSums sums = ChildSums(uvec3(0u), ivec3(0), 0u);
+    if (kLanes == 1u)
+    {
+        for (uint i = 0u; i < count; ++i)
+            addChild(to_linear, children.data[node.base_lo + i], sums);
+    }
+    else
+    {
+        for (uint first = 0u; first < 64u; first += kChildrenAtOnce * kLanes) // one round of 16 lanes
+        {
+            uvec4 numbers = first + laneOfNode() + uvec4(0u, kLanes, 2u * kLanes, 3u * kLanes);
+            if (numbers.x < count)
+                addChildren(to_linear, children, node.base_lo + numbers, lessThan(numbers, uvec4(count)), sums);
+        }
+        addLanes(sums);
+    }
+    uint divisor = max(count, 1u); // lanes without a node look up a color like all others
+    uvec3 color = divideSmall(sums.color + divisor / 2u, divisor);
+    return Attribute(packColor(scene, color, sums.flags), encodeNormal(sums.normal));
 }

@@ -88,6 +88,16 @@ uint brickFindOrInsert(BrickEntry_Ptr bricks, uint mask, uvec2 key, out bool cla
     return searching ? kNoEntry : entry;
 }
 
+// Sets the bit of the node with a key in its parent's mask.
+void setCell(BrickEntry_Ptr bricks, uint parent, uvec2 key)
+{
+    uint bit = 1u << (key.x & 31u);
+    if ((key.x & 32u) == 0u)
+        atomicOr(bricks.data[parent].mask_lo, bit);
+    else
+        atomicOr(bricks.data[parent].mask_hi, bit);
+}
+
 // The entry of a key that an earlier dispatch inserted, or kNoEntry.
 uint brickFind(BrickEntry_ConstPtr bricks, uint mask, uvec2 key)
 {

@@ -18,11 +18,13 @@ vec3 decodeRgb9e5(uint code)
     return vec3(mantissa) * exp2(float(code >> 27) - 24.0);
 }
 
-// Filmic curve from radiance to [0, 1) (K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015).
+// Filmic curve from radiance, which may be infinite, to [0, 1] (K. Narkowicz, ACES Filmic Tone Mapping Curve, 2015).
 vec3 toneMap(vec3 radiance)
 {
+    const float white = 1e6; // far beyond where the curve reaches 1; its square is finite
     vec3 x = 0.6 * radiance;
-    return clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+    vec3 curve = clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+    return mix(curve, vec3(1.0), greaterThan(radiance, vec3(white)));
 }
 
 // Adds an ordered pattern of up to half a step in either direction, for codes from 0 to steps, so that gradients show

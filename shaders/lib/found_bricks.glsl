@@ -22,11 +22,12 @@ FoundBricks findBricks(BrickEntry_ConstPtr bricks, uint brick_capacity)
     for (uint i = 0u; i < kCollectItems; ++i)
     {
         uint entry = found.first + i * kCollectGroup;
-        if (entry < brick_capacity && bricks.data[entry].key != 0u)
-        {
-            found.occupied |= 1u << i;
-            voxels += bitCount(bricks.data[entry].mask_lo) + bitCount(bricks.data[entry].mask_hi);
-        }
+        uint loaded = min(entry, brick_capacity - 1u); // no load waits for a condition, so many are under way
+        uint key = bricks.data[loaded].key;
+        uvec2 mask = uvec2(bricks.data[loaded].mask_lo, bricks.data[loaded].mask_hi);
+        bool is_brick = entry < brick_capacity && key != 0u;
+        found.occupied |= is_brick ? 1u << i : 0u;
+        voxels += is_brick ? bitCount(mask.x) + bitCount(mask.y) : 0u;
     }
     uvec2 count = uvec2(bitCount(found.occupied), voxels);
     found.before = subgroupExclusiveAdd(count);

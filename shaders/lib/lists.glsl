@@ -18,4 +18,11 @@ uint listEntry(uint64_t_ConstPtr pool, uint index, uint per_word)
     return uint(pool.data[index / per_word] >> (bits * (index % per_word))) & ((1u << bits) - 1u);
 }
 
+// Four entries, whose words are loaded together.
+uvec4 listEntries(uint64_t_ConstPtr pool, uvec4 indices, uint per_word)
+{
+    return uvec4(listEntry(pool, indices.x, per_word), listEntry(pool, indices.y, per_word),
+                 listEntry(pool, indices.z, per_word), listEntry(pool, indices.w, per_word));
+}
+
 #endif

@@ -2,14 +2,19 @@
 // From sums over a voxel's fragments to its attribute and its emission. The includer includes voxelize/voxelize.h.
 #include "lib/attribute.glsl"
 
+// The sum of the fragments' normals.
+ivec3 normalSum(VoxelSums sums, uint sum_shift)
+{
+    return ivec3(uvec3(sums.normal_x, sums.normal_y, sums.normal_z) - sums.fragments * normalBias(sum_shift));
+}
+
 // The mean of the fragments.
 Attribute resolveSums(SceneView_ConstPtr scene, VoxelSums sums, uint sum_shift, uint flags)
 {
     uint count = max(sums.fragments, 1u);
     uvec3 sum = uvec3(sums.red, sums.green, sums.blue);
     uvec3 color = min(divideSmall(sum + count / 2u, count) << sum_shift, uvec3(kFractionOne));
-    ivec3 normal = ivec3(sums.normal_x, sums.normal_y, sums.normal_z);
-    return Attribute(packColor(scene, color, flags), encodeNormal(normal));
+    return Attribute(packColor(scene, color, flags), encodeNormal(normalSum(sums, sum_shift)));
 }
 
 // 16-bit fractions to RGB9E5 (value = mantissa * 2^(exponent - 24)): the exponent fits the largest channel, what lies
@@ -31,16 +36,24 @@ uint resolveEmission(EmissionSums sums, uint fragments, uint sum_shift)
     return encodeRgb9e5(min(divideSmall(sum + count / 2u, count) << sum_shift, uvec3(kFractionOne)));
 }
 
-// Adds sums whose values have shift bits more.
-void addSums(inout VoxelSums sums, VoxelSums more, uint shift)
+void addSums(inout VoxelSums sums, VoxelSums more)
 {
-    sums.red += more.red >> shift;
-    sums.green += more.green >> shift;
-    sums.blue += more.blue >> shift;
-    sums.normal_x += uint(int(more.normal_x) >> shift);
-    sums.normal_y += uint(int(more.normal_y) >> shift);
-    sums.normal_z += uint(int(more.normal_z) >> shift);
+    sums.red += more.red;
+    sums.green += more.green;
+    sums.blue += more.blue;
+    sums.normal_x += more.normal_x;
+    sums.normal_y += more.normal_y;
+    sums.normal_z += more.normal_z;
     sums.fragments += more.fragments;
+}
+
+// The same sums with `shift` value bits fewer; sum_shift: what their values are shifted by afterwards.
+VoxelSums droppingBits(VoxelSums sums, uint shift, uint sum_shift)
+{
+    uvec3 normal =
+        uvec3(normalSum(sums, sum_shift - shift) >> shift) + sums.fragments * normalBias(sum_shift);
+    return VoxelSums(sums.red >> shift, sums.green >> shift, sums.blue >> shift, normal.x, normal.y, normal.z,
+                     sums.fragments, 0u);
 }
 
 void addEmission(inout EmissionSums sums, EmissionSums more, uint shift)

@@ -5,38 +5,55 @@
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/dispatch.glsl"
-#define SCAN_GROUP kScanGroup
+#define SCAN_GROUP kAssignGroup
 #include "lib/scan.glsl"
 
-layout(local_size_x = kScanGroup) in;
+layout(local_size_x = kAssignGroup) in;
 layout(push_constant, scalar) uniform Push
 {
     AssignParams params;
 };
 
+#include "octree/assign.glsl"
+
+// The children of the nodes of all blocks before this workgroup's.
+uint childrenBefore()
+{
+    if (params.is_scanned != 0u)
+        return params.partials.data[workgroupIndex()];
+    uint sum = 0u;
+    for (uint i = gl_LocalInvocationIndex; i < workgroupIndex(); i += kAssignGroup)
+        sum += params.partials.data[i];
+    uint total;
+    workgroupExclusiveAdd(sum, total);
+    return total;
+}
+
 void main()
 {
-    uint first = threadIndex() * kScanItems;
-    uint last = min(first + kScanItems, params.node_count);
-    uint children = 0u;
-    for (uint i = first; i < last; ++i)
-    {
-        Node node = params.nodes.data[params.first_node + i];
-        children += bitCount(node.mask_lo) + bitCount(node.mask_hi);
-    }
+    if (workgroupIndex() * kScanBlock >= params.node_count)
+        return;
+    // Four nodes a thread, which are loaded together. Those past the end of the level are its last one.
+    uint first = threadIndex() * kAssignItems;
+    uvec4 indices = uvec4(first, first + 1u, first + 2u, first + 3u);
+    bvec4 are_nodes = lessThan(indices, uvec4(params.node_count));
+    uvec4 nodes = params.first_node + min(indices, uvec4(params.node_count - 1u));
+    uvec4 masks_lo = uvec4(params.nodes.data[nodes.x].mask_lo, params.nodes.data[nodes.y].mask_lo,
+                           params.nodes.data[nodes.z].mask_lo, params.nodes.data[nodes.w].mask_lo);
+    uvec4 masks_hi = uvec4(params.nodes.data[nodes.x].mask_hi, params.nodes.data[nodes.y].mask_hi,
+                           params.nodes.data[nodes.z].mask_hi, params.nodes.data[nodes.w].mask_hi);
+    uvec4 counts = uvec4(bitCount(masks_lo) + bitCount(masks_hi)) * uvec4(are_nodes);
+    uint base = params.first_child + childrenBefore();
     uint total;
-    uint base = params.first_child + workgroupExclusiveAdd(children, total);
-    if (first < last)
-        base += params.partials.data[workgroupIndex()];
-    for (uint i = first; i < last; ++i)
-    {
-        Node node = params.nodes.data[params.first_node + i];
-        uint entry = node.base_hi;
-        node.base_lo = base;
-        node.base_hi = base + bitCount(node.mask_lo);
-        params.nodes.data[params.first_node + i] = node;
-        if (params.tell_bricks != 0u)
-            params.bricks.data[entry].base = base;
-        base = node.base_hi + bitCount(node.mask_hi);
-    }
+    base += workgroupExclusiveAdd(counts.x + counts.y + counts.z + counts.w, total);
+    uvec4 bases = base + uvec4(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z);
+    bool tell_bricks = params.tell_bricks != 0u;
+    if (are_nodes.x)
+        setBase(nodes.x, masks_lo.x, bases.x, tell_bricks);
+    if (are_nodes.y)
+        setBase(nodes.y, masks_lo.y, bases.y, tell_bricks);
+    if (are_nodes.z)
+        setBase(nodes.z, masks_lo.z, bases.z, tell_bricks);
+    if (are_nodes.w)
+        setBase(nodes.w, masks_lo.w, bases.w, tell_bricks);
 }

@@ -3,8 +3,9 @@
 // Computes the attribute of each node of a level: the mean of its children's, with equal weights.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
-#include "lib/average.glsl"
 #include "lib/dispatch.glsl"
+
+layout(constant_id = 0) const uint kLanes = 1u;
 
 layout(local_size_x = kNodesGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -12,11 +13,17 @@ layout(push_constant, scalar) uniform Push
     AverageParams params;
 };
 
+#define AVERAGE_CHILDREN Attribute_ConstPtr
+#include "lib/average.glsl"
+
 void main()
 {
-    uint index = threadIndex();
-    if (index >= params.node_count)
-        return;
-    uint node = params.first_node + index;
-    params.averages.data[node] = averageChildren(params.scene, params.nodes.data[node], params.children);
+    uint index = threadIndex() / kLanes;
+    bool is_node = index < params.node_count;
+    Node node = Node(0u, 0u, 0u, 0u);
+    if (is_node)
+        node = params.nodes.data[params.first_node + index];
+    Attribute mean = averageChildren(params.scene, node, params.children);
+    if (is_node && laneOfNode() == 0u)
+        params.averages.data[params.first_node + index] = mean;
 }

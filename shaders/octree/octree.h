@@ -15,6 +15,10 @@ const uint kNodesGroup = 64u;   // threads of a workgroup where one thread takes
 const uint kScanGroup = 64u;    // threads of a workgroup that scans: few, as barriers are expensive on CPUs
 const uint kScanItems = 16u;    // elements a thread of such a workgroup takes
 const uint kScanBlock = 1024u;  // elements a workgroup takes: kScanGroup * kScanItems
+const uint kRootGroup = 64u;    // threads of the only workgroup of a kernel that takes the root and its children
+const uint kRootLevels = 2u;    // levels that it takes
+const uint kAssignGroup = 256u; // threads of a workgroup of octree/assign
+const uint kAssignItems = 4u;   // nodes that a thread of it takes: kScanBlock in all
 
 /// A node under construction: the numbers of its own and its parent's entry in the brick table.
 struct WorkItem
@@ -37,30 +41,37 @@ struct CollectParams // push constants of octree/collect
     GPU_CONST_PTR(BrickEntry) bricks; // [brick_capacity], leaves only
     GPU_PTR(WorkItem) items;          // [brick_capacity]
     GPU_PTR(BrickCounters) counters;  // [1]
+    GPU_PTR(LevelRange) ranges;       // [kNodeLevelsMax] element 0 is set
+    GPU_PTR(DispatchArgs) args;       // likewise
     uint brick_capacity;
-};
-GPU_KERNEL(octree, collect, Collect, CollectParams)
-
-struct NextLevelParams // push constants of octree/next_level
-{
-    GPU_CONST_PTR(BrickCounters) counters;
-    GPU_PTR(LevelRange) ranges; // [kNodeLevelsMax]
-    GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] of each level, leaves first: for one thread an item
-    uint height;                // 0: leaves
     uint max_groups_x;
 };
-GPU_KERNEL(octree, next_level, NextLevel, NextLevelParams)
+GPU_KERNEL(octree, collect, Collect, CollectParams)
 
 struct ParentsParams // push constants of octree/parents
 {
     GPU_PTR(BrickEntry) bricks;
     GPU_PTR(WorkItem) items;
     GPU_PTR(BrickCounters) counters;
-    GPU_CONST_PTR(LevelRange) ranges;
+    GPU_PTR(LevelRange) ranges; // [kNodeLevelsMax] cleared; element height + 1 is set
+    GPU_PTR(DispatchArgs) args; // [kNodeLevelsMax] likewise: for one thread an item
     uint brick_mask;
     uint height; // 0: leaves
+    uint max_groups_x;
 };
 GPU_KERNEL_BEGIN(octree, parents, Parents, ParentsParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
+
+struct NumberParams // push constants of octree/number: one workgroup, a thread a child of the root
+{
+    GPU_PTR(BrickEntry) bricks;
+    GPU_CONST_PTR(WorkItem) items;
+    GPU_CONST_PTR(LevelRange) ranges; // [level_count]
+    GPU_PTR(Node) nodes;
+    uint level_count;
+};
+GPU_KERNEL_BEGIN(octree, number, Number, NumberParams)
     GPU_CONSTANT(bool, wide_keys, false)
 GPU_KERNEL_END
 
@@ -69,22 +80,14 @@ struct PlaceParams // push constants of octree/place
     GPU_PTR(BrickEntry) bricks;
     GPU_CONST_PTR(WorkItem) items;
     GPU_PTR(Node) nodes;
+    GPU_PTR(uint) partials; // [ceil(node_count / kScanBlock)] cleared: children of kScanBlock nodes each
     uint first_item;
-    uint node_count; // of the level
-    uint is_root;
+    uint first_node; // of the level
+    uint node_count; // likewise
 };
 GPU_KERNEL_BEGIN(octree, place, Place, PlaceParams)
     GPU_CONSTANT(bool, wide_keys, false)
 GPU_KERNEL_END
-
-struct CountParams // push constants of octree/count
-{
-    GPU_CONST_PTR(Node) nodes;
-    GPU_PTR(uint) partials; // [ceil(node_count / kScanBlock)]
-    uint first_node;
-    uint node_count;
-};
-GPU_KERNEL(octree, count, Count, CountParams)
 
 struct ScanParams // push constants of octree/scan: an exclusive scan in place by one workgroup
 {
@@ -98,7 +101,8 @@ struct AssignParams // push constants of octree/assign
 {
     GPU_PTR(Node) nodes;
     GPU_PTR(BrickEntry) bricks;
-    GPU_CONST_PTR(uint) partials; // scanned
+    GPU_CONST_PTR(uint) partials; // [ceil(node_count / kScanBlock)] children of kScanBlock nodes each
+    uint is_scanned;              // 1: partials are exclusive prefix sums already
     uint first_node;
     uint node_count;
     uint first_child; // node index of the next level's first node; 0 in a leaf: voxels
@@ -115,7 +119,23 @@ struct AverageParams // push constants of octree/average
     uint first_node;
     uint node_count;
 };
-GPU_KERNEL(octree, average, Average, AverageParams)
+GPU_KERNEL_BEGIN(octree, average, Average, AverageParams)
+    GPU_CONSTANT(uint, lanes, 1u)
+GPU_KERNEL_END
+
+struct AverageTopParams // push constants of octree/average_top: one workgroup
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(Node) nodes;
+    GPU_PTR(Attribute) averages;              // [nodes of the octree]
+    GPU_CONST_PTR(Attribute) lowest_children; // attributes of the children of the lowest of these levels
+    LevelRange levels[kRootLevels];           // the root, its children
+    uint level_count;                         // 1 where the root's children are voxels
+};
+GPU_KERNEL_BEGIN(octree, average_top, AverageTop, AverageTopParams)
+    GPU_CONSTANT(uint, lanes, 1u)
+    GPU_CONSTANT(uint, local_size_x, 1u)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

@@ -1,11 +1,14 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Every node of a level sets its bit in its parent, which the first of its children puts into the table and the list.
+// In the end, the level of the parents has its range and its workgroups.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #define BRICKS_CONSTANT_ID 0
+#include "lib/arrivals.glsl"
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
+#include "octree/levels.glsl"
 
 layout(local_size_x = kNodesGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -13,13 +16,8 @@ layout(push_constant, scalar) uniform Push
     ParentsParams params;
 };
 
-void main()
+void addToParent(uint item)
 {
-    LevelRange range = params.ranges.data[params.height];
-    uint item = threadIndex();
-    if (item >= range.count)
-        return;
-    item += range.first;
     uvec2 key = keyOf(params.bricks.data[params.items.data[item].entry]);
     bool claimed;
     uint parent = brickFindOrInsert(params.bricks, params.brick_mask, parentKey(key), claimed);
@@ -28,12 +26,25 @@ void main()
         atomicAdd(params.counters.data[0].overflow_count, 1u);
         return;
     }
-    uint bit = 1u << (key.x & 31u);
-    if ((key.x & 32u) == 0u)
-        atomicOr(params.bricks.data[parent].mask_lo, bit);
-    else
-        atomicOr(params.bricks.data[parent].mask_hi, bit);
+    setCell(params.bricks, parent, key);
     params.items.data[item].parent_entry = parent;
     if (claimed)
         params.items.data[atomicAdd(params.counters.data[0].node_count, 1u)] = WorkItem(parent, 0u);
+}
+
+void main()
+{
+    LevelRange range = params.ranges.data[params.height];
+    uint group_count = (range.count + kNodesGroup - 1u) / kNodesGroup;
+    if (workgroupIndex() >= group_count)
+        return;
+    uint item = threadIndex();
+    if (item < range.count)
+        addToParent(range.first + item);
+    uint next = params.height + 1u;
+    uint here = arrivingThreads();
+    uint before = subgroupElect() ? atomicAdd(params.counters.data[0].arrived[next], here) : 0u;
+    if (areLastThreads(before, here, group_count * kNodesGroup) && subgroupElect())
+        setLevel(params.ranges, params.args, next, atomicAdd(params.counters.data[0].node_count, 0u),
+                 params.max_groups_x);
 }

@@ -43,6 +43,7 @@ struct BrickCounters
     uint voxel_count;    // voxels in the leaves, modulo 2^32
     uint voxel_carry;    // how often that wrapped around
     uint overflow_count; // inserts that found no slot
+    uint arrived[10];    // threads that have listed the nodes of a level, leaves first (lib/arrivals.glsl)
 };
 GPU_BUFFER(BrickCounters, 4);
 

@@ -17,11 +17,33 @@ uint childIndexAfter(Node node, uint before)
     return before < low ? node.base_lo + before : node.base_hi + (before - low);
 }
 
-// The child of an inner node with so many before it in the node.
-uint childAt(Node node, Node_ConstPtr nodes, uint before)
+// Four numbers from `first` on, the last of `count` in place of those that are no less. A thread takes four children or
+// entries at a time, since it would wait as long for each of them.
+uvec4 fourOf(uint count, uint first)
 {
-    uint index = childIndexAfter(node, before);
-    if (kEntriesPerWord != 0u && (index & kChildList) != 0u)
-        index = listEntry(uint64_t_ConstPtr(uint64_t(nodes)), index & ~kChildList, kEntriesPerWord);
-    return index;
+    return min(first + uvec4(0u, 1u, 2u, 3u), uvec4(count - 1u));
+}
+
+// As childIndexAfter(), for four.
+uvec4 childIndicesAfter(Node node, uvec4 before)
+{
+    uvec4 low = uvec4(bitCount(node.mask_lo));
+    return mix(node.base_hi + (before - low), node.base_lo + before, lessThan(before, low));
+}
+
+// The children of an inner node with so many before them in the node. No load waits for a condition: what is loaded for
+// a node without a list is not used.
+uvec4 childrenAt(Node node, Node_ConstPtr nodes, uvec4 before)
+{
+    uvec4 indices = childIndicesAfter(node, before);
+    if (kEntriesPerWord == 0u)
+        return indices;
+    bvec4 listed = notEqual(indices & kChildList, uvec4(0u));
+    uvec4 at = mix(uvec4(0u), indices & ~kChildList, listed);
+    return mix(indices, listEntries(uint64_t_ConstPtr(uint64_t(nodes)), at, kEntriesPerWord), listed);
+}
+
+uvec4 loadFour(uint_ConstPtr from, uvec4 indices)
+{
+    return uvec4(from.data[indices.x], from.data[indices.y], from.data[indices.z], from.data[indices.w]);
 }

@@ -8,6 +8,7 @@
 #define SCAN_GROUP kScanGroup
 #include "lib/scan.glsl"
 #include "svdag/candidate.glsl"
+#include "svdag/unique.glsl"
 
 layout(local_size_x = kScanGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -18,18 +19,14 @@ layout(push_constant, scalar) uniform Push
 void main()
 {
     uint first = threadIndex() * kScanItems;
-    uint nodes = 0u;
+    UniqueCandidates unique =
+        uniqueCandidates(params.classes, params.nodes, first, params.node_count, params.inner_count);
     uint entries = 0u;
-    for (uint i = first; i < min(first + kScanItems, params.node_count); ++i)
-    {
-        bool unique = params.classes.data[i] == i;
-        nodes += unique ? 1u : 0u;
-        if (unique && i < params.inner_count)
-            entries += childCount(params.nodes.data[i]);
-    }
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
+        entries += unique.entry_counts[i];
     uint node_total;
     uint entry_total;
-    workgroupExclusiveAdd(nodes, node_total);
+    workgroupExclusiveAdd(uint(bitCount(unique.nodes)), node_total);
     workgroupExclusiveAdd(entries, entry_total);
     if (gl_LocalInvocationIndex == 0u && workgroupIndex() * kScanBlock < params.node_count)
     {

@@ -10,6 +10,7 @@
 
 layout(constant_id = 1) const bool kAboveLeaves = false; // the children are leaves
 layout(constant_id = 2) const bool kPacked = false;      // attributes are words
+layout(constant_id = 3) const uint kLanes = 1u;          // threads that share a node, a power of two
 
 layout(local_size_x = kSvdagGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -27,16 +28,18 @@ void moveAttribute(uint from, uint to)
 
 void main()
 {
-    uint index = threadIndex();
+    uint index = threadIndex() / kLanes;
+    uint lane = gl_LocalInvocationIndex % kLanes;
     if (index >= params.node_count)
         return;
     uint self = params.first_node + index;
     Node node = params.nodes.data[self];
     uint count = childCount(node);
     uint rank = params.ranks.data[self];
-    moveAttribute(self, rank);
+    if (lane == 0u)
+        moveAttribute(self, rank);
     uint first_entry = params.first_entries.data[params.classes.data[self]];
-    for (uint i = 0u; i < count; ++i)
+    for (uint i = lane; i < count; i += kLanes)
     {
         uint child = childIndexAfter(node, i);
         uint child_rank = rank + 1u + (kAboveLeaves ? i : params.before.data[first_entry + i].nodes);

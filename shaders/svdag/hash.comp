@@ -14,6 +14,13 @@ layout(push_constant, scalar) uniform Push
     ClassHashParams params;
 };
 
+// Two chains, so that no common change of several children leaves both unchanged.
+uvec2 addToHash(uvec2 hash, uint child_class)
+{
+    uint y = (hash.y ^ child_class) * 0x01000193u;
+    return uvec2(mixBits(hash.x + child_class), y ^ (y >> 15));
+}
+
 void main()
 {
     uint index = threadIndex();
@@ -22,13 +29,13 @@ void main()
     Node node = params.nodes.data[params.first_node + index];
     uint count = childCount(node);
     uvec2 hash = uvec2(hashMask(node.mask_lo, node.mask_hi), hashMask(node.mask_hi, node.mask_lo));
-    for (uint i = 0u; i < count; ++i)
+    for (uint i = 0u; i < count; i += 4u)
     {
-        uint child_class = params.classes.data[childAt(node, params.nodes, i)];
-        // Two chains, so that no common change of several children leaves both unchanged.
-        hash.x = mixBits(hash.x + child_class);
-        hash.y = (hash.y ^ child_class) * 0x01000193u;
-        hash.y ^= hash.y >> 15;
+        uvec4 classes = loadFour(params.classes, childrenAt(node, params.nodes, fourOf(count, i)));
+        hash = addToHash(hash, classes.x);
+        hash = i + 1u < count ? addToHash(hash, classes.y) : hash;
+        hash = i + 2u < count ? addToHash(hash, classes.z) : hash;
+        hash = i + 3u < count ? addToHash(hash, classes.w) : hash;
     }
     params.hashes.data[index] = hash & params.hash_mask;
 }

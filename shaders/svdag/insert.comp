@@ -22,10 +22,13 @@ layout(push_constant, scalar) uniform Push
 // Compares the children of inner nodes. equal: their masks are equal.
 bool haveEqualChildren(Node a, Node b, bool equal)
 {
+    uint_ConstPtr classes = uint_ConstPtr(uint64_t(params.classes));
     uint count = equal ? childCount(a) : 0u;
-    for (uint i = 0u; equal && i < count; ++i)
+    for (uint i = 0u; equal && i < count; i += 4u)
     {
-        equal = params.classes.data[childAt(a, params.nodes, i)] == params.classes.data[childAt(b, params.nodes, i)];
+        uvec4 four = fourOf(count, i);
+        equal = loadFour(classes, childrenAt(a, params.nodes, four)) ==
+                loadFour(classes, childrenAt(b, params.nodes, four));
     }
     return equal;
 }

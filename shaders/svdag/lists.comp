@@ -29,12 +29,17 @@ BeforeChild belowOf(uint number)
 // Entries of two lists may share a word.
 void setEntry(uint index, uint child)
 {
-    uint bits = kListWordBits / kPerWord;
-    uvec2 word = unpackUint2x32(uint64_t(child) << (bits * (index % kPerWord)));
-    if (word.x != 0u)
+    if (kPerWord == 2u)
+        params.halfwords.data[index] = child;
+    else if (kPerWord == 4u)
+        atomicOr(params.halfwords.data[index / 2u], child << (16u * (index & 1u)));
+    else
+    {
+        uint bits = kListWordBits / kPerWord;
+        uvec2 word = unpackUint2x32(uint64_t(child) << (bits * (index % kPerWord)));
         atomicOr(params.halfwords.data[2u * (index / kPerWord)], word.x);
-    if (word.y != 0u)
         atomicOr(params.halfwords.data[2u * (index / kPerWord) + 1u], word.y);
+    }
 }
 
 void setBefore(uint entry, BeforeChild before)
@@ -61,17 +66,22 @@ void main()
     uint first_entry = params.first_entries.data[candidate];
     uint count = childCount(node);
     BeforeChild before = BeforeChild(0u, 0u);
-    for (uint i = 0u; i < count; ++i)
+    for (uint i = 0u; i < count; i += 4u)
     {
-        uint child = params.numbers.data[params.classes.data[childAt(node, params.nodes, i)]];
-        setEntry(params.first_index + first_entry + i, child);
-        if (kBefore)
-        {
-            setBefore(first_entry + i, before);
-            BeforeChild below = belowOf(child);
-            before.voxels += below.voxels;
-            before.nodes += below.nodes;
-        }
+        uvec4 children = loadFour(params.classes, childrenAt(node, params.nodes, fourOf(count, i)));
+        children = loadFour(params.numbers, children);
+        BeforeChild below[4];
+        [[unroll]] for (uint k = 0u; k < 4u; ++k)
+            below[k] = kBefore ? belowOf(children[k]) : before;
+        [[unroll]] for (uint k = 0u; k < 4u; ++k)
+            if (i + k < count)
+            {
+                setEntry(params.first_index + first_entry + i + k, children[k]);
+                if (kBefore)
+                    setBefore(first_entry + i + k, before);
+                before.voxels += below[k].voxels;
+                before.nodes += below[k].nodes;
+            }
     }
     if (kBefore)
         params.below.data[number] = BeforeChild(before.voxels, before.nodes + 1u);

@@ -8,6 +8,7 @@
 #define SCAN_GROUP kScanGroup
 #include "lib/scan.glsl"
 #include "svdag/candidate.glsl"
+#include "svdag/unique.glsl"
 
 layout(local_size_x = kScanGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -18,36 +19,30 @@ layout(push_constant, scalar) uniform Push
 void main()
 {
     uint first = threadIndex() * kScanItems;
-    uint last = min(first + kScanItems, params.node_count);
-    uint nodes = 0u;
+    UniqueCandidates unique =
+        uniqueCandidates(params.classes, params.nodes, first, params.node_count, params.inner_count);
     uint entries = 0u;
-    for (uint i = first; i < last; ++i)
-    {
-        bool unique = params.classes.data[i] == i;
-        nodes += unique ? 1u : 0u;
-        if (unique && i < params.inner_count)
-            entries += childCount(params.nodes.data[i]);
-    }
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
+        entries += unique.entry_counts[i];
     uint total;
-    uint number = workgroupExclusiveAdd(nodes, total);
+    uint number = workgroupExclusiveAdd(uint(bitCount(unique.nodes)), total);
     uint entry = workgroupExclusiveAdd(entries, total);
-    if (first < last)
+    if (first < params.node_count)
     {
         number += params.node_partials.data[workgroupIndex()];
         entry += params.entry_partials.data[workgroupIndex()];
     }
-    for (uint i = first; i < last; ++i)
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
     {
-        bool unique = params.classes.data[i] == i;
-        params.numbers.data[i] = number;
-        if (i < params.inner_count)
+        uint candidate = first + i;
+        if (candidate < params.node_count)
+            params.numbers.data[candidate] = number;
+        if (candidate < params.inner_count)
+            params.first_entries.data[candidate] = entry;
+        entry += unique.entry_counts[i];
+        if (((unique.nodes >> i) & 1u) != 0u)
         {
-            params.first_entries.data[i] = entry;
-            entry += unique ? childCount(params.nodes.data[i]) : 0u;
-        }
-        if (unique)
-        {
-            params.unique_nodes.data[number] = i;
+            params.unique_nodes.data[number] = candidate;
             ++number;
         }
     }

@@ -144,6 +144,7 @@ GPU_KERNEL_BEGIN(svdag, depth_first, DepthFirst, DepthFirstParams)
     GPU_CONSTANT(uint, entries_per_word, 0u)
     GPU_CONSTANT(bool, above_leaves, false)
     GPU_CONSTANT(bool, packed, false)
+    GPU_CONSTANT(uint, lanes, 1u)
 GPU_KERNEL_END
 
 struct AppendParams // push constants of svdag/append: one thread a node

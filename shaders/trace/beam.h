@@ -18,8 +18,9 @@ const uint kBeamFirst1 = 1u;     // first node of level 1
 const uint kBeamFirst2 = 65u;    // first node of level 2
 const uint kBeamFirst3 = 4161u;  // first node of level 3
 const uint kBeamNodes = 266305u; // of all levels
-const uint kBeamRows = 4096u;    // of cells along x
-const uint kBeamMasks = 4160u;   // of level 2, then of level 1
+const uint kBeamBlocks = 4096u;  // nodes of level 2: blocks of 4x4x4 cells
+const uint kBeamMasks = 4160u;   // of nodes of level 2, then of level 1, in Morton order
+const uint kBeamBlocksMax = 32u; // that a workgroup refines: the children in half a node of level 1
 const uint kBeamGroup = 64u;     // threads of a workgroup of the kernels that build it
 
 // Where rays may begin. The root cube is divided into kPathCells^3 cells, x in the lowest bits of their number. Each
@@ -49,36 +50,18 @@ const uint kPathRelativeShift = 24u;
 const uint kRankTableFirst = kPathCells * kPathCells * kPathCells;
 const uint kRankTableOverlays = 2u * kRankTableFirst;
 
-struct BeamMarkParams // push constants of trace/beam_mark: one thread a row
+struct BeamNodesParams // push constants of trace/beam_nodes: one thread a node of level 2, one workgroup its parent
 {
-    GPU_CONST_PTR(Node) nodes;
-    GPU_PTR(uint64_t) rows; // [cells * cells] of occupied cells: row y + z * cells
-    uint levels;            // of nodes to look at
-    uint cells;             // 4^levels, at most 64
-};
-GPU_KERNEL_BEGIN(trace, beam_mark, BeamMark, BeamMarkParams)
-    GPU_CONSTANT(uint, entries_per_word, 0u)
-GPU_KERNEL_END
-
-struct BeamDilateParams // push constants of trace/beam_dilate: one thread a row
-{
-    GPU_CONST_PTR(uint64_t) occupied; // [cells * cells]
-    GPU_PTR(uint64_t) rows;           // [kBeamRows] of the beam grid
-    uint cells;
-};
-GPU_KERNEL(trace, beam_dilate, BeamDilate, BeamDilateParams)
-
-struct BeamNodesParams // push constants of trace/beam_nodes: one thread a node, one workgroup its parent
-{
-    GPU_CONST_PTR(uint64_t) rows; // of the beam grid; level 2 only
-    GPU_PTR(uint64_t) masks;      // [kBeamMasks] in Morton order of their level
-    GPU_PTR(Node) nodes;          // [kBeamNodes]
+    GPU_CONST_PTR(Node) octree;
+    GPU_PTR(uint64_t) masks; // [kBeamMasks]
+    GPU_PTR(Node) nodes;     // [kBeamNodes]
 };
 GPU_KERNEL_BEGIN(trace, beam_nodes, BeamNodes, BeamNodesParams)
-    GPU_CONSTANT(bool, level2, true)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(uint, levels, 3u)
 GPU_KERNEL_END
 
-struct BeamRefineParams // push constants of trace/beam_refine: one thread a cell of the beam grid
+struct BeamRefineParams // push constants of trace/beam_refine: one workgroup for the top, others for kBlocks nodes each
 {
     GPU_CONST_PTR(Node) octree;
     GPU_CONST_PTR(uint64_t) masks;
@@ -86,6 +69,7 @@ struct BeamRefineParams // push constants of trace/beam_refine: one thread a cel
 };
 GPU_KERNEL_BEGIN(trace, beam_refine, BeamRefine, BeamRefineParams)
     GPU_CONSTANT(uint, entries_per_word, 0u)
+    GPU_CONSTANT(uint, blocks, 1u)
 GPU_KERNEL_END
 
 struct BeamPathsParams // push constants of trace/beam_paths: one thread a cell

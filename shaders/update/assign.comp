@@ -15,29 +15,35 @@ layout(push_constant, scalar) uniform Push
 
 void main()
 {
-    OverlayLevel level = params.levels.data[params.level];
+    OverlayLevel level = params.state.data[0].levels[params.level];
     uint first = threadIndex() * kScanItems;
-    uint last = min(first + kScanItems, level.node_count);
-    uint count_first = level.first_node - params.first_node;
+    uint node_count = max(level.node_count, 1u);
+    uint counts[kScanItems];
+    uint middles[kScanItems]; // children in the lower halves of the nodes
     uint children = 0u;
-    for (uint i = first; i < last; ++i)
-        children += params.counts.data[count_first + i];
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i) // no load waits for a condition, so many are under way
+    {
+        uint node = level.first_node + min(first + i, node_count - 1u);
+        uint count = params.counts.data[node - params.first_node];
+        middles[i] = bitCount(params.nodes.data[node].mask_lo);
+        counts[i] = first + i < level.node_count ? count : 0u;
+        children += counts[i];
+    }
     uint total;
     uint base = workgroupExclusiveAdd(children, total);
-    if (first >= last)
+    if (first >= level.node_count)
         return;
-    bool are_leaves = params.level + 1u == params.level_count;
+    bool are_leaves = params.level + 1u == params.state.data[0].level_count;
     base += params.partials.data[params.first_partial + workgroupIndex()];
     base += are_leaves ? params.first_voxel : level.first_node + level.node_count;
-    for (uint i = first; i < last; ++i)
+    [[unroll]] for (uint i = 0u; i < kScanItems; ++i)
     {
-        uint count = params.counts.data[count_first + i];
-        if (count != 0u)
+        if (counts[i] != 0u)
         {
-            uint node = level.first_node + i;
+            uint node = level.first_node + first + i;
             params.nodes.data[node].base_lo = base;
-            params.nodes.data[node].base_hi = base + bitCount(params.nodes.data[node].mask_lo);
+            params.nodes.data[node].base_hi = base + middles[i];
         }
-        base += count;
+        base += counts[i];
     }
 }

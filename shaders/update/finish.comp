@@ -16,7 +16,7 @@ void main()
 {
     if (gl_LocalInvocationIndex != 0u)
         return;
-    UpdateStatus status = params.status.data[0];
+    UpdateStatus status = params.state.data[0].status;
     status.touched_count = params.counters.data[0].node_count;
     if ((status.max_fragments >> params.sum_shift) > kFragmentsMax)
         status.failed |= kFailedFragments;

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 // Lists the leaves in a layer's brick table and gives each room for its voxels' sums. Their order is arbitrary, as sums
 // do not depend on it. If a leaf has no room, its voxels are dropped, so that nothing is written past the end; the
-// layer cannot be used then.
+// layer cannot be used then. In the end it is known whether there was room for everything.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
 #define BRICKS_CONSTANT_ID 0
+#include "lib/arrivals.glsl"
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/found_bricks.glsl"
@@ -16,7 +17,7 @@ layout(push_constant, scalar) uniform Push
     LayerLeavesParams params;
 };
 
-void main()
+void listLeaves()
 {
     FoundBricks found = findBricks(BrickEntry_ConstPtr(params.bricks), params.brick_capacity);
     uvec2 first = uvec2(0u); // leaf and voxel
@@ -51,4 +52,58 @@ void main()
         ++first.x;
         first.y = end;
     }
+}
+
+// Sets the members that no other subgroup touches.
+void setCounters(LayerCounters counters)
+{
+    params.counters.data[0].failed = counters.failed;
+    params.counters.data[0].overflow_count = counters.overflow_count;
+    params.counters.data[0].big_count = counters.big_count;
+    params.counters.data[0].block_count = counters.block_count;
+    params.counters.data[0].blocks_exceeded = counters.blocks_exceeded;
+    params.counters.data[0].nonfinite = counters.nonfinite;
+    params.counters.data[0].out_of_range = counters.out_of_range;
+    params.counters.data[0].outside = counters.outside;
+    params.counters.data[0].zero_area = counters.zero_area;
+}
+
+// Checks whether there was room for everything that the layer's coverage has listed. By one thread.
+void checkLayer()
+{
+    LayerCounters counters = LayerCounters(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    counters.leaf_count = atomicAdd(params.counters.data[0].leaf_count, 0u);
+    counters.voxel_count = atomicAdd(params.counters.data[0].voxel_count, 0u);
+    counters.overflow_count = params.brick_counters.data[0].overflow_count;
+    for (uint i = 0u; i < kClassCount; ++i)
+        if (uint64_t(params.rasters[i]) != 0ul)
+        {
+            RasterCounters raster = params.rasters[i].data[0];
+            counters.big_count = max(counters.big_count, raster.big_count);
+            counters.block_count = max(counters.block_count, raster.block_count);
+            counters.blocks_exceeded |= raster.blocks_exceeded;
+            counters.nonfinite += raster.nonfinite;
+            counters.out_of_range += raster.out_of_range;
+            counters.outside += raster.outside;
+            counters.zero_area += raster.zero_area;
+        }
+    bool failed = counters.overflow_count != 0u || counters.blocks_exceeded != 0u ||
+                  counters.leaf_count > params.leaf_capacity || counters.voxel_count > params.voxel_capacity ||
+                  counters.big_count > params.big_capacity || counters.block_count > params.block_capacity;
+    counters.failed = failed ? 1u : 0u;
+    setCounters(counters);
+    params.reports.data[params.report] = counters;
+}
+
+void main()
+{
+    const uint block = kCollectGroup * kCollectItems;
+    uint group_count = (params.brick_capacity + block - 1u) / block;
+    if (workgroupIndex() >= group_count)
+        return;
+    listLeaves();
+    uint here = arrivingThreads();
+    uint before = subgroupElect() ? atomicAdd(params.counters.data[0].arrived, here) : 0u;
+    if (areLastThreads(before, here, group_count * kCollectGroup) && subgroupElect())
+        checkLayer();
 }

@@ -16,14 +16,14 @@ void mergeVoxel(MergedVoxel voxel)
     Attribute look = Attribute(0u, 0u);
     if (voxel.base != kNoVoxel)
         look = params.attributes.data[voxel.base];
-    VoxelSums sums = VoxelSums(0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    VoxelSums sums = VoxelSums(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     bool emits = false;
     LayerVoxel layer_voxel = firstLayerVoxel(voxel);
     for (uint i = 0u; i < kLayersMax && layer_voxel.record != 0u; ++i)
     {
         if (layer_voxel.exists)
         {
-            addSums(sums, layer_voxel.layer.sums.data[layer_voxel.voxel], 0u);
+            addSums(sums, layer_voxel.layer.sums.data[layer_voxel.voxel]);
             emits = emits || emitsIn(layer_voxel);
         }
         layer_voxel = nextLayerVoxel(voxel, layer_voxel);
@@ -34,11 +34,12 @@ void mergeVoxel(MergedVoxel voxel)
         uint flags = emits ? kAttributeEmissive : 0u;
         if (kMerge == kMergeAverage && hasBaseSums(voxel))
         {
-            addSums(sums, params.view.data[0].sums.data[voxel.base], params.view.data[0].base_shift);
+            VoxelSums base = params.view.data[0].sums.data[voxel.base];
+            addSums(sums, droppingBits(base, params.view.data[0].base_shift, params.sum_shift));
             flags |= look.color >> 24;
         }
         if (sums.fragments > kFragmentsMax)
-            atomicMax(params.status.data[0].max_fragments, sums.fragments);
+            atomicMax(params.state.data[0].status.max_fragments, sums.fragments);
         look = resolveSums(scene, sums, params.sum_shift, flags);
     }
     params.attributes.data[voxel.index] = look;

@@ -64,6 +64,7 @@ struct LayerCounters
     uint out_of_range;
     uint outside;
     uint zero_area;
+    uint arrived; // threads that have listed leaves (lib/arrivals.glsl)
 };
 GPU_BUFFER(LayerCounters, 4);
 
@@ -125,33 +126,39 @@ const uint kArgsAssign = 1u; // for each kScanBlock nodes of the level
 const uint kArgsMerge = 2u;  // kMergeThreads for each touched leaf
 const uint kArgsCount = 3u;
 
+/// What an update knows of itself on the device.
+struct OverlayState
+{
+    UpdateStatus status;
+    GPU_PTR(DispatchArgs) args;          // [kArgsCount]
+    OverlayLevel levels[kNodeLevelsMax]; // from the root's on, as far as they have been sized
+    uint arrived[kNodeLevelsMax];        // threads that have expanded a level (lib/arrivals.glsl)
+    uint level_count;
+    uint node_capacity; // of the overlay's region
+    uint voxel_capacity;
+    uint max_groups_x;
+};
+GPU_BUFFER(OverlayState, 8);
+
 struct LayerLeavesParams // push constants of update/layer_leaves
 {
-    GPU_PTR(BrickEntry) bricks; // [brick_capacity], leaves only
-    GPU_PTR(uvec2) keys;        // [leaf_capacity]
-    GPU_PTR(Node) leaves;       // [leaf_capacity]
-    GPU_PTR(LayerCounters) counters;
-    uint brick_capacity;
-    uint leaf_capacity;
-    uint voxel_capacity;
-};
-GPU_KERNEL_BEGIN(update, layer_leaves, LayerLeaves, LayerLeavesParams)
-    GPU_CONSTANT(bool, wide_keys, false)
-GPU_KERNEL_END
-
-struct LayerCheckParams // push constants of update/layer_check
-{
-    GPU_PTR(LayerCounters) counters;
-    GPU_PTR(LayerCounters) reports; // copies that the host can read
+    GPU_PTR(BrickEntry) bricks;      // [brick_capacity], leaves only
+    GPU_PTR(uvec2) keys;             // [leaf_capacity]
+    GPU_PTR(Node) leaves;            // [leaf_capacity]
+    GPU_PTR(LayerCounters) counters; // [1] cleared
+    GPU_PTR(LayerCounters) reports;  // copies that the host can read
     GPU_CONST_PTR(BrickCounters) brick_counters;
     GPU_CONST_PTR(RasterCounters) rasters[3]; // of each material class, or null
+    uint brick_capacity;
     uint leaf_capacity;
     uint voxel_capacity;
     uint big_capacity;
     uint block_capacity;
     uint report; // element of reports
 };
-GPU_KERNEL(update, layer_check, LayerCheck, LayerCheckParams)
+GPU_KERNEL_BEGIN(update, layer_leaves, LayerLeaves, LayerLeavesParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+GPU_KERNEL_END
 
 struct EmissionPlacesParams // push constants of update/emission_places
 {
@@ -168,18 +175,22 @@ struct InsertParams // push constants of update/insert: one thread a record
     GPU_PTR(BrickEntry) bricks;
     GPU_PTR(uint) heads;             // [brick_capacity] cleared: record + 1 of the first layer's leaf
     GPU_PTR(LayerLink) links;        // [record_count]
-    GPU_PTR(WorkItem) items;         // [brick_capacity]
+    GPU_PTR(WorkItem) items;         // the touched nodes of each level, where its range begins
     GPU_PTR(BrickCounters) counters; // [1] cleared
-    GPU_PTR(UpdateStatus) status;    // [1] cleared
+    GPU_PTR(OverlayState) state;     // [1]
+    GPU_PTR(LevelRange) ranges;      // [level_count] begin where there is room for the level, without nodes
+    GPU_PTR(DispatchArgs) args;      // [level_count] one thread a node
     uint layer_count;
     uint record_count;
     uint brick_mask;
+    uint level_count;
+    uint max_groups_x;
 };
 GPU_KERNEL_BEGIN(update, insert, Insert, InsertParams)
     GPU_CONSTANT(bool, wide_keys, false)
 GPU_KERNEL_END
 
-struct RootParams // push constants of update/root
+struct TopParams // push constants of update/top: one workgroup
 {
     GPU_CONST_PTR(BrickEntry) bricks;
     GPU_CONST_PTR(WorkItem) items;
@@ -188,21 +199,23 @@ struct RootParams // push constants of update/root
     GPU_PTR(TouchedNode) touched; // [brick_capacity]
     GPU_PTR(Node) nodes;
     GPU_PTR(Attribute) node_attributes; // or null
-    GPU_PTR(BeforeChild) ranks;         // by nodes of overlays; kRanks only
-    GPU_PTR(OverlayLevel) levels;       // [level_count]
-    GPU_PTR(DispatchArgs) args;         // [kArgsCount]
-    GPU_PTR(UpdateStatus) status;
-    uint level_count;
+    GPU_PTR(uint) counts;               // [node_capacity] children that the overlay has to hold for its nodes
+    GPU_PTR(OverlayState) state;
+    GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource; kRanks only
+    GPU_CONST_PTR(uint) voxels_before_leaf;
+    GPU_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
+    uint brick_mask;
     uint base_root;  // node index; the node may be empty, and stands like a node of an overlay
     uint first_node; // of the overlay's region
-    uint node_capacity;
     uint first_voxel;
-    uint voxel_capacity;
-    uint attribute_offset;
+    uint attribute_offset;  // 0 for an octree
+    uint first_short_entry; // as in RankSource
+    uint static_root;
 };
-GPU_KERNEL_BEGIN(update, root, Root, RootParams)
+GPU_KERNEL_BEGIN(update, top, Top, TopParams)
+    GPU_CONSTANT(bool, wide_keys, false)
     GPU_CONSTANT(bool, attributes, false)
-    GPU_CONSTANT(bool, ranks, false)
+    GPU_CONSTANT(uint, entries_per_word, 0u)
 GPU_KERNEL_END
 
 struct ExpandParams // push constants of update/expand: a workgroup for each touched node of the level above
@@ -215,13 +228,12 @@ struct ExpandParams // push constants of update/expand: a workgroup for each tou
     GPU_PTR(Attribute) node_attributes; // or null
     GPU_PTR(uint) counts;               // [node_capacity] children that the overlay has to hold for its nodes
     GPU_PTR(uint) partials;             // [levels * ceil(node_capacity / kScanBlock)] cleared: sums of those
-    GPU_CONST_PTR(OverlayLevel) levels;
+    GPU_PTR(OverlayState) state;
     GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource; kRanks only
     GPU_CONST_PTR(uint) voxels_before_leaf;
     GPU_PTR(BeforeChild) ranks; // by nodes of overlays; kRanks only
     uint brick_mask;
     uint level;             // of the children
-    uint item_range;        // of the parents, in ranges
     uint first_node;        // of the overlay
     uint first_partial;     // of the level
     uint attribute_offset;  // 0 for an octree
@@ -235,30 +247,13 @@ GPU_KERNEL_BEGIN(update, expand, Expand, ExpandParams)
     GPU_CONSTANT(bool, leaves, false)
 GPU_KERNEL_END
 
-struct OverlayScanParams // push constants of update/scan: one workgroup
-{
-    GPU_PTR(uint) partials; // those of the level become their exclusive prefix sum
-    GPU_PTR(OverlayLevel) levels;
-    GPU_CONST_PTR(LevelRange) ranges;
-    GPU_PTR(DispatchArgs) args;
-    GPU_PTR(UpdateStatus) status;
-    uint level;
-    uint level_count;
-    uint node_capacity;
-    uint voxel_capacity;
-    uint first_partial;
-    uint max_groups_x;
-};
-GPU_KERNEL(update, scan, Scan, OverlayScanParams)
-
 struct OverlayAssignParams // push constants of update/assign
 {
     GPU_PTR(Node) nodes;
     GPU_CONST_PTR(uint) counts;
-    GPU_CONST_PTR(uint) partials;
-    GPU_CONST_PTR(OverlayLevel) levels;
+    GPU_CONST_PTR(uint) partials; // exclusive prefix sums
+    GPU_CONST_PTR(OverlayState) state;
     uint level;
-    uint level_count;
     uint first_node;
     uint first_voxel;
     uint first_partial;
@@ -296,7 +291,7 @@ struct MergeParams // push constants of update/merge and update/merge_emission
     GPU_PTR(Attribute) attributes;
     GPU_PTR(uvec2) emission_words; // the overlay's bits cleared; or null
     GPU_PTR(uint) emission;        // or null
-    GPU_PTR(UpdateStatus) status;
+    GPU_PTR(OverlayState) state;
     uint sum_shift;
 };
 GPU_KERNEL_BEGIN(update, merge, Merge, MergeParams)
@@ -306,7 +301,7 @@ GPU_KERNEL_BEGIN(update, merge_emission, MergeEmission, MergeParams)
     MERGE_CONSTANTS
 GPU_KERNEL_END
 
-struct OverlayAverageParams // push constants of update/average: one thread a touched node
+struct OverlayAverageParams // push constants of update/average: kLanes threads a touched node
 {
     GPU_CONST_PTR(SceneView) scene;
     GPU_CONST_PTR(WorkItem) items;
@@ -315,19 +310,41 @@ struct OverlayAverageParams // push constants of update/average: one thread a to
     GPU_CONST_PTR(Node) nodes;
     GPU_CONST_PTR(Attribute) children; // of voxels for leaves, else of nodes
     GPU_PTR(Attribute) averages;       // of nodes
-    GPU_CONST_PTR(UpdateStatus) status;
+    GPU_CONST_PTR(OverlayState) state;
     uint item_range;
     uint children_offset;  // from a node's base to children
     uint attribute_offset; // from a node to averages
 };
-GPU_KERNEL(update, average, Average, OverlayAverageParams)
+GPU_KERNEL_BEGIN(update, average, Average, OverlayAverageParams)
+    GPU_CONSTANT(uint, lanes, 1u)
+    GPU_CONSTANT(uint, local_size_x, 1u) // kNodesGroup * lanes
+GPU_KERNEL_END
+
+struct OverlayAverageTopParams // push constants of update/average_top: one workgroup
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(WorkItem) items;
+    GPU_CONST_PTR(LevelRange) ranges;
+    GPU_CONST_PTR(TouchedNode) touched;
+    GPU_CONST_PTR(Node) nodes;
+    GPU_PTR(Attribute) averages;              // of nodes
+    GPU_CONST_PTR(Attribute) lowest_children; // attributes of the children of the lowest of these levels
+    GPU_CONST_PTR(OverlayState) state;
+    uint level_count;      // of nodes in all
+    uint lowest_offset;    // from a child's number to lowest_children
+    uint attribute_offset; // from a node to averages
+};
+GPU_KERNEL_BEGIN(update, average_top, AverageTop, OverlayAverageTopParams)
+    GPU_CONSTANT(uint, lanes, 1u)
+    GPU_CONSTANT(uint, local_size_x, 1u)
+GPU_KERNEL_END
 
 struct FinishParams // push constants of update/finish
 {
     GPU_PTR(Node) nodes;
     GPU_PTR(Attribute) node_attributes; // or null
     GPU_CONST_PTR(BrickCounters) counters;
-    GPU_CONST_PTR(UpdateStatus) status;
+    GPU_CONST_PTR(OverlayState) state;
     GPU_PTR(UpdateStatus) results; // copies that the host can read
     GPU_PTR(uint) roots;           // of updates of which the host does not know yet whether they failed
     uint root;                     // of the overlay

@@ -15,9 +15,9 @@ uvec2 unpackBlock(uint position)
 // normal: exact, of the lattice points.
 RasterTriangle setupBigTriangle(BigTriangle big, out i64vec3 normal)
 {
-    i64vec3 a = i64vec3(big.v1 - big.v0);
-    i64vec3 b = i64vec3(big.v2 - big.v0);
-    normal = a.yzx * b.zxy - a.zxy * b.yzx;
+    ivec3 a = big.v1 - big.v0;
+    ivec3 b = big.v2 - big.v0;
+    normal = product(a.yzx, b.zxy) - product(a.zxy, b.yzx);
     ivec3 low = ((min(big.v0, min(big.v1, big.v2)) + (kVoxelLattice - 1)) >> kVoxelLatticeLog2) - 1;
     ivec3 high = max(big.v0, max(big.v1, big.v2)) >> kVoxelLatticeLog2;
     clipToWindow(low, high);
@@ -44,24 +44,24 @@ vec2 outlineColumns(RasterTriangle t, RasterCell cell, int column_count, int row
     vec2 interval = vec2(0.0, float(column_count - 1));
     for (int i = 0; i < 3; ++i)
     {
-        EDGE_INT rise = max(t.du[i] * t.s_w, EDGE_INT(0)) * EDGE_INT(row_count - 1);
-        clipColumns(float(cell.uv[i] + rise), -float(t.dv[i] * t.s_w), interval);
+        EDGE_INT rise = product(max(t.edge_u[i], 0), kVoxelLattice * (row_count - 1));
+        clipColumns(float(cell.uv[i] + rise), -float(t.edge_v[i]) * float(kVoxelLattice), interval);
     }
     return interval;
 }
 
-// Columns whose layers can lie inside the grid. The plane rises or falls by at most a layer for each column and row.
+// Columns whose layers can lie inside the grid. The plane rises by at most a layer for each column and row.
 vec2 layerColumns(RasterTriangle t, RasterCell cell, vec2 interval, int row_count)
 {
     const float margin = 3.0; // layers: a conservative column's range, and rounding
     float inverse = 1.0 / float(t.n_w);
-    float slope = -float(t.n_u) * inverse;
-    float by_rows = -float(t.n_v) * inverse * float(row_count - 1);
+    float slope = float(t.rise_u) * inverse;
+    float by_rows = float(t.rise_v) * inverse * float(row_count - 1);
     float height = float(cell.w);
     if (t.n_w != 0)
     {
-        clipColumns(height + max(by_rows, 0.0) - float(t.low.z) + margin, slope, interval);
-        clipColumns(float(t.high.z) - height - min(by_rows, 0.0) + margin, -slope, interval);
+        clipColumns(height + by_rows - float(t.low.z) + margin, slope, interval);
+        clipColumns(float(t.high.z) - height + margin, -slope, interval);
     }
     return interval;
 }

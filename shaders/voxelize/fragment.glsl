@@ -73,14 +73,7 @@ uint voxelIndex(BrickCursor cursor, uint cell)
 
 void addAttributes(Surface surface, uint voxel, uvec3 weights, uvec3 color)
 {
-    ivec3 normal = fragmentNormal(surface, weights);
-    atomicAdd(params.sums.data[voxel].red, color.r >> params.sum_shift);
-    atomicAdd(params.sums.data[voxel].green, color.g >> params.sum_shift);
-    atomicAdd(params.sums.data[voxel].blue, color.b >> params.sum_shift);
-    atomicAdd(params.sums.data[voxel].normal_x, uint(normal.x >> params.sum_shift));
-    atomicAdd(params.sums.data[voxel].normal_y, uint(normal.y >> params.sum_shift));
-    atomicAdd(params.sums.data[voxel].normal_z, uint(normal.z >> params.sum_shift));
-    atomicAdd(params.sums.data[voxel].fragments, 1u);
+    addToSums(voxel, color, fragmentNormal(surface, weights));
     if (kEmits && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
         atomicOr(params.emission_words.data[voxel >> 5].x, 1u << (voxel & 31u));
 }

@@ -4,28 +4,32 @@
 // Before it is included, EDGE_INT and EDGE_IVEC3 are defined: int and ivec3 for triangles of at most kSmallExtent, else
 // int64_t and i64vec3. Arithmetic wraps; what is compared in the end fits (int64: vertices within kLatticeLimit).
 //
-// Axes are permuted so that w is the triangle's major axis; columns stand along w over the (u, v) plane. Component i of
-// an EDGE_IVEC3 belongs to the edge from vertex i to vertex i + 1.
+// Axes are permuted so that w is the triangle's major axis; columns stand along w over the (u, v) plane. Then u and v
+// are mirrored, and corners exchanged, so that every triangle with area has n_u <= 0, n_v <= 0 and n_w > 0: its plane
+// rises along u and v by at most a layer for each column, and its edges have the same sign in each projection. Which
+// sign a projection to a segment gets does not matter: its edges run both ways. Mirrored, column c is column ~c, and the
+// columns above a leaf stay together.
+//
+// Component i of an EDGE_IVEC3 belongs to the edge from corner i to corner i + 1.
 
 // A triangle set up for its grid.
 struct RasterTriangle
 {
-    ivec3 u; // lattice coordinates of the three vertices
+    ivec3 u; // lattice coordinates of the three corners
     ivec3 v;
     ivec3 w;
-    EDGE_IVEC3 du; // edge vectors times 256: steps of the edge functions
-    EDGE_IVEC3 dv;
-    EDGE_IVEC3 dw;
-    EDGE_INT n_u; // normal, times the sign that makes n_w positive
-    EDGE_INT n_v;
-    EDGE_INT n_w; // 0 for a segment or a point
-    EDGE_INT s_u; // signs of the original normal's components, +1 for 0
-    EDGE_INT s_v;
-    EDGE_INT s_w;
-    uint axis;     // which of x, y, z is w
-    ivec3 low;     // first voxel in u, v, w that the bounding box touches, inside the grid
-    ivec3 high;    // last one
-    int layer_top; // no layer above: keeps a triangle in the grid's upper face inside
+    ivec3 edge_u; // edge vectors
+    ivec3 edge_v;
+    ivec3 edge_w;
+    EDGE_INT rise_u; // minus n_u: what the plane rises by in a column, times n_w
+    EDGE_INT rise_v; // likewise in a row, from 0 to n_w
+    EDGE_INT n_w;    // 0 for a segment or a point
+    uint axis;       // which of x, y, z is w
+    ivec2 mirror;    // -1 where u or v is mirrored, else 0
+    bool exchanged;  // corner 1 is vertex 2
+    ivec3 low;       // first voxel in u, v, w that the bounding box touches, inside the grid
+    ivec3 high;      // last one
+    int layer_top;   // no layer above: keeps a triangle in the grid's upper face inside
 };
 
 // The state of the walk at one voxel: edge functions, and the crossing of plane and column.
@@ -40,11 +44,38 @@ struct RasterCell
     EDGE_INT rest_high;
 };
 
-EDGE_IVEC3 edgeSupport(EDGE_IVEC3 a, EDGE_IVEC3 b)
+// a * b. Compilers do not see that the factors of a 64-bit product are short, and take four products for it.
+EDGE_INT product(int a, int b)
 {
-    EDGE_IVEC3 half_a = abs(a) >> 1; // a and b are edge vectors times 256
-    EDGE_IVEC3 half_b = abs(b) >> 1;
-    return kCoverage == kCoverageConservative ? half_a + half_b : max(half_a, half_b);
+#ifdef EDGE_WIDE
+    int high;
+    int low;
+    imulExtended(a, b, high, low);
+    return packInt2x32(ivec2(low, high));
+#else
+    return a * b;
+#endif
+}
+
+EDGE_IVEC3 product(ivec3 a, ivec3 b)
+{
+    return EDGE_IVEC3(product(a.x, b.x), product(a.y, b.y), product(a.z, b.z));
+}
+
+// a, b: components of the edge vectors.
+EDGE_IVEC3 edgeSupport(ivec3 a, ivec3 b)
+{
+    ivec3 size_a = abs(a);
+    ivec3 size_b = abs(b);
+    EDGE_IVEC3 size = kCoverage == kCoverageConservative ? EDGE_IVEC3(size_a) + EDGE_IVEC3(size_b)
+                                                         : EDGE_IVEC3(max(size_a, size_b));
+    return size * EDGE_INT(kVoxelLattice / 2);
+}
+
+// What an edge function changes by from voxel to voxel. edge: components of the edge vectors.
+EDGE_IVEC3 voxelStep(ivec3 edge)
+{
+    return EDGE_IVEC3(edge) * EDGE_INT(kVoxelLattice);
 }
 
 // Which of x, y, z is w. A triangle without area has no major axis: w is the axis along which its box is thinnest, so
@@ -55,67 +86,106 @@ uint majorAxis(i64vec3 n, ivec3 low, ivec3 high)
     return size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
 }
 
-// n: the exact normal (of the lattice points as they are); low, high: touched voxels in x, y, z.
-RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, EDGE_IVEC3 n, uint axis, ivec3 low, ivec3 high,
+// -1 where u or v is mirrored, else 0. m: the normal in u, v, w.
+ivec2 mirrorOf(i64vec3 m)
+{
+    return ivec2((m.x ^ m.z) < 0 ? 0 : -1, (m.y ^ m.z) < 0 ? 0 : -1);
+}
+
+// The same in u, v, w of what is given in x, y, z.
+ivec3 permuted(ivec3 a, uint axis)
+{
+    return axis == 0u ? a.yzx : (axis == 1u ? a.zxy : a);
+}
+
+i64vec3 permuted(i64vec3 a, uint axis)
+{
+    return axis == 0u ? a.yzx : (axis == 1u ? a.zxy : a);
+}
+
+// Voxels low to high along an axis that may be mirrored. mirror: -1 or 0.
+ivec2 mirroredRange(ivec2 range, int mirror)
+{
+    return mirror < 0 ? ~range.yx : range;
+}
+
+// Coordinates of the corners along an axis that may be mirrored.
+ivec3 cornersOf(ivec3 vertices, int mirror, bool exchanged)
+{
+    ivec3 corners = exchanged ? vertices.xzy : vertices;
+    return (corners ^ mirror) - mirror;
+}
+
+// normal: exact (of the lattice points as they are); low, high: touched voxels in x, y, z.
+RasterTriangle setupTriangle(ivec3 v0, ivec3 v1, ivec3 v2, i64vec3 normal, uint axis, ivec3 low, ivec3 high,
                              int resolution)
 {
     RasterTriangle t;
     t.axis = axis;
-    // Rows of the matrix are vertices; columns are picked in cyclic order from the axis after w.
+    i64vec3 n = permuted(normal, axis);
+    t.mirror = mirrorOf(n);
+    t.exchanged = (n.z < 0) != (t.mirror.x != t.mirror.y);
+    // Columns of the matrix are vertices.
     ivec3 x = ivec3(v0.x, v1.x, v2.x);
     ivec3 y = ivec3(v0.y, v1.y, v2.y);
     ivec3 z = ivec3(v0.z, v1.z, v2.z);
-    bool is_x = t.axis == 0u;
-    bool is_y = t.axis == 1u;
-    t.u = is_x ? y : (is_y ? z : x);
-    t.v = is_x ? z : (is_y ? x : y);
-    t.w = is_x ? x : (is_y ? y : z);
-    EDGE_IVEC3 m = is_x ? n.yzx : (is_y ? n.zxy : n);
-    t.low = is_x ? low.yzx : (is_y ? low.zxy : low);
-    t.high = is_x ? high.yzx : (is_y ? high.zxy : high);
-    t.s_u = m.x < 0 ? EDGE_INT(-1) : EDGE_INT(1);
-    t.s_v = m.y < 0 ? EDGE_INT(-1) : EDGE_INT(1);
-    t.s_w = m.z < 0 ? EDGE_INT(-1) : EDGE_INT(1);
-    t.n_u = m.x * t.s_w;
-    t.n_v = m.y * t.s_w;
-    t.n_w = m.z * t.s_w;
-    t.du = EDGE_IVEC3(t.u.yzx - t.u) * EDGE_INT(kVoxelLattice);
-    t.dv = EDGE_IVEC3(t.v.yzx - t.v) * EDGE_INT(kVoxelLattice);
-    t.dw = EDGE_IVEC3(t.w.yzx - t.w) * EDGE_INT(kVoxelLattice);
-    t.layer_top = m.x == 0 && m.y == 0 ? resolution - 1 : kLatticeLimit;
+    bool is_x = axis == 0u;
+    bool is_y = axis == 1u;
+    t.u = cornersOf(is_x ? y : (is_y ? z : x), t.mirror.x, t.exchanged);
+    t.v = cornersOf(is_x ? z : (is_y ? x : y), t.mirror.y, t.exchanged);
+    t.w = cornersOf(is_x ? x : (is_y ? y : z), 0, t.exchanged);
+    t.low = permuted(low, axis);
+    t.high = permuted(high, axis);
+    ivec2 range_u = mirroredRange(ivec2(t.low.x, t.high.x), t.mirror.x);
+    ivec2 range_v = mirroredRange(ivec2(t.low.y, t.high.y), t.mirror.y);
+    t.low.xy = ivec2(range_u.x, range_v.x);
+    t.high.xy = ivec2(range_u.y, range_v.y);
+    t.rise_u = abs(EDGE_INT(n.x));
+    t.rise_v = abs(EDGE_INT(n.y));
+    t.n_w = abs(EDGE_INT(n.z));
+    t.edge_u = t.u.yzx - t.u;
+    t.edge_v = t.v.yzx - t.v;
+    t.edge_w = t.w.yzx - t.w;
+    t.layer_top = t.rise_u == 0 && t.rise_v == 0 ? resolution - 1 : kLatticeLimit;
     return t;
 }
 
 // floor(numerator / n_w) of the division that decides a column's layer, numerator being
-//   (w_0 n_w - n_u (c_u - u_0) - n_v (c_v - v_0) + addend) / 256
+//   (w_0 n_w + rise_u (c_u - u_0) + rise_v (c_v - v_0) + addend) / 256
 // with (c_u, c_v) the centre of column. Products with the low byte of a factor are kept apart so that dividing by 256
 // is exact; the quotient is estimated in floating point and corrected by the exact (wrapping) remainder.
 int columnLayer(RasterTriangle t, ivec2 column, EDGE_INT addend_high, int addend_low, out EDGE_INT rest)
 {
-    EDGE_INT to_u = EDGE_INT(column.x * kVoxelLattice + kVoxelLattice / 2 - t.u.x);
-    EDGE_INT to_v = EDGE_INT(column.y * kVoxelLattice + kVoxelLattice / 2 - t.v.x);
-    EDGE_INT to_w = EDGE_INT(t.w.x);
-    EDGE_INT low_byte = EDGE_INT(kVoxelLattice - 1);
-    EDGE_INT low_u = to_u & low_byte;
-    EDGE_INT low_v = to_v & low_byte;
-    EDGE_INT low_w = to_w & low_byte;
-    EDGE_INT high = (to_w >> kVoxelLatticeLog2) * t.n_w - (to_u >> kVoxelLatticeLog2) * t.n_u -
-                    (to_v >> kVoxelLatticeLog2) * t.n_v;
-    EDGE_INT middle = low_w * (t.n_w >> kVoxelLatticeLog2) - low_u * (t.n_u >> kVoxelLatticeLog2) -
-                      low_v * (t.n_v >> kVoxelLatticeLog2);
-    EDGE_INT low = low_w * (t.n_w & low_byte) - low_u * (t.n_u & low_byte) - low_v * (t.n_v & low_byte);
-    EDGE_INT numerator = high + middle + addend_high + ((low + EDGE_INT(addend_low)) >> kVoxelLatticeLog2);
+    int to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - t.u.x;
+    int to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - t.v.x;
+    int to_w = t.w.x;
+    const int low_byte = kVoxelLattice - 1;
+    int low_u = to_u & low_byte;
+    int low_v = to_v & low_byte;
+    int low_w = to_w & low_byte;
+    EDGE_INT high = EDGE_INT(to_w >> kVoxelLatticeLog2) * t.n_w + EDGE_INT(to_u >> kVoxelLatticeLog2) * t.rise_u +
+                    EDGE_INT(to_v >> kVoxelLatticeLog2) * t.rise_v;
+    EDGE_INT middle = EDGE_INT(low_w) * (t.n_w >> kVoxelLatticeLog2) +
+                      EDGE_INT(low_u) * (t.rise_u >> kVoxelLatticeLog2) +
+                      EDGE_INT(low_v) * (t.rise_v >> kVoxelLatticeLog2);
+    int low = low_w * (int(t.n_w) & low_byte) + low_u * (int(t.rise_u) & low_byte) +
+              low_v * (int(t.rise_v) & low_byte);
+    EDGE_INT numerator = high + middle + addend_high + EDGE_INT((low + addend_low) >> kVoxelLatticeLog2);
 
     float inverse = 1.0 / float(t.n_w);
-    float height = float(t.w.x) - (float(t.n_u) * inverse) * float(to_u) - (float(t.n_v) * inverse) * float(to_v) +
+    float height = float(to_w) + (float(t.rise_u) * inverse) * float(to_u) + (float(t.rise_v) * inverse) * float(to_v) +
                    float(addend_high) * inverse * float(kVoxelLattice);
     int layer = int(floor(height / float(kVoxelLattice)));
     rest = numerator - EDGE_INT(layer) * t.n_w;
-    for (int i = 0; i < 4; ++i) // the estimate is at most a few layers off
+    bool below = rest < 0; // the estimate is at most four layers off
+    layer -= below ? 4 : 0;
+    rest += below ? t.n_w << 2 : EDGE_INT(0);
+    for (int log2 = 2; log2 >= 0; --log2)
     {
-        int fix = rest < 0 ? -1 : (rest >= t.n_w ? 1 : 0);
-        layer += fix;
-        rest -= EDGE_INT(fix) * t.n_w;
+        EDGE_INT part = t.n_w << log2;
+        bool above = rest >= part;
+        layer += above ? 1 << log2 : 0;
+        rest -= above ? part : EDGE_INT(0);
     }
     return layer;
 }
@@ -147,82 +217,80 @@ RasterCell startColumn(RasterTriangle t, ivec2 column)
     {
         // The plane's range over the closed column is +-128 (|n_u| + |n_v|); the lower end excludes one unit, because
         // a plane that touches a layer's upper face covers that layer too.
-        EDGE_INT spread = abs(t.n_u) + abs(t.n_v);
+        EDGE_INT spread = t.rise_u + t.rise_v;
         EDGE_INT half_spread = spread >> 1;
-        int odd = int(spread & EDGE_INT(1)) * (kVoxelLattice / 2);
+        int odd = (int(spread) & 1) * (kVoxelLattice / 2);
         cell.w = columnLayer(t, column, -half_spread, -odd - 1, cell.rest);
         cell.w_high = columnLayer(t, column, half_spread, odd, cell.rest_high);
     }
-    EDGE_IVEC3 to_u = EDGE_IVEC3(column.x * kVoxelLattice + kVoxelLattice / 2 - t.u);
-    EDGE_IVEC3 to_v = EDGE_IVEC3(column.y * kVoxelLattice + kVoxelLattice / 2 - t.v);
-    EDGE_IVEC3 to_w = EDGE_INT(cell.w) * EDGE_INT(kVoxelLattice) + EDGE_INT(kVoxelLattice / 2) - EDGE_IVEC3(t.w);
-    EDGE_IVEC3 edge_u = t.du >> kVoxelLatticeLog2;
-    EDGE_IVEC3 edge_v = t.dv >> kVoxelLatticeLog2;
-    EDGE_IVEC3 edge_w = t.dw >> kVoxelLatticeLog2;
-    cell.uv = (edge_u * to_v - edge_v * to_u) * t.s_w + edgeSupport(t.du, t.dv);
-    cell.vw = (edge_v * to_w - edge_w * to_v) * t.s_u + edgeSupport(t.dv, t.dw);
-    cell.wu = (edge_w * to_u - edge_u * to_w) * t.s_v + edgeSupport(t.dw, t.du);
+    ivec3 to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - t.u;
+    ivec3 to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - t.v;
+    ivec3 to_w = cell.w * kVoxelLattice + kVoxelLattice / 2 - t.w;
+    cell.uv = product(t.edge_u, to_v) - product(t.edge_v, to_u) + edgeSupport(t.edge_u, t.edge_v);
+    cell.vw = product(t.edge_w, to_v) - product(t.edge_v, to_w) + edgeSupport(t.edge_v, t.edge_w);
+    cell.wu = product(t.edge_u, to_w) - product(t.edge_w, to_u) + edgeSupport(t.edge_w, t.edge_u);
     return cell;
 }
 
-// Moves the remainder of a division by n_w by step (|step| <= n_w) and returns how many layers the quotient moves.
-int stepLayer(RasterTriangle t, EDGE_INT step, inout EDGE_INT rest)
+// Moves the remainder of a division by n_w by rise (0 to n_w) and returns whether the quotient moves up by one.
+bool stepLayer(RasterTriangle t, EDGE_INT rise, inout EDGE_INT rest)
 {
-    rest += step;
-    int move = rest < 0 ? -1 : (rest >= t.n_w ? 1 : 0);
-    rest -= EDGE_INT(move) * t.n_w;
-    return move;
+    rest += rise;
+    bool up = rest >= t.n_w;
+    rest -= up ? t.n_w : EDGE_INT(0);
+    return up;
 }
 
-// Moves the edge functions by a number of layers.
-void moveLayers(RasterTriangle t, int layers, inout RasterCell cell)
+// Moves the edge functions up by one layer, if up.
+void moveUp(RasterTriangle t, bool up, inout RasterCell cell)
 {
-    cell.w += layers;
-    cell.vw += t.dv * (t.s_u * EDGE_INT(layers));
-    cell.wu -= t.du * (t.s_v * EDGE_INT(layers));
+    cell.w += up ? 1 : 0;
+    cell.vw -= voxelStep(up ? t.edge_v : ivec3(0));
+    cell.wu += voxelStep(up ? t.edge_u : ivec3(0));
 }
 
-void stepPlane(RasterTriangle t, EDGE_INT step, inout RasterCell cell)
+void stepPlane(RasterTriangle t, EDGE_INT rise, inout RasterCell cell)
 {
     if (t.n_w != 0)
     {
-        moveLayers(t, stepLayer(t, step, cell.rest), cell);
+        moveUp(t, stepLayer(t, rise, cell.rest), cell);
         if (kCoverage == kCoverageConservative)
-            cell.w_high += stepLayer(t, step, cell.rest_high);
+            cell.w_high += stepLayer(t, rise, cell.rest_high) ? 1 : 0;
     }
 }
 
 // To the first layer of the next column along u.
 void nextColumn(RasterTriangle t, inout RasterCell cell)
 {
-    cell.uv -= t.dv * t.s_w;
-    cell.wu += t.dw * t.s_v;
-    stepPlane(t, -t.n_u, cell);
+    cell.uv -= voxelStep(t.edge_v);
+    cell.wu -= voxelStep(t.edge_w);
+    stepPlane(t, t.rise_u, cell);
 }
 
 // To the first layer of the next column along v.
 void nextRow(RasterTriangle t, inout RasterCell cell)
 {
-    cell.uv += t.du * t.s_w;
-    cell.vw -= t.dw * t.s_u;
-    stepPlane(t, -t.n_v, cell);
+    cell.uv += voxelStep(t.edge_u);
+    cell.vw += voxelStep(t.edge_w);
+    stepPlane(t, t.rise_v, cell);
 }
 
 bool isCovered(RasterTriangle t, RasterCell cell)
 {
-    EDGE_IVEC3 least = min(cell.uv, min(cell.vw, cell.wu));
-    return min(least.x, min(least.y, least.z)) >= 0 && cell.w >= t.low.z && cell.w <= t.high.z;
+    EDGE_IVEC3 signs = cell.uv | cell.vw | cell.wu;
+    return (signs.x | signs.y | signs.z) >= 0 && cell.w >= t.low.z && cell.w <= t.high.z;
 }
 
 // Voxel coordinates from (u, v, w).
 ivec3 voxelOf(RasterTriangle t, ivec2 column, int w)
 {
-    ivec3 cell = ivec3(column, w);
+    ivec3 cell = ivec3(column ^ t.mirror, w);
     return t.axis == 0u ? cell.zxy : (t.axis == 1u ? cell.yzx : cell);
 }
 
 // Barycentric edge functions at the column's centre: component i belongs to vertex i.
 EDGE_IVEC3 cornerWeights(RasterTriangle t, RasterCell cell)
 {
-    return (cell.uv - edgeSupport(t.du, t.dv)).yzx;
+    EDGE_IVEC3 corners = (cell.uv - edgeSupport(t.edge_u, t.edge_v)).yzx;
+    return t.exchanged ? corners.xzy : corners;
 }

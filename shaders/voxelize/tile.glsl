@@ -2,25 +2,47 @@
 // Thin coverage by tiles: the 4x4 columns above one leaf. A plane crosses at most kTileLeaves leaves in a tile, because
 // its height changes by at most one layer from column to column. So the brick table is searched at most that often for
 // up to 16 voxels, whose bits are set together. The rest is arithmetic in a thread's own registers.
+//
+// Edge functions move by multiples of 256, the edge vectors times 256, so that floor(edge function / 256) moves by the
+// edge vectors and has the same sign. In a tile an edge function moves by at most 3 columns, 3 rows and 6 layers, and
+// vw and wu by 9 edge components: for edges of up to kTileExtent = 2^26 that is less than 2^30. So a quotient that
+// begins outside of [-2^30, 2^30) keeps its sign in the tile, also when it begins at the end of that interval instead,
+// and no quotient leaves 32 bits. Triangles of larger edges have tiles of one column, in which nothing moves.
 
 const uint kTileLeaves = 3u; // 7 layers
 
 struct Tile
 {
-    ivec2 column;             // first column, a multiple of 4
-    int w_low;                // no layer of the plane above the tile is lower
+    ivec2 column;             // first column
+    int w_low;                // its layer: no layer of the plane above the tile is lower
     uvec2 masks[kTileLeaves]; // covered voxels of the leaves, from the one that holds w_low up
 };
 
-// The members of a RasterCell that thin coverage needs.
+// The members of a RasterCell that thin coverage needs, edge functions divided by 256.
 struct TileCell
 {
-    EDGE_IVEC3 uv;
-    EDGE_IVEC3 vw;
-    EDGE_IVEC3 wu;
+    ivec3 uv;
+    ivec3 vw;
+    ivec3 wu;
     int w;
     EDGE_INT rest; // of the layer's division by n_w
 };
+
+// Columns of a tile along each axis.
+int tileExtent(RasterTriangle t)
+{
+    ivec3 edges = max(abs(t.edge_u), max(abs(t.edge_v), abs(t.edge_w)));
+    return max(edges.x, max(edges.y, edges.z)) <= kTileExtent ? 4 : 1;
+}
+
+// floor(edge / 256), brought into [-2^30, 2^30).
+ivec3 tileEdge(i64vec3 edge)
+{
+    ivec3 beyond = ivec3(edge >> (kVoxelLatticeLog2 + 30)); // 0 or -1 inside
+    ivec3 quotient = ivec3(edge >> kVoxelLatticeLog2);
+    quotient = mix(quotient, ivec3((1 << 30) - 1), greaterThan(beyond, ivec3(0)));
+    return mix(quotient, ivec3(-(1 << 30)), lessThan(beyond, ivec3(-1)));
+}
 
 // Bits of the number of a voxel inside its leaf that belong to coordinate c of axis.
 uint cellBits(uint c, uint axis)
@@ -41,21 +63,17 @@ void addToMasks(bool present, uint cell, uint layer, inout uvec2 masks[kTileLeav
     masks[2].y |= word == 5u ? bit : 0u;
 }
 
-Tile coverTile(RasterTriangle t, ivec2 column)
+// extent: of the tile.
+Tile coverTile(RasterTriangle t, ivec2 column, int extent)
 {
     RasterCell first = startColumn(t, column);
-    TileCell row = TileCell(first.uv, first.vw, first.wu, first.w, first.rest);
-    EDGE_IVEC3 vw_up = t.dv * t.s_u; // to the next layer
-    EDGE_IVEC3 wu_up = t.du * -t.s_v;
-    EDGE_IVEC3 uv_column = t.dv * -t.s_w; // to the next column along u
-    EDGE_IVEC3 wu_column = t.dw * t.s_v;
-    EDGE_IVEC3 uv_row = t.du * t.s_w; // and along v
-    EDGE_IVEC3 vw_row = t.dw * -t.s_u;
+    TileCell row = TileCell(tileEdge(first.uv), tileEdge(first.vw), tileEdge(first.wu), first.w, first.rest);
 
     Tile tile;
     tile.column = column;
-    tile.w_low = first.w - (t.n_u > 0 ? 3 : 0) - (t.n_v > 0 ? 3 : 0);
+    tile.w_low = first.w;
     tile.masks = uvec2[](uvec2(0u), uvec2(0u), uvec2(0u));
+    ivec2 last = min(t.high.xy, column + extent - 1);
     uint axis_u = t.axis == 2u ? 0u : t.axis + 1u;
     uint axis_v = axis_u == 2u ? 0u : axis_u + 1u;
     int leaf_low = tile.w_low & ~3;
@@ -63,26 +81,27 @@ Tile coverTile(RasterTriangle t, ivec2 column)
     {
         TileCell cell = row;
         int v = column.y + j;
-        bool in_rows = v >= t.low.y && v <= t.high.y;
+        int outside_v = (v - t.low.y) | (last.y - v);
         for (int i = 0; i < 4; ++i)
         {
             int u = column.x + i;
-            EDGE_IVEC3 least = min(cell.uv, min(cell.vw, cell.wu));
-            bool covered = in_rows && u >= t.low.x && u <= t.high.x && cell.w >= t.low.z && cell.w <= t.high.z &&
-                           min(least.x, min(least.y, least.z)) >= 0;
-            uint number = cellBits(uint(i), axis_u) | cellBits(uint(j), axis_v) | cellBits(uint(cell.w), t.axis);
+            int outside = outside_v | (u - t.low.x) | (last.x - u) | (cell.w - t.low.z) | (t.high.z - cell.w);
+            ivec3 signs = cell.uv | cell.vw | cell.wu;
+            bool covered = (signs.x | signs.y | signs.z | outside) >= 0;
+            uint number = cellBits(uint(u ^ t.mirror.x), axis_u) | cellBits(uint(v ^ t.mirror.y), axis_v) |
+                          cellBits(uint(cell.w), t.axis);
             addToMasks(covered, number, uint(cell.w - leaf_low), tile.masks);
-            int move = stepLayer(t, -t.n_u, cell.rest);
-            cell.w += move;
-            cell.uv += uv_column;
-            cell.vw += vw_up * EDGE_INT(move);
-            cell.wu += wu_column + wu_up * EDGE_INT(move);
+            bool up = stepLayer(t, t.rise_u, cell.rest);
+            cell.w += up ? 1 : 0;
+            cell.uv -= t.edge_v;
+            cell.vw -= up ? t.edge_v : ivec3(0);
+            cell.wu += (up ? t.edge_u : ivec3(0)) - t.edge_w;
         }
-        int move = stepLayer(t, -t.n_v, row.rest);
-        row.w += move;
-        row.uv += uv_row;
-        row.vw += vw_row + vw_up * EDGE_INT(move);
-        row.wu += wu_up * EDGE_INT(move);
+        bool up = stepLayer(t, t.rise_v, row.rest);
+        row.w += up ? 1 : 0;
+        row.uv += t.edge_u;
+        row.vw += t.edge_w - (up ? t.edge_v : ivec3(0));
+        row.wu += up ? t.edge_u : ivec3(0);
     }
     return tile;
 }

@@ -19,10 +19,11 @@ const uint kRowsGroup = 64u;         // threads of a workgroup of voxelize/rows
 const uint kBandsGroup = 32u;        // threads of a workgroup of voxelize/bands
 const uint kBandStrips = 64u;        // strips of kBlockRows rows in a band: bounds a thread's work
 const uint kBlockRows = 8u;          // rows of a row block: one thread each
-const uint kBlockColumns = 256u;     // columns of a row block: bounds a thread's work
 const uint kSmallColumns = 32u;      // a triangle over more columns is rasterized by rows; one bit of a mask each
 const int kSmallExtent = 8192;       // lattice units: a triangle up to this size is rasterized in 32-bit integers
+const int kTileExtent = 1 << 26;     // lattice units: the tiles of a triangle up to this size are 4x4 columns
 const uint kRowBlocksMax = 1u << 28; // row blocks that one run may list
+const uint kGroupsXMax = 65535u;     // workgroups along x that every device allows
 const uint kFragmentsMax = 65535u;   // fragments of a voxel that 32-bit sums hold
 
 const int kLatticeLimit = 1 << 29; // vertices beyond are dropped
@@ -44,18 +45,29 @@ const uint kClassTextured = 1u; // opaque
 const uint kClassAlpha = 2u;    // alpha decides which fragments exist
 const uint kClassCount = 3u;
 
-/// Sums over the fragments of a voxel, values shifted right by sum_shift.
+/// Sums over the fragments of a voxel, values shifted right by sum_shift. 32 bytes: one sector of memory, and four
+/// pairs of words that are 64-bit numbers to 64-bit atomics. No sum of fewer than
+/// (kFragmentsMax + 1) << sum_shift values carries.
 struct VoxelSums
 {
     uint red; // linear, 16-bit fractions
     uint green;
     uint blue;
-    uint normal_x; // two's complement, length 32767
+    uint normal_x; // length 32767; shifted, each value has normalBias() added, so that none is negative
     uint normal_y;
     uint normal_z;
     uint fragments;
+    uint zero; // always 0: the upper half of the 64-bit number whose lower half is fragments
 };
-GPU_BUFFER(VoxelSums, 4);
+GPU_BUFFER(VoxelSums, 8);
+
+const uint kVoxelSumsBytes = 32u;
+
+/// What is added to each component of a fragment's normal that was shifted right by sum_shift.
+GPU_FUNCTION uint normalBias(uint sum_shift)
+{
+    return sum_shift < 16u ? 32768u >> sum_shift : 1u;
+}
 
 /// Likewise of an emissive voxel: 16-bit fractions of the scene's brightest emission.
 struct EmissionSums
@@ -86,15 +98,16 @@ struct BigTriangle
 };
 GPU_BUFFER(BigTriangle, 4);
 
-/// kBlockRows rows by kBlockColumns columns of a big triangle.
+/// kBlockRows rows by block_columns columns of a big triangle.
 struct RowBlock
 {
     uint band;     // in the list of big triangles
-    uint position; // row / kBlockRows | column / kBlockColumns << 16, counted from the triangle's first inside the grid
+    uint position; // row / kBlockRows | column / block_columns << 16, counted from the triangle's first inside the grid
 };
 GPU_BUFFER(RowBlock, 4);
 
-/// Counts of one run over the triangles of one material class. Counting goes on past a capacity.
+/// Counts of one run over the triangles of one material class, and the dispatches that follow from them. Counting goes
+/// on past a capacity.
 struct RasterCounters
 {
     uint big_count;       // bands
@@ -104,6 +117,9 @@ struct RasterCounters
     uint out_of_range;
     uint outside;
     uint zero_area;
+    uint arrived;       // threads of the running dispatch (lib/arrivals.glsl); 0 in between
+    DispatchArgs bands; // of voxelize/bands
+    DispatchArgs rows;  // of voxelize/rows
 };
 GPU_BUFFER(RasterCounters, 4);
 
@@ -112,7 +128,9 @@ GPU_BUFFER(RasterCounters, 4);
     GPU_CONSTANT(Coverage, coverage, kCoverageConservative)                                                            \
     GPU_CONSTANT(RasterMode, mode, kModeCoverage)                                                                      \
     GPU_CONSTANT(MaterialClass, material_class, kClassPlain)                                                           \
-    GPU_CONSTANT(bool, emits, false)
+    GPU_CONSTANT(bool, emits, false)                                                                                   \
+    GPU_CONSTANT(uint, block_columns, 256u)                                                                            \
+    GPU_CONSTANT(uint, strip_lanes, 1u)
 
 struct RasterParams // push constants of voxelize/triangles and voxelize/rows
 {
@@ -143,20 +161,20 @@ GPU_KERNEL_BEGIN(voxelize, rows, Rows, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
 GPU_KERNEL_END
-GPU_KERNEL_BEGIN(voxelize, triangles, Triangles, RasterParams)
+GPU_KERNEL_BEGIN(voxelize, rows_int64, RowsInt64, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
 GPU_KERNEL_END
-
-struct RowArgsParams // push constants of voxelize/row_args
-{
-    GPU_CONST_PTR(RasterCounters) counters;
-    GPU_PTR(DispatchArgs) args; // [2] of voxelize/bands, voxelize/rows
-    uint big_capacity;
-    uint block_capacity;
-    uint max_groups_x;
-};
-GPU_KERNEL(voxelize, row_args, RowArgs, RowArgsParams)
+GPU_KERNEL_BEGIN(voxelize, triangles, Triangles, RasterParams)
+    RASTER_CONSTANTS
+    GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, shares_sums, false)
+GPU_KERNEL_END
+GPU_KERNEL_BEGIN(voxelize, triangles_int64, TrianglesInt64, RasterParams)
+    RASTER_CONSTANTS
+    GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, shares_sums, false)
+GPU_KERNEL_END
 
 struct ResolveParams // push constants of voxelize/resolve
 {

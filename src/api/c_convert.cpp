@@ -123,12 +123,15 @@ ContextInfo ofC(const ZvoContextInfo& info)
     result.memory_budget_bytes = info.memory_budget_bytes;
     result.timed_passes_per_frame = info.timed_passes_per_frame;
     result.subgroup_size = info.subgroup_size;
+    result.tuning = info.tuning != nullptr ? info.tuning : "";
     return result;
 }
 
 OptionalFeatures ofC(const ZvoOptionalFeatures& features)
 {
-    return {features.pass_times != VK_FALSE, features.subgroup_sizes != VK_FALSE};
+    return {.pass_times = features.pass_times != VK_FALSE,
+            .subgroup_sizes = features.subgroup_sizes != VK_FALSE,
+            .int64_atomics = features.int64_atomics != VK_FALSE};
 }
 
 TextureInfo ofC(const ZvoTextureInfo& info)

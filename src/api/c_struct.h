@@ -26,9 +26,9 @@ template <typename Struct> Struct initial();
     static_assert(offsetof(Struct, struct_size) == 0 && std::is_standard_layout_v<Struct>);                            \
     static_assert(offsetof(Struct, last) + sizeof(Struct::last) == sizeof(Struct))
 
-ZVO_C_STRUCT(ZvoOptionalFeatures, subgroup_sizes, ZVO_OPTIONAL_FEATURES_INIT);
+ZVO_C_STRUCT(ZvoOptionalFeatures, reserved, ZVO_OPTIONAL_FEATURES_INIT);
 ZVO_C_STRUCT(ZvoDeviceInfo, reserved, ZVO_DEVICE_INFO_INIT);
-ZVO_C_STRUCT(ZvoContextInfo, subgroup_size, ZVO_CONTEXT_INFO_INIT);
+ZVO_C_STRUCT(ZvoContextInfo, tuning, ZVO_CONTEXT_INFO_INIT);
 ZVO_C_STRUCT(ZvoMemoryUse, peak_held, ZVO_MEMORY_USE_INIT);
 ZVO_C_STRUCT(ZvoPassTime, ms, ZVO_PASS_TIME_INIT);
 ZVO_C_STRUCT(ZvoTextureInfo, wrap_v, ZVO_TEXTURE_INFO_INIT);

@@ -3,6 +3,7 @@
 
 #include "api/context_impl.h"
 #include "core/base/kernels.h"
+#include "core/base/tuning.h"
 
 #include <fmt/format.h>
 
@@ -80,7 +81,11 @@ vk::DeviceHandles handlesOf(const ContextInfo& info)
     handles.memory_budget_bytes = info.memory_budget_bytes;
     handles.memory_budget_name = "ContextInfo::memory_budget_bytes";
     handles.log = info.log;
-    handles.overrides.subgroup_size = info.subgroup_size;
+    handles.tuning = parseTuning("ContextInfo::tuning", info.tuning);
+    if (info.subgroup_size != 0)
+    {
+        handles.tuning[vk::kSubgroupSizeName] = info.subgroup_size;
+    }
     return handles;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace zvo::vk
 {
@@ -80,6 +81,7 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
     m_queue_flags = useQueueFamily(m_report, m_functions, handles.queue_family, m_limits.timestampPeriod);
     applyOverrides(handles.overrides, m_report, m_limits);
     takeDeclaration();
+    chooseSubgroupSize();
     if (!m_report.usable())
     {
         throw Error(ErrorCode::Device, fmt::format("zvo cannot use the Vulkan device {}: {}", m_report.name,
@@ -107,8 +109,8 @@ void Device::takeDeclaration()
     std::vector<std::string> undeclared;
     for (const Feature& feature : knownFeatures())
     {
-        const bool needed = feature.use == FeatureUse::Required ||
-                            (feature.name == "subgroupSizeControl" && m_handles.overrides.subgroup_size != 0);
+        const bool needed =
+            feature.use == FeatureUse::Required || (feature.name == "subgroupSizeControl" && askedSubgroupSize() != 0);
         const bool enabled = contains(declared, feature.name);
         if (!contains(m_report.present, feature.name))
         {
@@ -133,6 +135,56 @@ void Device::takeDeclaration()
     m_handles.enabled_features = &m_features.core;
     m_handles.enabled_core_features = nullptr;
     m_has_debug_utils = contains(m_handles.instance_extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+}
+
+std::uint32_t Device::askedSubgroupSize() const
+{
+    const auto asked = m_handles.tuning.find(kSubgroupSizeName);
+    return asked != m_handles.tuning.end() ? asked->second : 0;
+}
+
+void Device::chooseSubgroupSize()
+{
+    const std::uint32_t asked = askedSubgroupSize();
+    if (asked == 0)
+    {
+        m_required_subgroup_size = isEnabled("subgroupSizeControl") ? usualSubgroupSize(m_report) : 0;
+    }
+    else if (!contains(m_report.present, "subgroupSizeControl") || asked < m_report.min_subgroup_size ||
+             asked > m_report.max_subgroup_size || !std::has_single_bit(asked))
+    {
+        m_report.reasons.push_back(fmt::format("cannot run kernels in subgroups of {}, only of {} to {}", asked,
+                                               m_report.min_subgroup_size, m_report.max_subgroup_size));
+    }
+    else
+    {
+        m_required_subgroup_size = asked;
+    }
+    if (m_required_subgroup_size != 0)
+    {
+        m_report.subgroup_size = m_required_subgroup_size;
+        limitWorkgroups();
+    }
+}
+
+// Workgroups of subgroups of a required size have so many subgroups at most.
+void Device::limitWorkgroups()
+{
+    VkPhysicalDeviceVulkan13Properties properties13{};
+    properties13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &properties13;
+    m_functions.vkGetPhysicalDeviceProperties2(m_handles.physical_device, &properties);
+    const std::uint64_t threads_max =
+        std::uint64_t{m_required_subgroup_size} * properties13.maxComputeWorkgroupSubgroups;
+    m_limits.maxComputeWorkGroupInvocations =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(m_limits.maxComputeWorkGroupInvocations, threads_max));
+    if (m_limits.maxComputeWorkGroupInvocations < kGroupThreads)
+    {
+        m_report.reasons.push_back(fmt::format("has workgroups of {} threads at most in subgroups of {}; zvo needs {}",
+                                               threads_max, m_required_subgroup_size, kGroupThreads));
+    }
 }
 
 void Device::tellWhatIsMissing() const

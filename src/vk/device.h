@@ -6,6 +6,7 @@
 #include "vk/kernel.h"
 #include "vk/memory.h"
 #include "vk/overrides.h"
+#include "vk/tuning.h"
 #include "zvo/device.h"
 #include "zvo/log.h"
 
@@ -27,6 +28,13 @@ using zvo::query;
 /// Lowers what report says, and limits, to what overrides allow. Whatever zvo then lacks is added to report's reasons.
 void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPhysicalDeviceLimits& limits);
 
+/// Threads of the largest workgroup that zvo cannot do without; every device has them.
+inline constexpr std::uint32_t kGroupThreads = 128;
+
+/// The size of subgroups that zvo's kernels take if nobody chooses one: 32 where the driver would take more and kernels
+/// can ask for 32, which leaves each thread twice the registers; else 0, the driver's choice.
+std::uint32_t usualSubgroupSize(const DeviceReport& report);
+
 /// What a host hands over. zvo creates none of these handles and destroys none of them. Vulkan cannot be asked what is
 /// enabled, so the host declares it here.
 struct DeviceHandles
@@ -47,6 +55,7 @@ struct DeviceHandles
     std::string memory_budget_name = "the limit"; // the limit's name in messages, as known to whoever can raise it
     MemoryCallbacks memory{};                     // for blocks and big buffers; may be empty
     LogCallback log{};                            // may be empty
+    TuningValues tuning{};                        // what the owner chooses in place of zvo
     DeviceOverrides overrides{};                  // for tests
     const Functions* functions = nullptr; // functions that an owner has loaded; null: Device loads what zvo calls
 };
@@ -78,6 +87,9 @@ public:
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return m_limits; }
 
+    /// The size of subgroups that every kernel requires; 0: none.
+    [[nodiscard]] std::uint32_t requiredSubgroupSize() const { return m_required_subgroup_size; }
+
     /// The capabilities of the queues of DeviceHandles::queue_family.
     [[nodiscard]] VkQueueFlags queueFlags() const { return m_queue_flags; }
 
@@ -101,6 +113,9 @@ public:
 
 private:
     void takeDeclaration();
+    void chooseSubgroupSize();
+    void limitWorkgroups();
+    [[nodiscard]] std::uint32_t askedSubgroupSize() const;
     void tellWhatIsMissing() const;
     void logText(LogSeverity severity, fmt::string_view format, fmt::format_args arguments) const noexcept;
 
@@ -112,6 +127,7 @@ private:
     bool m_has_debug_utils = false;
     VkPhysicalDeviceLimits m_limits{};
     VkQueueFlags m_queue_flags = 0;
+    std::uint32_t m_required_subgroup_size = 0;
     std::unique_ptr<MemoryAllocator> m_memory;
     std::unique_ptr<KernelCache> m_kernels;
 };

@@ -38,7 +38,7 @@ constexpr Feature kFeatures[] = {
     ZVO_FEATURE(Optional, 13, subgroupSizeControl, SubgroupSizeControl, SUBGROUP_SIZE_CONTROL),
     ZVO_CORE_FEATURE(Noted, shaderInt16),
     ZVO_FEATURE(Noted, 12, shaderInt8, ShaderFloat16Int8, SHADER_FLOAT16_INT8),
-    ZVO_FEATURE(Noted, 12, shaderBufferInt64Atomics, ShaderAtomicInt64, SHADER_ATOMIC_INT64),
+    ZVO_FEATURE(Optional, 12, shaderBufferInt64Atomics, ShaderAtomicInt64, SHADER_ATOMIC_INT64),
     ZVO_FEATURE(Noted, 12, shaderSubgroupExtendedTypes, ShaderSubgroupExtendedTypes, SHADER_SUBGROUP_EXTENDED_TYPES),
 };
 #undef ZVO_FEATURE
@@ -195,7 +195,8 @@ std::vector<std::string> forbiddenMixes(const VkDeviceCreateInfo& info)
 bool wants(const OptionalFeatures& optional, const Feature& feature)
 {
     return feature.use == FeatureUse::Required || (feature.name == "hostQueryReset" && optional.pass_times) ||
-           (feature.name == "subgroupSizeControl" && optional.subgroup_sizes);
+           (feature.name == "subgroupSizeControl" && optional.subgroup_sizes) ||
+           (feature.name == "shaderBufferInt64Atomics" && optional.int64_atomics);
 }
 
 // Puts a struct of storage, with all features disabled, in front of the chain.
@@ -225,6 +226,8 @@ void putInFront(VkDeviceCreateInfo& info, FeatureStorage& storage, VkStructureTy
         return putInFront(info, storage.maintenance4, type);
     case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES:
         return putInFront(info, storage.subgroup_size_control, type);
+    case VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES:
+        return putInFront(info, storage.shader_atomic_int64, type);
     default:
         assert(false && "a feature that wants() wants has a struct in FeatureStorage");
     }

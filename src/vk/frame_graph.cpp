@@ -34,6 +34,8 @@ const char* accessText(Access access)
         return "writes";
     case Access::KernelReadWrite:
         return "reads and writes";
+    case Access::KernelAccumulate:
+        return "accumulates in";
     case Access::IndirectRead:
         return "dispatched by";
     case Access::CopyRead:

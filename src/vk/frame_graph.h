@@ -55,13 +55,21 @@ public:
         return {buffer.address()};
     }
 
+    /// The kernel changes buffer by atomics whose order does not matter, as those of its own workgroups. Passes that
+    /// follow each other and accumulate in the same buffer may run at the same time.
+    template <typename T> gpu::Ptr<T> accumulate(BufferOf<T>& buffer)
+    {
+        declare(buffer, Access::KernelAccumulate);
+        return {buffer.address()};
+    }
+
 protected:
     friend class FrameGraph;
     AnyPass(FrameGraph& graph, const Kernel& kernel) : m_graph(graph), m_kernel(kernel) {}
 
     void dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes);
-    void dispatchIndirectRaw(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const void* params,
-                             std::size_t bytes, std::uint64_t max_groups);
+    void dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes,
+                             std::uint64_t max_groups);
 
 private:
     void declare(const Buffer& buffer, Access access);
@@ -94,7 +102,18 @@ public:
     void dispatchIndirect(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const Params& params,
                           std::uint64_t max_groups = UINT64_MAX)
     {
-        dispatchIndirectRaw(args, index, &params, sizeof(Params), max_groups);
+        dispatchIndirectRaw(args, index * sizeof(gpu::DispatchArgs), &params, sizeof(Params), max_groups);
+    }
+
+    /// The same with arguments that are a member of the buffer's first element.
+    template <typename T>
+    void dispatchIndirect(const BufferOf<T>& buffer, gpu::DispatchArgs T::*args, const Params& params,
+                          std::uint64_t max_groups = UINT64_MAX)
+    {
+        const T element{};
+        const auto* const first = reinterpret_cast<const std::byte*>(&element);
+        const auto* const member = reinterpret_cast<const std::byte*>(&(element.*args));
+        dispatchIndirectRaw(buffer, static_cast<std::uint64_t>(member - first), &params, sizeof(Params), max_groups);
     }
 
 private:

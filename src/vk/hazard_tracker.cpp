@@ -43,10 +43,17 @@ struct PassUse
 {
     Mask reads = 0;
     Mask writes = 0;
+    bool accumulates = false; // in kernels
+    bool is_ordered = false;  // kernels read or write in another way, too
+
+    [[nodiscard]] bool onlyAccumulates() const { return accumulates && !is_ordered; }
 };
 
 void add(PassUse& use, Access access)
 {
+    use.accumulates |= access == Access::KernelAccumulate;
+    use.is_ordered |=
+        access == Access::KernelRead || access == Access::KernelWrite || access == Access::KernelReadWrite;
     switch (access)
     {
     case Access::KernelRead:
@@ -56,6 +63,7 @@ void add(PassUse& use, Access access)
         use.writes |= bit(kCompute);
         break;
     case Access::KernelReadWrite:
+    case Access::KernelAccumulate:
         use.reads |= bit(kCompute);
         use.writes |= bit(kCompute);
         break;
@@ -98,7 +106,7 @@ Barrier HazardTracker::next(std::span<const BufferAccess> accesses)
         {
             continue;
         }
-        const auto& [writes, reads] = found->second;
+        const auto& [writes, reads, accumulated] = found->second;
         for (const int stage : {kCompute, kIndirect, kTransfer, kHost})
         {
             if ((reads.stages & bit(stage)) != 0) // write after read
@@ -108,7 +116,9 @@ Barrier HazardTracker::next(std::span<const BufferAccess> accesses)
             if ((writes.stages & bit(stage)) != 0) // read after write, write after write
             {
                 const Mask overwrites = use.writes & ~coveredByReads(found->second, stage);
-                require(stage, (use.reads | overwrites) & ~writes.before[stage]);
+                const bool any_order = stage == kCompute && accumulated && use.onlyAccumulates();
+                const Mask users = (use.reads | overwrites) & ~(any_order ? bit(kCompute) : Mask{0});
+                require(stage, users & ~writes.before[stage]);
             }
         }
     }
@@ -123,6 +133,7 @@ Barrier HazardTracker::next(std::span<const BufferAccess> accesses)
         {
             state = {};
             state.writes.stages = use.writes;
+            state.accumulates = use.onlyAccumulates();
             reads &= ~use.writes; // who waits for the write also waits for the same stage's read
         }
         state.reads.stages |= reads;

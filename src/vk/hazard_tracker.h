@@ -16,6 +16,7 @@ enum class Access
     KernelRead,
     KernelWrite,
     KernelReadWrite,
+    KernelAccumulate, // reads and writes, in any order with those of other passes that accumulate
     IndirectRead,
     CopyRead,
     CopyWrite,
@@ -69,8 +70,9 @@ private:
 
     struct State
     {
-        Uses writes; // the last write
-        Uses reads;  // the reads since then
+        Uses writes;              // the last write
+        Uses reads;               // the reads since then
+        bool accumulates = false; // kernels only accumulate in the last write
     };
 
     static StageMask coveredByReads(const State& state, int stage);

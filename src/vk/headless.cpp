@@ -171,6 +171,8 @@ struct HeadlessDevice::Impl
                 .pipeline_cache = cache.handle(),
                 .memory_budget_bytes = options.memory_budget_bytes,
                 .memory_budget_name = options.memory_budget_name,
+                .log = options.log,
+                .tuning = options.tuning,
                 .overrides = options.overrides,
                 .functions = &logical.fn()};
     }

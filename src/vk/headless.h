@@ -35,8 +35,10 @@ struct HeadlessOptions
     std::string pipeline_cache_path;              // empty: pipelines are not kept on disk
     std::uint32_t timer_capacity = 4096;          // passes of one run that are timed; 0: none
     std::optional<WindowSupport> window;          // support for showing results in a window (Swapchain)
+    LogCallback log;                              // what zvo tells; may be empty
     /// Counts validation messages as well, until the instance is gone.
     std::atomic<std::uint32_t>* message_counter = nullptr;
+    TuningValues tuning;                                        // as in DeviceHandles
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr; // null: of the machine's loader. For tests
     DeviceOverrides overrides;                                  // likewise
 };

@@ -238,7 +238,7 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& s
 
     VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroup{};
     subgroup.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO;
-    subgroup.requiredSubgroupSize = m_device.handles().overrides.subgroup_size;
+    subgroup.requiredSubgroupSize = m_device.requiredSubgroupSize();
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;

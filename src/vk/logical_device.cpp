@@ -19,12 +19,6 @@ bool has(const DeviceReport& report, std::string_view feature)
     return std::ranges::find(report.present, feature) != report.present.end();
 }
 
-// For kernels in subgroups of a chosen size. Where the device cannot, Device says so.
-bool choosesSubgroupSize(const HeadlessOptions& options, const DeviceReport& report)
-{
-    return options.overrides.subgroup_size != 0 && report.min_subgroup_size != 0;
-}
-
 std::vector<const char*> deviceExtensions(const HeadlessOptions& options)
 {
     return options.window ? std::vector{VK_KHR_SWAPCHAIN_EXTENSION_NAME} : std::vector<const char*>();
@@ -50,7 +44,9 @@ LogicalDevice::LogicalDevice(const Instance& instance, const DeviceReport& repor
         info.pNext = &m_core_features;
     }
     const OptionalFeatures optional = {.pass_times = options.timer_capacity != 0 && has(report, "hostQueryReset"),
-                                       .subgroup_sizes = choosesSubgroupSize(options, report)};
+                                       .subgroup_sizes =
+                                           has(report, "subgroupSizeControl") && report.min_subgroup_size != 0,
+                                       .int64_atomics = has(report, "shaderBufferInt64Atomics")};
     const std::vector<std::string> reasons = patchFeatures(info, m_feature_storage, optional);
     assert(reasons.empty());
     m_features = info.pNext;

@@ -76,10 +76,9 @@ void AnyPass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t
     recordGroups(groups, {x, y}, params, bytes);
 }
 
-void AnyPass::dispatchIndirectRaw(const BufferOf<gpu::DispatchArgs>& args, std::uint64_t index, const void* params,
-                                  std::size_t bytes, std::uint64_t max_groups)
+void AnyPass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes,
+                                  std::uint64_t max_groups)
 {
-    const std::uint64_t offset = index * sizeof(gpu::DispatchArgs);
     declare(args, Access::IndirectRead);
     prepare(bytes);
     checkRange(args, offset, sizeof(gpu::DispatchArgs));

@@ -16,7 +16,6 @@ namespace
 
 constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr std::uint32_t kPushConstantBytes = 128;  // of the largest kernel parameters
-constexpr std::uint32_t kGroupThreads = 128;       // of the largest workgroup; every device has them
 constexpr std::uint32_t kGroupSharedBytes = 16384; // shared memory of the largest workgroup
 
 struct SubgroupOperation
@@ -177,21 +176,14 @@ void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPh
             note(report, name, false, feature == knownFeatures().end() || feature->use == FeatureUse::Required);
         }
     }
-    const std::uint32_t subgroup = overrides.subgroup_size;
-    if (subgroup == 0)
-    {
-        return;
-    }
-    const bool can_choose =
-        std::find(report.present.begin(), report.present.end(), "subgroupSizeControl") != report.present.end();
-    if (!can_choose || subgroup < report.min_subgroup_size || subgroup > report.max_subgroup_size ||
-        !std::has_single_bit(subgroup))
-    {
-        report.reasons.push_back(fmt::format("cannot run kernels in subgroups of {}, only of {} to {}", subgroup,
-                                             report.min_subgroup_size, report.max_subgroup_size));
-        return;
-    }
-    report.subgroup_size = subgroup;
+    report.type = overrides.type.empty() ? report.type : overrides.type;
+}
+
+std::uint32_t usualSubgroupSize(const DeviceReport& report)
+{
+    constexpr std::uint32_t kMost = 32;
+    const bool can_choose = report.min_subgroup_size != 0 && report.min_subgroup_size <= kMost;
+    return can_choose && report.subgroup_size > kMost ? kMost : 0;
 }
 
 } // namespace zvo::vk

@@ -358,6 +358,15 @@ TEST(ApiTimes, PassesHaveABound)
     host.frame([](Recorder&, VkCommandBuffer) {});
 }
 
+TEST(ApiTuning, IsTakenOrRefused)
+{
+    const auto hostWith = [](std::string_view tuning)
+    { return test::EmbeddingHost({}, [&](ContextInfo& info) { info.tuning = tuning; }); };
+    expectUsage([&] { hostWith("rows=1"); }, "ContextInfo::tuning rows=1");
+    expectUsage([&] { hostWith("row-columns=1"); }, "ContextInfo::tuning row-columns=1");
+    hostWith("row-columns=64,path-form=kernel").frame([](Recorder&, VkCommandBuffer) {});
+}
+
 TEST_F(ApiArguments, TreesAreMadeVisibleToShaders)
 {
     m_host.frame(

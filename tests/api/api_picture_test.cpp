@@ -122,7 +122,7 @@ TEST(ApiPicture, WithoutOptionalFeaturesItIsTheSame)
     for (const bool optional : {true, false})
     {
         test::HostOptions options;
-        options.optional = {optional, optional};
+        options.optional = {optional, optional, optional};
         options.debug_utils = optional;
         options.validation = options.validation && optional;
         test::EmbeddingHost host(options, [&](ContextInfo& info) { info.timed_passes_per_frame = optional ? 200 : 0; });

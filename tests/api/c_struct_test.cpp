@@ -188,6 +188,7 @@ void expectSame(const ContextInfo& a, const ContextInfo& b)
     EXPECT_EQ(a.log.user, b.log.user);
     EXPECT_EQ(a.timed_passes_per_frame, b.timed_passes_per_frame);
     EXPECT_EQ(a.subgroup_size, b.subgroup_size);
+    EXPECT_EQ(a.tuning, b.tuning);
 }
 
 void expectSame(const GridInfo& a, const GridInfo& b)
@@ -375,6 +376,7 @@ TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
     expectSame(ofC(initial<ZvoImageTarget>()), ImageTarget());
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).pass_times, OptionalFeatures().pass_times);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).subgroup_sizes, OptionalFeatures().subgroup_sizes);
+    EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).int64_atomics, OptionalFeatures().int64_atomics);
     const ZvoImageTarget image = ZVO_IMAGE_TARGET_INIT;
     auto depth = initial<ZvoDepthTarget>();
     depth.image = &image;
@@ -419,7 +421,8 @@ TEST(CStructs, EveryMemberOfADeclarationIsPassedOn)
                               77,
                               {},
                               5,
-                              8};
+                              8,
+                              "path-form=stages"};
     ContextInfo cpp;
     cpp.get_instance_proc_addr = function;
     cpp.instance = c.instance;
@@ -436,6 +439,7 @@ TEST(CStructs, EveryMemberOfADeclarationIsPassedOn)
     cpp.memory_budget_bytes = 77;
     cpp.timed_passes_per_frame = 5;
     cpp.subgroup_size = 8;
+    cpp.tuning = "path-form=stages";
     expectSame(ofC(c), cpp);
 }
 
@@ -512,8 +516,10 @@ TEST(CStructs, EveryMemberOfTheOthersIsPassedOn)
     expectSame(ofC(depth).image, cpp_image);
     EXPECT_EQ(ofC(depth).view_projection[14], 9);
     EXPECT_EQ(ofC(depth).miss, 0.0F);
-    const OptionalFeatures features = ofC(ZvoOptionalFeatures{sizeof(ZvoOptionalFeatures), VK_FALSE, VK_TRUE});
-    EXPECT_TRUE(!features.pass_times && features.subgroup_sizes);
+    OptionalFeatures features = ofC(ZvoOptionalFeatures{sizeof(ZvoOptionalFeatures), VK_FALSE, VK_TRUE, VK_FALSE, 0});
+    EXPECT_TRUE(!features.pass_times && features.subgroup_sizes && !features.int64_atomics);
+    features = ofC(ZvoOptionalFeatures{sizeof(ZvoOptionalFeatures), VK_FALSE, VK_FALSE, VK_TRUE, 0});
+    EXPECT_TRUE(!features.pass_times && !features.subgroup_sizes && features.int64_atomics);
 
     const ZvoUpdateStats stats = toC(UpdateStats{true, 1, 2, 3, {{"nonfinite", 4}, {"outside", 5}, {"zero_area", 6}}});
     EXPECT_EQ(stats.failed, VkBool32{VK_TRUE});

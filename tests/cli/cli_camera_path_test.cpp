@@ -2,6 +2,7 @@
 // Pictures along camera paths on the command line.
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
+#include "support/device.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,8 @@ TEST_F(CliCameraPath, TimesAndFramesAreThoseOfThePath)
     EXPECT_NE(contentOf(m_dir.path() / "frame_4.png"), contentOf(m_dir.path() / "frame_5.png"));
 
     // A tree file has no time of its own.
-    ASSERT_EQ(runZvo(m_dir.path(), {"build", "cube.glb", "-o", "cube.zvo", "--resolution", "32", "--device", "cpu"})
+    ASSERT_EQ(runZvo(m_dir.path(),
+                     {"build", "cube.glb", "-o", "cube.zvo", "--resolution", "32", "--device", deviceOptions().device})
                   .exit_code,
               0);
     EXPECT_EQ(picture(with({"cube.zvo"}, with(path, {"--time", "0.1"}))), first);

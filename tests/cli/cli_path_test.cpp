@@ -4,13 +4,17 @@
 #include "cli/run_zvo.h"
 #include "core/base/read_file.h"
 #include "io/image/hdr_image_io.h"
+#include "io/image/image_io.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -49,6 +53,19 @@ protected:
         const Outcome outcome = render(more);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return contentOf(m_dir.path() / "picture.png");
+    }
+
+    // A run that is interrupted while it traces its first picture.
+    Outcome interrupted(std::vector<std::string> more)
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        picture({});
+        const auto whole_run = std::chrono::steady_clock::now() - begin;
+        more.insert(more.end(), {"--integrator", "path", "--spp", "1000000"});
+        ZvoProcess process(m_dir.path(), command(more));
+        std::this_thread::sleep_for(3 * whole_run); // now paths are traced
+        process.signal(SIGINT);
+        return process.wait();
     }
 
     TempDir m_dir;
@@ -95,6 +112,38 @@ TEST_F(CliPath, RadianceIsWrittenAsItIs)
         EXPECT_LT(middle.x + middle.y, 0.05F) << "the face towards +z is blue";
         EXPECT_GT(middle.z, 0.3F);
     }
+}
+
+TEST_F(CliPath, TheReportTellsHowPathsWereTraced)
+{
+    const auto reported = [&](const std::vector<std::string>& more)
+    {
+        std::vector<std::string> options = {"--integrator", "path", "--spp", "2", "--json", "-"};
+        options.insert(options.end(), more.begin(), more.end());
+        const Outcome outcome = render(options);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out)["paths"];
+    };
+    const nlohmann::json plain = reported({"-o", "plain.png"});
+    EXPECT_EQ(plain["samples_asked"], 2);
+    EXPECT_EQ(plain["stopped"], false);
+    EXPECT_EQ(plain["form"], "stages");
+    EXPECT_EQ(plain["environment"], nullptr);
+    ASSERT_EQ(plain["pictures"].size(), 1U);
+    const nlohmann::json exposure = plain["pictures"][0]["exposure"];
+    EXPECT_EQ(reported({"-o", "again.png", "--exposure", exposure.dump()})["pictures"][0]["exposure"], exposure);
+    EXPECT_EQ(contentOf(m_dir.path() / "again.png"), contentOf(m_dir.path() / "plain.png"));
+    const nlohmann::json radiance = reported(
+        {"-o", "r.exr", "--seed", "7", "--environment", "sky.hdr", "--path-form", "kernel", "--aperture", "1"});
+    EXPECT_EQ(radiance["pictures"][0]["exposure"], nullptr);
+    EXPECT_EQ(radiance["seed"], 7);
+    EXPECT_EQ(radiance["environment"], "sky.hdr");
+    EXPECT_EQ(radiance["form"], "kernel");
+    EXPECT_EQ(radiance["aperture"], 1.0);
+    const nlohmann::json sequence = reported({"-o", "s_#.png", "--frames", "4..5"});
+    ASSERT_EQ(sequence["pictures"].size(), 2U);
+    EXPECT_EQ(sequence["pictures"][1]["frame"], 5);
+    EXPECT_EQ(sequence["pictures"][1]["samples"], 2);
 }
 
 // Of a cube in even light, denoising keeps what the camera sees of the light, and makes the rest smoother.
@@ -166,22 +215,89 @@ TEST_F(CliPath, BenchTellsHowCloseDenoisedPicturesCome)
     EXPECT_LE(denoised["ssim"], 1.0);
 }
 
+// A map as bright as a file holds, times 1e30.
+TEST_F(CliPath, TheBrightestLightIsANumber)
+{
+    const HdrImage bright = {8, 4, std::vector(32, glm::vec3(1e38F))};
+    m_dir.write("bright.hdr", encodeHdr(bright));
+    const std::vector<std::string> options = {"--integrator", "path", "--environment", "bright.hdr",
+                                              "--spp",        "2",    "--denoise",     "--environment-strength",
+                                              "1e30",         "-o"};
+    std::vector<std::string> radiance = options;
+    radiance.emplace_back("bright_picture.hdr");
+    const Outcome outcome = render(radiance);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("32 texels"), std::string::npos) << outcome.err;
+    std::vector<std::string> warnings;
+    const HdrImage image =
+        decodeHdrImage(readFile(m_dir.path() / "bright_picture.hdr"), "bright_picture.hdr", warnings);
+    EXPECT_TRUE(warnings.empty() || warnings.front().find("no number") == std::string::npos);
+    EXPECT_NEAR(image.texels.front().x / kRadianceMax, 1.0F, 5e-3F);
+}
+
+TEST_F(CliPath, OverexposedPicturesAreWhite)
+{
+    for (const std::string integrator : {"path", "primary"})
+    {
+        const Outcome outcome = render({"--integrator", integrator, "--exposure", "3e38", "-o", "white.png"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const Image image = decodeImage(readFile(m_dir.path() / "white.png"), "picture", "white.png");
+        for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+        {
+            const auto sum = std::accumulate(&image.rgba[i], &image.rgba[i] + 3, 0);
+            ASSERT_GE(sum, i == 0 ? 3 * 255 : 255) << "the sky is white, and no face is black";
+        }
+    }
+}
+
 TEST_F(CliPath, MapsThatAreRepairedAreToldOf)
 {
     const Outcome outcome =
         render({"--integrator", "path", "--spp", "1", "--environment", "negative.exr", "-o", "picture.png"});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_NE(outcome.err.find("warning: negative.exr: 1 texels"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("warning: negative.exr: 1 texel has values that are negative"), std::string::npos)
+        << outcome.err;
+}
+
+TEST_F(CliPath, TooLittleMemoryAsksForASmallerPicture)
+{
+    const std::vector<std::string> options = {
+        "render", "cube.glb", "-f", "--size",        "640x360", "--resolution",   "16",  "--integrator", "path", "-o",
+        "x.png",  "--spp",    "1",  "--environment", "none",    "--memory-limit", "20M", "--path-form"};
+    std::vector<std::string> stages = options;
+    stages.emplace_back("stages");
+    expectErrorLine(runZvo(m_dir.path(), stages), 6, {"640 x 360", "smaller picture", "--path-form kernel"});
+    std::vector<std::string> kernel = options;
+    kernel.emplace_back("kernel");
+    EXPECT_EQ(runZvo(m_dir.path(), kernel).exit_code, 0);
+}
+
+TEST_F(CliPath, DarknessIsToldOf)
+{
+    const auto warns = [&](const std::vector<std::string>& more)
+    {
+        std::vector<std::string> options = {"--integrator", "path", "--spp", "1", "-o", "picture.png"};
+        options.insert(options.end(), more.begin(), more.end());
+        const Outcome outcome = render(options);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome.err.find("warning: nothing gives off light") != std::string::npos;
+    };
+    EXPECT_TRUE(warns({"--environment", "none"}));
+    EXPECT_FALSE(warns({"--environment", "none", "--sun", "0,1,0"}));
+    EXPECT_FALSE(warns({"--environment", "sky.hdr"}));
+    EXPECT_FALSE(warns({}));
 }
 
 TEST_F(CliPath, BenchTellsOfRaysAndVariances)
 {
     const Outcome outcome = runZvo(m_dir.path(), {"bench", "--path", "cube.glb", "--resolution", "8", "--runs", "1",
-                                                  "--environment", "sky.exr", "--json", "-"});
+                                                  "--size", "320x180", "--environment", "sky.exr", "--json", "-"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const nlohmann::json report = nlohmann::json::parse(outcome.out);
     const nlohmann::json& row = report["rows"][0];
-    EXPECT_EQ(row["primary"]["count"], 640 * 360);
+    EXPECT_EQ(report["width"], 320);
+    EXPECT_EQ(report["height"], 180);
+    EXPECT_EQ(row["primary"]["count"], 320 * 180);
     EXPECT_LT(row["bounces"]["count"], row["primary"]["count"]) << "a cube sends no ray back to itself";
     EXPECT_GT(row["shadows"]["count"], 1000);
     EXPECT_GT(row["sample_ms"]["median"], 0.0);
@@ -189,6 +305,36 @@ TEST_F(CliPath, BenchTellsOfRaysAndVariances)
     ASSERT_EQ(report["variances"].size(), 1U) << "nothing gives off light";
     EXPECT_EQ(report["variances"][0]["light"], "sky");
     expectErrorLine(runZvo(m_dir.path(), {"bench", "cube.glb", "--environment", "sky.exr"}), 2, {"--environment"});
+}
+
+TEST_F(CliPath, BenchMeasuresEveryChoiceByDevice)
+{
+    const Outcome outcome = runZvo(m_dir.path(), {"bench", "--tune", "cube.glb", "--resolution", "8", "--runs", "1",
+                                                  "--size", "32x18", "--json", "-"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    std::map<std::string, int> value_counts;
+    std::map<std::string, int> default_counts;
+    for (const nlohmann::json& row : report["rows"])
+    {
+        value_counts[row["choice"]] += 1;
+        default_counts[row["choice"]] += row["is_default"] ? 1 : 0;
+        EXPECT_GT(row["ms"]["median"], 0.0) << row["choice"];
+    }
+    EXPECT_EQ(value_counts["node-lanes"], 5);
+    EXPECT_EQ(value_counts["path-form"], 2);
+    EXPECT_EQ(value_counts.size(), 8U);
+    for (const auto& [choice, count] : default_counts)
+    {
+        EXPECT_EQ(count, 1) << choice;
+    }
+    EXPECT_EQ(render({"-o", "plain.png"}).exit_code, 0);
+    for (const std::string& tuning : {report["tuning"].get<std::string>(), std::string("row-columns=64,node-lanes=8")})
+    {
+        EXPECT_EQ(render({"-o", "tuned.png", "-f", "--tuning", tuning}).exit_code, 0) << tuning;
+        EXPECT_EQ(readFile(m_dir.path() / "tuned.png"), readFile(m_dir.path() / "plain.png"));
+    }
+    expectErrorLine(runZvo(m_dir.path(), {"bench", "--tune", "cube.glb", "cube.glb"}), 2, {"--tune", "one scene"});
 }
 
 TEST_F(CliPath, ErrorsNameTheOption)
@@ -199,15 +345,41 @@ TEST_F(CliPath, ErrorsNameTheOption)
     expectErrorLine(render({"--integrator", "path", "--path-form", "waves", "-o", "x.png"}), 2, {"--path-form"});
     expectErrorLine(render({"--integrator", "path", "--view", "normal", "-o", "x.png"}), 2, {"--view"});
     expectErrorLine(render({"--denoise", "-o", "x.png"}), 2, {"--denoise", "--integrator path"});
+    expectErrorLine(render({"--integrator", "path", "--environment-turn", "90", "-o", "x.png"}), 2,
+                    {"--environment-turn needs", "--environment FILE"});
+    expectErrorLine(
+        render({"--integrator", "path", "--environment", "none", "--environment-strength", "2", "-o", "x.png"}), 2,
+        {"--environment-strength needs", "--environment FILE"});
+    expectErrorLine(render({"--integrator", "path", "--focus", "2", "-o", "x.png"}), 2, {"--focus needs --aperture"});
     expectErrorLine(render({"--integrator", "path", "--aov", "-o", "x.png"}), 2, {"--aov", "x.png"});
     expectErrorLine(render({"--integrator", "light", "-o", "x.png"}), 2, {"--integrator", "light"});
     expectErrorLine(render({"--integrator", "path", "--spp", "0", "-o", "x.png"}), 2, {"--spp"});
     expectErrorLine(render({"--integrator", "path", "--bounces", "5000", "-o", "x.png"}), 2, {"--bounces"});
+    expectErrorLine(render({"--integrator", "path", "--exposure", "inf", "-o", "x.png"}), 2, {"a finite number"});
     expectErrorLine(render({"--integrator", "path", "-o", "x.jpg"}), 2, {".exr"});
     expectErrorLine(render({"-o", "x.exr"}), 2, {".png"});
     expectErrorLine(render({"--integrator", "path", "--environment", "no.exr", "-o", "x.png"}), 3, {"no.exr"});
     expectErrorLine(render({"--integrator", "path", "--environment", "cube.glb", "-o", "x.png"}), 3, {"cube.glb"});
     expectErrorLine(render({"--integrator", "path", "--environment", "sky.exr", "-o", "sky.exr"}), 2, {"sky.exr"});
+}
+
+TEST_F(CliPath, NoPictureOfASequenceOverwritesAnInput)
+{
+    const std::string map = contentOf(m_dir.path() / "sky.exr");
+    m_dir.write("sky_02.exr", std::string_view(map));
+    m_dir.write("cube_1.png", std::string_view(contentOf(m_dir.path() / "cube.glb")));
+    m_dir.write("path_2.png", std::string_view("{}"));
+    const auto sequence = [&](std::vector<std::string> more)
+    {
+        more.insert(more.end(), {"--integrator", "path", "--spp", "1", "--frames", "1..2"});
+        return render(more);
+    };
+    expectErrorLine(sequence({"--environment", "sky_02.exr", "-o", "sky_##.exr"}), 2,
+                    {"sky_02.exr is an input and would be overwritten"});
+    expectErrorLine(sequence({"cube_1.png", "-o", "./cube_#.png"}), 2, {"cube_1.png is an input"});
+    expectErrorLine(sequence({"--camera-path", "path_2.png", "-o", "path_#.png"}), 2, {"path_2.png is an input"});
+    expectErrorLine(sequence({"-o", "a_#.png", "--json", "./a_2.png"}), 2, {"a_2.png is named for two outputs"});
+    EXPECT_EQ(contentOf(m_dir.path() / "sky_02.exr"), map);
 }
 
 TEST_F(CliPath, ATimeLimitEndsThePicture)
@@ -220,16 +392,22 @@ TEST_F(CliPath, ATimeLimitEndsThePicture)
 
 TEST_F(CliPath, AnInterruptWritesThePictureSoFar)
 {
-    const auto begin = std::chrono::steady_clock::now();
-    picture({});
-    const auto whole_run = std::chrono::steady_clock::now() - begin;
-    ZvoProcess process(m_dir.path(), command({"--integrator", "path", "--spp", "1000000", "-o", "x.png"}));
-    std::this_thread::sleep_for(3 * whole_run); // now paths are traced
-    process.signal(SIGINT);
-    const Outcome outcome = process.wait();
+    const Outcome outcome = interrupted({"-o", "x.png"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("stopped after"), std::string::npos) << outcome.err;
     EXPECT_FALSE(contentOf(m_dir.path() / "x.png").empty());
+}
+
+TEST_F(CliPath, AnInterruptEndsASequenceWithItsPicture)
+{
+    const Outcome outcome = interrupted({"--frames", "3..9", "-o", "x_#.png", "--json", "-"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("stopped after 1 of 7 pictures"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(contentOf(m_dir.path() / "x_3.png").empty());
+    EXPECT_FALSE(std::filesystem::exists(m_dir.path() / "x_4.png"));
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["picture"]["count"], 1);
+    EXPECT_EQ(report["paths"]["stopped"], true);
 }
 
 } // namespace

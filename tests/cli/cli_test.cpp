@@ -354,6 +354,10 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
                      static_cast<double>(dag.geometryBytes()));
     EXPECT_TRUE(contains(outcome.out, "| svdag/insert (DAG) "));
     EXPECT_TRUE(contains(outcome.out, "| trace/ranks (DAG) "));
+    const std::string told = run({"bench", "--report", "bench.json"}).out;
+    EXPECT_TRUE(contains(told, "\ncube at 16:\n"));
+    EXPECT_TRUE(contains(told, "\ncube at 32:\n"));
+    EXPECT_TRUE(contains(told, "| voxelize/triangles"));
 }
 
 TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)

@@ -2,6 +2,7 @@
 #include "cli/run_zvo.h"
 
 #include "support/device.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ std::vector<std::string> commandLine(std::vector<std::string> arguments)
         arguments.size() > 2 && (arguments[1] == "render" || arguments[1] == "voxelize" || arguments[1] == "bench");
     if (runs && std::find(arguments.begin(), arguments.end(), "--device") == arguments.end())
     {
-        arguments.insert(arguments.end(), {"--device", "cpu"});
+        arguments.insert(arguments.end(), {"--device", deviceOptions().device});
     }
     if (runs && deviceOptions().validation)
     {
@@ -105,7 +106,7 @@ std::filesystem::path newFile()
 
 ZvoProcess::ZvoProcess(const std::filesystem::path& folder, std::vector<std::string> arguments,
                        const std::vector<std::string>& environment)
-    : ZvoProcess(ZVO_PROGRAM, folder, commandLine(std::move(arguments)), environment)
+    : ZvoProcess(placeOf(ZVO_PROGRAM, "bin/zvo"), folder, commandLine(std::move(arguments)), environment)
 {
 }
 

@@ -5,6 +5,7 @@
 #include "examples/composite.h"
 #include "io/image/image_io.h"
 #include "support/device.h"
+#include "support/places.h"
 #include "support/temp_dir.h"
 
 #include <gtest/gtest.h>
@@ -60,6 +61,11 @@ Picture readPng(const std::filesystem::path& path)
     return picture;
 }
 
+std::filesystem::path exampleProgram(const std::string& name)
+{
+    return test::placeOf(ZVO_EXAMPLES_DIR, "bin") / name;
+}
+
 class Examples : public testing::Test
 {
 protected:
@@ -72,8 +78,7 @@ protected:
         {
             arguments.emplace_back("--validation");
         }
-        const Outcome outcome =
-            test::ZvoProcess(std::filesystem::path(ZVO_EXAMPLES_DIR) / name, m_folder.path(), arguments, {}).wait();
+        const Outcome outcome = test::ZvoProcess(exampleProgram(name), m_folder.path(), arguments, {}).wait();
         EXPECT_EQ(outcome.exit_code, 0) << name;
         EXPECT_EQ(outcome.err, "") << name;
     }
@@ -128,9 +133,10 @@ TEST_F(Examples, MinimalShowsTheTreeOfAFile)
 TEST_F(Examples, WhatIsNoTreeIsAnErrorInOneLine)
 {
     writeKnot();
-    const Outcome outcome = test::ZvoProcess(std::filesystem::path(ZVO_EXAMPLES_DIR) / "embed_minimal", path(""),
-                                             {"embed_minimal", "minimal.ppm", "knot.ply", "--device", "cpu"}, {})
-                                .wait();
+    const Outcome outcome =
+        test::ZvoProcess(exampleProgram("embed_minimal"), path(""),
+                         {"embed_minimal", "minimal.ppm", "knot.ply", "--device", test::deviceOptions().device}, {})
+            .wait();
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_NE(outcome.err.find("knot.ply"), std::string::npos);
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1);
@@ -171,6 +177,26 @@ TEST_F(Examples, FramesAddUpToThePathsOfTheCommandLine)
     EXPECT_EQ(ppm("paths.ppm"), expected);
     run("progressive", {"bare.ppm", "3", "--no-optional"});
     EXPECT_EQ(ppm("bare.ppm"), expected);
+}
+
+TEST_F(Examples, ArgumentsThatMakeNoSenseAreNamed)
+{
+    const auto progressive = [&](const std::vector<std::string>& arguments)
+    {
+        std::vector<std::string> command = {"progressive"};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        return test::ZvoProcess(std::filesystem::path(ZVO_EXAMPLES_DIR) / "progressive", path(""), command, {}).wait();
+    };
+    for (const std::string count : {"0", "abc", "1e9", "4.5", "4294967296"})
+    {
+        const Outcome outcome = progressive({"never.ppm", count});
+        EXPECT_EQ(outcome.exit_code, 1) << count;
+        EXPECT_NE(outcome.err.find("a whole number from 1"), std::string::npos) << outcome.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("never.ppm")));
+    const Outcome help = progressive({"--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_TRUE(help.out.starts_with("usage: progressive PICTURE SAMPLES")) << help.out;
 }
 
 // After many frames of updates, a dynamic tree looks like one that another program builds at once.

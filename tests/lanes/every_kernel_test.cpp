@@ -10,6 +10,7 @@
 #include "core/headless/compress.h"
 #include "core/headless/pipeline.h"
 #include "core/headless/svdag_forest.h"
+#include "core/octree/octree_build.h"
 #include "core/path/path_tracer.h"
 #include "core/present/present.h"
 #include "core/scene/animation.h"
@@ -215,6 +216,29 @@ Names deformVertices()
     const std::vector<gpu::vec3> moved = device().download(positions);
     EXPECT_EQ(moved.at(69), gpu::vec3(172.5F, 3.5F, 5.0F)); // (69, 1, 2) * 1.25 and (0, 0.5, 0), doubled
     EXPECT_EQ(moved.at(139), gpu::vec3(69.0F, 2.0F, 2.0F)); // 1 added to y
+    return names;
+}
+
+// Averages the nodes of an octree in which voxels are some way apart.
+Names averageNodesOf(const GpuScene& scene, std::uint32_t depth, std::uint64_t voxel_count, std::uint64_t distance)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = depth};
+    std::vector<test::Cell> voxels;
+    for (std::uint64_t i = 0; i < voxel_count; ++i)
+    {
+        const auto noise = static_cast<gpu::uint>(i * 0x9E3779B97F4A7C15U >> 32);
+        voxels.push_back({grid.nodeLevels(), i * distance, {noise & 0xFFFFFF, noise * 0x85EBCA6B}});
+    }
+    const std::vector<test::Cell> expected = test::EditModel(grid, voxels, true).cells();
+    std::vector<test::Cell> cells = expected;
+    for (test::Cell& cell : cells)
+    {
+        cell.attribute = cell.level < grid.nodeLevels() ? gpu::Attribute{} : cell.attribute;
+    }
+    DeviceTree octree = test::octreeOf(device(), cells, grid, 1.0F);
+    Names names;
+    addNames(names, device().run([&](vk::FrameGraph& graph) { averageNodes(graph, scene, octree); }));
+    EXPECT_EQ(test::difference(test::cellsOf(device(), octree), expected), "");
     return names;
 }
 
@@ -433,13 +457,34 @@ Names traceForHosts(const DeviceTree& tree)
     return names;
 }
 
-// Expects that all kernels of brushes have run, or all others.
+// Builds the octree once more in each form of sums. Only the forms of GPUs get all variants.
+Names addInAllForms(const GpuScene& scene, const Grid& grid, Coverage coverage, const DeviceTree& octree, bool all)
+{
+    Names names;
+    const bool has_int64 = SumForm::on(device().device()).int64;
+    for (const SumForm form : {SumForm{false, false}, {false, true}, {true, false}, {true, true}})
+    {
+        if ((form.int64 && !has_int64) || !(all || form == SumForm{has_int64, true}))
+        {
+            continue;
+        }
+        BuildOptions options = {coverage};
+        options.sum_form = form;
+        const BuildResult built = buildOctree(device(), scene, grid, options);
+        addNames(names, built.passes);
+        EXPECT_EQ(test::difference(test::cellsOf(device(), built.octree), test::cellsOf(device(), octree)), "");
+    }
+    return names;
+}
+
+// Expects that all kernels of brushes have run, or all others, of those that the device can run.
 void expectAllRan(const Names& names, bool of_brushes)
 {
     for (const vk::EmbeddedKernel& kernel : zvoKernels())
     {
         const std::string name(kernel.name);
-        if (name.starts_with("edit/") == of_brushes)
+        const bool can_run = SumForm::on(device().device()).int64 || !name.ends_with("_int64");
+        if (can_run && name.starts_with("edit/") == of_brushes)
         {
             EXPECT_TRUE(names.contains(name)) << name << " did not run";
         }
@@ -456,6 +501,13 @@ TEST(EveryKernel, RunsOnASmallScene)
     const Scene scene = smallScene();
     const GpuScene gpu_scene = uploadScene(device(), scene, true);
     Names names = deformVertices();
+    for (std::uint32_t levels = 1; levels <= gpu::kNodeLevelsMax; ++levels)
+    {
+        names.merge(averageNodesOf(gpu_scene, 2 * levels - 1, levels == 1 ? 8 : 60, 1));
+    }
+    names.merge(averageNodesOf(gpu_scene, 2, 64, 1));
+    names.merge(averageNodesOf(gpu_scene, 8, 1000, 65));
+    names.merge(averageNodesOf(gpu_scene, 8, 200, 83'800)); // the root has 64 children
     struct Case
     {
         Coverage coverage;
@@ -474,6 +526,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         BuildResult built = buildOctree(device(), gpu_scene, grid, {c.coverage});
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, c.coverage).codes);
         addNames(names, built.passes);
+        names.merge(addInAllForms(gpu_scene, grid, c.coverage, built.octree, c.pictures));
         if (c.pictures)
         {
             names.merge(mergeObjects(scene, grid, c.coverage, false));

@@ -153,9 +153,9 @@ TEST_P(AnimatedScenes, UpdatedIsRebuilt)
         GTEST_SKIP() << model << " is not there";
     }
     AnimatedSceneOptions folder;
-    if (std::filesystem::is_directory(ZVO_SHARED_SCENES_DIR))
+    if (std::filesystem::is_directory(test::modelsFolder()))
     {
-        folder.scenes_folder = ZVO_SHARED_SCENES_DIR;
+        folder.scenes_folder = test::modelsFolder();
     }
     const AnimatedScene animated = loadAnimatedScene(path, folder);
     const Bounds bounds = boundsOverTime(animated);

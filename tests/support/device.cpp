@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/device.h"
 
+#include "vk/log_file.h"
+
 #include <cassert>
 #include <cstdlib>
 #include <memory>
@@ -28,6 +30,9 @@ vk::HeadlessOptions deviceOptions()
     options.validation = validation == "1" || validation == "2";
     options.gpu_assisted_validation = validation == "2";
     options.message_counter = &g_message_count;
+    options.log = vk::logToFile(std::getenv("ZVO_LOG"));
+    const char* type = std::getenv("ZVO_TEST_TYPE");
+    options.overrides.type = type != nullptr ? type : "";
     if (options.gpu_assisted_validation)
     {
         // The instrumentation takes a vec3, and each column of a matrix, for as long as a vec4, also at a buffer's end.

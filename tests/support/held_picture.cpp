@@ -3,6 +3,7 @@
 
 #include "core/base/read_file.h"
 #include "io/image/image_io.h"
+#include "support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,7 @@ void writePng(const std::filesystem::path& file, const Image& picture)
 
 void expectHeldPicture(const std::string& name, const Image& picture)
 {
-    const std::filesystem::path file = std::filesystem::path(ZVO_PICTURES_DIR) / (name + ".png");
+    const std::filesystem::path file = placeOf(ZVO_PICTURES_DIR, "tests/pictures") / (name + ".png");
     const char* record = std::getenv("ZVO_TEST_RECORD");
     if (record != nullptr && std::string_view(record) == "1")
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/scenes.h"
 
+#include "support/places.h"
+
 #include <map>
 #include <numbers>
 #include <random>
@@ -105,9 +107,14 @@ Scene sphereScene(const glm::vec3& center, float radius, std::uint32_t rings)
     return triangleSoup(corners);
 }
 
+std::filesystem::path modelsFolder()
+{
+    return placeOf(ZVO_SHARED_SCENES_DIR, "models");
+}
+
 std::optional<std::filesystem::path> sharedScene(const std::string& name)
 {
-    const std::filesystem::path path = std::filesystem::path(ZVO_SHARED_SCENES_DIR) / name;
+    const std::filesystem::path path = modelsFolder() / name;
     return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
 }
 
@@ -130,7 +137,7 @@ std::string missingModelOf(const std::string& scene_file)
 
 std::filesystem::path ownScene(const std::string& name)
 {
-    return std::filesystem::path(ZVO_SCENES_DIR) / name;
+    return placeOf(ZVO_SCENES_DIR, "scenes") / name;
 }
 
 std::optional<std::filesystem::path> findScene(const std::string& name)

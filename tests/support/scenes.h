@@ -23,6 +23,9 @@ Scene boxScene(const glm::vec3& min, const glm::vec3& max);
 /// A sphere of rings x 2 rings quads.
 Scene sphereScene(const glm::vec3& center, float radius, std::uint32_t rings);
 
+/// Where the big scenes are that are not in the project; the folder may be absent.
+std::filesystem::path modelsFolder();
+
 /// Path of one of the big scenes that are not in the project (scenes/README.md), if it is there.
 std::optional<std::filesystem::path> sharedScene(const std::string& name);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <set>
@@ -11,9 +10,9 @@
 namespace zvo::test
 {
 
-/// Chooses the calls that fail, one in each run, in tests of all failures. By default every fifth call fails; the first
-/// one changes with the day and with each run of the same test, so that all have their turn. With ZVO_TEST_FULL=1 every
-/// call fails. ZVO_TEST_SWEEP_START repeats a day: it replaces the day's number modulo 5.
+/// Chooses the calls that fail, one in each run, in tests of all failures. By default every fifth call fails, the first
+/// of which is another one in each sweep of the same test. ZVO_TEST_SWEEP_START=N begins with call N modulo 5. With
+/// ZVO_TEST_FULL=1 every call fails.
 class Sweep
 {
 public:
@@ -22,7 +21,7 @@ public:
         const char* full = std::getenv("ZVO_TEST_FULL");
         m_step = full != nullptr && std::string_view(full) == "1" ? 1 : step;
         const char* start = std::getenv("ZVO_TEST_SWEEP_START");
-        m_start = start != nullptr ? std::strtoull(start, nullptr, 10) : today();
+        m_start = start != nullptr ? std::strtoull(start, nullptr, 10) : 0;
     }
 
     /// Distance of two calls that fail.
@@ -38,12 +37,6 @@ public:
     [[nodiscard]] std::uint64_t share(std::uint64_t count) const { return count / m_step; }
 
 private:
-    static std::uint64_t today()
-    {
-        const auto days = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
-        return static_cast<std::uint64_t>(days.time_since_epoch().count());
-    }
-
     std::uint64_t m_step;
     std::uint64_t m_start;
 };

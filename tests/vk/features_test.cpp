@@ -55,6 +55,8 @@ struct Structs
         typed<VkPhysicalDeviceDynamicRenderingFeatures>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES);
     VkPhysicalDeviceSubgroupSizeControlFeatures subgroups = typed<VkPhysicalDeviceSubgroupSizeControlFeatures>(
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES);
+    VkPhysicalDeviceShaderAtomicInt64Features atomics = typed<VkPhysicalDeviceShaderAtomicInt64Features>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES);
     VkPhysicalDeviceCustomBorderColorFeaturesEXT border = typed<VkPhysicalDeviceCustomBorderColorFeaturesEXT>(
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CUSTOM_BORDER_COLOR_FEATURES_EXT);
     VkDevicePrivateDataCreateInfo private_data =
@@ -120,6 +122,7 @@ std::set<std::string> featuresOf(const VkDeviceCreateInfo& info)
             note(as(&types.vulkan12)->bufferDeviceAddress, "bufferDeviceAddress");
             note(as(&types.vulkan12)->scalarBlockLayout, "scalarBlockLayout");
             note(as(&types.vulkan12)->hostQueryReset, "hostQueryReset");
+            note(as(&types.vulkan12)->shaderBufferInt64Atomics, "shaderBufferInt64Atomics");
         }
         else if (link->sType == types.vulkan13.sType)
         {
@@ -136,6 +139,7 @@ std::set<std::string> featuresOf(const VkDeviceCreateInfo& info)
                 {types.synchronization2.sType, {as(&types.synchronization2)->synchronization2, "synchronization2"}},
                 {types.maintenance4.sType, {as(&types.maintenance4)->maintenance4, "maintenance4"}},
                 {types.subgroups.sType, {as(&types.subgroups)->subgroupSizeControl, "subgroupSizeControl"}},
+                {types.atomics.sType, {as(&types.atomics)->shaderBufferInt64Atomics, "shaderBufferInt64Atomics"}},
             };
             const auto found = singles.find(link->sType);
             if (found != singles.end())
@@ -162,7 +166,7 @@ bool isLegal(const VkDeviceCreateInfo& info)
     }
     const auto has = [&](VkStructureType type) { return present.count(type) != 0; };
     const bool singles12 = has(types.address.sType) || has(types.scalar.sType) || has(types.timeline.sType) ||
-                           has(types.query_reset.sType);
+                           has(types.query_reset.sType) || has(types.atomics.sType);
     const bool singles13 = has(types.synchronization2.sType) || has(types.maintenance4.sType) ||
                            has(types.rendering.sType) || has(types.subgroups.sType);
     return !(info.pEnabledFeatures != nullptr && has(types.core.sType)) &&
@@ -333,6 +337,9 @@ TEST(PatchFeatures, OptionalFeaturesAreAddedWhereAsked)
         EXPECT_EQ(featuresOf(info), expected);
         EXPECT_TRUE(patchFeatures(info, storage, {true, true}).empty());
         expected.insert("subgroupSizeControl");
+        EXPECT_EQ(featuresOf(info), expected);
+        EXPECT_TRUE(patchFeatures(info, storage, {true, true, true}).empty());
+        expected.insert("shaderBufferInt64Atomics");
         EXPECT_EQ(featuresOf(info), expected);
         EXPECT_TRUE(isLegal(info));
     }
@@ -523,7 +530,8 @@ TEST(Declaration, EveryRequiredFeatureThatIsNotEnabledIsNamed)
         EXPECT_NE(refusal.find(feature), std::string::npos) << feature << " is not in: " << refusal;
     }
     EXPECT_NE(refusal.find("patchFeatures"), std::string::npos) << refusal;
-    for (const char* other : {"hostQueryReset", "timelineSemaphore", "subgroupSizeControl", "shaderInt16"})
+    for (const char* other :
+         {"hostQueryReset", "timelineSemaphore", "subgroupSizeControl", "shaderInt16", "shaderBufferInt64Atomics"})
     {
         EXPECT_EQ(refusal.find(other), std::string::npos) << refusal;
     }
@@ -601,18 +609,18 @@ TEST(Declaration, ASubgroupSizeNeedsItsFeature)
     test::HostOptions options;
     const test::HostDevice without(options);
     vk::DeviceHandles handles = without.handles();
-    handles.overrides.subgroup_size =
+    const std::uint32_t size =
         query(handles.get_instance_proc_addr, handles.instance, handles.physical_device).max_subgroup_size;
-    if (handles.overrides.subgroup_size == 0)
+    handles.tuning = {{vk::kSubgroupSizeName, size}};
+    if (size == 0)
     {
         GTEST_SKIP() << "the device's subgroups have one size";
     }
     EXPECT_NE(refusalOf(handles).find("without subgroupSizeControl"), std::string::npos);
     options.optional.subgroup_sizes = true;
     test::HostDevice host(options);
-    const std::uint32_t size = handles.overrides.subgroup_size;
     handles = host.handles();
-    handles.overrides.subgroup_size = size;
+    handles.tuning = {{vk::kSubgroupSizeName, size}};
     vk::Device device(handles, testKernels());
     expectThatItWorks(host, device);
 }

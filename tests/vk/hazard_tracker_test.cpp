@@ -82,6 +82,19 @@ TEST(HazardTracker, ReadWriteAfterReadWriteNeedsABarrierEveryTime)
     EXPECT_TRUE(next(tracker, {{1, Access::KernelReadWrite, ""}}).needed());
 }
 
+TEST(HazardTracker, PassesThatAccumulateInABufferNeedNoBarrierBetweenThem)
+{
+    HazardTracker tracker;
+    next(tracker, {{1, Access::CopyWrite, ""}});
+    EXPECT_TRUE(next(tracker, {{1, Access::KernelAccumulate, ""}}).needed());
+    EXPECT_FALSE(next(tracker, {{1, Access::KernelAccumulate, ""}}).needed());
+    EXPECT_TRUE(next(tracker, {{1, Access::KernelRead, ""}}).needed()) << "who reads sees all of them";
+    EXPECT_TRUE(next(tracker, {{1, Access::KernelAccumulate, ""}}).needed()) << "and is not overtaken";
+    EXPECT_TRUE(next(tracker, {{1, Access::KernelAccumulate, ""}, {1, Access::KernelRead, ""}}).needed())
+        << "a pass that also reads the result must wait";
+    EXPECT_TRUE(next(tracker, {{1, Access::KernelAccumulate, ""}}).needed());
+}
+
 TEST(HazardTracker, IndirectArgumentsWaitForTheKernelThatWritesThem)
 {
     HazardTracker tracker;
@@ -146,6 +159,7 @@ std::vector<Use> usesOf(Access access)
     case Access::KernelWrite:
         return {kernel_write};
     case Access::KernelReadWrite:
+    case Access::KernelAccumulate:
         return {kernel_read, kernel_write};
     case Access::IndirectRead:
         return {{kIndirect, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false}};
@@ -196,7 +210,8 @@ bool everyHazardIsCovered(const std::vector<Step>& steps)
             {
                 for (const BufferAccess& b : steps[j].accesses)
                 {
-                    if (a.resource != b.resource || a.access == Access::HostRead)
+                    const bool any_order = a.access == Access::KernelAccumulate && b.access == Access::KernelAccumulate;
+                    if (a.resource != b.resource || a.access == Access::HostRead || any_order)
                     {
                         continue;
                     }
@@ -219,8 +234,9 @@ bool everyHazardIsCovered(const std::vector<Step>& steps)
 
 std::vector<Step> randomSteps(std::mt19937& random)
 {
-    constexpr Access kAll[] = {Access::KernelRead, Access::KernelWrite, Access::KernelReadWrite, Access::IndirectRead,
-                               Access::CopyRead,   Access::CopyWrite,   Access::HostRead};
+    constexpr Access kAll[] = {Access::KernelRead,       Access::KernelWrite,  Access::KernelReadWrite,
+                               Access::KernelAccumulate, Access::IndirectRead, Access::CopyRead,
+                               Access::CopyWrite,        Access::HostRead};
     const auto pick = [&](std::uint32_t count) { return static_cast<std::uint32_t>(random() % count); };
     HazardTracker tracker;
     std::vector<Step> steps(2 + pick(20));

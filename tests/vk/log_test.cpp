@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Messages to a host.
 #include "support/host_device.h"
+#include "support/temp_dir.h"
 #include "vk/kernels.h"
+#include "vk/log_file.h"
 #include "zvo/error.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -97,6 +100,35 @@ TEST(Log, WhatTheDeviceGoesWithoutIsSaidOnce)
         EXPECT_EQ(log.count(LogSeverity::Info, "hostQueryReset"), times ? 0 : 1);
         EXPECT_EQ(log.count(LogSeverity::Info, ""), times ? 0 : 1);
     }
+}
+
+TEST(Log, AFileGetsEachMessageAsALine)
+{
+    const test::TempDir folder;
+    const std::string path = folder.path() / "log";
+    for (int i = 0; i < 2; ++i)
+    {
+        test::HostOptions options;
+        options.log = vk::logToFile(path.c_str());
+        test::HostDevice host(options);
+        vk::Device device(host.handles(), testKernels());
+        device.kernels().get("test/iota");
+    }
+    std::ifstream file(path);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);)
+    {
+        lines.push_back(line);
+    }
+    ASSERT_EQ(lines.size(), 4U); // two of each device
+    EXPECT_EQ(lines.front(), "info: hostQueryReset is not enabled: passes are not timed");
+    EXPECT_TRUE(lines.back().starts_with("debug: kernel test/iota: compiled in "));
+}
+
+TEST(Log, WithoutAFileThereIsNoLog)
+{
+    EXPECT_EQ(vk::logToFile(nullptr).function, nullptr);
+    EXPECT_EQ(vk::logToFile("").function, nullptr);
 }
 
 TEST(Log, AListenerThatThrowsChangesNothing)

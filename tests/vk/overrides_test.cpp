@@ -17,10 +17,11 @@ using test::counting;
 using test::device;
 using test::iota;
 
-std::string refusalOf(const vk::DeviceOverrides& overrides)
+std::string refusalOf(const vk::DeviceOverrides& overrides, const vk::TuningValues& tuning = {})
 {
     vk::HeadlessOptions options = test::deviceOptions();
     options.overrides = overrides;
+    options.tuning = tuning;
     try
     {
         const vk::HeadlessDevice refused(options, testKernels());
@@ -112,23 +113,47 @@ TEST(DeviceOverrides, WithoutOptionalFeaturesTheDeviceWorks)
     EXPECT_TRUE(times.empty()) << "times come by hostQueryReset";
 }
 
-TEST(DeviceOverrides, OfTheSubgroupSizeAreTakenOrRefused)
+TEST(DeviceOverrides, OfTheTypeAreTaken)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.overrides.type = "discrete";
+    vk::HeadlessDevice other(options, testKernels());
+    EXPECT_EQ(other.device().report().type, "discrete");
+}
+
+TEST(SubgroupSizes, AreTakenOrRefused)
 {
     const vk::DeviceReport& report = device().device().report();
-    vk::DeviceOverrides three;
-    three.subgroup_size = 3;
-    const std::string refusal = refusalOf(three);
+    const std::string refusal = refusalOf({}, {{vk::kSubgroupSizeName, 3}});
     EXPECT_NE(refusal.find("subgroups of 3"), std::string::npos) << refusal;
     for (std::uint32_t size = report.min_subgroup_size; size != 0 && size <= report.max_subgroup_size; size *= 2)
     {
         vk::HeadlessOptions options = test::deviceOptions();
-        options.overrides.subgroup_size = size;
+        options.tuning = {{vk::kSubgroupSizeName, size}};
         vk::HeadlessDevice chosen(options, testKernels());
         EXPECT_EQ(chosen.device().report().subgroup_size, size);
         vk::BufferOf<gpu::uint> values(chosen.device(), "values", 1000);
         chosen.run([&](vk::FrameGraph& graph) { iota(graph, values); });
         EXPECT_EQ(chosen.download(values), counting(1000));
     }
+}
+
+TEST(SubgroupSizes, AreThirtyTwoWhereTheDriverWouldTakeMore)
+{
+    vk::DeviceReport report;
+    const auto sizeWith = [&](std::uint32_t usual, std::uint32_t least, std::uint32_t most)
+    {
+        report.subgroup_size = usual;
+        report.min_subgroup_size = least;
+        report.max_subgroup_size = most;
+        return vk::usualSubgroupSize(report);
+    };
+    EXPECT_EQ(sizeWith(64, 32, 64), 32U);
+    EXPECT_EQ(sizeWith(64, 64, 64), 0U);
+    EXPECT_EQ(sizeWith(64, 0, 0), 0U) << "kernels cannot ask";
+    EXPECT_EQ(sizeWith(32, 32, 32), 0U);
+    EXPECT_EQ(sizeWith(32, 8, 32), 0U);
+    EXPECT_EQ(sizeWith(8, 4, 8), 0U);
 }
 
 /// A host that records pieces of so many units into one command buffer, and cannot wait.

@@ -115,8 +115,9 @@ DynamicObjectId DynamicObjects::add(std::shared_ptr<const DynamicMesh> mesh, Pos
     checkPose(*mesh, pose);
     Object object;
     object.buffers = makeDynamicObject(m_device, mesh->plan, mesh->uploaded, mesh->deform);
+    const RowShape shape = RowShape::on(m_device.device());
     object.capacities = m_options.minimal_capacities ? LayerCapacities{{1, 0, 0}, 1, 1}
-                                                     : LayerCapacities::estimate(mesh->uploaded, m_grid);
+                                                     : LayerCapacities::estimate(mesh->uploaded, m_grid, shape);
     object.mesh = std::move(mesh);
     object.version = addPose(std::move(pose));
     m_objects.emplace(m_next_object, std::move(object));

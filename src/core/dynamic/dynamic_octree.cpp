@@ -135,7 +135,7 @@ void DynamicOctree::prepareBuffers()
         throw Error(ErrorCode::Memory,
                     "dynamic objects touch more nodes than 32-bit numbers count; lower the resolution");
     }
-    m_device.device().memory().require(UpdateBuffers::bytes(needed), "merging dynamic objects");
+    m_device.device().memory().require(UpdateBuffers::bytes(needed, m_overlays.tree().grid), "merging dynamic objects");
     if (m_update != nullptr)
     {
         m_deletion_queue.keep(std::move(m_update));

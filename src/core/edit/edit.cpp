@@ -2,6 +2,7 @@
 #include "core/edit/edit.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/lanes.h"
 #include "core/tree/device_tree.h"
 #include "edit/compact.h"
 #include "octree/octree.h"
@@ -44,7 +45,7 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     DeviceTree& tree = site.tree;
     const gpu::EditSlots slots = {site.region.first_node, dab.from, dab.to};
     const bool attributes = tree.hasNodeAttributes();
-    graph.fill(site.states, 0, std::uint64_t{slots.to} * (sizeof(gpu::EditState) / 4), sizeof(gpu::EditState) / 4);
+    const bool emits = tree.emission_words.count() != 0;
     {
         vk::Pass pass =
             graph.addPass(gpu::edit::Find{.entries_per_word = tree.entriesPerWord(), .attributes = attributes});
@@ -56,23 +57,14 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         }
         params.ranks = {pass.read(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
         params.cells = pass.write(buffers.cells);
-        params.states = pass.readWrite(site.states);
         params.slots = slots;
         params.brush = brush;
         params.box = extent.box;
         pass.dispatch(extent.cell_count, params);
     }
-    for (std::uint32_t level = extent.box.level_count - 1; level-- > 0;)
     {
-        vk::Pass pass = graph.addPass(gpu::edit::Parents{});
-        gpu::EditParentsParams params{};
-        params.cells = pass.readWrite(buffers.cells);
-        params.box = extent.box;
-        params.level = level;
-        pass.dispatch(levelCells(extent.box, level), params);
-    }
-    {
-        vk::Pass pass = graph.addPass(gpu::edit::Allocate{.attributes = attributes});
+        const std::uint32_t threads = loneGroupOn(graph.device());
+        vk::Pass pass = graph.addPass(gpu::edit::Allocate{.attributes = attributes, .local_size_x = threads});
         gpu::EditAllocateParams params{};
         params.cells = pass.readWrite(buffers.cells);
         params.states = pass.readWrite(site.states);
@@ -83,10 +75,11 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
         params.kept = dab.kept;
         params.node_end = site.region.first_node + site.region.node_capacity;
         params.voxel_end = site.region.first_voxel + site.region.voxel_capacity;
-        pass.dispatch(gpu::kScanGroup, params);
+        params.box = extent.box;
+        pass.dispatch(threads, params);
     }
-    vk::Pass pass =
-        graph.addPass(gpu::edit::Nodes{.entries_per_word = tree.entriesPerWord(), .attributes = attributes});
+    vk::Pass pass = graph.addPass(
+        gpu::edit::Nodes{.entries_per_word = tree.entriesPerWord(), .attributes = attributes, .emits = emits});
     gpu::EditNodesParams params{};
     params.nodes = pass.readWrite(tree.nodes);
     params.node_attributes = pass.readWrite(tree.node_attributes);
@@ -97,9 +90,12 @@ void recordNodes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush,
     params.ranks = ranksOf(pass, tree);
     params.cells = pass.readWrite(buffers.cells);
     params.states = pass.read(site.states);
+    params.emission_words = pass.readWrite(tree.emission_words);
     params.slots = slots;
+    params.kept = dab.kept;
     params.static_root = tree.overlays.static_root;
     params.attribute_offset = tree.attributeOffset();
+    params.emission_offset = site.emission_offset;
     params.box = extent.box;
     pass.dispatch(std::uint64_t{std::max(extent.inner_count, 1U)} * gpu::kEditGroup, params);
 }
@@ -124,47 +120,54 @@ void recordVoxelPass(vk::FrameGraph& graph, const Kernel& kernel, EditSite& site
     pass.dispatch(std::uint64_t{extent.cell_count - extent.inner_count} * gpu::kEditGroup, params);
 }
 
+// Averages the changed nodes, from the leaves up.
+void averageChanged(vk::FrameGraph& graph, EditSite& site, const DabExtent& extent, std::uint32_t to,
+                    const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
+{
+    const std::uint32_t lanes = lanesOn(graph.device());
+    const std::uint32_t leaf_count = extent.cell_count - extent.inner_count;
+    std::uint32_t level_count = extent.box.level_count;
+    if (leaf_count > gpu::kFewLeaves)
+    {
+        --level_count;
+        vk::Pass pass = graph.addPass(gpu::edit::Average{.lanes = lanes});
+        gpu::EditAverageParams params{};
+        params.scene = pass.read(tables);
+        params.cells = pass.read(buffers.cells);
+        params.states = pass.read(site.states);
+        params.voxels = pass.read(site.tree.voxel_attributes);
+        params.averages = pass.readWrite(site.tree.node_attributes);
+        params.inner_count = extent.inner_count;
+        params.cell_count = extent.cell_count;
+        params.to = to;
+        params.attribute_offset = site.tree.attributeOffset();
+        pass.dispatch(std::uint64_t{leaf_count} * lanes, params);
+    }
+    const std::uint32_t threads = loneGroupOn(graph.device());
+    vk::Pass pass = graph.addPass(gpu::edit::AverageTop{.lanes = lanes, .local_size_x = threads});
+    gpu::EditAverageTopParams params{};
+    params.scene = pass.read(tables);
+    params.cells = pass.read(buffers.cells);
+    params.states = pass.read(site.states);
+    params.voxels = pass.read(site.tree.voxel_attributes);
+    params.averages = pass.readWrite(site.tree.node_attributes);
+    params.box = extent.box;
+    params.level_count = level_count;
+    params.to = to;
+    params.attribute_offset = site.tree.attributeOffset();
+    pass.dispatch(threads, params);
+}
+
 void recordAttributes(vk::FrameGraph& graph, EditSite& site, const gpu::Brush& brush, const DabExtent& extent,
                       const DabSlots& slots, const vk::BufferOf<gpu::SceneView>& tables, DabBuffers& buffers)
 {
     const bool emits = site.tree.emission_words.count() != 0;
-    if (emits)
-    {
-        vk::Pass pass = graph.addPass(gpu::edit::EmissionWords{});
-        gpu::EditEmissionWordsParams params{};
-        params.words = pass.write(site.tree.emission_words);
-        params.states = pass.read(site.states);
-        params.from = slots.from;
-        params.to = slots.to;
-        params.kept = slots.kept;
-        params.emission_offset = site.emission_offset;
-        pass.dispatch(divideUp(extent.voxel_bound, kVoxelBlock), params);
-    }
     recordVoxelPass(graph, gpu::edit::Voxels{.emits = emits}, site, brush, extent, slots.to, buffers);
     if (emits)
     {
         recordVoxelPass(graph, gpu::edit::Emission{}, site, brush, extent, slots.to, buffers);
     }
-    std::uint32_t first_cell = extent.cell_count;
-    for (std::uint32_t level = extent.box.level_count; level-- > 0;)
-    {
-        const bool are_leaves = level + 1 == extent.box.level_count;
-        const std::uint32_t cell_count = levelCells(extent.box, level);
-        first_cell -= cell_count;
-        vk::Pass pass = graph.addPass(gpu::edit::Average{});
-        gpu::EditAverageParams params{};
-        params.scene = pass.read(tables);
-        params.cells = pass.read(buffers.cells);
-        params.states = pass.read(site.states);
-        params.children = are_leaves ? pass.read(site.tree.voxel_attributes) : pass.read(site.tree.node_attributes);
-        params.averages = pass.readWrite(site.tree.node_attributes);
-        params.first_cell = first_cell;
-        params.cell_count = cell_count;
-        params.to = slots.to;
-        params.children_offset = are_leaves ? 0 : site.tree.attributeOffset();
-        params.attribute_offset = site.tree.attributeOffset();
-        pass.dispatch(cell_count, params);
-    }
+    averageChanged(graph, site, extent, slots.to, tables, buffers);
 }
 
 // Marks the nodes and voxels of the kept slots, level by level from their roots down.

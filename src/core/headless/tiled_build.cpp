@@ -112,9 +112,9 @@ private:
 };
 
 // Where to start for a cube of the grid: surfaces that are spread over the grid, and four times as much.
-VoxelizeCapacities likelyCapacities(const GpuScene& scene, const Grid& grid, std::uint32_t depth)
+VoxelizeCapacities likelyCapacities(const GpuScene& scene, const Grid& grid, RowShape shape, std::uint32_t depth)
 {
-    const VoxelizeCapacities whole = VoxelizeCapacities::estimate(scene, grid);
+    const VoxelizeCapacities whole = VoxelizeCapacities::estimate(scene, grid, shape);
     const auto share = [&](std::uint64_t count)
     {
         const std::uint32_t shift = 2 * (grid.depth - depth);
@@ -164,7 +164,9 @@ std::optional<Tile> TiledBuilder::buildWhole(std::uint32_t depth, std::uint64_t 
 {
     const auto last = m_capacities.find(depth);
     const VoxelizeCapacities capacities =
-        last != m_capacities.end() ? last->second : likelyCapacities(m_scene.uploaded(), m_grid, depth);
+        last != m_capacities.end()
+            ? last->second
+            : likelyCapacities(m_scene.uploaded(), m_grid, RowShape::on(m_device.device()), depth);
     BuildResult built = buildOctree(m_device, m_scene, {m_grid, depth, cellOfCode(code)},
                                     {m_options.coverage, hasAttributes(), capacities});
     m_capacities[depth] = built.capacities;

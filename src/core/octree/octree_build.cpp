@@ -2,6 +2,7 @@
 #include "core/octree/octree_build.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/lanes.h"
 
 namespace zvo
 {
@@ -9,34 +10,61 @@ namespace zvo
 namespace
 {
 
-// Sets the child bases of one level by a prefix sum over its nodes.
-void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree,
-                    std::size_t level)
+// Child counts that octree/assign sums up by itself: more are scanned before.
+constexpr std::uint64_t kBlocksUnscanned = 512;
+
+// Numbers the root and its children.
+void numberTop(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree)
+{
+    vk::Pass pass = graph.addPass(gpu::octree::Number{.wide_keys = hasWideKeys(octree.grid)});
+    gpu::NumberParams params{};
+    params.bricks = pass.readWrite(voxelize.bricks);
+    params.items = pass.read(work.items);
+    params.ranges = pass.read(work.ranges);
+    params.nodes = pass.readWrite(octree.nodes);
+    params.level_count = static_cast<std::uint32_t>(octree.levels.size());
+    pass.dispatch(gpu::kRootGroup, params);
+}
+
+// Places the nodes of a level, whose first work item is given, and sets their child bases by a prefix sum.
+void numberLevel(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree,
+                 std::size_t level, std::uint32_t first_item, std::uint64_t first_block)
 {
     const auto [first_node, node_count] = octree.levels[level];
-    const bool is_leaf = level + 1 == octree.levels.size();
-    const std::uint64_t threads = divideUp(node_count, gpu::kScanItems);
+    const bool are_leaves = level + 1 == octree.levels.size();
+    const std::uint64_t block_count = divideUp(node_count, gpu::kScanBlock);
+    const std::uint64_t skipped = first_block * sizeof(gpu::uint);
     {
-        vk::Pass pass = graph.addPass(gpu::octree::Count{});
-        const gpu::CountParams params = {pass.read(octree.nodes), pass.write(work.partials), first_node, node_count};
-        pass.dispatch(threads, params);
+        vk::Pass pass = graph.addPass(gpu::octree::Place{.wide_keys = hasWideKeys(octree.grid)});
+        gpu::PlaceParams params{};
+        params.bricks = pass.readWrite(voxelize.bricks);
+        params.items = pass.read(work.items);
+        params.nodes = pass.readWrite(octree.nodes);
+        params.partials = {pass.readWrite(work.partials).address + skipped};
+        params.first_item = first_item;
+        params.first_node = first_node;
+        params.node_count = node_count;
+        pass.dispatch(node_count, params);
     }
+    if (block_count > kBlocksUnscanned)
     {
         vk::Pass pass = graph.addPass(gpu::octree::Scan{});
-        const gpu::ScanParams params = {pass.readWrite(work.partials), pass.write(work.total),
-                                        static_cast<std::uint32_t>(divideUp(node_count, gpu::kScanBlock))};
+        const gpu::ScanParams params = {{pass.readWrite(work.partials).address + skipped},
+                                        pass.write(work.total),
+                                        static_cast<std::uint32_t>(block_count)};
         pass.dispatch(gpu::kScanGroup, params);
     }
     vk::Pass pass = graph.addPass(gpu::octree::Assign{});
     gpu::AssignParams params{};
     params.nodes = pass.readWrite(octree.nodes);
     params.bricks = pass.readWrite(voxelize.bricks);
-    params.partials = pass.read(work.partials);
+    params.partials = {pass.read(work.partials).address + skipped};
+    params.is_scanned = block_count > kBlocksUnscanned ? 1 : 0;
     params.first_node = first_node;
     params.node_count = node_count;
-    params.first_child = is_leaf ? 0 : first_node + node_count;
-    params.tell_bricks = is_leaf && !hasWideKeys(octree.grid) ? 1 : 0;
-    pass.dispatch(threads, params);
+    params.first_child = are_leaves ? 0 : first_node + node_count;
+    params.tell_bricks = are_leaves && !hasWideKeys(octree.grid) ? 1 : 0;
+    pass.dispatch(divideUp(node_count, gpu::kAssignItems), params);
 }
 
 } // namespace
@@ -44,49 +72,40 @@ void assignChildren(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuil
 OctreeBuildBuffers::OctreeBuildBuffers(vk::Device& device, std::uint64_t brick_capacity)
     : items(device, "octree/items", brick_capacity), ranges(device, "octree/ranges", gpu::kNodeLevelsMax),
       args(device, "octree/args", gpu::kNodeLevelsMax),
-      partials(device, "octree/partials", divideUp(brick_capacity, gpu::kScanBlock)), total(device, "octree/total", 1)
+      partials(device, "octree/partials", divideUp(brick_capacity, gpu::kScanBlock) + gpu::kNodeLevelsMax),
+      total(device, "octree/total", 1)
 {
 }
 
 void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work)
 {
+    graph.fill(work.ranges, 0);
+    graph.fill(work.args, 0);
+    const std::uint32_t max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
     {
         vk::Pass pass = graph.addPass(gpu::octree::Collect{});
-        const gpu::CollectParams params = {pass.read(voxelize.bricks), pass.write(work.items),
-                                           pass.readWrite(voxelize.counters),
-                                           static_cast<std::uint32_t>(voxelize.bricks.count())};
+        gpu::CollectParams params{};
+        params.bricks = pass.read(voxelize.bricks);
+        params.items = pass.write(work.items);
+        params.counters = pass.readWrite(voxelize.counters);
+        params.ranges = pass.readWrite(work.ranges);
+        params.args = pass.readWrite(work.args);
+        params.brick_capacity = static_cast<std::uint32_t>(voxelize.bricks.count());
+        params.max_groups_x = max_groups_x;
         pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
     }
-    listAncestors(graph, grid, voxelize.bricks, voxelize.counters, work);
-}
-
-void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::BrickEntry>& bricks,
-                   vk::BufferOf<gpu::BrickCounters>& counters, OctreeBuildBuffers& work)
-{
-    for (std::uint32_t height = 0; height < grid.nodeLevels(); ++height)
+    for (std::uint32_t height = 0; height + 1 < grid.nodeLevels(); ++height) // the root has no parent
     {
-        {
-            vk::Pass pass = graph.addPass(gpu::octree::NextLevel{});
-            gpu::NextLevelParams params{};
-            params.counters = pass.read(counters);
-            params.ranges = pass.readWrite(work.ranges);
-            params.args = pass.write(work.args);
-            params.height = height;
-            params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
-            pass.dispatch(1, params);
-        }
-        if (height + 1 == grid.nodeLevels()) // the root has no parent
-        {
-            break;
-        }
         vk::Pass pass = graph.addPass(gpu::octree::Parents{.wide_keys = hasWideKeys(grid)});
         gpu::ParentsParams params{};
-        params.bricks = pass.readWrite(bricks);
+        params.bricks = pass.readWrite(voxelize.bricks);
         params.items = pass.readWrite(work.items);
-        params.counters = pass.readWrite(counters);
-        params.ranges = pass.read(work.ranges);
-        params.brick_mask = static_cast<std::uint32_t>(bricks.count() - 1);
+        params.counters = pass.readWrite(voxelize.counters);
+        params.ranges = pass.readWrite(work.ranges);
+        params.args = pass.readWrite(work.args);
+        params.brick_mask = static_cast<std::uint32_t>(voxelize.bricks.count() - 1);
         params.height = height;
+        params.max_groups_x = max_groups_x;
         pass.dispatchIndirect(work.args, height, params, divideUp(work.items.count(), gpu::kNodesGroup));
     }
 }
@@ -94,39 +113,38 @@ void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::Br
 void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree)
 {
     // Passes that put numbers where masks were cannot come twice: what can fail comes before the first of them.
-    const gpu::octree::Place place{.wide_keys = hasWideKeys(octree.grid)};
     vk::KernelCache& kernels = graph.device().kernels();
-    kernels.get(place);
-    kernels.get(gpu::octree::Count{});
+    kernels.get(gpu::octree::Number{.wide_keys = hasWideKeys(octree.grid)});
+    kernels.get(gpu::octree::Place{.wide_keys = hasWideKeys(octree.grid)});
     kernels.get(gpu::octree::Scan{});
     kernels.get(gpu::octree::Assign{});
+    graph.fill(work.partials, 0);
     std::uint32_t item_end = octree.node_count; // the root is the last item
+    std::uint64_t first_block = 0;
+    numberTop(graph, voxelize, work, octree);
     for (std::size_t level = 0; level < octree.levels.size(); ++level)
     {
         const std::uint32_t node_count = octree.levels[level].node_count;
-        {
-            vk::Pass pass = graph.addPass(place);
-            gpu::PlaceParams params{};
-            params.bricks = pass.readWrite(voxelize.bricks);
-            params.items = pass.read(work.items);
-            params.nodes = pass.readWrite(octree.nodes);
-            params.first_item = item_end - node_count;
-            params.node_count = node_count;
-            params.is_root = level == 0 ? 1 : 0;
-            pass.dispatch(node_count, params);
-        }
         item_end -= node_count;
-        assignChildren(graph, voxelize, work, octree, level);
+        if (level >= gpu::kRootLevels)
+        {
+            numberLevel(graph, voxelize, work, octree, level, item_end, first_block);
+            first_block += divideUp(node_count, gpu::kScanBlock);
+        }
     }
 }
 
+static_assert(kLoneNodes == gpu::kNodesGroup);
+
 void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octree)
 {
-    for (std::size_t level = octree.levels.size(); level-- > 0;)
+    std::size_t level = octree.levels.size();
+    for (; level > gpu::kRootLevels; --level)
     {
-        const bool is_leaf = level + 1 == octree.levels.size();
-        const auto [first_node, node_count] = octree.levels[level];
-        vk::Pass pass = graph.addPass(gpu::octree::Average{});
+        const bool is_leaf = level == octree.levels.size();
+        const auto [first_node, node_count] = octree.levels[level - 1];
+        const std::uint32_t lanes = lanesOn(graph.device(), node_count);
+        vk::Pass pass = graph.addPass(gpu::octree::Average{.lanes = lanes});
         gpu::AverageParams params{};
         params.scene = pass.read(scene.view);
         params.nodes = pass.read(octree.nodes);
@@ -134,8 +152,28 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octr
         params.averages = pass.readWrite(octree.node_attributes);
         params.first_node = first_node;
         params.node_count = node_count;
-        pass.dispatch(node_count, params);
+        pass.dispatch(std::uint64_t{node_count} * lanes, params);
     }
+    if (level == 0)
+    {
+        return;
+    }
+    const bool are_leaves = level == octree.levels.size();
+    const std::uint32_t threads = loneGroupOn(graph.device());
+    const std::uint32_t lanes = lanesOn(graph.device());
+    vk::Pass pass = graph.addPass(gpu::octree::AverageTop{.lanes = lanes, .local_size_x = threads});
+    gpu::AverageTopParams params{};
+    params.scene = pass.read(scene.view);
+    params.nodes = pass.read(octree.nodes);
+    params.averages = pass.readWrite(octree.node_attributes);
+    params.lowest_children =
+        are_leaves ? pass.read(octree.voxel_attributes) : gpu::ConstPtr<gpu::Attribute>{params.averages.address};
+    for (std::size_t i = 0; i < level; ++i)
+    {
+        params.levels[i] = {octree.levels[i].first_node, octree.levels[i].node_count};
+    }
+    params.level_count = static_cast<gpu::uint>(level);
+    pass.dispatch(threads, params);
 }
 
 } // namespace zvo

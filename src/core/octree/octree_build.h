@@ -20,7 +20,7 @@ struct OctreeBuildBuffers
     vk::BufferOf<gpu::WorkItem> items;    // [brick_capacity] the leaves first, the root last
     vk::BufferOf<gpu::LevelRange> ranges; // [kNodeLevelsMax] the items of each level, leaves first
     vk::BufferOf<gpu::DispatchArgs> args; // [kNodeLevelsMax] of each level, leaves first: one thread an item
-    vk::BufferOf<gpu::uint> partials;     // [ceil(brick_capacity / kScanBlock)]
+    vk::BufferOf<gpu::uint> partials;     // for each level, the children of kScanBlock nodes each
     vk::BufferOf<gpu::uint> total;        // [1]
 };
 
@@ -30,18 +30,14 @@ struct OctreeBuildBuffers
 /// the table.
 void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work);
 
-/// Records only the second part of listNodes: the passes that add all ancestors of the leaves to work.items and to the
-/// table, level by level. The leaves must be listed in work.items; counters holds their number.
-void listAncestors(vk::FrameGraph& graph, const Grid& grid, vk::BufferOf<gpu::BrickEntry>& bricks,
-                   vk::BufferOf<gpu::BrickCounters>& counters, OctreeBuildBuffers& work);
-
 /// Records the passes that number the nodes breadth first, in Morton order within a level, and write octree.nodes from
 /// the root down. octree.levels, node_count and nodes must be set up. The entries of leaves in the brick table receive
 /// the number of their first voxel. The numbers come from prefix sums, so they do not depend on the order of threads.
 /// Cost: nodes.
 void numberNodes(vk::FrameGraph& graph, VoxelizeBuffers& voxelize, OctreeBuildBuffers& work, DeviceTree& octree);
 
-/// Records the passes that give each inner node the mean attribute of its children, from the leaves up. Cost: nodes.
+/// Records the passes that give each inner node the mean attribute of its children, from the leaves up: a pass for each
+/// level, and one for the root's children and the root. Cost: nodes.
 void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octree);
 
 } // namespace zvo

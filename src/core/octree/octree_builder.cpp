@@ -153,7 +153,9 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
     m_step = {&OctreeBuilder::cover, &OctreeBuilder::learnCoverage};
     m_readback = {device, kReadbackBytes};
     m_result.octree.grid = grid;
-    m_result.capacities = usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid)));
+    m_row_shape = options.row_shape.value_or(RowShape::on(device));
+    m_result.capacities =
+        usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid, m_row_shape)));
 }
 
 VoxelizeJob OctreeBuilder::voxelizeJob()
@@ -167,7 +169,8 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
     if (!m_coverings)
     {
         m_device.memory().require(coverageBytes(m_result.capacities, scene), "voxelization");
-        m_coverings.emplace(Coverings{{m_device, m_result.capacities, scene}, {m_device, m_result.capacities.bricks}});
+        m_coverings.emplace(Coverings{{m_device, m_result.capacities, scene, m_row_shape, m_options.sum_form},
+                                      {m_device, m_result.capacities.bricks}});
     }
     voxelizeCoverage(graph, voxelizeJob());
     listNodes(graph, m_tile.grid, m_coverings->voxelize, m_coverings->work);

@@ -27,7 +27,9 @@ struct BuildOptions
     Coverage coverage = TreeBuildInfo().coverage;
     bool attributes = true;
     std::optional<VoxelizeCapacities> capacities = std::nullopt; // of the first run; by default, an estimate
-    bool keep_sums = false; // keeps the sums of attributes in DeviceTree::sums: 28 bytes a voxel
+    bool keep_sums = false; // keeps the sums of attributes in DeviceTree::sums: 32 bytes a voxel
+    std::optional<RowShape> row_shape = std::nullopt; // by default, what suits the device
+    std::optional<SumForm> sum_form = std::nullopt;   // likewise
 };
 
 /// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels and the fills of its
@@ -104,6 +106,7 @@ private:
     PosedGpuScene m_scene;
     GridTile m_tile;
     BuildOptions m_options;
+    RowShape m_row_shape;
     std::optional<Coverings> m_coverings;
     std::optional<AttributeBuffers> m_sums;
     std::uint32_t m_emissive_count = 0;

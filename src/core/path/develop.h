@@ -44,6 +44,9 @@ public:
     void develop(vk::FrameGraph& graph, const SampledPicture& picture, TexelFormat texels, const Exposure& exposure,
                  vk::BufferOf<gpu::uint>& image);
 
+    /// [1] the factor of the radiance in the last picture.
+    [[nodiscard]] const vk::BufferOf<float>& exposure() const { return m_exposure; }
+
     /// Device memory of all buffers.
     [[nodiscard]] std::uint64_t bytes() const { return m_brightness.bytes() + m_exposure.bytes(); }
 

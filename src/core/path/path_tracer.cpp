@@ -2,6 +2,7 @@
 #include "core/path/path_tracer.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/tuning.h"
 #include "core/trace/trace_passes.h"
 #include "core/tree/tree_table.h"
 #include "vk/device.h"
@@ -82,9 +83,9 @@ void readRanks(vk::AnyPass& pass, const DeviceTree& tree)
 
 } // namespace
 
-PathForm pathFormOn(std::string_view device_type)
+PathForm pathFormOn(const vk::Device& device)
 {
-    return device_type == "cpu" ? PathForm::Stages : PathForm::OneKernel;
+    return static_cast<PathForm>(tunedValue(device, Tunable::PathForm));
 }
 
 std::uint64_t rayCountOf(std::span<const gpu::DispatchArgs> lists)
@@ -156,7 +157,7 @@ struct PathTracer::Batch
 
 void PathTracer::resize(std::uint32_t width, std::uint32_t height, std::optional<PathForm> asked)
 {
-    const PathForm form = asked.value_or(pathFormOn(m_device.report().type));
+    const PathForm form = asked.value_or(pathFormOn(m_device));
     if (m_pixels == nullptr || m_pixels->width != width || m_pixels->height != height || m_pixels->form != form)
     {
         vk::replace(m_deletion_queue, m_pixels, std::make_unique<Pixels>(m_device, width, height, form));

@@ -39,8 +39,8 @@ enum class PathForm : std::uint8_t
     OneKernel,
 };
 
-/// The form for a device of this DeviceReport::type.
-PathForm pathFormOn(std::string_view device_type);
+/// The form that is chosen for a device: Tunable::PathForm.
+PathForm pathFormOn(const vk::Device& device);
 
 /// Options of a path-traced picture.
 struct PathOptions
@@ -54,8 +54,8 @@ struct PathOptions
     bool roulette = false;        // ends paths early that would bring little light, by chance
     bool reseeds = false;         // has other random numbers whenever it begins anew
     bool features = false;        // sums up what the camera sees, too (PathTracer::guided())
-    TraceStack stack = TraceStack::Registers;
-    std::uint32_t paths_of_thread = 0; // PathForm::OneKernel only; 0: by device and picture
+    std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
+    std::uint32_t paths_of_thread = 0;              // PathForm::OneKernel only; 0: by device and picture
 
     bool operator==(const PathOptions&) const = default;
 };

@@ -8,6 +8,10 @@
 namespace zvo
 {
 
+/// The brightest light from outside of the grid: the square of what 1024 bounces bring, summed over 2^24 samples, is
+/// still a float.
+inline constexpr float kRadianceMax = 1e12F;
+
 /// A picture of linear radiance in the primaries of sRGB.
 struct HdrImage
 {

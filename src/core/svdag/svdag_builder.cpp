@@ -2,6 +2,7 @@
 #include "core/svdag/svdag_builder.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/lanes.h"
 #include "core/tree/tree_limits.h"
 #include "vk/device.h"
 #include "zvo/error.h"
@@ -153,7 +154,9 @@ void orderDepthFirst(vk::FrameGraph& graph, const DeviceTree& octree, ClassBuffe
         const auto [first_node, node_count] = octree.levels[level];
         const bool above_leaves = level + 2 == octree.levels.size();
         const bool packed = isPacked(octree.attributeFormat());
-        vk::Pass pass = graph.addPass(gpu::svdag::DepthFirst{.above_leaves = above_leaves, .packed = packed});
+        const std::uint32_t lanes = lanesOn(graph.device(), node_count);
+        vk::Pass pass =
+            graph.addPass(gpu::svdag::DepthFirst{.above_leaves = above_leaves, .packed = packed, .lanes = lanes});
         gpu::DepthFirstParams params{};
         params.nodes = pass.read(octree.nodes);
         params.classes = pass.read(classes.classes);
@@ -172,7 +175,7 @@ void orderDepthFirst(vk::FrameGraph& graph, const DeviceTree& octree, ClassBuffe
         params.ranks = pass.readWrite(ranks);
         params.first_node = first_node;
         params.node_count = node_count;
-        pass.dispatch(node_count, params);
+        pass.dispatch(std::uint64_t{node_count} * lanes, params);
     }
 }
 

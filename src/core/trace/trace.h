@@ -10,6 +10,7 @@
 #include "zvo/types.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace zvo
 {
@@ -47,7 +48,7 @@ inline constexpr std::uint32_t kOcclusionRaysMax = 64;
 struct TraceOptions
 {
     View view = TraceInfo().view;
-    TraceStack stack = TraceStack::Registers;
+    std::optional<TraceStack> stack = std::nullopt; // not given: Tunable::RayStack
     bool beam = true; // skip what the beam grid shows to be empty; the picture is the same
     bool shadows = TraceInfo().shadows;
     glm::dvec3 to_sun = {TraceInfo().to_sun[0], TraceInfo().to_sun[1], TraceInfo().to_sun[2]};
@@ -69,11 +70,9 @@ struct BeamGrid
     /// same.
     explicit BeamGrid(vk::Device& device, bool for_dag = false);
 
-    vk::BufferOf<uint64_t> occupied; // [kBeamRows]
-    vk::BufferOf<uint64_t> rows;     // [kBeamRows]
-    vk::BufferOf<uint64_t> masks;    // [kBeamMasks]
-    vk::BufferOf<gpu::Node> nodes;   // [kBeamNodes]
-    vk::BufferOf<uint64_t> paths;    // [kPathCells^3], or [kRankTableOverlays + 1]
+    vk::BufferOf<uint64_t> masks;  // [kBeamMasks]
+    vk::BufferOf<gpu::Node> nodes; // [kBeamNodes]
+    vk::BufferOf<uint64_t> paths;  // [kPathCells^3], or [kRankTableOverlays + 1]
 };
 
 /// What the passes for a picture of width x height pixels write. Pixels are stored row by row from the top left.

@@ -4,6 +4,7 @@
 #include "core/trace/trace_passes.h"
 #include "core/trace/trace_ranks.h"
 #include "trace/beam.h"
+#include "vk/device.h"
 
 #include <algorithm>
 #include <numeric>
@@ -22,6 +23,13 @@ bool hasFineBeam(const DeviceTree& tree)
     return tree.grid.nodeLevels() > gpu::kBeamLevels;
 }
 
+// Blocks that a workgroup refines, one after the other. Most have no cells. On software devices workgroups without any
+// work cost as much as others.
+std::uint32_t blocksOn(const vk::Device& device)
+{
+    return device.report().type == "cpu" ? gpu::kBeamBlocksMax : 1;
+}
+
 // A number near the golden section of count that shares no factor with it.
 std::uint32_t coprimeStride(std::uint32_t count)
 {
@@ -36,8 +44,7 @@ std::uint32_t coprimeStride(std::uint32_t count)
 } // namespace
 
 BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
-    : occupied(device, "beam occupied", gpu::kBeamRows), rows(device, "beam rows", gpu::kBeamRows),
-      masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes),
+    : masks(device, "beam masks", gpu::kBeamMasks), nodes(device, "beam nodes", gpu::kBeamNodes),
       paths(device, "paths", for_dag ? std::uint64_t{gpu::kRankTableOverlays} + 1 : kPathCellCount)
 {
 }
@@ -53,31 +60,18 @@ void buildBeam(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam)
     {
         return;
     }
-    const std::uint32_t levels = std::min(tree.grid.nodeLevels(), gpu::kBeamLevels);
-    const std::uint32_t cells = 1U << (2 * levels);
     const std::uint32_t per_word = tree.entriesPerWord();
+    const std::uint32_t levels = std::min(tree.grid.nodeLevels(), gpu::kBeamLevels);
     {
-        vk::Pass pass = graph.addPass(gpu::trace::BeamMark{.entries_per_word = per_word});
-        const gpu::BeamMarkParams params = {pass.read(tree.nodes), pass.write(beam.occupied), levels, cells};
-        pass.dispatch(cells * cells, params);
+        vk::Pass pass = graph.addPass(gpu::trace::BeamNodes{.entries_per_word = per_word, .levels = levels});
+        const gpu::BeamNodesParams params = {pass.read(tree.nodes), pass.write(beam.masks), pass.readWrite(beam.nodes)};
+        pass.dispatch(gpu::kBeamGroup * gpu::kBeamGroup, params);
     }
     {
-        vk::Pass pass = graph.addPass(gpu::trace::BeamDilate{});
-        const gpu::BeamDilateParams params = {pass.read(beam.occupied), pass.write(beam.rows), cells};
-        pass.dispatch(gpu::kBeamRows, params);
-    }
-    for (const bool level2 : {true, false})
-    {
-        vk::Pass pass = graph.addPass(gpu::trace::BeamNodes{.level2 = level2});
-        const gpu::BeamNodesParams params = {pass.read(beam.rows), pass.readWrite(beam.masks),
-                                             pass.readWrite(beam.nodes)};
-        pass.dispatch(gpu::kBeamGroup * (level2 ? gpu::kBeamGroup : 1), params);
-    }
-    if (hasFineBeam(tree))
-    {
-        vk::Pass pass = graph.addPass(gpu::trace::BeamRefine{.entries_per_word = per_word});
+        const std::uint32_t blocks = blocksOn(graph.device());
+        vk::Pass pass = graph.addPass(gpu::trace::BeamRefine{.entries_per_word = per_word, .blocks = blocks});
         const gpu::BeamRefineParams params = {pass.read(tree.nodes), pass.read(beam.masks), pass.readWrite(beam.nodes)};
-        pass.dispatch(gpu::kBeamRows * gpu::kBeamGroup, params);
+        pass.dispatch(gpu::kBeamGroup * (1 + (hasFineBeam(tree) ? gpu::kBeamBlocks / blocks : 0)), params);
     }
     if (hasPaths(tree))
     {

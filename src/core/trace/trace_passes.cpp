@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/trace/trace_passes.h"
 
+#include "core/base/tuning.h"
+
 #include "vk/device.h"
 
 #include <algorithm>
@@ -46,7 +48,8 @@ TraceStack stackOn(std::string_view device_type, TraceStack asked)
 
 TraceStack stackConstant(const vk::Device& device, const TraceOptions& options)
 {
-    return stackOn(device.report().type, options.stack);
+    const auto usual = static_cast<TraceStack>(tunedValue(device, Tunable::RayStack));
+    return stackOn(device.report().type, options.stack.value_or(usual));
 }
 
 AttributeFormat formatToRead(const DeviceTree& tree, const TraceOptions& options)

@@ -19,10 +19,10 @@ constexpr std::uint64_t kRowsMin = 256; // bands, and row blocks
 
 } // namespace
 
-LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& grid)
+LayerCapacities LayerCapacities::estimate(const GpuScene& scene, const Grid& grid, RowShape shape)
 {
     // The table has no inner nodes, and should be no more than half full.
-    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid);
+    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid, shape);
     const auto clamped = [](double value, double low, double high)
     { return static_cast<std::uint64_t>(std::clamp(value, low, high)); };
     LayerCapacities result;
@@ -89,30 +89,19 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
 {
     LayerBuffers& layer = job.layer;
     VoxelizeBuffers& voxelize = layer.voxelize;
-    const auto leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
-    // Where no sums are kept, nothing limits their number.
-    const std::uint32_t voxel_capacity =
-        layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX;
     graph.fill(layer.counters, 0);
-    {
-        vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid)});
-        gpu::LayerLeavesParams params{};
-        params.bricks = pass.readWrite(voxelize.bricks);
-        params.keys = pass.write(layer.keys);
-        params.leaves = pass.write(layer.leaves);
-        params.counters = pass.readWrite(layer.counters);
-        params.brick_capacity = static_cast<std::uint32_t>(voxelize.bricks.count());
-        params.leaf_capacity = leaf_capacity;
-        params.voxel_capacity = voxel_capacity;
-        pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
-    }
-    vk::Pass pass = graph.addPass(gpu::update::LayerCheck{});
-    gpu::LayerCheckParams params{};
+    vk::Pass pass = graph.addPass(gpu::update::LayerLeaves{.wide_keys = hasWideKeys(job.grid)});
+    gpu::LayerLeavesParams params{};
+    params.bricks = pass.readWrite(voxelize.bricks);
+    params.keys = pass.write(layer.keys);
+    params.leaves = pass.write(layer.leaves);
     params.counters = pass.readWrite(layer.counters);
     params.reports = pass.readWrite(job.reports);
     params.brick_counters = pass.read(voxelize.counters);
-    params.leaf_capacity = leaf_capacity;
-    params.voxel_capacity = voxel_capacity;
+    params.brick_capacity = static_cast<std::uint32_t>(voxelize.bricks.count());
+    params.leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
+    // Where no sums are kept, nothing limits their number.
+    params.voxel_capacity = layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX;
     params.report = job.report;
     for (std::uint32_t i = 0; i < gpu::kClassCount; ++i)
     {
@@ -121,7 +110,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
         params.big_capacity = std::max(params.big_capacity, static_cast<std::uint32_t>(rows.big_triangles.count()));
         params.block_capacity = std::max(params.block_capacity, static_cast<std::uint32_t>(rows.row_blocks.count()));
     }
-    pass.dispatch(1, params);
+    pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
 }
 
 // Adds a walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
@@ -147,7 +136,14 @@ void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedSta
             { withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); }); });
         addStage(stages, {fmt::format("{}, large triangles", name), chunk_count},
                  [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
-                 { withWalk([&](const RasterWalk& walk) { walkRows(graph, walk, material_class); }); });
+                 {
+                     withWalk(
+                         [&](const RasterWalk& walk)
+                         {
+                             listRows(graph, walk, material_class);
+                             walkRows(graph, walk, material_class);
+                         });
+                 });
     }
 }
 

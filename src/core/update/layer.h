@@ -23,7 +23,7 @@ struct LayerCapacities
     std::uint64_t voxels = 0;
 
     /// A guess from the mesh's surface area and the grid; it suffices in most cases.
-    static LayerCapacities estimate(const GpuScene& scene, const Grid& grid);
+    static LayerCapacities estimate(const GpuScene& scene, const Grid& grid, RowShape shape);
 
     bool operator==(const LayerCapacities&) const = default;
 };

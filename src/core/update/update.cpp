@@ -2,7 +2,9 @@
 #include "core/update/update.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/lanes.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace zvo
@@ -10,6 +12,23 @@ namespace zvo
 
 namespace
 {
+
+// The most touched nodes of a level, of so many in all. level 0: the root.
+std::uint32_t levelCapacity(std::uint64_t touched, std::uint32_t level)
+{
+    const std::uint64_t cells = level < 5 ? std::uint64_t{1} << (6 * level) : UINT32_MAX;
+    return static_cast<std::uint32_t>(std::min(touched, cells));
+}
+
+std::uint64_t itemCount(std::uint64_t touched, std::uint32_t level_count)
+{
+    std::uint64_t count = 0;
+    for (std::uint32_t level = 0; level < level_count; ++level)
+    {
+        count += levelCapacity(touched, level);
+    }
+    return count;
+}
 
 std::uint32_t partialsPerLevel(const UpdateBuffers& buffers)
 {
@@ -31,6 +50,16 @@ gpu::ConstPtr<gpu::Layer> readLayers(vk::AnyPass& pass, const UpdateJob& job, co
     return pass.read(buffers.layers);
 }
 
+// Ranks in a DAG below overlays, of kernels that write nodes of overlays.
+template <typename Params> void readRanks(vk::AnyPass& pass, DeviceTree& tree, Params& params)
+{
+    if (tree.overlays.hasRanks())
+    {
+        readRankSource(pass, tree, params);
+        params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
+    }
+}
+
 // Records the passes that list the touched leaves and all nodes above them. Returns the number of records.
 void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
@@ -50,51 +79,71 @@ void listTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
         record_count += capacity;
     }
     graph.fill(buffers.counters, 0);
-    graph.fill(buffers.status, 0);
+    graph.fill(buffers.args, 0);
     graph.fill(buffers.bricks, 0);
     graph.fill(buffers.heads, 0);
     graph.fill(buffers.partials, 0);
     graph.update(buffers.layers, 0, layers);
+    gpu::OverlayState state{};
+    state.args = {buffers.args.address()};
+    state.level_count = job.tree.grid.nodeLevels();
+    state.node_capacity = job.region.node_capacity;
+    state.voxel_capacity = job.region.voxel_capacity;
+    state.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
+    graph.update(buffers.state, 0, std::span(&state, 1));
+    std::vector<gpu::LevelRange> ranges;
+    std::uint32_t first_item = 0;
+    for (std::uint32_t height = 0; height < state.level_count; ++height)
+    {
+        ranges.push_back({first_item, 0});
+        first_item += levelCapacity(buffers.bricks.count(), state.level_count - 1 - height);
+    }
+    graph.update(buffers.ranges, 0, ranges);
     vk::Pass pass = graph.addPass(gpu::update::Insert{.wide_keys = hasWideKeys(job.tree.grid)});
     gpu::InsertParams params{};
     params.layers = readLayers(pass, job, buffers);
     params.bricks = pass.readWrite(buffers.bricks);
     params.heads = pass.readWrite(buffers.heads);
     params.links = pass.write(buffers.links);
-    params.items = pass.write(buffers.work.items);
+    params.items = pass.write(buffers.items);
     params.counters = pass.readWrite(buffers.counters);
-    params.status = pass.readWrite(buffers.status);
+    params.state = pass.readWrite(buffers.state);
+    params.ranges = pass.readWrite(buffers.ranges);
+    params.args = pass.write(buffers.level_args);
     params.layer_count = static_cast<std::uint32_t>(layers.size());
     params.record_count = record_count;
     params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
+    params.level_count = state.level_count;
+    params.max_groups_x = state.max_groups_x;
     pass.dispatch(record_count, params);
-    listAncestors(graph, job.tree.grid, buffers.bricks, buffers.counters, buffers.work);
 }
 
-void mergeRoots(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+// Merges the roots, and writes the levels of few nodes below them.
+void expandTop(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
 {
-    const bool attributes = job.tree.node_attributes.count() != 0;
-    vk::Pass pass = graph.addPass(gpu::update::Root{.attributes = attributes, .ranks = job.tree.overlays.hasRanks()});
-    gpu::RootParams params{};
+    DeviceTree& tree = job.tree;
+    vk::Pass pass = graph.addPass(gpu::update::Top{.wide_keys = hasWideKeys(tree.grid),
+                                                   .attributes = tree.node_attributes.count() != 0,
+                                                   .entries_per_word = tree.entriesPerWord()});
+    gpu::TopParams params{};
     params.bricks = pass.read(buffers.bricks);
-    params.items = pass.read(buffers.work.items);
-    params.ranges = pass.read(buffers.work.ranges);
+    params.items = pass.read(buffers.items);
+    params.ranges = pass.read(buffers.ranges);
     params.counters = pass.read(buffers.counters);
-    params.touched = pass.write(buffers.touched);
-    params.nodes = pass.readWrite(job.tree.nodes);
-    params.node_attributes = pass.readWrite(job.tree.node_attributes);
-    params.ranks = {pass.readWrite(job.tree.overlays.ranks).address - job.tree.overlays.ranksSkipped()};
-    params.levels = pass.write(buffers.levels);
-    params.args = pass.write(buffers.args);
-    params.status = pass.readWrite(buffers.status);
-    params.level_count = job.tree.grid.nodeLevels();
+    params.touched = pass.readWrite(buffers.touched);
+    params.nodes = pass.readWrite(tree.nodes);
+    params.node_attributes = pass.readWrite(tree.node_attributes);
+    params.counts = pass.readWrite(buffers.counts);
+    params.state = pass.readWrite(buffers.state);
+    pass.write(buffers.args);
+    readRanks(pass, tree, params);
+    params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
     params.base_root = job.base_root;
     params.first_node = job.region.first_node;
-    params.node_capacity = job.region.node_capacity;
     params.first_voxel = job.region.first_voxel;
-    params.voxel_capacity = job.region.voxel_capacity;
-    params.attribute_offset = job.tree.attributeOffset();
-    pass.dispatch(1, params);
+    params.attribute_offset = tree.attributeOffset();
+    params.static_root = tree.overlays.static_root;
+    pass.dispatch(gpu::kRootGroup, params);
 }
 
 // The first element of a level's part of UpdateBuffers::partials.
@@ -103,57 +152,33 @@ std::uint32_t firstPartial(const UpdateBuffers& buffers, std::uint32_t level)
     return level * partialsPerLevel(buffers);
 }
 
-// Writes the nodes of a level, without the child bases of the touched ones.
+// Writes the nodes of a level, without the child bases of the touched ones, and sizes the next level.
 void writeNodes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
 {
     DeviceTree& tree = job.tree;
-    const std::uint32_t level_count = tree.grid.nodeLevels();
     vk::Pass pass = graph.addPass(gpu::update::Expand{.wide_keys = hasWideKeys(tree.grid),
                                                       .attributes = tree.node_attributes.count() != 0,
                                                       .entries_per_word = tree.entriesPerWord(),
-                                                      .leaves = tree.isDag() && level + 1 == level_count});
+                                                      .leaves = tree.isDag() && level + 1 == tree.grid.nodeLevels()});
     gpu::ExpandParams params{};
     params.bricks = pass.read(buffers.bricks);
-    params.items = pass.read(buffers.work.items);
-    params.ranges = pass.read(buffers.work.ranges);
+    params.items = pass.read(buffers.items);
+    params.ranges = pass.read(buffers.ranges);
     params.touched = pass.readWrite(buffers.touched);
     params.nodes = pass.readWrite(tree.nodes);
     params.node_attributes = pass.readWrite(tree.node_attributes);
     params.counts = pass.write(buffers.counts);
     params.partials = pass.readWrite(buffers.partials);
-    params.levels = pass.read(buffers.levels);
-    if (tree.overlays.hasRanks())
-    {
-        readRankSource(pass, tree, params);
-        params.ranks = {pass.readWrite(tree.overlays.ranks).address - tree.overlays.ranksSkipped()};
-    }
+    params.state = pass.readWrite(buffers.state);
+    pass.write(buffers.args);
+    readRanks(pass, tree, params);
     params.brick_mask = static_cast<std::uint32_t>(buffers.bricks.count() - 1);
     params.level = level;
-    params.item_range = level_count - level;
     params.first_node = job.region.first_node;
     params.first_partial = firstPartial(buffers, level);
     params.attribute_offset = tree.attributeOffset();
     params.static_root = tree.overlays.static_root;
     pass.dispatchIndirect(buffers.args, gpu::kArgsExpand, params, buffers.bricks.count());
-}
-
-// Sums up the counts of a level's children; checks whether the next level has room, and sizes its passes.
-void scanCounts(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
-{
-    vk::Pass pass = graph.addPass(gpu::update::Scan{});
-    gpu::OverlayScanParams params{};
-    params.partials = pass.readWrite(buffers.partials);
-    params.levels = pass.readWrite(buffers.levels);
-    params.ranges = pass.read(buffers.work.ranges);
-    params.args = pass.write(buffers.args);
-    params.status = pass.readWrite(buffers.status);
-    params.level = level;
-    params.level_count = job.tree.grid.nodeLevels();
-    params.node_capacity = job.region.node_capacity;
-    params.voxel_capacity = job.region.voxel_capacity;
-    params.first_partial = firstPartial(buffers, level);
-    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
-    pass.dispatch(gpu::kScanGroup, params);
 }
 
 // Gives the touched nodes of a level their child bases.
@@ -164,21 +189,12 @@ void assignBases(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.nodes = pass.readWrite(job.tree.nodes);
     params.counts = pass.read(buffers.counts);
     params.partials = pass.read(buffers.partials);
-    params.levels = pass.read(buffers.levels);
+    params.state = pass.read(buffers.state);
     params.level = level;
-    params.level_count = job.tree.grid.nodeLevels();
     params.first_node = job.region.first_node;
     params.first_voxel = job.region.first_voxel;
     params.first_partial = firstPartial(buffers, level);
     pass.dispatchIndirect(buffers.args, gpu::kArgsAssign, params, partialsPerLevel(buffers));
-}
-
-// Writes the nodes of one level (not the root) and gives the touched ones their child bases.
-void expandLevel(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers, std::uint32_t level)
-{
-    writeNodes(graph, job, buffers, level);
-    scanCounts(graph, job, buffers, level);
-    assignBases(graph, job, buffers, level);
 }
 
 // Parameters of update/merge or update/merge_emission.
@@ -191,8 +207,8 @@ template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const Update
     pass.read(job.tables);
     pass.read(job.tree.sums.sums);
     pass.read(job.tree.sums.emission_sums);
-    params.items = pass.read(buffers.work.items);
-    params.ranges = pass.read(buffers.work.ranges);
+    params.items = pass.read(buffers.items);
+    params.ranges = pass.read(buffers.ranges);
     params.touched = pass.read(buffers.touched);
     params.heads = pass.read(buffers.heads);
     params.links = pass.read(buffers.links);
@@ -202,9 +218,51 @@ template <typename Kernel> void addMergePass(vk::FrameGraph& graph, const Update
     params.attributes = pass.readWrite(job.tree.voxel_attributes);
     params.emission_words = pass.readWrite(job.tree.emission_words);
     params.emission = pass.readWrite(job.tree.emission);
-    params.status = pass.readWrite(buffers.status);
+    params.state = pass.readWrite(buffers.state);
     params.sum_shift = job.sum_shift;
     pass.dispatchIndirect(buffers.args, gpu::kArgsMerge, params, buffers.bricks.count());
+}
+
+// Averages the touched nodes, from the leaves up.
+void averageTouched(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
+{
+    const std::uint32_t lanes = lanesOn(graph.device());
+    const std::uint32_t level_count = job.tree.grid.nodeLevels();
+    std::uint32_t height = 0;
+    for (; height + gpu::kRootLevels < level_count; ++height)
+    {
+        vk::Pass pass = graph.addPass(gpu::update::Average{.lanes = lanes, .local_size_x = gpu::kNodesGroup * lanes});
+        gpu::OverlayAverageParams params{};
+        params.scene = pass.read(job.tables);
+        params.items = pass.read(buffers.items);
+        params.ranges = pass.read(buffers.ranges);
+        params.touched = pass.read(buffers.touched);
+        params.nodes = pass.read(job.tree.nodes);
+        params.children = height == 0 ? pass.read(job.tree.voxel_attributes) : pass.read(job.tree.node_attributes);
+        params.averages = pass.readWrite(job.tree.node_attributes);
+        params.state = pass.read(buffers.state);
+        params.item_range = height;
+        params.children_offset = height == 0 ? 0 : job.tree.attributeOffset();
+        params.attribute_offset = job.tree.attributeOffset();
+        pass.dispatchIndirect(buffers.level_args, height, params, divideUp(buffers.bricks.count(), gpu::kNodesGroup));
+    }
+    const bool are_leaves = height == 0;
+    const std::uint32_t threads = loneGroupOn(graph.device());
+    vk::Pass pass = graph.addPass(gpu::update::AverageTop{.lanes = lanes, .local_size_x = threads});
+    gpu::OverlayAverageTopParams params{};
+    params.scene = pass.read(job.tables);
+    params.items = pass.read(buffers.items);
+    params.ranges = pass.read(buffers.ranges);
+    params.touched = pass.read(buffers.touched);
+    params.nodes = pass.read(job.tree.nodes);
+    params.averages = pass.readWrite(job.tree.node_attributes);
+    params.lowest_children =
+        are_leaves ? pass.read(job.tree.voxel_attributes) : gpu::ConstPtr<gpu::Attribute>{params.averages.address};
+    params.state = pass.read(buffers.state);
+    params.level_count = level_count;
+    params.lowest_offset = are_leaves ? 0 : job.tree.attributeOffset();
+    params.attribute_offset = job.tree.attributeOffset();
+    pass.dispatch(threads, params);
 }
 
 void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buffers)
@@ -225,24 +283,9 @@ void mergeAttributes(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers&
     {
         addMergePass<gpu::update::MergeEmission>(graph, job, buffers);
     }
-    for (std::uint32_t height = 0; height < job.tree.grid.nodeLevels() && job.tree.node_attributes.count() != 0;
-         ++height)
+    if (job.tree.node_attributes.count() != 0)
     {
-        vk::Pass pass = graph.addPass(gpu::update::Average{});
-        gpu::OverlayAverageParams params{};
-        params.scene = pass.read(job.tables);
-        params.items = pass.read(buffers.work.items);
-        params.ranges = pass.read(buffers.work.ranges);
-        params.touched = pass.read(buffers.touched);
-        params.nodes = pass.read(job.tree.nodes);
-        params.children = height == 0 ? pass.read(job.tree.voxel_attributes) : pass.read(job.tree.node_attributes);
-        params.averages = pass.readWrite(job.tree.node_attributes);
-        params.status = pass.read(buffers.status);
-        params.item_range = height;
-        params.children_offset = height == 0 ? 0 : job.tree.attributeOffset();
-        params.attribute_offset = job.tree.attributeOffset();
-        pass.dispatchIndirect(buffers.work.args, height, params,
-                              divideUp(buffers.work.items.count(), gpu::kNodesGroup));
+        averageTouched(graph, job, buffers);
     }
 }
 
@@ -255,7 +298,7 @@ void showOverlay(vk::FrameGraph& graph, const UpdateJob& job, UpdateBuffers& buf
     params.nodes = pass.readWrite(job.tree.nodes);
     params.node_attributes = pass.readWrite(job.tree.node_attributes);
     params.counters = pass.read(buffers.counters);
-    params.status = pass.read(buffers.status);
+    params.state = pass.read(buffers.state);
     params.results = pass.readWrite(job.results);
     params.roots = pass.readWrite(job.roots);
     params.root = job.region.first_node;
@@ -271,17 +314,19 @@ UpdateBuffers::UpdateBuffers(vk::Device& device, const UpdateCapacities& capacit
     : layers(device, "update/layers", gpu::kLayersMax), links(device, "update/links", capacities.records),
       bricks(device, "update/bricks", capacities.touched), counters(device, "update/brick_counters", 1),
       heads(device, "update/heads", capacities.touched), touched(device, "update/touched", capacities.touched),
-      work(device, capacities.touched), levels(device, "update/levels", gpu::kNodeLevelsMax),
+      items(device, "update/items", itemCount(capacities.touched, grid.nodeLevels())),
+      ranges(device, "update/ranges", gpu::kNodeLevelsMax),
+      level_args(device, "update/level_args", gpu::kNodeLevelsMax),
       counts(device, "update/counts", capacities.overlay_nodes),
       partials(device, "update/partials", grid.nodeLevels() * divideUp(capacities.overlay_nodes, gpu::kScanBlock)),
-      args(device, "update/args", gpu::kArgsCount), status(device, "update/status", 1)
+      args(device, "update/args", gpu::kArgsCount), state(device, "update/state", 1)
 {
 }
 
-std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities)
+std::uint64_t UpdateBuffers::bytes(const UpdateCapacities& capacities, const Grid& grid)
 {
-    return capacities.touched *
-               (sizeof(gpu::BrickEntry) + sizeof(gpu::uint) + sizeof(gpu::TouchedNode) + sizeof(gpu::WorkItem)) +
+    return capacities.touched * (sizeof(gpu::BrickEntry) + sizeof(gpu::uint) + sizeof(gpu::TouchedNode)) +
+           itemCount(capacities.touched, grid.nodeLevels()) * sizeof(gpu::WorkItem) +
            capacities.records * sizeof(gpu::LayerLink) + capacities.overlay_nodes * sizeof(gpu::uint);
 }
 
@@ -297,12 +342,16 @@ void addMergeStages(const UpdateJob& job, UpdateBuffers& buffers, RecordedStages
         [&job, &buffers](vk::FrameGraph& graph)
         {
             listTouched(graph, job, buffers);
-            mergeRoots(graph, job, buffers);
+            expandTop(graph, job, buffers);
         });
-    for (std::uint32_t level = 1; level < job.tree.grid.nodeLevels(); ++level)
+    for (std::uint32_t level = gpu::kRootLevels; level < job.tree.grid.nodeLevels(); ++level)
     {
         add("copy and merge a level",
-            [&job, &buffers, level](vk::FrameGraph& graph) { expandLevel(graph, job, buffers, level); });
+            [&job, &buffers, level](vk::FrameGraph& graph)
+            {
+                writeNodes(graph, job, buffers, level);
+                assignBases(graph, job, buffers, level);
+            });
     }
     if (job.tree.hasAttributes())
     {

@@ -31,20 +31,21 @@ struct UpdateBuffers
     UpdateBuffers(vk::Device& device, const UpdateCapacities& capacities, const Grid& grid);
 
     /// Bytes of device memory that such buffers take, without a few small ones.
-    static std::uint64_t bytes(const UpdateCapacities& capacities);
+    static std::uint64_t bytes(const UpdateCapacities& capacities, const Grid& grid);
 
-    vk::BufferOf<gpu::Layer> layers;           // [kLayersMax]
-    vk::BufferOf<gpu::LayerLink> links;        // [capacities.records]
-    vk::BufferOf<gpu::BrickEntry> bricks;      // [capacities.touched]
-    vk::BufferOf<gpu::BrickCounters> counters; // [1]
-    vk::BufferOf<gpu::uint> heads;             // [capacities.touched]
-    vk::BufferOf<gpu::TouchedNode> touched;    // [capacities.touched]
-    OctreeBuildBuffers work;                   // lists of touched nodes, leaves first
-    vk::BufferOf<gpu::OverlayLevel> levels;    // [kNodeLevelsMax]
-    vk::BufferOf<gpu::uint> counts;            // [capacities.overlay_nodes] children of the overlay's nodes
-    vk::BufferOf<gpu::uint> partials;          // for each level, the sums of kScanBlock counts each
-    vk::BufferOf<gpu::DispatchArgs> args;      // [kArgsCount]
-    vk::BufferOf<gpu::UpdateStatus> status;    // [1]
+    vk::BufferOf<gpu::Layer> layers;            // [kLayersMax]
+    vk::BufferOf<gpu::LayerLink> links;         // [capacities.records]
+    vk::BufferOf<gpu::BrickEntry> bricks;       // [capacities.touched]
+    vk::BufferOf<gpu::BrickCounters> counters;  // [1]
+    vk::BufferOf<gpu::uint> heads;              // [capacities.touched]
+    vk::BufferOf<gpu::TouchedNode> touched;     // [capacities.touched]
+    vk::BufferOf<gpu::WorkItem> items;          // the touched nodes of each level, leaves first
+    vk::BufferOf<gpu::LevelRange> ranges;       // [kNodeLevelsMax] the items of each level, leaves first
+    vk::BufferOf<gpu::DispatchArgs> level_args; // [kNodeLevelsMax] likewise: one thread an item
+    vk::BufferOf<gpu::uint> counts;             // [capacities.overlay_nodes] children of the overlay's nodes
+    vk::BufferOf<gpu::uint> partials;           // for each level, the sums of kScanBlock counts each
+    vk::BufferOf<gpu::DispatchArgs> args;       // [kArgsCount]
+    vk::BufferOf<gpu::OverlayState> state;      // [1]
 };
 
 /// The node of a root. The host knows it or, while it does not know yet how an update has ended, the device does, in an

@@ -2,12 +2,14 @@
 #include "core/voxelize/voxelize.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/tuning.h"
 #include "core/tree/device_tree.h"
 #include "octree/octree.h"
 #include "voxelize/window.h"
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 namespace zvo
@@ -17,18 +19,18 @@ static_assert(static_cast<gpu::uint>(Coverage::Conservative) == gpu::kCoverageCo
 static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
 static_assert(Grid::kDepthMax < 1U << gpu::kWindowDepthBits);
 static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
+static_assert(sizeof(gpu::VoxelSums) == gpu::kVoxelSumsBytes);
 
 namespace
 {
 
+constexpr std::string_view kInt64Atomics = "shaderBufferInt64Atomics";
 constexpr std::uint64_t kBricksMin = 4096;
 constexpr std::uint64_t kBricksGuessMax = 1 << 24; // the area may lie outside of the grid, for the most part
 constexpr std::uint64_t kBigTrianglesMin = 1 << 12;
 constexpr std::uint64_t kBigTrianglesGuessMax = 1 << 20;
 constexpr std::uint64_t kRowBlocksMin = 1 << 16;
 constexpr std::uint64_t kRowBlocksGuessMax = 1 << 23;
-constexpr std::uint64_t kBandArgs = 0; // elements of VoxelizeBuffers::RowWork::args
-constexpr std::uint64_t kRowArgs = 1;
 
 std::uint64_t clampedCount(double value, std::uint64_t low, std::uint64_t high)
 {
@@ -41,17 +43,23 @@ template <typename T> gpu::Ptr<T> access(vk::AnyPass& pass, vk::BufferOf<T>& buf
     return writes ? pass.readWrite(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
 }
 
+// The same for what threads add up by atomics, whatever class of triangles they walk.
+template <typename T> gpu::Ptr<T> accumulation(vk::AnyPass& pass, vk::BufferOf<T>& buffer, bool writes)
+{
+    return writes ? pass.accumulate(buffer) : gpu::Ptr<T>{pass.read(buffer).address};
+}
+
 gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, MaterialClass material_class)
 {
     const bool covers = walk.mode == RasterMode::Coverage; // lists and table are made then, and only read afterwards
     VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
     gpu::RasterParams params{};
     params.scene = walk.job.scene.read(pass);
-    params.bricks = access(pass, walk.job.buffers.bricks, covers);
+    params.bricks = accumulation(pass, walk.job.buffers.bricks, covers);
     params.big_triangles = access(pass, rows.big_triangles, covers);
     params.row_blocks = access(pass, rows.row_blocks, covers);
     params.counters = access(pass, rows.counters, covers);
-    params.brick_counters = access(pass, walk.job.buffers.counters, covers);
+    params.brick_counters = accumulation(pass, walk.job.buffers.counters, covers);
     params.origin = walk.job.tile.grid.origin;
     params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.job.tile.grid.voxel_size));
     params.window = gpu::packWindow(walk.job.tile.grid.depth, walk.job.tile.depth, walk.job.tile.index);
@@ -62,45 +70,62 @@ gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, Materi
     {
         const bool emits = walk.mode == RasterMode::Emission;
         params.nodes = pass.read(walk.sums->leaves);
-        params.sums = access(pass, walk.sums->sums, !emits);
-        params.emission_words = access(pass, walk.sums->emission_words, !emits);
-        params.emission_sums = access(pass, walk.sums->emission_sums, emits);
+        params.sums = accumulation(pass, walk.sums->sums, !emits);
+        params.emission_words = accumulation(pass, walk.sums->emission_words, !emits);
+        params.emission_sums = accumulation(pass, walk.sums->emission_sums, emits);
         params.sum_shift = walk.sums->sum_shift;
     }
     return params;
-}
-
-// Sets the number of workgroups for the bands and row blocks that have been listed so far.
-void sizeRowWork(vk::FrameGraph& graph, VoxelizeBuffers::RowWork& rows)
-{
-    vk::Pass pass = graph.addPass(gpu::voxelize::RowArgs{});
-    gpu::RowArgsParams params{};
-    params.counters = pass.read(rows.counters);
-    params.args = pass.write(rows.args);
-    params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
-    params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
-    params.max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
-    pass.dispatch(1, params);
 }
 
 // The variant of a raster kernel for a walk over a material class.
 template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, MaterialClass material_class)
 {
     const bool emits = walk.mode != RasterMode::Coverage && walk.sums->emission_words.count() != 0;
-    Kernel kernel{.coverage = walk.job.coverage, .mode = walk.mode, .material_class = material_class, .emits = emits};
+    const RowShape shape = walk.job.buffers.shape;
+    Kernel kernel{.coverage = walk.job.coverage,
+                  .mode = walk.mode,
+                  .material_class = material_class,
+                  .emits = emits,
+                  .block_columns = shape.block_columns,
+                  .strip_lanes = shape.strip_lanes};
     if constexpr (requires { kernel.wide_keys; })
     {
         kernel.wide_keys = hasWideKeys(walk.job.tile.grid);
     }
+    if constexpr (requires { kernel.shares_sums; })
+    {
+        kernel.shares_sums = walk.mode == RasterMode::Attributes && walk.job.buffers.sum_form.shared;
+    }
     return kernel;
 }
 
+// Calls record with the variant of a raster kernel for a walk, or of its form for devices with 64-bit atomics.
+template <typename Kernel, typename Int64Kernel, typename Record>
+void recordRaster(const RasterWalk& walk, MaterialClass material_class, const Record& record)
+{
+    if (walk.mode == RasterMode::Attributes && walk.job.buffers.sum_form.int64)
+    {
+        record(rasterKernel<Int64Kernel>(walk, material_class));
+        return;
+    }
+    record(rasterKernel<Kernel>(walk, material_class));
+}
+
 // Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
+// Passes of different classes need no barriers between them.
 void walkAll(vk::FrameGraph& graph, const RasterWalk& walk)
 {
     for (const MaterialClass material_class : kMaterialClasses)
     {
         walkTriangles(graph, walk, material_class, 0, walk.job.scene.uploaded().chunksOf(material_class).count());
+    }
+    for (const MaterialClass material_class : kMaterialClasses)
+    {
+        listRows(graph, walk, material_class);
+    }
+    for (const MaterialClass material_class : kMaterialClasses)
+    {
         walkRows(graph, walk, material_class);
     }
 }
@@ -134,7 +159,19 @@ AttributeSums sumsOf(AttributeBuffers& attributes, DeviceTree& octree)
 
 } // namespace
 
-VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid)
+RowShape RowShape::on(const vk::Device& device)
+{
+    const std::uint32_t columns = tunedValue(device, Tunable::RowColumns);
+    return {columns, std::max(tunedValue(device, Tunable::BandLanes), kProductMin / columns)};
+}
+
+SumForm SumForm::on(const vk::Device& device)
+{
+    return {.int64 = device.isEnabled(kInt64Atomics) && tunedValue(device, Tunable::AtomicBits) == 64,
+            .shared = tunedValue(device, Tunable::SharedSums) != 0};
+}
+
+VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid, RowShape shape)
 {
     const double voxel = grid.voxel_size;
     const double area = scene.surface_area / (voxel * voxel);
@@ -144,14 +181,14 @@ VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid)
     // A big triangle covers some 16 voxels or more, and has as many rows as a square of its bounding box' area.
     result.big_triangles = std::min(static_cast<double>(scene.triangle_count), area / 16);
     const double strips = result.big_triangles + std::sqrt(result.big_triangles * 2 * area) / gpu::kBlockRows;
-    result.row_blocks = strips + 2 * area / (gpu::kBlockRows * gpu::kBlockColumns);
+    result.row_blocks = strips + 2 * area / (gpu::kBlockRows * shape.block_columns);
     return result;
 }
 
-VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid)
+VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Grid& grid, RowShape shape)
 {
     // An inner node stands above every eight leaves or so. The table should be no more than half full.
-    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid);
+    const VoxelizeEstimate likely = VoxelizeEstimate::of(scene, grid, shape);
     VoxelizeCapacities result;
     result.bricks = std::bit_ceil(clampedCount(likely.leaves * 1.15 * 2, kBricksMin, kBricksGuessMax));
     result.big_triangles = clampedCount(likely.big_triangles * 1.5, kBigTrianglesMin, kBigTrianglesGuessMax);
@@ -159,9 +196,16 @@ VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Gri
     return result;
 }
 
-VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene)
-    : bricks(device, "voxelize/bricks", capacities.bricks), counters(device, "voxelize/brick_counters", 1)
+VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
+                                 std::optional<RowShape> asked, std::optional<SumForm> asked_form)
+    : bricks(device, "voxelize/bricks", capacities.bricks), counters(device, "voxelize/brick_counters", 1),
+      shape(asked.value_or(RowShape::on(device))), sum_form(asked_form.value_or(SumForm::on(device)))
 {
+    assert(!sum_form.int64 || device.isEnabled(kInt64Atomics));
+    assert(std::has_single_bit(shape.block_columns) && shape.block_columns >= 4);
+    assert(shape.block_columns <= RowShape::kBlockColumnsMax);
+    assert(std::has_single_bit(shape.strip_lanes) && shape.strip_lanes <= gpu::kBandsGroup);
+    assert(shape.block_columns * shape.strip_lanes >= RowShape::kProductMin);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
         if (scene.chunks[i].count() != 0)
@@ -169,7 +213,6 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
             rows[i].big_triangles = {device, "voxelize/big_triangles", capacities.big_triangles};
             rows[i].row_blocks = {device, "voxelize/row_blocks", capacities.row_blocks};
             rows[i].counters = {device, "voxelize/raster_counters", 1};
-            rows[i].args = {device, "voxelize/row_args", 2};
         }
     }
 }
@@ -205,12 +248,28 @@ void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass 
     {
         return;
     }
-    vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Triangles>(walk, material_class));
-    gpu::RasterParams params = rasterParams(pass, walk, material_class);
-    params.chunks = pass.read(walk.job.scene.uploaded().chunksOf(material_class));
-    params.chunks.address += first_chunk * sizeof(gpu::Chunk);
-    params.chunk_count = static_cast<std::uint32_t>(chunk_count);
-    pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
+    const auto record = [&](const auto& kernel)
+    {
+        vk::Pass pass = graph.addPass(kernel);
+        gpu::RasterParams params = rasterParams(pass, walk, material_class);
+        params.chunks = pass.read(walk.job.scene.uploaded().chunksOf(material_class));
+        params.chunks.address += first_chunk * sizeof(gpu::Chunk);
+        params.chunk_count = static_cast<std::uint32_t>(chunk_count);
+        pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
+    };
+    recordRaster<gpu::voxelize::Triangles, gpu::voxelize::TrianglesInt64>(walk, material_class, record);
+}
+
+void listRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
+{
+    if (walk.mode != RasterMode::Coverage || walk.job.scene.uploaded().chunksOf(material_class).count() == 0)
+    {
+        return;
+    }
+    VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
+    vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Bands>(walk, material_class));
+    pass.dispatchIndirect(rows.counters, &gpu::RasterCounters::bands, rasterParams(pass, walk, material_class),
+                          divideUp(rows.big_triangles.count() * walk.job.buffers.shape.strip_lanes, gpu::kBandsGroup));
 }
 
 void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
@@ -220,17 +279,13 @@ void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass mater
         return;
     }
     VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
-    if (walk.mode == RasterMode::Coverage)
+    const auto record = [&](const auto& kernel)
     {
-        sizeRowWork(graph, rows);
-        vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Bands>(walk, material_class));
-        pass.dispatchIndirect(rows.args, kBandArgs, rasterParams(pass, walk, material_class),
-                              divideUp(rows.big_triangles.count(), gpu::kBandsGroup));
-        sizeRowWork(graph, rows);
-    }
-    vk::Pass pass = graph.addPass(rasterKernel<gpu::voxelize::Rows>(walk, material_class));
-    pass.dispatchIndirect(rows.args, kRowArgs, rasterParams(pass, walk, material_class),
-                          divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
+        vk::Pass pass = graph.addPass(kernel);
+        pass.dispatchIndirect(rows.counters, &gpu::RasterCounters::rows, rasterParams(pass, walk, material_class),
+                              divideUp(rows.row_blocks.count() * gpu::kBlockRows, gpu::kRowsGroup));
+    };
+    recordRaster<gpu::voxelize::Rows, gpu::voxelize::RowsInt64>(walk, material_class, record);
 }
 
 void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)

@@ -12,6 +12,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace zvo
 {
@@ -22,10 +24,38 @@ inline bool hasWideKeys(const Grid& grid)
     return grid.nodeLevels() > gpu::kNarrowLevelsMax;
 }
 
+/// How the work of big triangles is divided among threads. The voxels and their attributes do not depend on it. Devices
+/// that do not skip branches want few threads, which share what they compute of a triangle; GPUs want short ones.
+struct RowShape
+{
+    std::uint32_t block_columns = 256; // columns of a row block, a power of two from 4 to kBlockColumnsMax
+    std::uint32_t strip_lanes = 1;     // threads that share a band of strips, a power of two up to gpu::kBandsGroup
+
+    static constexpr std::uint32_t kBlockColumnsMax = 1024;
+    static constexpr std::uint32_t kProductMin = 256; // of both: a thread lists at most 2^15 blocks of a band
+
+    /// What is chosen for the device: Tunable::RowColumns, and Tunable::BandLanes, or as many threads as that needs.
+    static RowShape on(const vk::Device& device);
+
+    bool operator==(const RowShape&) const = default;
+};
+
+/// How fragments are added to the sums of their voxels. The sums do not depend on it.
+struct SumForm
+{
+    bool int64 = false;  // two words by one atomic; takes shaderBufferInt64Atomics
+    bool shared = false; // those of small triangles in shared memory first, a workgroup's sums in the end
+
+    /// What suits a device.
+    static SumForm on(const vk::Device& device);
+
+    bool operator==(const SumForm&) const = default;
+};
+
 /// The expected numbers for voxelizing a scene, from its surface area. They are neither rounded nor bounded.
 struct VoxelizeEstimate
 {
-    static VoxelizeEstimate of(const GpuScene& scene, const Grid& grid);
+    static VoxelizeEstimate of(const GpuScene& scene, const Grid& grid, RowShape shape);
 
     double leaves = 0;        // of the octree, at most as many as the grid has
     double big_triangles = 0; // bands of big triangles
@@ -43,7 +73,7 @@ struct VoxelizeCapacities
     static constexpr std::uint64_t kBricksMax = 1ULL << 31;
 
     /// A guess from the scene's surface area and the grid; it suffices in most cases.
-    static VoxelizeCapacities estimate(const GpuScene& scene, const Grid& grid);
+    static VoxelizeCapacities estimate(const GpuScene& scene, const Grid& grid, RowShape shape);
 
     bool operator==(const VoxelizeCapacities&) const = default;
 };
@@ -58,16 +88,20 @@ struct VoxelizeBuffers
         vk::BufferOf<gpu::BigTriangle> big_triangles; // [capacities.big_triangles]
         vk::BufferOf<gpu::RowBlock> row_blocks;       // [capacities.row_blocks]
         vk::BufferOf<gpu::RasterCounters> counters;   // [1]
-        vk::BufferOf<gpu::DispatchArgs> args;         // [2] of voxelize/bands, voxelize/rows
     };
 
-    VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene);
+    /// shape: of the row blocks that all walks with these buffers list and use; sum_form: of their sums. By default,
+    /// what suits the device.
+    VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
+                    std::optional<RowShape> shape = std::nullopt, std::optional<SumForm> sum_form = std::nullopt);
 
     RowWork& rowsOf(MaterialClass material_class) { return rows[static_cast<std::size_t>(material_class)]; }
 
     vk::BufferOf<gpu::BrickEntry> bricks;       // [capacities.bricks]
     vk::BufferOf<gpu::BrickCounters> counters;  // [1]
     std::array<RowWork, gpu::kClassCount> rows; // of each MaterialClass; empty for those that the scene does not have
+    RowShape shape;
+    SumForm sum_form;
 };
 
 /// The buffers for averaging attributes: sums over the fragments of each voxel, and the numbering of emissive voxels.
@@ -130,7 +164,11 @@ struct RasterWalk
 void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
                    std::uint64_t first_chunk, std::uint64_t chunk_count);
 
-/// Records the passes that do the same for the big triangles of a material class. To be recorded after all its chunks.
+/// Records the pass that lists the rows of a material class' big triangles; in coverage mode only, as later modes find
+/// them listed. To be recorded after all its chunks.
+void listRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class);
+
+/// Records the pass that does for these rows what walkTriangles() does for small triangles.
 void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class);
 
 /// Records the passes that clear all buffers, before a walk in coverage mode.

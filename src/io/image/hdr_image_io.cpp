@@ -33,7 +33,6 @@ namespace
 {
 
 constexpr std::array<std::uint8_t, 4> kExrMagic = {0x76, 0x2F, 0x31, 0x01};
-constexpr float kHalfMax = 65504.0F;
 constexpr int kChannels = 3;
 
 Error hdrError(const std::string& where, const std::string& what)
@@ -336,25 +335,31 @@ HdrImage decodeExr(std::span<const std::uint8_t> encoded, const std::string& whe
 }
 
 // Replaces what no light can be.
-void repair(HdrImage& image, bool is_exr, const std::string& where, std::vector<std::string>& warnings)
+void repair(HdrImage& image, const std::string& where, std::vector<std::string>& warnings)
 {
-    std::uint64_t repaired = 0;
+    std::uint64_t dark = 0; // texels with values that are less than any light, or no number
+    std::uint64_t bright = 0;
     for (glm::vec3& texel : image.texels)
     {
-        const glm::vec3 before = texel;
+        const bool is_light = texel.x >= 0.0F && texel.y >= 0.0F && texel.z >= 0.0F; // false for NaN
+        const bool is_bright = texel.x > kRadianceMax || texel.y > kRadianceMax || texel.z > kRadianceMax;
         for (int i = 0; i < kChannels; ++i)
         {
-            texel[i] = texel[i] > 0.0F ? texel[i] : 0.0F; // 0 for NaN
-            texel[i] = is_exr || !std::isfinite(texel[i]) ? std::min(texel[i], kHalfMax) : texel[i];
+            texel[i] = texel[i] > 0.0F ? std::min(texel[i], kRadianceMax) : 0.0F; // not -0, either
         }
-        repaired += before == texel ? 0 : 1;
+        dark += is_light ? 0 : 1;
+        bright += is_bright ? 1 : 0;
     }
-    if (repaired != 0)
+    const auto warn = [&](std::uint64_t count, std::string_view what)
     {
-        warnings.push_back(fmt::format("{}: {} texels have negative, infinite or too large values; they are taken as 0 "
-                                       "or {}",
-                                       where, repaired, kHalfMax));
-    }
+        if (count != 0)
+        {
+            warnings.push_back(
+                fmt::format("{}: {} {} {}", where, count, count == 1 ? "texel has" : "texels have", what));
+        }
+    };
+    warn(dark, "values that are negative or no number; they are taken as 0");
+    warn(bright, fmt::format("values above {:g}; they are taken as that", kRadianceMax));
 }
 
 } // namespace
@@ -369,7 +374,7 @@ HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string
         throw hdrError(where, "neither a Radiance (.hdr) nor an OpenEXR (.exr) picture");
     }
     HdrImage image = is_exr ? decodeExr(encoded, where) : RadianceReader(encoded, where).read();
-    repair(image, is_exr, where, warnings);
+    repair(image, where, warnings);
     return image;
 }
 

@@ -16,8 +16,8 @@ namespace zvo
 inline constexpr std::uint64_t kHdrTexelsMax = std::uint64_t{1} << 25;
 
 /// Decodes a Radiance picture (.hdr) or an OpenEXR picture of one part with the channels R, G and B, or Y. Values that
-/// are negative or NaN become 0, and those above the largest half float 65504 in an OpenEXR picture become that; then
-/// warnings gets a line. where: the beginning of messages. Throws Error{Input}.
+/// are negative or NaN become 0, and those above kRadianceMax become that; warnings gets a line for each of both.
+/// where: the beginning of messages. Throws Error{Input}.
 HdrImage decodeHdrImage(std::span<const std::uint8_t> encoded, const std::string& where,
                         std::vector<std::string>& warnings);
 

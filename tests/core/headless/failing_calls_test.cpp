@@ -167,15 +167,20 @@ protected:
         return std::nullopt;
     }
 
+    // Calls at the end of a device, whose failures a run does not notice.
+    static bool isOfTheEnd(const std::string& function)
+    {
+        return function == "vkGetPipelineCacheData" || function == "vkDeviceWaitIdle";
+    }
+
     static void expectCode(const std::optional<ErrorCode>& code, VkResult result)
     {
         const std::string function = test::failedFunction();
         if (!code)
         {
             // The run succeeds without names and one of two messengers; memory may come from another type.
-            EXPECT_TRUE(function == "vkSetDebugUtilsObjectNameEXT" || function == "vkCreateDebugUtilsMessengerEXT" ||
-                        function == "vkGetPipelineCacheData" || function == "vkAllocateMemory" ||
-                        function == "vkDeviceWaitIdle")
+            EXPECT_TRUE(isOfTheEnd(function) || function == "vkSetDebugUtilsObjectNameEXT" ||
+                        function == "vkCreateDebugUtilsMessengerEXT" || function == "vkAllocateMemory")
                 << function << " failed and nobody noticed";
             return;
         }
@@ -261,7 +266,8 @@ TEST_F(FailingCalls, OtherResultsAndEverythingAfterThemToo)
             ASSERT_TRUE(test::liveObjects().empty()) << test::liveObjects().front() << " after call " << number;
         }
         test::failAllFrom(number, VK_ERROR_DEVICE_LOST);
-        EXPECT_TRUE(errorOf(workOnANewDevice, s_expected).has_value()) << number;
+        const bool failed = errorOf(workOnANewDevice, s_expected).has_value();
+        EXPECT_TRUE(failed || isOfTheEnd(test::failedFunction())) << test::failedFunction() << ", call " << number;
         ASSERT_TRUE(test::liveObjects().empty()) << test::liveObjects().front() << " after call " << number;
     }
 }

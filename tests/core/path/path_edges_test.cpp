@@ -222,9 +222,9 @@ std::optional<Scene> sceneOf(const std::string& name)
         return std::nullopt;
     }
     AnimatedSceneOptions options;
-    if (std::filesystem::is_directory(ZVO_SHARED_SCENES_DIR))
+    if (std::filesystem::is_directory(test::modelsFolder()))
     {
-        options.scenes_folder = ZVO_SHARED_SCENES_DIR;
+        options.scenes_folder = test::modelsFolder();
     }
     return sceneAt(loadAnimatedScene(*path, options), 0.7);
 }

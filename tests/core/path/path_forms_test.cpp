@@ -235,9 +235,18 @@ TEST(PathForms, OneKernelNeedsNoLists)
 
 TEST(PathForms, AreChosenByTheDevice)
 {
-    EXPECT_EQ(pathFormOn("cpu"), PathForm::Stages);
-    EXPECT_EQ(pathFormOn("discrete"), PathForm::OneKernel);
-    EXPECT_EQ(pathFormOn("integrated"), PathForm::OneKernel);
+    const auto formOn = [](const char* type, const vk::TuningValues& tuning)
+    {
+        vk::HeadlessOptions options = test::deviceOptions();
+        options.overrides.type = type;
+        options.tuning = tuning;
+        vk::HeadlessDevice chosen(options, zvoKernels());
+        return pathFormOn(chosen.device());
+    };
+    EXPECT_EQ(formOn("cpu", {}), PathForm::Stages);
+    EXPECT_EQ(formOn("discrete", {}), PathForm::OneKernel);
+    EXPECT_EQ(formOn("integrated", {}), PathForm::OneKernel);
+    EXPECT_EQ(formOn("cpu", {{"path-form", 1}}), PathForm::OneKernel);
 }
 
 } // namespace

@@ -46,7 +46,7 @@ public:
         const test::Picture picture = test::takePicture(device(), tree, camera, height, height, {});
         EXPECT_EQ(device().download(tracer.buffers().image), picture.image);
         EXPECT_GT(picture.live_tiles, 0U);
-        return std::ranges::any_of(passes, [](const vk::PassTime& pass) { return pass.name == "trace/beam_mark"; });
+        return std::ranges::any_of(passes, [](const vk::PassTime& pass) { return pass.name == "trace/beam_nodes"; });
     }
 
     vk::DeletionQueue deletion_queue;

@@ -3,9 +3,11 @@
 #include "core/base/kernels.h"
 #include "stress/compare_coverage.h"
 #include "support/device.h"
+#include "voxelize/voxelize.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace zvo
@@ -73,6 +75,31 @@ TEST(CoverageExtremes, TrianglesFromTheGridToTheEndsOfTheLatticeEqualTheOracle)
         const int edge = 256 << depth;
         std::vector<int> values = {-kEnd, kEnd, 0, edge, edge / 2, 128, edge - 128, -1, edge + 1};
         for (int k = 0; k < 9; ++k)
+        {
+            values.push_back(static_cast<int>(random() % static_cast<std::uint32_t>(edge)));
+        }
+        expectNoDifferences(batchOf(depth, 40, values, random), fragments);
+    }
+    EXPECT_GT(fragments, 100000U);
+}
+
+// Up to kTileExtent a tile is 4x4 columns, for which edge functions are cut down to 32 bits; beyond it is one column.
+TEST(CoverageExtremes, TrianglesAboutAsLargeAsThe32BitTilesAllowEqualTheOracle)
+{
+    std::mt19937 random(3);
+    std::uint64_t fragments = 0;
+    for (std::uint32_t i = 0; i < 72; ++i)
+    {
+        const std::uint32_t depth = 1 + i % 6;
+        const int edge = 256 << depth;
+        // Exactly the limit, a step of single precision less, and a step more; from one side of the grid, or both.
+        const int size = gpu::kTileExtent + std::array{-4, 0, 8}[i / 6 % 3];
+        std::vector<int> values = {0, size, edge / 2, 128, edge};
+        if (i % 2 == 1)
+        {
+            values = {-size / 2, size - size / 2, edge / 2, edge - 128, 0};
+        }
+        for (int k = 0; k < 4; ++k)
         {
             values.push_back(static_cast<int>(random() % static_cast<std::uint32_t>(edge)));
         }

@@ -107,6 +107,28 @@ Scene cutCorners(std::uint32_t depth)
     return test::triangleSoup(corners);
 }
 
+/// Corners of long triangles, the rest of which lies outside: edges of 2^18 voxels, up to which a tile is 4x4 columns,
+/// and a few lattice units more and less.
+Scene cornersAtTheTileLimit(std::uint32_t depth)
+{
+    const float end = std::ldexp(1.0F, static_cast<int>(depth));
+    const float limit = static_cast<float>(gpu::kTileExtent) / gpu::kVoxelLattice;
+    std::vector<glm::vec3> corners;
+    for (const float length : {limit - 1.0F / 32, limit, limit + 1.0F / 32})
+    {
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const glm::vec3 near(end - 40.0F - 20.0F * static_cast<float>(axis));
+            glm::vec3 far = near + glm::vec3(0.3F, 0.7F, 0.9F) * length;
+            far[axis] = near[axis] + length;
+            glm::vec3 other = near + glm::vec3(0.8F, 0.1F, 0.5F) * length;
+            other[(axis + 1) % 3] = near[(axis + 1) % 3] - length;
+            corners.insert(corners.end(), {near, far, other});
+        }
+    }
+    return test::triangleSoup(corners);
+}
+
 struct DeepCase
 {
     std::uint32_t depth;
@@ -158,6 +180,14 @@ TEST_P(DeepGrid, HugeTrianglesThatCutCornersEqualTheOracle)
 {
     const auto [depth, coverage] = GetParam();
     const std::size_t voxel_count = test::expectEqualsOracle(device(), cutCorners(depth), unitGrid(depth), coverage);
+    EXPECT_GT(voxel_count, 1000U);
+}
+
+TEST_P(DeepGrid, CornersOfTrianglesAtTheLimitOf32BitTilesEqualTheOracle)
+{
+    const auto [depth, coverage] = GetParam();
+    const std::size_t voxel_count =
+        test::expectEqualsOracle(device(), cornersAtTheTileLimit(depth), unitGrid(depth), coverage);
     EXPECT_GT(voxel_count, 1000U);
 }
 

@@ -5,6 +5,7 @@
 #include "oracle/voxelizer.h"
 #include "runtime/octree_sha256.h"
 #include "support/engine_device.h"
+#include "support/materials_scene.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
 #include "support/voxel_compare.h"
@@ -187,6 +188,41 @@ TEST_P(VoxelizeMesh, EqualsTheOracle)
     }
     const Scene scene = loadGltf(*path);
     expectEqualsOracle(scene, Grid::around(scene.bounds(), GetParam().depth), GetParam().coverage);
+}
+
+// Large triangles of all material classes.
+TEST_P(VoxelizeBothCoverages, OctreesAreTheSameBytesForEveryShapeOfRowBlocks)
+{
+    const Scene scene = test::materialsScene(100.0F, 3);
+    const GpuScene uploaded = uploadScene(device(), scene, true);
+    const Grid grid = {glm::vec3(-10.0F, 5.0F, 0.25F), 90.0F / 512, 9};
+    std::string expected;
+    for (const RowShape shape : {RowShape{256, 1}, RowShape{32, 16}, RowShape{8, 32}, RowShape{1024, 2}})
+    {
+        SCOPED_TRACE(shape.block_columns);
+        BuildOptions options = {GetParam(), true, {}};
+        options.row_shape = shape;
+        const std::string hash = octreeSha256(device(), buildOctree(device(), uploaded, grid, options).octree);
+        expected = expected.empty() ? hash : expected;
+        EXPECT_EQ(hash, expected);
+    }
+}
+
+TEST(RowShapes, FollowTheDevice)
+{
+    const auto shapeOn = [](const char* type, const vk::TuningValues& tuning)
+    {
+        vk::HeadlessOptions options = test::deviceOptions();
+        options.overrides.type = type;
+        options.tuning = tuning;
+        vk::HeadlessDevice chosen(options, zvoKernels());
+        return RowShape::on(chosen.device());
+    };
+    EXPECT_EQ(shapeOn("cpu", {}), RowShape());
+    EXPECT_EQ(shapeOn("discrete", {}), (RowShape{.block_columns = 32, .strip_lanes = 16}));
+    EXPECT_EQ(shapeOn("discrete", {{"row-columns", 512}}), (RowShape{.block_columns = 512, .strip_lanes = 16}));
+    EXPECT_EQ(shapeOn("cpu", {{"row-columns", 64}}), (RowShape{.block_columns = 64, .strip_lanes = 4}))
+        << "fewer threads would list too many blocks each";
 }
 
 } // namespace

@@ -119,14 +119,32 @@ TEST(HdrImageIo, ValuesThatNoLightHasAreReplaced)
     HdrImage image = randomImage(3, 2);
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     image.texels[1] = {-1.0F, kInfinity, 2.0F};
+    image.texels[2] = {0.5F, 3e38F, 1e11F};
     image.texels[4] = {std::nanf(""), 1e6F, -kInfinity};
     std::vector<std::string> warnings;
     const HdrImage decoded = decode(encodeExr(image), &warnings);
     EXPECT_EQ(decoded.texels[0], image.texels[0]);
-    EXPECT_EQ(decoded.texels[1], glm::vec3(0.0F, 65504.0F, 2.0F));
-    EXPECT_EQ(decoded.texels[4], glm::vec3(0.0F, 65504.0F, 0.0F));
-    ASSERT_EQ(warnings.size(), 1U);
-    test::expectParts(warnings.front(), {"here", "2 texels", "65504"});
+    EXPECT_EQ(decoded.texels[1], glm::vec3(0.0F, kRadianceMax, 2.0F));
+    EXPECT_EQ(decoded.texels[2], glm::vec3(0.5F, kRadianceMax, 1e11F));
+    EXPECT_EQ(decoded.texels[4], glm::vec3(0.0F, 1e6F, 0.0F));
+    ASSERT_EQ(warnings.size(), 2U);
+    test::expectParts(warnings.front(), {"here: 2 texels", "negative or no number", "as 0"});
+    test::expectParts(warnings.back(), {"here: 2 texels", "above 1e+12"});
+}
+
+// What a picture holds does not depend on its kind: light that is in range is kept, and the rest becomes the limit.
+TEST(HdrImageIo, BothKindsHaveTheSameLimit)
+{
+    const HdrImage image = {2, 1, {glm::vec3(0x1p20F), glm::vec3(0x1p100F)}};
+    for (const auto& encoded : {encodeExr(image), encodeHdr(image)})
+    {
+        std::vector<std::string> warnings;
+        const HdrImage decoded = decode(encoded, &warnings);
+        EXPECT_EQ(decoded.texels[0], image.texels[0]);
+        EXPECT_EQ(decoded.texels[1], glm::vec3(kRadianceMax));
+        ASSERT_EQ(warnings.size(), 1U);
+        test::expectParts(warnings.front(), {"here: 1 texel has", "above 1e+12"});
+    }
 }
 
 TEST(HdrImageIo, ErrorsSayWhatIsWrong)

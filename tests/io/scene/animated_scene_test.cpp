@@ -285,7 +285,7 @@ INSTANTIATE_TEST_SUITE_P(AnimatedScene, OwnAnimatedScene,
 TEST_P(OwnAnimatedScene, IsWhole)
 {
     const fs::path path = ownScene(GetParam() + ".scene.json");
-    const fs::path models = ZVO_SHARED_SCENES_DIR;
+    const fs::path models = modelsFolder();
     if (const std::string model = missingModelOf(GetParam()); !model.empty())
     {
         GTEST_SKIP() << model << " is not there";

@@ -1,0 +1,41 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Computes the attributes of the root's children, then of the root: one workgroup, kLanes threads a node.
+#extension GL_GOOGLE_include_directive : require
+#include "octree/octree.h"
+
+layout(constant_id = 0) const uint kLanes = 1u;
+
+layout(local_size_x_id = 1) in;
+layout(push_constant, scalar) uniform Push
+{
+    AverageTopParams params;
+};
+
+#define AVERAGE_CHILDREN Attribute_Ptr
+#include "lib/average.glsl"
+
+void averageLevel(LevelRange nodes, Attribute_Ptr children)
+{
+    uint index = nodes.first + nodeOfGroup();
+    bool is_node = nodeOfGroup() < nodes.count;
+    Node node = Node(0u, 0u, 0u, 0u);
+    if (is_node)
+        node = params.nodes.data[index];
+    Attribute mean = averageChildren(params.scene, node, children);
+    if (is_node && laneOfNode() == 0u)
+        params.averages.data[index] = mean;
+}
+
+void main()
+{
+    bool has_children = params.level_count == kRootLevels;
+    if (has_children)
+    {
+        averageLevel(params.levels[1], Attribute_Ptr(uint64_t(params.lowest_children)));
+        memoryBarrierBuffer();
+        barrier();
+    }
+    averageLevel(params.levels[0],
+                 Attribute_Ptr(has_children ? uint64_t(params.averages) : uint64_t(params.lowest_children)));
+}

@@ -1,0 +1,50 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Numbers the root and its children, in one workgroup, as octree/place and octree/assign do.
+#extension GL_GOOGLE_include_directive : require
+#include "octree/octree.h"
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
+#define SCAN_GROUP kRootGroup
+#include "lib/scan.glsl"
+
+layout(local_size_x = kRootGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    NumberParams params;
+};
+
+#include "octree/assign.glsl"
+#include "octree/place.glsl"
+
+// The level's nodes, whose first is given. Returns their number.
+uint numberLevel(uint level, uint first_node)
+{
+    LevelRange range = params.ranges.data[params.level_count - 1u - level];
+    bool is_node = gl_LocalInvocationIndex < range.count;
+    uint children;
+    if (is_node)
+        placeNode(params.items.data[range.first + gl_LocalInvocationIndex], level == 0u, children);
+    memoryBarrierBuffer();
+    barrier();
+    bool are_leaves = level + 1u == params.level_count;
+    uint node = first_node + gl_LocalInvocationIndex;
+    uvec2 masks = uvec2(0u);
+    if (is_node)
+        masks = uvec2(params.nodes.data[node].mask_lo, params.nodes.data[node].mask_hi);
+    uint total;
+    uint base = workgroupExclusiveAdd(bitCount(masks.x) + bitCount(masks.y), total);
+    base += are_leaves ? 0u : first_node + range.count;
+    if (is_node)
+        setBase(node, masks.x, base, are_leaves && !kWideKeys);
+    memoryBarrierBuffer();
+    barrier();
+    return range.count;
+}
+
+void main()
+{
+    uint count = numberLevel(0u, 0u);
+    if (params.level_count > 1u)
+        numberLevel(1u, count);
+}

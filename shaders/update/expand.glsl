@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The children of a touched node of an overlay. The includer has a kernel's parameters as params, lib/bricks.glsl and
+// lib/ranks.glsl, and defines
+//   kAttributes, kRanks
+
+uvec2 childKey(uvec2 key, uint cell)
+{
+    if (!kWideKeys)
+        return uvec2((key.x << 6) | cell, 0u);
+    uvec2 code = key & ~kBrickKeyTag;
+    return uvec2(((code.x << 6) | cell) & ((1u << kBrickKeyBits) - 1u),
+                 (code.y << 6) | (code.x >> (kBrickKeyBits - 6u))) |
+           kBrickKeyTag;
+}
+
+// The child of a touched node's base node, which must exist, in a cell. rank: of the base octree's node, where
+// attributes need it; in an octree, its number.
+RankedNode baseChild(TouchedNode parent, uint cell, bool are_leaves)
+{
+    RankSource source = RankSource(Node_ConstPtr(uint64_t(params.nodes)), params.before, params.voxels_before_leaf,
+                                   params.first_short_entry);
+    RankedNode at = RankedNode(parent.base, 0u, 0u);
+    if (kRanks)
+    {
+        BeforeChild rank = params.ranks.data[parent.node];
+        at = RankedNode(parent.base, rank.voxels, rank.nodes);
+    }
+    descendBase(source, BeforeChild_ConstPtr(uint64_t(params.ranks)), cell, are_leaves, kRanks, at);
+    return at;
+}
+
+// Gives a touched node its child base.
+void setBase(uint node, uint base)
+{
+    params.nodes.data[node].base_lo = base;
+    params.nodes.data[node].base_hi = base + bitCount(params.nodes.data[node].mask_lo);
+}
+
+// Writes the child of a touched node in a cell, if there is one. Where a layer touches it, it is merged with the base
+// tree's; others are copied from there. Returns how many children the overlay has to hold for it. child: its number.
+// dag_leaves: the children are leaves, of a DAG.
+uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
+{
+    BrickEntry brick = params.bricks.data[entry];
+    TouchedNode touched = params.touched.data[entry];
+    Node node = params.nodes.data[touched.node];
+    child = childIndex(node, cell);
+    if (!hasChild(node, cell))
+        return 0u;
+    RankedNode base = RankedNode(kNoNode, 0u, 0u);
+    if (touched.base != kNoNode)
+    {
+        Node base_node = params.nodes.data[touched.base];
+        if (hasChild(base_node, cell))
+            base = baseChild(touched, cell, dag_leaves);
+    }
+    Node merged = Node(0u, 0u, 0u, 0u);
+    if (base.node != kNoNode)
+        merged = params.nodes.data[base.node];
+    if (kRanks)
+        params.ranks.data[child] = BeforeChild(base.voxels, base.rank);
+    uint count = 0u;
+    if (((cell < 32u ? brick.mask_lo >> cell : brick.mask_hi >> (cell - 32u)) & 1u) != 0u)
+    {
+        uint child_entry = brickFind(params.bricks, params.brick_mask, childKey(keyOf(brick), cell));
+        BrickEntry child_brick = params.bricks.data[child_entry];
+        merged.mask_lo |= child_brick.mask_lo;
+        merged.mask_hi |= child_brick.mask_hi;
+        params.touched.data[child_entry] = TouchedNode(child, base.node);
+        count = bitCount(merged.mask_lo) + bitCount(merged.mask_hi);
+    }
+    else
+    {
+        if (kAttributes)
+            params.node_attributes.data[child + params.attribute_offset] =
+                params.node_attributes.data[base.node >= params.static_root ? base.node + params.attribute_offset
+                                                                            : base.rank];
+        if (kRanks && dag_leaves) // written as an octree's leaf
+        {
+            merged.base_lo += base.voxels;
+            merged.base_hi += base.voxels;
+        }
+    }
+    params.counts.data[child - params.first_node] = count;
+    params.nodes.data[child] = merged;
+    return count;
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Adds fragments to the sums of their voxels. Integers are added, so that every form leaves the same words in memory.
+//
+// INT64_ATOMICS             two words of VoxelSums are added as one 64-bit number. No word carries into the next:
+//                           their values are not negative, and sums of kFragmentsMax of them fit. In sums of more the
+//                           count of fragments is right nevertheless, by which the host sees that they do not fit.
+// SHARED_SUMS_CONSTANT_ID   constant_id of kSharesSums: fragments are added in shared memory first, where neighbouring
+//                           triangles of a dense mesh meet in the same voxels, and the workgroup's sums in the end.
+//                           For GPUs: barriers cost software devices more than that saves.
+
+uint64_t sumsAddress(uint voxel)
+{
+    return uint64_t(params.sums) + uint64_t(voxel) * kVoxelSumsBytes;
+}
+
+// Adds a fragment in memory. color, normal: what it adds to the words of VoxelSums.
+void addInMemory(uint voxel, uvec3 color, uvec3 normal)
+{
+#ifdef INT64_ATOMICS
+    uint64_t_Ptr pairs = uint64_t_Ptr(sumsAddress(voxel));
+    atomicAdd(pairs.data[0], packUint2x32(color.rg));
+    atomicAdd(pairs.data[1], packUint2x32(uvec2(color.b, normal.x)));
+    atomicAdd(pairs.data[2], packUint2x32(normal.yz));
+#else
+    atomicAdd(params.sums.data[voxel].red, color.r);
+    atomicAdd(params.sums.data[voxel].green, color.g);
+    atomicAdd(params.sums.data[voxel].blue, color.b);
+    atomicAdd(params.sums.data[voxel].normal_x, normal.x);
+    atomicAdd(params.sums.data[voxel].normal_y, normal.y);
+    atomicAdd(params.sums.data[voxel].normal_z, normal.z);
+#endif
+    atomicAdd(params.sums.data[voxel].fragments, 1u);
+}
+
+#ifdef SHARED_SUMS_CONSTANT_ID
+
+layout(constant_id = SHARED_SUMS_CONSTANT_ID) const bool kSharesSums = false;
+
+// A hash table by voxel, with linear probing. A triangle has one fragment in a voxel at most, so that sums of a
+// workgroup fit kSharedBits bits.
+const uint kSlotsLog2 = 8u;
+const uint kSlots = 1u << kSlotsLog2;
+const uint kSlotProbes = 2u; // fragments of a voxel that finds no slot are added in memory
+const uint kFreeSlot = ~0u;
+const uint kSharedBits = 22u;         // kChunkTriangles values of 16 bits; the bits above those of red count fragments
+const uint kSharedWords = 6u;         // of a slot: red and fragments, green, blue, normal
+const uint kWordStride = kSlots + 4u; // threads that flush neighbouring slots read from different banks
+shared uint s_voxels[kSharesSums ? kSlots : 1u];
+shared uint s_words[kSharesSums ? kSharedWords * kWordStride : 1u];
+
+void clearSharedSums()
+{
+    for (uint i = gl_LocalInvocationIndex; i < kSlots; i += kChunkTriangles)
+        s_voxels[i] = kFreeSlot;
+    for (uint i = gl_LocalInvocationIndex; i < kSharedWords * kWordStride; i += kChunkTriangles)
+        s_words[i] = 0u;
+    barrier();
+}
+
+// The slot of a voxel, or kSlots.
+uint slotOf(uint voxel)
+{
+    uint slot = (voxel * 2654435761u) >> (32u - kSlotsLog2); // Knuth's multiplicative hash
+    uint found = kSlots;
+    for (uint probe = 0u; found == kSlots && probe < kSlotProbes; ++probe)
+    {
+        uint holder = atomicCompSwap(s_voxels[slot], kFreeSlot, voxel);
+        found = holder == kFreeSlot || holder == voxel ? slot : kSlots;
+        slot = (slot + 1u) & (kSlots - 1u);
+    }
+    return found;
+}
+
+void addInSlot(uint slot, uvec3 color, uvec3 normal)
+{
+    atomicAdd(s_words[slot], color.r | (1u << kSharedBits));
+    atomicAdd(s_words[slot + kWordStride], color.g);
+    atomicAdd(s_words[slot + 2u * kWordStride], color.b);
+    atomicAdd(s_words[slot + 3u * kWordStride], normal.x);
+    atomicAdd(s_words[slot + 4u * kWordStride], normal.y);
+    atomicAdd(s_words[slot + 5u * kWordStride], normal.z);
+}
+
+// Word number `word` of the VoxelSums that a slot stands for.
+uint wordOf(uint slot, uint word)
+{
+    uint fragments = s_words[slot] >> kSharedBits;
+    uint sum = s_words[slot + min(word, kSharedWords - 1u) * kWordStride] & ((1u << kSharedBits) - 1u);
+    return word < kSharedWords ? sum : (word == kSharedWords ? fragments : 0u);
+}
+
+// Adds what the workgroup has in shared memory. A voxel's atomics are those of neighbouring threads, so that they go to
+// one sector of memory together.
+void flushSharedSums()
+{
+#ifdef INT64_ATOMICS
+    const uint kLanes = kVoxelSumsBytes / 8u;
+#else
+    const uint kLanes = kVoxelSumsBytes / 4u;
+#endif
+    barrier();
+    uint lane = gl_LocalInvocationIndex % kLanes;
+    for (uint slot = gl_LocalInvocationIndex / kLanes; slot < kSlots; slot += kChunkTriangles / kLanes)
+    {
+        uint voxel = s_voxels[slot];
+        if (voxel != kFreeSlot)
+        {
+#ifdef INT64_ATOMICS
+            uvec2 pair = uvec2(wordOf(slot, 2u * lane), wordOf(slot, 2u * lane + 1u));
+            atomicAdd(uint64_t_Ptr(sumsAddress(voxel)).data[lane], packUint2x32(pair));
+#else
+            if (lane <= kSharedWords)
+                atomicAdd(uint_Ptr(sumsAddress(voxel)).data[lane], wordOf(slot, lane));
+#endif
+        }
+    }
+}
+
+#endif
+
+// Adds a fragment. color: 16-bit fractions; normal: of length 32767.
+void addToSums(uint voxel, uvec3 color, ivec3 normal)
+{
+    uvec3 color_part = color >> params.sum_shift;
+    uvec3 normal_part = uvec3(normal >> params.sum_shift) + normalBias(params.sum_shift);
+#ifdef SHARED_SUMS_CONSTANT_ID
+    if (kSharesSums)
+    {
+        uint slot = slotOf(voxel);
+        if (slot < kSlots)
+            addInSlot(slot, color_part, normal_part);
+        else
+            addInMemory(voxel, color_part, normal_part);
+        return;
+    }
+#endif
+    addInMemory(voxel, color_part, normal_part);
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "core/base/lanes.h"
+
+#include "core/base/tuning.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace zvo
+{
+
+std::uint32_t lanesMax(const vk::Device& device)
+{
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    return std::bit_floor(std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0])) /
+           kLoneNodes;
+}
+
+std::uint32_t lanesOn(const vk::Device& device)
+{
+    return std::min(tunedValue(device, Tunable::NodeLanes), lanesMax(device));
+}
+
+std::uint32_t lanesOn(const vk::Device& device, std::uint64_t node_count)
+{
+    constexpr std::uint64_t kThreadsMax = 1ULL << 32;
+    return node_count * lanesOn(device) <= kThreadsMax ? lanesOn(device) : 1;
+}
+
+std::uint32_t loneGroupOn(const vk::Device& device)
+{
+    return kLoneNodes * lanesOn(device);
+}
+
+} // namespace zvo

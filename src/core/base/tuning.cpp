@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "core/base/tuning.h"
+
+#include "zvo/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace zvo
+{
+
+namespace
+{
+
+constexpr TuningValue kNodeLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}};
+constexpr TuningValue kRowColumns[] = {{"16", 16},   {"32", 32},   {"64", 64},    {"128", 128},
+                                       {"256", 256}, {"512", 512}, {"1024", 1024}};
+constexpr TuningValue kBandLanes[] = {{"1", 1}, {"2", 2}, {"4", 4}, {"8", 8}, {"16", 16}, {"32", 32}};
+constexpr TuningValue kAtomicBits[] = {{"32", 32}, {"64", 64}};
+constexpr TuningValue kSwitches[] = {{"off", 0}, {"on", 1}};
+constexpr TuningValue kRayStacks[] = {{"registers", 0}, {"private", 1}, {"shared", 2}};
+constexpr TuningValue kPathForms[] = {{"stages", 0}, {"kernel", 1}};
+constexpr TuningValue kSubgroupSizes[] = {{"auto", 0}, {"4", 4},   {"8", 8},    {"16", 16},
+                                          {"32", 32},  {"64", 64}, {"128", 128}};
+
+// A GPU wants many short threads: the slowest one sets a pass's time. On software devices idle threads and barriers
+// cost as much as others, and threads share what they compute of a triangle.
+constexpr std::array<TuningRow, 8> kTable = {{
+    {Tunable::NodeLanes, "node-lanes", "threads that share a node", 1, 16, kNodeLanes},
+    {Tunable::RowColumns, "row-columns", "columns of a row block of a big triangle", 256, 32, kRowColumns},
+    {Tunable::BandLanes, "band-lanes", "threads that share a band of a big triangle", 1, 16, kBandLanes},
+    {Tunable::AtomicBits, "atomic-bits", "of atomics on a voxel's sums, where there are 64", 64, 64, kAtomicBits},
+    {Tunable::SharedSums, "shared-sums", "sums of small triangles in shared memory first", 0, 1, kSwitches},
+    {Tunable::RayStack, "ray-stack", "where rays keep their stack", 0, 0, kRayStacks},
+    {Tunable::PathForm, "path-form", "paths in stages, or whole in one kernel", 0, 1, kPathForms},
+    {Tunable::SubgroupSize, vk::kSubgroupSizeName, "threads of a subgroup", 0, 0, kSubgroupSizes},
+}};
+
+template <typename Named> std::string namesOf(std::span<const Named> all)
+{
+    std::vector<std::string_view> names;
+    for (const Named& one : all)
+    {
+        names.push_back(one.name);
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+} // namespace
+
+std::span<const TuningRow> tuningTable()
+{
+    return kTable;
+}
+
+const TuningRow& tuningRow(Tunable tunable)
+{
+    return kTable[static_cast<std::size_t>(tunable)];
+}
+
+std::uint32_t tunedValue(std::string_view device_type, Tunable tunable)
+{
+    const TuningRow& row = tuningRow(tunable);
+    return device_type == "cpu" ? row.on_software : row.on_gpus;
+}
+
+std::uint32_t tunedValue(const vk::Device& device, Tunable tunable)
+{
+    const vk::TuningValues& chosen = device.handles().tuning;
+    const auto found = chosen.find(tuningRow(tunable).name);
+    return found != chosen.end() ? found->second : tunedValue(device.report().type, tunable);
+}
+
+std::string_view valueName(const TuningRow& row, std::uint32_t value)
+{
+    const auto found = std::ranges::find(row.values, value, &TuningValue::value);
+    if (found == row.values.end())
+    {
+        throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", row.name, value, namesOf(row.values)));
+    }
+    return found->name;
+}
+
+vk::TuningValues parseTuning(std::string_view option, std::string_view text)
+{
+    vk::TuningValues values;
+    for (bool ends = text.empty(); !ends;)
+    {
+        const std::string_view part = text.substr(0, text.find(','));
+        ends = part.size() == text.size();
+        text.remove_prefix(ends ? part.size() : part.size() + 1);
+        const std::string_view name = part.substr(0, part.find('='));
+        const auto row = std::ranges::find(kTable, name, &TuningRow::name);
+        if (row == kTable.end() || name.size() == part.size())
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} {}: expected NAME=VALUE, with one of {}", option, part,
+                                                      namesOf(tuningTable())));
+        }
+        const auto value = std::ranges::find(row->values, part.substr(name.size() + 1), &TuningValue::name);
+        if (value == row->values.end())
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} {}: expected one of {}", option, part, namesOf(row->values)));
+        }
+        if (!values.emplace(name, value->value).second)
+        {
+            throw Error(ErrorCode::Usage, fmt::format("{} {}: {} was given before", option, part, name));
+        }
+    }
+    return values;
+}
+
+std::string tuningText(const vk::TuningValues& values)
+{
+    std::vector<std::string> parts;
+    for (const TuningRow& row : kTable)
+    {
+        if (const auto found = values.find(row.name); found != values.end())
+        {
+            parts.push_back(fmt::format("{}={}", row.name, valueName(row, found->second)));
+        }
+    }
+    return fmt::format("{}", fmt::join(parts, ","));
+}
+
+} // namespace zvo
