@@ -42,9 +42,9 @@ const uint kSlotsLog2 = 8u;
 const uint kSlots = 1u << kSlotsLog2;
 const uint kSlotProbes = 2u; // fragments of a voxel that finds no slot are added in memory
 const uint kFreeSlot = ~0u;
-const uint kSharedBits = 22u;         // kChunkTriangles values of 16 bits; the bits above those of red count fragments
-const uint kSharedWords = 6u;         // of a slot: red and fragments, green, blue, normal
-const uint kWordStride = kSlots + 4u; // threads that flush neighbouring slots read from different banks
+const uint kSharedBits = 16u + kChunkTrianglesLog2; // of a sum of 16 bit values; those above red's count fragments
+const uint kSharedWords = 6u;                       // of a slot: red and fragments, green, blue, normal
+const uint kWordStride = kSlots + 4u;               // threads that flush neighbouring slots read from different banks
 shared uint s_voxels[kSharesSums ? kSlots : 1u];
 shared uint s_words[kSharesSums ? kSharedWords * kWordStride : 1u];
 
