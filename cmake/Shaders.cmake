@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Compiles every shaders/<operation>/<kernel>.comp to SPIR-V, simplifies it, checks it with spirv-val and embeds it as
-# the kernel "<operation>/<kernel>" in a generated source file.
+# the kernel "<operation>/<kernel>" in a generated source file. Kernels that include lib/bound.glsl are compiled twice.
 
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
@@ -10,6 +10,28 @@ find_program(SPIRV_VAL spirv-val REQUIRED)
 # goes. None of these passes changes arithmetic, so results stay the same bits.
 set(ZVO_SPIRV_PASSES --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
                      --eliminate-dead-code-aggressive)
+
+# zvo_compile_kernel(SOURCE OUTPUT SYMBOL INCLUDE DEFINES PASSES DEPENDS): makes OUTPUT.spv and OUTPUT.cpp, which defines
+# the words as zvo::kernels::SYMBOL.
+function(zvo_compile_kernel source output symbol include defines passes depends)
+    get_filename_component(folder ${output} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    file(RELATIVE_PATH name ${CMAKE_CURRENT_BINARY_DIR}/kernels ${output})
+    add_custom_command(
+        # The SPIR-V first: that is the file which the depfile names.
+        OUTPUT ${output}.spv ${output}.cpp
+        DEPFILE ${output}.d
+        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${include} ${defines} -S comp
+                --depfile ${output}.d -o ${output}.spv ${source}
+        COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-spec-constants
+                ${passes} ${output}.spv -o ${output}.spv
+        COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${output}.spv
+        COMMAND ${CMAKE_COMMAND} -DINPUT=${output}.spv -DOUTPUT=${output}.cpp -DSYMBOL=${symbol}
+                -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
+        DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake ${depends}
+        COMMENT "kernel ${name}"
+        VERBATIM)
+endfunction()
 
 # zvo_embed_kernels(TARGET ROOT FUNCTION [INCLUDE dir] [DEPENDS target] [AS_COMPILED]): adds a generated source to
 # TARGET that defines `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT. They include
@@ -32,25 +54,24 @@ function(zvo_embed_kernels target root function_name)
     foreach(kernel ${kernels})
         string(REGEX REPLACE "\\.comp$" "" name ${kernel})
         string(MAKE_C_IDENTIFIER ${name} symbol)
-        get_filename_component(folder ${out_dir}/${name} DIRECTORY)
-        file(MAKE_DIRECTORY ${folder})
-        add_custom_command(
-            # The SPIR-V first: that is the file which the depfile names.
-            OUTPUT ${out_dir}/${name}.spv ${out_dir}/${name}.cpp
-            DEPFILE ${out_dir}/${name}.d
-            COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${arg_INCLUDE} -S comp
-                    --depfile ${out_dir}/${name}.d -o ${out_dir}/${name}.spv ${root}/${kernel}
-            COMMAND ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --preserve-spec-constants
-                    ${passes} ${out_dir}/${name}.spv -o ${out_dir}/${name}.spv
-            COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${out_dir}/${name}.spv
-            COMMAND ${CMAKE_COMMAND} -DINPUT=${out_dir}/${name}.spv -DOUTPUT=${out_dir}/${name}.cpp -DSYMBOL=${symbol}
-                    -P ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake
-            DEPENDS ${root}/${kernel} ${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake ${arg_DEPENDS}
-            COMMENT "kernel ${name}"
-            VERBATIM)
+        set(forms ${symbol})
+        zvo_compile_kernel(${root}/${kernel} ${out_dir}/${name} ${symbol} ${arg_INCLUDE} "" "${passes}" "${arg_DEPENDS}")
         list(APPEND embedded ${out_dir}/${name}.cpp)
-        string(APPEND declarations "namespace zvo::kernels { extern const std::span<const std::uint32_t> ${symbol}; }\n")
-        string(APPEND entries "        {\"${name}\", zvo::kernels::${symbol}},\n")
+        file(STRINGS ${root}/${kernel} has_bound_form REGEX "^#include \"lib/bound.glsl\"$")
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/${kernel})
+        if(has_bound_form)
+            list(APPEND forms ${symbol}_bound)
+            zvo_compile_kernel(${root}/${kernel} ${out_dir}/${name}.bound ${symbol}_bound ${arg_INCLUDE} -DBOUND
+                               "${passes}" "${arg_DEPENDS}")
+            list(APPEND embedded ${out_dir}/${name}.bound.cpp)
+        endif()
+        foreach(form ${forms})
+            string(APPEND declarations
+                   "namespace zvo::kernels { extern const std::span<const std::uint32_t> ${form}; }\n")
+        endforeach()
+        list(TRANSFORM forms PREPEND "zvo::kernels::")
+        list(JOIN forms ", " forms)
+        string(APPEND entries "        {\"${name}\", ${forms}},\n")
     endforeach()
     file(CONFIGURE OUTPUT ${out_dir}/registry.cpp @ONLY CONTENT
 "// Generated by cmake/Shaders.cmake.

@@ -103,6 +103,7 @@ public:
         case Tunable::PathForm:
             return sumMs(paths());
         case Tunable::SubgroupSize:
+        case Tunable::Loads:
             return sumMs(build()) + sumMs(picture()) + sumMs(paths());
         }
         return 0;
@@ -193,6 +194,7 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
     case Tunable::RowColumns:
     case Tunable::SharedSums:
     case Tunable::PathForm:
+    case Tunable::Loads:
         break;
     }
     return true;

@@ -14,6 +14,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #include "path/path.h"
 #include "lib/attribute_formats.glsl"
+#include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
@@ -48,7 +49,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define TRAVERSE_GROUP kPathGroup
-#include "lib/octree_half.glsl"
+#include "lib/octree_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/ranks.glsl"
 #include "trace/hit_rank.glsl"

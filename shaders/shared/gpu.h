@@ -18,7 +18,7 @@
 //   GPU_ENUM(View, std::uint32_t)                            zvo::View is an enum class, defined where the host needs
 //                                                            it, and a type of constants. In GLSL they are uints
 //
-// A kernel that reached a buffer through a descriptor, too, would declare that binding here, between its constants.
+// Bound forms (lib/bound.glsl) need no declaration of their own: their bindings have the names of parameters.
 //
 // This file holds the project's only `#ifdef __cplusplus`; the other shared headers need none.
 #ifndef ZVO_SHADERS_SHARED_GPU_H

@@ -8,6 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_ballot : require
 #include "trace/beam.h"
+#include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/ray.glsl"
@@ -23,7 +24,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define TRAVERSE_GROUP kBlockTiles
-#include "lib/octree_half.glsl"
+#include "lib/octree_loads.glsl"
 #include "lib/traverse.glsl"
 
 const float kBeamScale = float(kBeamCells - 2u) / float(kBeamCells); // from unit space to the beam grid's cube

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "trace/light.h"
 #include "lib/attribute_formats.glsl"
+#include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/frame.glsl"
@@ -24,7 +25,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define TRAVERSE_GROUP kTilePixels
-#include "lib/octree_half.glsl"
+#include "lib/octree_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/lit_point.glsl"
 

@@ -29,10 +29,19 @@ layout(push_constant, scalar) uniform Push
 
 uint64_t_ConstPtr g_paths;
 
+#ifdef BOUND
+TEXELS_2(1, paths);
+
+uvec2 loadPath(uint cell)
+{
+    return texelFetch(texels2_paths, int(cell)).xy;
+}
+#else
 uvec2 loadPath(uint cell)
 {
     return unpackUint2x32(g_paths.data[cell]);
 }
+#endif
 
 #ifdef PRIMARY_RANKS
 #define TRAVERSE_ENTRIES
@@ -40,7 +49,7 @@ uvec2 loadPath(uint cell)
 #define TRAVERSE_GROUP kTilePixels
 #define TRAVERSE_PATHS kPaths
 #define TRAVERSE_PATHS_RELATIVE kPathsRelative
-#include "lib/octree_half.glsl"
+#include "lib/octree_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/rounds.glsl"
 

@@ -3,4 +3,5 @@
 // Primary rays through a DAG whose attributes are wanted (trace/primary.glsl).
 #extension GL_GOOGLE_include_directive : require
 #define PRIMARY_RANKS
+#include "lib/bound.glsl"
 #include "trace/primary.glsl"

@@ -3,6 +3,7 @@
 // Traces a list of rays. Those that use up their iterations resume in another round.
 #extension GL_GOOGLE_include_directive : require
 #include "trace/trace.h"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
 #include "lib/ray.glsl"
@@ -19,7 +20,7 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define TRAVERSE_GROUP kRaysGroup
-#include "lib/octree_half.glsl"
+#include "lib/octree_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/rounds.glsl"
 

@@ -2,6 +2,7 @@
 #include "vk/buffer.h"
 
 #include "vk/check.h"
+#include "vk/descriptor_sets.h"
 #include "vk/device.h"
 #include "zvo/error.h"
 
@@ -16,9 +17,9 @@ namespace zvo::vk
 namespace
 {
 
-constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                                      VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
 // The alignment of the largest GPU_BUFFER in the shaders.
 constexpr VkDeviceSize kAddressAlignment = 16;
@@ -72,6 +73,7 @@ Buffer::~Buffer()
 {
     if (m_handle != VK_NULL_HANDLE)
     {
+        m_device->descriptors().forget(m_handle);
         m_device->fn().vkDestroyBuffer(m_device->handle(), m_handle, m_device->allocationCallbacks());
         m_device->memory().release(m_memory);
     }

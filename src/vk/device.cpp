@@ -2,6 +2,7 @@
 #include "vk/device.h"
 
 #include "vk/check.h"
+#include "vk/descriptor_sets.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -89,6 +90,9 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
     }
     tellWhatIsMissing();
     m_memory = std::make_unique<MemoryAllocator>(*this, handles.memory_budget_bytes, handles.memory_budget_name);
+    m_kernel_form =
+        static_cast<LoadForm>(tuned(kLoadsName)) == LoadForm::Descriptors ? KernelForm::Bound : KernelForm::Addressed;
+    m_descriptors = std::make_unique<DescriptorSets>(*this);
     m_kernels = std::make_unique<KernelCache>(*this, kernels, handles.pipeline_cache);
 }
 
@@ -109,8 +113,8 @@ void Device::takeDeclaration()
     std::vector<std::string> undeclared;
     for (const Feature& feature : knownFeatures())
     {
-        const bool needed =
-            feature.use == FeatureUse::Required || (feature.name == "subgroupSizeControl" && askedSubgroupSize() != 0);
+        const bool needed = feature.use == FeatureUse::Required ||
+                            (feature.name == "subgroupSizeControl" && tuned(kSubgroupSizeName) != 0);
         const bool enabled = contains(declared, feature.name);
         if (!contains(m_report.present, feature.name))
         {
@@ -137,15 +141,16 @@ void Device::takeDeclaration()
     m_has_debug_utils = contains(m_handles.instance_extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 }
 
-std::uint32_t Device::askedSubgroupSize() const
+// What the owner chooses; 0: nothing.
+std::uint32_t Device::tuned(const char* name) const
 {
-    const auto asked = m_handles.tuning.find(kSubgroupSizeName);
+    const auto asked = m_handles.tuning.find(name);
     return asked != m_handles.tuning.end() ? asked->second : 0;
 }
 
 void Device::chooseSubgroupSize()
 {
-    const std::uint32_t asked = askedSubgroupSize();
+    const std::uint32_t asked = tuned(kSubgroupSizeName);
     if (asked == 0)
     {
         m_required_subgroup_size = isEnabled("subgroupSizeControl") ? usualSubgroupSize(m_report) : 0;

@@ -22,6 +22,8 @@
 namespace zvo::vk
 {
 
+class DescriptorSets;
+
 using zvo::DeviceReport;
 using zvo::query;
 
@@ -90,11 +92,15 @@ public:
     /// The size of subgroups that every kernel requires; 0: none.
     [[nodiscard]] std::uint32_t requiredSubgroupSize() const { return m_required_subgroup_size; }
 
+    /// The form in which passes run kernels that have two.
+    [[nodiscard]] KernelForm kernelForm() const { return m_kernel_form; }
+
     /// The capabilities of the queues of DeviceHandles::queue_family.
     [[nodiscard]] VkQueueFlags queueFlags() const { return m_queue_flags; }
 
     [[nodiscard]] MemoryAllocator& memory() { return *m_memory; }
     [[nodiscard]] const MemoryAllocator& memory() const { return *m_memory; }
+    [[nodiscard]] DescriptorSets& descriptors() { return *m_descriptors; }
     [[nodiscard]] KernelCache& kernels() { return *m_kernels; }
 
     /// Names a Vulkan object for debuggers and validation messages; does nothing without VK_EXT_debug_utils, nor when
@@ -115,7 +121,7 @@ private:
     void takeDeclaration();
     void chooseSubgroupSize();
     void limitWorkgroups();
-    [[nodiscard]] std::uint32_t askedSubgroupSize() const;
+    [[nodiscard]] std::uint32_t tuned(const char* name) const;
     void tellWhatIsMissing() const;
     void logText(LogSeverity severity, fmt::string_view format, fmt::format_args arguments) const noexcept;
 
@@ -129,6 +135,8 @@ private:
     VkQueueFlags m_queue_flags = 0;
     std::uint32_t m_required_subgroup_size = 0;
     std::unique_ptr<MemoryAllocator> m_memory;
+    KernelForm m_kernel_form = KernelForm::Addressed;
+    std::unique_ptr<DescriptorSets> m_descriptors;
     std::unique_ptr<KernelCache> m_kernels;
 };
 

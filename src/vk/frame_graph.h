@@ -65,7 +65,7 @@ public:
 
 protected:
     friend class FrameGraph;
-    AnyPass(FrameGraph& graph, const Kernel& kernel) : m_graph(graph), m_kernel(kernel) {}
+    AnyPass(FrameGraph& graph, const Kernel& kernel) : m_graph(graph), m_kernel(&kernel) {}
 
     void dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes);
     void dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, const void* params, std::size_t bytes,
@@ -73,15 +73,18 @@ protected:
 
 private:
     void declare(const Buffer& buffer, Access access);
-    void prepare(std::size_t params_bytes);
+    void prepare(const void* params, std::size_t params_bytes);
+    bool findDescriptors(const void* params);
     void bind(const void* params, std::size_t bytes);
     void recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params, std::size_t bytes);
     void recordGroupRange(std::uint64_t first, std::uint64_t count);
-    [[nodiscard]] std::uint64_t key() const { return reinterpret_cast<std::uint64_t>(&m_kernel); }
+    [[nodiscard]] std::uint64_t key() const { return reinterpret_cast<std::uint64_t>(m_kernel); }
 
     FrameGraph& m_graph;
-    const Kernel& m_kernel;
+    const Kernel* m_kernel;
+    VkDescriptorSet m_descriptors = VK_NULL_HANDLE; // of a kernel's bound form
     std::vector<BufferAccess> m_accesses;
+    std::vector<const Buffer*> m_buffers; // those of m_accesses
     bool m_dispatched = false;
 };
 

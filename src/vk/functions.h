@@ -22,8 +22,10 @@ namespace zvo::vk
     X(vkGetPhysicalDeviceQueueFamilyProperties)
 
 #define ZVO_VK_DEVICE_FUNCTIONS(X)   \
+    X(vkAllocateDescriptorSets)      \
     X(vkAllocateMemory)              \
     X(vkBindBufferMemory)            \
+    X(vkCmdBindDescriptorSets)       \
     X(vkCmdBindPipeline)             \
     X(vkCmdCopyBuffer)               \
     X(vkCmdCopyBufferToImage)        \
@@ -36,21 +38,29 @@ namespace zvo::vk
     X(vkCmdUpdateBuffer)             \
     X(vkCmdWriteTimestamp2)          \
     X(vkCreateBuffer)                \
+    X(vkCreateBufferView)            \
     X(vkCreateComputePipelines)      \
+    X(vkCreateDescriptorPool)        \
+    X(vkCreateDescriptorSetLayout)   \
     X(vkCreatePipelineLayout)        \
     X(vkCreateQueryPool)             \
     X(vkCreateShaderModule)          \
     X(vkDestroyBuffer)               \
+    X(vkDestroyBufferView)           \
+    X(vkDestroyDescriptorPool)       \
+    X(vkDestroyDescriptorSetLayout)  \
     X(vkDestroyPipeline)             \
     X(vkDestroyPipelineLayout)       \
     X(vkDestroyQueryPool)            \
     X(vkDestroyShaderModule)         \
+    X(vkFreeDescriptorSets)          \
     X(vkFreeMemory)                  \
     X(vkGetBufferDeviceAddress)      \
     X(vkGetBufferMemoryRequirements) \
     X(vkGetQueryPoolResults)         \
     X(vkMapMemory)                   \
-    X(vkResetQueryPool)
+    X(vkResetQueryPool)              \
+    X(vkUpdateDescriptorSets)
 
 // Functions of VK_EXT_debug_utils: null if the instance does not have it.
 #define ZVO_VK_DEBUG_FUNCTIONS(X)   \
@@ -110,12 +120,10 @@ namespace zvo::vk
     X(vkCmdBlitImage)                     \
     X(vkCmdCopyImageToBuffer)             \
     X(vkCmdEndRenderPass)                 \
-    X(vkCreateDescriptorPool)             \
     X(vkCreateFramebuffer)                \
     X(vkCreateRenderPass)                 \
     X(vkCreateSemaphore)                  \
     X(vkCreateSwapchainKHR)               \
-    X(vkDestroyDescriptorPool)            \
     X(vkDestroyFramebuffer)               \
     X(vkDestroyRenderPass)                \
     X(vkDestroySemaphore)                 \

@@ -24,9 +24,11 @@ enum StageIndex
     kHost
 };
 
-// [StageIndex]. Fills and copies are one stage here, because fills have no stage bit.
+// [StageIndex]. Fills and copies are one stage here, because fills have no stage bit. Kernels read addresses and, in
+// bound forms, texel buffers.
 constexpr Stage kStages[] = {
-    {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT},
+    {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+     VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT},
     {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, 0, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT},
     {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_ACCESS_2_TRANSFER_READ_BIT},
     {VK_PIPELINE_STAGE_2_HOST_BIT, 0, VK_ACCESS_2_HOST_READ_BIT},

@@ -2,6 +2,7 @@
 #include "vk/kernel.h"
 
 #include "vk/check.h"
+#include "vk/descriptor_sets.h"
 #include "vk/device.h"
 #include "zvo/error.h"
 
@@ -112,24 +113,24 @@ const EmbeddedKernel& KernelCache::find(std::string_view name) const
     return *embedded;
 }
 
-const Kernel& KernelCache::get(std::string_view name, const Specialization& specialization)
+const Kernel& KernelCache::get(std::string_view name, const Specialization& specialization, KernelForm form)
 {
-    Key key{std::string(name), specialization};
+    const EmbeddedKernel& embedded = find(name);
+    const Key key{std::string(name), specialization, embedded.bound_words.empty() ? KernelForm::Addressed : form};
     const auto known = m_kernels.find(key);
     if (known != m_kernels.end())
     {
         return known->second;
     }
-    const EmbeddedKernel& embedded = find(name);
-    Kernel& kernel = m_kernels[std::move(key)]; // the cache destroys its kernels, incomplete ones too
+    Kernel& kernel = m_kernels[key]; // the cache destroys its kernels, incomplete ones too
     try
     {
-        create(embedded, specialization, kernel);
+        create(embedded, key, kernel);
     }
     catch (...)
     {
         destroy(kernel);
-        m_kernels.erase({std::string(name), specialization});
+        m_kernels.erase(key);
         throw;
     }
     return kernel;
@@ -147,17 +148,17 @@ void KernelCache::replace(std::string_view name, std::vector<std::uint32_t> word
                                 "build the program anew",
                                 name));
     }
-    const EmbeddedKernel embedded = {old.name, words};
+    const EmbeddedKernel embedded = {.name = old.name, .words = words};
     std::vector<Kernel> made;
     std::vector<Kernel*> targets;
     try
     {
         for (auto& [key, kernel] : m_kernels)
         {
-            if (key.first == name)
+            if (key.name == name && key.form == KernelForm::Addressed)
             {
                 targets.push_back(&kernel);
-                create(embedded, key.second, made.emplace_back());
+                create(embedded, key, made.emplace_back());
             }
         }
     }
@@ -176,9 +177,7 @@ void KernelCache::replace(std::string_view name, std::vector<std::uint32_t> word
     m_replaced.insert(m_replaced.end(), made.begin(), made.end());
     std::vector<std::uint32_t>& kept = m_modules[std::string(name)];
     kept = std::move(words);
-    std::find_if(m_embedded.begin(), m_embedded.end(),
-                 [&](const EmbeddedKernel& kernel) { return kernel.name == name; })
-        ->words = kept;
+    *std::ranges::find(m_embedded, name, &EmbeddedKernel::name) = {.name = old.name, .words = kept};
 }
 
 void KernelCache::releaseReplaced() noexcept
@@ -200,11 +199,15 @@ std::vector<std::string> KernelCache::names() const
     return names;
 }
 
-void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& specialization, Kernel& kernel)
+void KernelCache::create(const EmbeddedKernel& embedded, const Key& key, Kernel& kernel)
 {
     const Functions& fn = m_device.fn();
+    const bool is_bound = key.form == KernelForm::Bound;
+    const std::span<const std::uint32_t> words = is_bound ? embedded.bound_words : embedded.words;
+    const Specialization& specialization = key.specialization;
     kernel.name = embedded.name;
-    kernel.interface = reflectKernel(embedded.words);
+    kernel.specialization = specialization;
+    kernel.interface = reflectKernel(words);
     checkSpecialization(embedded, kernel.interface, specialization);
     specializeLocalSize(kernel.interface, specialization);
     checkLimits(embedded, kernel.interface, m_device.limits());
@@ -213,6 +216,13 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& s
     VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, kernel.interface.push_constant_bytes};
     VkPipelineLayoutCreateInfo layout{};
     layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    if (!kernel.interface.bindings.empty())
+    {
+        set_layout = m_device.descriptors().layout(kernel.interface.bindings);
+        layout.setLayoutCount = 1;
+        layout.pSetLayouts = &set_layout;
+    }
     layout.pushConstantRangeCount = range.size != 0 ? 1 : 0;
     layout.pPushConstantRanges = &range;
     VK_CHECK(fn.vkCreatePipelineLayout(m_device.handle(), &layout, m_device.allocationCallbacks(), &kernel.layout));
@@ -231,8 +241,8 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& s
 
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    module_info.codeSize = embedded.words.size_bytes();
-    module_info.pCode = embedded.words.data();
+    module_info.codeSize = words.size_bytes();
+    module_info.pCode = words.data();
     VkShaderModule module = VK_NULL_HANDLE;
     VK_CHECK(fn.vkCreateShaderModule(m_device.handle(), &module_info, m_device.allocationCallbacks(), &module));
 
@@ -258,7 +268,8 @@ void KernelCache::create(const EmbeddedKernel& embedded, const Specialization& s
         throwFailedCall(result, ("vkCreateComputePipelines for " + name).c_str(), __FILE_NAME__, __LINE__);
     }
     const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - start;
-    m_device.log(LogSeverity::Debug, "kernel {}: compiled in {:.1f} ms", name, wall.count());
+    m_device.log(LogSeverity::Debug, "kernel {}: compiled in {:.1f} ms{}", name, wall.count(),
+                 is_bound ? ", with descriptors" : "");
     m_device.setName(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(kernel.pipeline), name);
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -24,6 +25,14 @@ struct EmbeddedKernel
 {
     std::string_view name; // "<operation>/<kernel>", the shader's path without its ending
     std::span<const std::uint32_t> words;
+    std::span<const std::uint32_t> bound_words{}; // of its form for descriptors (lib/bound.glsl); empty: it has none
+};
+
+/// How a kernel reaches its buffers.
+enum class KernelForm : std::uint8_t
+{
+    Addressed, ///< all by their addresses
+    Bound      ///< some through descriptors, if the kernel has that form
 };
 
 enum class ConstantType
@@ -46,6 +55,16 @@ struct ModuleConstant
     bool operator==(const ModuleConstant&) const = default;
 };
 
+/// A buffer that a module reaches through a descriptor of set 0, where its parameters have the buffer's address.
+struct ModuleBinding
+{
+    std::uint32_t binding = 0;
+    std::uint32_t texel_words = 0;    // of a uniform texel buffer: 32-bit words of a texel; 0: it is a storage buffer
+    std::uint32_t address_offset = 0; // of the address in the push constants, in bytes
+
+    bool operator==(const ModuleBinding&) const = default;
+};
+
 /// What the host needs to know of a SPIR-V compute module, read from the module itself.
 struct KernelInterface
 {
@@ -56,10 +75,11 @@ struct KernelInterface
     std::uint32_t push_constant_bytes = 0; // size of the push constant block, with its tail padding: sizeof in C++
     std::string params_name;               // of the struct that is the push constant block's only member, or empty
     std::vector<ModuleConstant> constants; // by ascending id
+    std::vector<ModuleBinding> bindings;   // 0, 1, 2 and so on
 };
 
-/// Reads the interface of a SPIR-V 1.x compute module with one entry point. Throws Error{Other} if it is not one, or
-/// has specialization constants that are not 32 bits wide.
+/// Reads the interface of a SPIR-V 1.x compute module with one entry point. Throws Error{Other} if it is not one, has
+/// specialization constants that are not 32 bits wide, or descriptors other than those of lib/bound.glsl.
 KernelInterface reflectKernel(std::span<const std::uint32_t> words);
 
 /// Values of specialization constants, in the order of constant ids from 0 on; booleans as 0 and 1.
@@ -92,8 +112,9 @@ template <DeclaredKernel K> Specialization specializationOf(const K& kernel)
 struct Kernel
 {
     std::string name;
-    KernelInterface interface;                // local_size: as specialized
-    VkPipelineLayout layout = VK_NULL_HANDLE; // push constants only: buffers are reached by address
+    Specialization specialization;
+    KernelInterface interface; // local_size: as specialized
+    VkPipelineLayout layout = VK_NULL_HANDLE;
     VkPipeline pipeline = VK_NULL_HANDLE;
 };
 
@@ -110,12 +131,14 @@ public:
     /// The pipeline of the kernel of that name with these constants; the reference stays valid. Constants that are not
     /// given keep their default values. Throws Error{Other} for a name that was not embedded, for constants that the
     /// kernel does not declare, and for a workgroup that the device cannot run.
-    const Kernel& get(std::string_view name, const Specialization& specialization = {});
+    const Kernel& get(std::string_view name, const Specialization& specialization = {},
+                      KernelForm form = KernelForm::Addressed);
     template <DeclaredKernel K> const Kernel& get(const K& kernel) { return get(K::kName, specializationOf(kernel)); }
 
-    /// Replaces the module of the kernel of that name, also in pipelines that get() has returned. Work that was
-    /// recorded before uses the old pipelines, which are kept until releaseReplaced(). Throws Error{Other}, and changes
-    /// nothing, for a name that was not embedded and for a module with other parameters or workgroups of another size.
+    /// Replaces the module of the kernel of that name, also in pipelines that get() has returned, except in those of
+    /// bound forms, which get() no longer returns. Work that was recorded before uses the old pipelines, which are kept
+    /// until releaseReplaced(). Throws Error{Other}, and changes nothing, for a name that was not embedded and for a
+    /// module with other parameters or workgroups of another size.
     void replace(std::string_view name, std::vector<std::uint32_t> words);
 
     /// Frees replaced pipelines. The device must be done with all work that was recorded before replace().
@@ -125,10 +148,17 @@ public:
     [[nodiscard]] std::vector<std::string> names() const;
 
 private:
-    using Key = std::pair<std::string, Specialization>;
+    struct Key
+    {
+        std::string name;
+        Specialization specialization;
+        KernelForm form;
+
+        auto operator<=>(const Key&) const = default;
+    };
 
     [[nodiscard]] const EmbeddedKernel& find(std::string_view name) const;
-    void create(const EmbeddedKernel& embedded, const Specialization& specialization, Kernel& kernel);
+    void create(const EmbeddedKernel& embedded, const Key& key, Kernel& kernel);
     void destroy(const Kernel& kernel) noexcept;
 
     Device& m_device;

@@ -121,6 +121,10 @@ std::vector<std::string> differences(std::span<const KernelDeclaration> declarat
         else if (const auto kernel = undeclared.find(declaration.name); kernel != undeclared.end())
         {
             compare(declaration, reflectKernel(kernel->second->words), found);
+            if (!kernel->second->bound_words.empty())
+            {
+                compare(declaration, reflectKernel(kernel->second->bound_words), found);
+            }
             undeclared.erase(kernel);
         }
         else

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Passes of kernels: their accesses and dispatches.
+#include "vk/descriptor_sets.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/frame_graph_checks.h"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 
 namespace zvo::vk
@@ -24,54 +26,93 @@ void AnyPass::declare(const Buffer& buffer, Access access)
 {
     if (m_dispatched)
     {
-        misuse(fmt::format("pass {} was already dispatched when buffer {} was declared", m_kernel.name, buffer.name()));
+        misuse(
+            fmt::format("pass {} was already dispatched when buffer {} was declared", m_kernel->name, buffer.name()));
     }
     if (buffer.handle() != VK_NULL_HANDLE) // an empty buffer has nothing to wait for
     {
         m_accesses.push_back(accessOf(buffer, access));
+        m_buffers.push_back(&buffer);
     }
 }
 
-void AnyPass::prepare(std::size_t params_bytes)
+void AnyPass::prepare(const void* params, std::size_t params_bytes)
 {
     if (m_dispatched)
     {
-        misuse(fmt::format("pass {} was dispatched twice", m_kernel.name));
+        misuse(fmt::format("pass {} was dispatched twice", m_kernel->name));
     }
-    if (params_bytes != m_kernel.interface.push_constant_bytes)
+    if (params_bytes != m_kernel->interface.push_constant_bytes)
     {
-        misuse(fmt::format("kernel {} takes {} bytes of push constants but got {}", m_kernel.name,
-                           m_kernel.interface.push_constant_bytes, params_bytes));
+        misuse(fmt::format("kernel {} takes {} bytes of push constants but got {}", m_kernel->name,
+                           m_kernel->interface.push_constant_bytes, params_bytes));
+    }
+    if (!m_kernel->interface.bindings.empty() && !findDescriptors(params))
+    {
+        m_kernel = &m_graph.m_device.kernels().get(m_kernel->name, m_kernel->specialization);
     }
     m_dispatched = true;
+}
+
+// Makes descriptors for the buffers whose addresses the parameters have. False if there is none for one of them.
+bool AnyPass::findDescriptors(const void* params)
+{
+    DescriptorSets& descriptors = m_graph.m_device.descriptors();
+    const std::vector<ModuleBinding>& bindings = m_kernel->interface.bindings;
+    std::vector<VkBuffer> buffers;
+    for (const ModuleBinding& binding : bindings)
+    {
+        std::uint64_t address = 0;
+        std::memcpy(&address, static_cast<const std::byte*>(params) + binding.address_offset, sizeof(address));
+        const auto found = std::ranges::find(m_buffers, address, &Buffer::address);
+        if (address != 0 && (found == m_buffers.end() || !descriptors.canBind(binding, **found)))
+        {
+            return false;
+        }
+        buffers.push_back(address != 0 ? (*found)->handle() : VK_NULL_HANDLE);
+    }
+    // Each descriptor needs a buffer, even if the kernel never reads it.
+    const auto any = std::ranges::find_if(buffers, [](VkBuffer buffer) { return buffer != VK_NULL_HANDLE; });
+    if (any == buffers.end())
+    {
+        return false;
+    }
+    std::ranges::replace(buffers, VkBuffer{VK_NULL_HANDLE}, VkBuffer{*any});
+    m_descriptors = descriptors.get(bindings, buffers);
+    return true;
 }
 
 void AnyPass::bind(const void* params, std::size_t bytes)
 {
     const Functions& fn = m_graph.m_device.fn();
-    fn.vkCmdBindPipeline(m_graph.m_commands, VK_PIPELINE_BIND_POINT_COMPUTE, m_kernel.pipeline);
-    fn.vkCmdPushConstants(m_graph.m_commands, m_kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+    fn.vkCmdBindPipeline(m_graph.m_commands, VK_PIPELINE_BIND_POINT_COMPUTE, m_kernel->pipeline);
+    if (m_descriptors != VK_NULL_HANDLE)
+    {
+        fn.vkCmdBindDescriptorSets(m_graph.m_commands, VK_PIPELINE_BIND_POINT_COMPUTE, m_kernel->layout, 0, 1,
+                                   &m_descriptors, 0, nullptr);
+    }
+    fn.vkCmdPushConstants(m_graph.m_commands, m_kernel->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                           static_cast<std::uint32_t>(bytes), params);
 }
 
 void AnyPass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t bytes)
 {
-    prepare(bytes);
+    prepare(params, bytes);
     if (threads == 0)
     {
-        fmt::format_to(std::back_inserter(m_graph.m_dump), "pass {}: 0 threads, left out\n", m_kernel.name);
+        fmt::format_to(std::back_inserter(m_graph.m_dump), "pass {}: 0 threads, left out\n", m_kernel->name);
         return;
     }
     const VkPhysicalDeviceLimits& limits = m_graph.m_device.limits();
-    const auto [size_x, size_y, size_z] = m_kernel.interface.local_size;
+    const auto [size_x, size_y, size_z] = m_kernel->interface.local_size;
     const std::uint64_t group_threads = std::uint64_t{size_x} * size_y * size_z;
     const std::uint64_t groups = threads / group_threads + (threads % group_threads != 0 ? 1 : 0);
     const auto [x, y] = foldGroups(groups, limits.maxComputeWorkGroupCount[0]);
     if (y > limits.maxComputeWorkGroupCount[1] || threads > kMaxThreads || x * y * group_threads > kMaxThreads)
     {
-        misuse(fmt::format("pass {} asks for {} threads, more than one dispatch can have", m_kernel.name, threads));
+        misuse(fmt::format("pass {} asks for {} threads, more than one dispatch can have", m_kernel->name, threads));
     }
-    m_graph.declarePass(m_kernel.name, m_accesses,
+    m_graph.declarePass(m_kernel->name, m_accesses,
                         fmt::format("{} threads in {} x {} groups of {}", threads, x, y, group_threads));
     recordGroups(groups, {x, y}, params, bytes);
 }
@@ -80,9 +121,9 @@ void AnyPass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, cons
                                   std::uint64_t max_groups)
 {
     declare(args, Access::IndirectRead);
-    prepare(bytes);
+    prepare(params, bytes);
     checkRange(args, offset, sizeof(gpu::DispatchArgs));
-    m_graph.declarePass(m_kernel.name, m_accesses, "indirect");
+    m_graph.declarePass(m_kernel->name, m_accesses, "indirect");
     Slicer* const slicer = m_graph.m_slicer;
     if (slicer != nullptr && !slicer->admitUnseen(key(), max_groups))
     {
@@ -94,7 +135,7 @@ void AnyPass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, cons
             return;
         }
     }
-    m_graph.openPiece(m_kernel.name);
+    m_graph.openPiece(m_kernel->name);
     bind(params, bytes);
     m_graph.m_device.fn().vkCmdDispatchIndirect(m_graph.m_commands, args.handle(), offset);
     m_graph.closePiece();
@@ -106,7 +147,7 @@ void AnyPass::recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> wh
 {
     // Ranges smaller than this could start where no base reaches.
     const std::uint64_t least = groups / m_graph.m_device.limits().maxComputeWorkGroupCount[1] + 1;
-    m_graph.recordPieces(m_kernel.name, key(), groups, least,
+    m_graph.recordPieces(m_kernel->name, key(), groups, least,
                          [&](std::uint64_t first, std::uint64_t count)
                          {
                              bind(params, bytes);
@@ -139,7 +180,7 @@ void AnyPass::recordGroupRange(std::uint64_t first, std::uint64_t count)
         const std::uint64_t base_y = (first - base_x) / x;
         if (base_y >= limits.maxComputeWorkGroupCount[1])
         {
-            misuse(fmt::format("pass {} has no base for workgroup {} in a row of {}", m_kernel.name, first, x));
+            misuse(fmt::format("pass {} has no base for workgroup {} in a row of {}", m_kernel->name, first, x));
         }
         fn.vkCmdDispatchBase(m_graph.m_commands, static_cast<std::uint32_t>(base_x), static_cast<std::uint32_t>(base_y),
                              0, static_cast<std::uint32_t>(x), 1, 1);

@@ -166,6 +166,7 @@ void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPh
         std::uint32_t& most = limits.maxComputeWorkGroupCount[axis];
         most = std::min(most, overrides.max_group_counts[axis]);
     }
+    limits.maxTexelBufferElements = std::min(limits.maxTexelBufferElements, overrides.max_texel_elements);
     for (const std::string& name : overrides.features)
     {
         const auto present = std::find(report.present.begin(), report.present.end(), name);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace zvo::vk
 {
@@ -16,6 +17,7 @@ namespace
 constexpr std::uint32_t kPointerBytes = 8;
 constexpr std::uint32_t kMaxBytes = 1 << 20; // far above any push constant block; keeps broken modules from overflowing
 constexpr int kMaxNesting = 32;
+constexpr std::string_view kTexelsName = "texels"; // of variables of lib/bound.glsl, before words, _ and the member
 
 struct Layout
 {
@@ -43,6 +45,7 @@ public:
             result.push_constant_bytes = block.bytes;
             result.params_name = onlyMemberName(m_module.operand(*m_module.push_constants, 1));
         }
+        result.bindings = bindings();
         for (const auto& [id, spec_id] : m_module.spec_ids)
         {
             result.constants.push_back(specializationConstant(id, spec_id));
@@ -96,6 +99,61 @@ private:
     {
         const SpirvModule::Declaration& found = m_module.declaration(block);
         return found.op == spv::Op::OpTypeStruct && found.operands.size() == 1 ? m_module.name(found.operands[0]) : "";
+    }
+
+    // Buffers that the module reaches through descriptors, as lib/bound.glsl names and numbers them.
+    [[nodiscard]] std::vector<ModuleBinding> bindings() const
+    {
+        std::vector<ModuleBinding> result;
+        for (const SpirvModule::Variable& resource : m_module.resources)
+        {
+            const std::string name = m_module.name(resource.id);
+            const auto set = m_module.descriptor_sets.find(resource.id);
+            const auto binding = m_module.bindings.find(resource.id);
+            const std::size_t digits = kTexelsName.size();
+            const bool is_named = name.starts_with(kTexelsName) && name.size() > digits + 2 &&
+                                  std::string_view("124").find(name[digits]) != std::string_view::npos &&
+                                  name[digits + 1] == '_';
+            if (resource.storage != spv::StorageClass::UniformConstant || !is_named ||
+                set == m_module.descriptor_sets.end() || set->second != 0 || binding == m_module.bindings.end())
+            {
+                failModule(fmt::format("{} is not a texel buffer of lib/bound.glsl", name));
+            }
+            result.push_back({.binding = binding->second,
+                              .texel_words = static_cast<std::uint32_t>(name[digits] - '0'),
+                              .address_offset = addressOffset(std::string_view(name).substr(digits + 2))});
+        }
+        std::ranges::sort(result, {}, &ModuleBinding::binding);
+        for (std::size_t i = 0; i < result.size(); ++i)
+        {
+            if (result[i].binding != i)
+            {
+                failModule("its bindings are not numbered 0, 1, 2 and so on");
+            }
+        }
+        return result;
+    }
+
+    // Where the parameters' member of that name, an address, stands in the push constants.
+    [[nodiscard]] std::uint32_t addressOffset(std::string_view name) const
+    {
+        if (m_module.push_constants)
+        {
+            const std::uint32_t block = m_module.operand(*m_module.push_constants, 1);
+            const std::uint32_t params = m_module.operand(block, 0);
+            const SpirvModule::Declaration& found = m_module.declaration(params);
+            const auto layouts = m_module.members.find(params);
+            for (std::uint32_t i = 0; found.op == spv::Op::OpTypeStruct && i < found.operands.size(); ++i)
+            {
+                if (m_module.memberName(params, i) == name && layouts != m_module.members.end() &&
+                    layouts->second.count(i) != 0 &&
+                    m_module.declaration(found.operands[i]).op == spv::Op::OpTypePointer)
+                {
+                    return layouts->second.at(i).offset;
+                }
+            }
+        }
+        failModule(fmt::format("its parameters have no address {}", name));
     }
 
     [[nodiscard]] ModuleConstant specializationConstant(std::uint32_t id, std::uint32_t spec_id) const

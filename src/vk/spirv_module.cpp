@@ -49,6 +49,10 @@ void SpirvModule::visit(spv::Op op, std::span<const std::uint32_t> operands)
         need(2);
         m_names[operands[0]] = operands.subspan(1);
         break;
+    case spv::Op::OpMemberName:
+        need(3);
+        m_member_names[{operands[0], operands[1]}] = operands.subspan(2);
+        break;
     case spv::Op::OpEntryPoint:
         need(2);
         entry_point_count += static_cast<spv::ExecutionModel>(operands[0]) == spv::ExecutionModel::GLCompute ? 1 : 0;
@@ -90,10 +94,24 @@ void SpirvModule::visit(spv::Op op, std::span<const std::uint32_t> operands)
         break;
     case spv::Op::OpVariable:
         need(3);
-        if (static_cast<spv::StorageClass>(operands[2]) == spv::StorageClass::PushConstant)
-        {
-            push_constants = operands[0];
-        }
+        visitVariable(operands[1], operands[0], static_cast<spv::StorageClass>(operands[2]));
+        break;
+    default:
+        break;
+    }
+}
+
+void SpirvModule::visitVariable(std::uint32_t id, std::uint32_t type, spv::StorageClass storage)
+{
+    switch (storage)
+    {
+    case spv::StorageClass::PushConstant:
+        push_constants = type;
+        break;
+    case spv::StorageClass::UniformConstant:
+    case spv::StorageClass::Uniform:
+    case spv::StorageClass::StorageBuffer:
+        resources.push_back({id, storage});
         break;
     default:
         break;
@@ -127,6 +145,14 @@ void SpirvModule::visitDecoration(std::uint32_t target, spv::Decoration decorati
     else if (decoration == spv::Decoration::ArrayStride)
     {
         array_strides[target] = operands[0];
+    }
+    else if (decoration == spv::Decoration::Binding)
+    {
+        bindings[target] = operands[0];
+    }
+    else if (decoration == spv::Decoration::DescriptorSet)
+    {
+        descriptor_sets[target] = operands[0];
     }
     else if (decoration == spv::Decoration::BuiltIn &&
              static_cast<spv::BuiltIn>(operands[0]) == spv::BuiltIn::WorkgroupSize)
@@ -183,14 +209,25 @@ std::uint32_t SpirvModule::constant(std::uint32_t id) const
     return found->second[0];
 }
 
-// Strings are UTF-8, four bytes a word, first byte lowest, ended by a zero byte.
 std::string SpirvModule::name(std::uint32_t id) const
 {
-    std::string result;
     const auto found = m_names.find(id);
-    for (std::size_t i = 0; found != m_names.end() && i < 4 * found->second.size(); ++i)
+    return found != m_names.end() ? text(found->second) : "";
+}
+
+std::string SpirvModule::memberName(std::uint32_t id, std::uint32_t member) const
+{
+    const auto found = m_member_names.find({id, member});
+    return found != m_member_names.end() ? text(found->second) : "";
+}
+
+// Strings are UTF-8, four bytes a word, first byte lowest, ended by a zero byte.
+std::string SpirvModule::text(std::span<const std::uint32_t> words)
+{
+    std::string result;
+    for (std::size_t i = 0; i < 4 * words.size(); ++i)
     {
-        const char letter = static_cast<char>(found->second[i / 4] >> (8 * (i % 4)));
+        const char letter = static_cast<char>(words[i / 4] >> (8 * (i % 4)));
         if (letter == '\0')
         {
             break;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace zvo::vk
 {
@@ -35,6 +37,13 @@ public:
         bool is_row_major = false;
     };
 
+    /// A variable that stands for a buffer or an image outside of the kernel.
+    struct Variable
+    {
+        std::uint32_t id = 0;
+        spv::StorageClass storage{};
+    };
+
     /// words must outlive the object.
     explicit SpirvModule(std::span<const std::uint32_t> words);
 
@@ -46,8 +55,9 @@ public:
     /// The value of a constant, or its first word.
     [[nodiscard]] std::uint32_t constant(std::uint32_t id) const;
 
-    /// The name of an id; empty if it has none.
+    /// The name of an id, or of a member of a struct; empty if it has none.
     [[nodiscard]] std::string name(std::uint32_t id) const;
+    [[nodiscard]] std::string memberName(std::uint32_t id, std::uint32_t member) const;
 
     std::uint32_t entry_point_count = 0; // of kernels
     std::span<const std::uint32_t> local_size;
@@ -57,16 +67,23 @@ public:
     std::map<std::uint32_t, std::span<const std::uint32_t>> constants;
     std::map<std::uint32_t, std::uint32_t> spec_ids; // constant -> SpecId
     std::map<std::uint32_t, std::uint32_t> array_strides;
+    std::map<std::uint32_t, std::uint32_t> bindings;                  // variable -> Binding
+    std::map<std::uint32_t, std::uint32_t> descriptor_sets;           // variable -> DescriptorSet
+    std::vector<Variable> resources;                                  // what descriptors stand for
     std::map<std::uint32_t, std::map<std::uint32_t, Member>> members; // struct -> member index -> layout
 
 private:
     void visit(spv::Op op, std::span<const std::uint32_t> operands);
+    void visitVariable(std::uint32_t id, std::uint32_t type, spv::StorageClass storage);
     void visitExecutionMode(spv::ExecutionMode mode, std::span<const std::uint32_t> operands);
     void visitDecoration(std::uint32_t target, spv::Decoration decoration, std::span<const std::uint32_t> operands);
     static void visitMemberDecoration(Member& member, spv::Decoration decoration,
                                       std::span<const std::uint32_t> operands);
 
+    static std::string text(std::span<const std::uint32_t> words);
+
     std::map<std::uint32_t, std::span<const std::uint32_t>> m_names;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::span<const std::uint32_t>> m_member_names;
     std::map<std::uint32_t, Declaration> m_declarations;
 };
 

@@ -323,7 +323,7 @@ TEST_F(CliPath, BenchMeasuresEveryChoiceByDevice)
     }
     EXPECT_EQ(value_counts["node-lanes"], 5);
     EXPECT_EQ(value_counts["path-form"], 2);
-    EXPECT_EQ(value_counts.size(), 8U);
+    EXPECT_EQ(value_counts.size(), 9U);
     for (const auto& [choice, count] : default_counts)
     {
         EXPECT_EQ(count, 1) << choice;

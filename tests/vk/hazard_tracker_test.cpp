@@ -151,16 +151,17 @@ struct Use
 std::vector<Use> usesOf(Access access)
 {
     const Use kernel_read{kCompute, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, false};
+    const Use texel_read{kCompute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, false};
     const Use kernel_write{kCompute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, true};
     switch (access)
     {
     case Access::KernelRead:
-        return {kernel_read};
+        return {kernel_read, texel_read};
     case Access::KernelWrite:
         return {kernel_write};
     case Access::KernelReadWrite:
     case Access::KernelAccumulate:
-        return {kernel_read, kernel_write};
+        return {kernel_read, texel_read, kernel_write};
     case Access::IndirectRead:
         return {{kIndirect, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, false}};
     case Access::CopyRead:

@@ -24,7 +24,8 @@ enum class Tunable : std::uint8_t
     SharedSums,
     RayStack,
     PathForm,
-    SubgroupSize
+    SubgroupSize,
+    Loads
 };
 
 /// A value that a choice can have, with its name: a number or a word.

@@ -28,8 +28,11 @@ struct CopyParams // push constants
     uint count;
     uint factor;
 };
+GPU_KERNEL(test, bound, Bound, CopyParams)
 GPU_KERNEL(test, branch, Branch, CopyParams)
 GPU_KERNEL(test, scale, Scale, CopyParams)
+
+const uint kBoundMark = 1u << 30; // what the bound form of test/bound adds
 
 struct WriteArgsParams // push constants
 {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vk/functions.h"
+#include "vk/kernel.h"
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace zvo::vk
+{
+
+class Buffer;
+class Device;
+
+/// The descriptor sets of a device's kernels, and the buffer views in them. A set is made when it is first asked for,
+/// and never changed, so that recorded work can go on using it; it goes with the first of its buffers that is
+/// destroyed. Not thread safe.
+class DescriptorSets
+{
+public:
+    explicit DescriptorSets(Device& device) : m_device(device) {}
+    ~DescriptorSets();
+    DescriptorSets(const DescriptorSets&) = delete;
+    DescriptorSets& operator=(const DescriptorSets&) = delete;
+
+    /// The layout of sets for these bindings; it lives as long as this object. Throws Error{Memory}.
+    VkDescriptorSetLayout layout(std::span<const ModuleBinding> bindings);
+
+    /// Whether a descriptor of that binding can cover the whole buffer.
+    [[nodiscard]] bool canBind(const ModuleBinding& binding, const Buffer& buffer) const;
+
+    /// The set with these buffers, one for each binding, all of which canBind(). Throws Error{Memory}.
+    VkDescriptorSet get(std::span<const ModuleBinding> bindings, std::span<const VkBuffer> buffers);
+
+    /// Frees what refers to buffer, which is about to be destroyed.
+    void forget(VkBuffer buffer) noexcept;
+
+private:
+    struct SetKey
+    {
+        VkDescriptorSetLayout layout;
+        std::vector<VkBuffer> buffers;
+
+        auto operator<=>(const SetKey&) const = default;
+    };
+    struct Set
+    {
+        VkDescriptorPool pool;
+        VkDescriptorSet handle;
+    };
+    using ViewKey = std::pair<VkBuffer, std::uint32_t>; // words of a texel
+
+    VkBufferView view(VkBuffer buffer, std::uint32_t texel_words);
+    Set allocate(VkDescriptorSetLayout layout);
+
+    Device& m_device;
+    std::map<std::vector<std::uint32_t>, VkDescriptorSetLayout> m_layouts; // by texel_words of their bindings
+    std::vector<VkDescriptorPool> m_pools;                                 // the last one may have room
+    std::map<ViewKey, VkBufferView> m_views;
+    std::map<SetKey, Set> m_sets;
+};
+
+} // namespace zvo::vk

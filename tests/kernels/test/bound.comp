@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// destination = source * factor; the bound form tells that it ran by adding kBoundMark.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "params.h"
+#include "lib/bound.glsl"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform Params
+{
+    CopyParams params;
+};
+
+#ifdef BOUND
+TEXELS_1(0, source);
+
+uint load(uint i)
+{
+    return texelFetch(texels1_source, int(i)).x + kBoundMark;
+}
+#else
+uint load(uint i)
+{
+    return params.source.data[i];
+}
+#endif
+
+void main()
+{
+    uint i = threadIndex();
+    if (i < params.count)
+        params.destination.data[i] = load(i) * params.factor;
+}
