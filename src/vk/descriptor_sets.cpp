@@ -100,7 +100,7 @@ VkBufferView DescriptorSets::view(VkBuffer buffer, std::uint32_t texel_words)
     return result;
 }
 
-// From the last pool; from a new one, where that has no room.
+// From the first pool that has room; from a new one, where none has.
 DescriptorSets::Set DescriptorSets::allocate(VkDescriptorSetLayout layout)
 {
     const Functions& fn = m_device.fn();

@@ -60,7 +60,7 @@ private:
 
     Device& m_device;
     std::map<std::vector<std::uint32_t>, VkDescriptorSetLayout> m_layouts; // by texel_words of their bindings
-    std::vector<VkDescriptorPool> m_pools;                                 // the last one may have room
+    std::vector<VkDescriptorPool> m_pools;
     std::map<ViewKey, VkBufferView> m_views;
     std::map<SetKey, Set> m_sets;
 };
