@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr std::uint32_t kSetsOfPool = 64;
-constexpr std::uint32_t kDescriptorsOfSet = 8; // on average, at most
+constexpr std::uint32_t kDescriptorsOfSet = 8; // on average; where sets have more, a pool has room for fewer
 constexpr std::uint32_t kTexelWordBytes = 4;
 
 VkDescriptorType typeOf(std::uint32_t texel_words)
@@ -31,12 +31,21 @@ VkFormat formatOf(std::uint32_t texel_words)
         return VK_FORMAT_R32_UINT;
     case 2:
         return VK_FORMAT_R32G32_UINT;
+    case 3:
+        return VK_FORMAT_R32G32B32_UINT;
     default:
         return VK_FORMAT_R32G32B32A32_UINT;
     }
 }
 
 } // namespace
+
+DescriptorSets::DescriptorSets(Device& device) : m_device(device)
+{
+    VkFormatProperties properties{};
+    device.fn().vkGetPhysicalDeviceFormatProperties(device.handles().physical_device, formatOf(3), &properties);
+    m_has_texels3 = (properties.bufferFeatures & VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT) != 0;
+}
 
 DescriptorSets::~DescriptorSets()
 {
@@ -57,11 +66,11 @@ DescriptorSets::~DescriptorSets()
 
 VkDescriptorSetLayout DescriptorSets::layout(std::span<const ModuleBinding> bindings)
 {
-    std::vector<std::uint32_t> key;
+    LayoutKey key;
     std::vector<VkDescriptorSetLayoutBinding> descriptions;
     for (const ModuleBinding& binding : bindings)
     {
-        key.push_back(binding.texel_words);
+        key.emplace_back(binding.binding, binding.texel_words);
         descriptions.push_back({binding.binding, typeOf(binding.texel_words), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     const auto [found, is_new] = m_layouts.try_emplace(std::move(key), VK_NULL_HANDLE);
@@ -80,9 +89,12 @@ VkDescriptorSetLayout DescriptorSets::layout(std::span<const ModuleBinding> bind
 bool DescriptorSets::canBind(const ModuleBinding& binding, const Buffer& buffer) const
 {
     const VkPhysicalDeviceLimits& limits = m_device.limits();
-    return binding.texel_words != 0
-               ? buffer.bytes() / (kTexelWordBytes * binding.texel_words) <= limits.maxTexelBufferElements
-               : buffer.bytes() <= limits.maxStorageBufferRange;
+    if (binding.texel_words == 0)
+    {
+        return buffer.bytes() <= limits.maxStorageBufferRange;
+    }
+    const std::uint64_t texels = buffer.bytes() / (kTexelWordBytes * binding.texel_words);
+    return texels != 0 && texels <= limits.maxTexelBufferElements && (binding.texel_words != 3 || m_has_texels3);
 }
 
 VkBufferView DescriptorSets::view(VkBuffer buffer, std::uint32_t texel_words)

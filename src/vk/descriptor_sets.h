@@ -23,7 +23,7 @@ class Device;
 class DescriptorSets
 {
 public:
-    explicit DescriptorSets(Device& device) : m_device(device) {}
+    explicit DescriptorSets(Device& device);
     ~DescriptorSets();
     DescriptorSets(const DescriptorSets&) = delete;
     DescriptorSets& operator=(const DescriptorSets&) = delete;
@@ -59,7 +59,9 @@ private:
     Set allocate(VkDescriptorSetLayout layout);
 
     Device& m_device;
-    std::map<std::vector<std::uint32_t>, VkDescriptorSetLayout> m_layouts; // by texel_words of their bindings
+    bool m_has_texels3 = false; // texels of three words, which Vulkan does not promise
+    using LayoutKey = std::vector<std::pair<std::uint32_t, std::uint32_t>>; // numbers and texel_words of bindings
+    std::map<LayoutKey, VkDescriptorSetLayout> m_layouts;
     std::vector<VkDescriptorPool> m_pools;
     std::map<ViewKey, VkBufferView> m_views;
     std::map<SetKey, Set> m_sets;

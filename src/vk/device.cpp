@@ -90,10 +90,10 @@ Device::Device(const DeviceHandles& handles, std::span<const EmbeddedKernel> ker
     }
     tellWhatIsMissing();
     m_memory = std::make_unique<MemoryAllocator>(*this, handles.memory_budget_bytes, handles.memory_budget_name);
-    m_kernel_form =
-        static_cast<LoadForm>(tuned(kLoadsName)) == LoadForm::Descriptors ? KernelForm::Bound : KernelForm::Addressed;
     m_descriptors = std::make_unique<DescriptorSets>(*this);
-    m_kernels = std::make_unique<KernelCache>(*this, kernels, handles.pipeline_cache);
+    const auto asked_loads = static_cast<LoadForm>(tuned(kLoadsName));
+    const LoadForm loads = asked_loads != LoadForm::Auto ? asked_loads : usualLoadForm(m_report);
+    m_kernels = std::make_unique<KernelCache>(*this, kernels, handles.pipeline_cache, loads);
 }
 
 Device::~Device() = default;

@@ -37,6 +37,11 @@ inline constexpr std::uint32_t kGroupThreads = 128;
 /// can ask for 32, which leaves each thread twice the registers; else 0, the driver's choice.
 std::uint32_t usualSubgroupSize(const DeviceReport& report);
 
+/// How kernels reach their buffers if nobody chooses. Software devices compile atomics on bound buffers to less code
+/// than those on addresses; lavapipe of Mesa 22.3 also compiles loads from addresses to loops over the threads of a
+/// subgroup. Never Auto.
+LoadForm usualLoadForm(const DeviceReport& report);
+
 /// What a host hands over. zvo creates none of these handles and destroys none of them. Vulkan cannot be asked what is
 /// enabled, so the host declares it here.
 struct DeviceHandles
@@ -92,9 +97,6 @@ public:
     /// The size of subgroups that every kernel requires; 0: none.
     [[nodiscard]] std::uint32_t requiredSubgroupSize() const { return m_required_subgroup_size; }
 
-    /// The form in which passes run kernels that have two.
-    [[nodiscard]] KernelForm kernelForm() const { return m_kernel_form; }
-
     /// The capabilities of the queues of DeviceHandles::queue_family.
     [[nodiscard]] VkQueueFlags queueFlags() const { return m_queue_flags; }
 
@@ -135,7 +137,6 @@ private:
     VkQueueFlags m_queue_flags = 0;
     std::uint32_t m_required_subgroup_size = 0;
     std::unique_ptr<MemoryAllocator> m_memory;
-    KernelForm m_kernel_form = KernelForm::Addressed;
     std::unique_ptr<DescriptorSets> m_descriptors;
     std::unique_ptr<KernelCache> m_kernels;
 };

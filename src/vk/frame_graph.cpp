@@ -74,7 +74,8 @@ FrameGraph::FrameGraph(Device& device, VkCommandBuffer commands, TimerPool* time
 
 const Kernel& FrameGraph::findKernel(std::string_view name, const Specialization& specialization)
 {
-    return m_device.kernels().get(name, specialization, m_device.kernelForm());
+    KernelCache& kernels = m_device.kernels();
+    return kernels.get(name, specialization, kernels.usualForm(name));
 }
 
 void FrameGraph::fill(Buffer& buffer, std::uint32_t value, std::uint64_t first, std::uint64_t count)

@@ -63,6 +63,10 @@ public:
         return {buffer.address()};
     }
 
+    /// The kernel finds the address of buffer in a table on the device, and its bound form (lib/bound.glsl) the buffer
+    /// by this name, which must be a literal. Where earlier passes write to the buffer, the access is declared as well.
+    void reach(std::string_view name, const Buffer& buffer);
+
 protected:
     friend class FrameGraph;
     AnyPass(FrameGraph& graph, const Kernel& kernel) : m_graph(graph), m_kernel(&kernel) {}
@@ -72,9 +76,20 @@ protected:
                              std::uint64_t max_groups);
 
 private:
+    struct Reached
+    {
+        std::string_view name;
+        const Buffer* buffer;
+    };
+
     void declare(const Buffer& buffer, Access access);
     void prepare(const void* params, std::size_t params_bytes);
+    [[nodiscard]] const Buffer* boundBuffer(const ModuleBinding& binding, const void* params) const;
     bool findDescriptors(const void* params);
+    [[nodiscard]] const char* formText() const
+    {
+        return m_descriptors != VK_NULL_HANDLE ? ", through descriptors" : "";
+    }
     void bind(const void* params, std::size_t bytes);
     void recordGroups(std::uint64_t groups, std::array<std::uint64_t, 2> whole, const void* params, std::size_t bytes);
     void recordGroupRange(std::uint64_t first, std::uint64_t count);
@@ -85,6 +100,7 @@ private:
     VkDescriptorSet m_descriptors = VK_NULL_HANDLE; // of a kernel's bound form
     std::vector<BufferAccess> m_accesses;
     std::vector<const Buffer*> m_buffers; // those of m_accesses
+    std::vector<Reached> m_reached;
     bool m_dispatched = false;
 };
 

@@ -16,6 +16,7 @@ namespace zvo::vk
 #define ZVO_VK_INSTANCE_FUNCTIONS(X)       \
     X(vkGetDeviceProcAddr)                 \
     X(vkGetPhysicalDeviceFeatures2)        \
+    X(vkGetPhysicalDeviceFormatProperties) \
     X(vkGetPhysicalDeviceMemoryProperties) \
     X(vkGetPhysicalDeviceProperties)       \
     X(vkGetPhysicalDeviceProperties2)      \
@@ -108,7 +109,6 @@ namespace zvo::vk
 // Functions for windows and for drawing in them: null if the instance has no surfaces or the device no swapchains.
 #define ZVO_VK_WINDOW_INSTANCE_FUNCTIONS(X)      \
     X(vkDestroySurfaceKHR)                       \
-    X(vkGetPhysicalDeviceFormatProperties)       \
     X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR) \
     X(vkGetPhysicalDeviceSurfaceFormatsKHR)      \
     X(vkGetPhysicalDeviceSurfacePresentModesKHR) \

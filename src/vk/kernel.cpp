@@ -4,6 +4,7 @@
 #include "vk/check.h"
 #include "vk/descriptor_sets.h"
 #include "vk/device.h"
+#include "vk/tuning.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -72,6 +73,13 @@ void checkLimits(const EmbeddedKernel& kernel, const KernelInterface& interface,
     }
 }
 
+// Whether the kernel's bound form has storage buffers, which are for atomics.
+bool bindsStorage(const EmbeddedKernel& kernel)
+{
+    const std::vector<ModuleBinding> bindings = reflectKernel(kernel.bound_words).bindings;
+    return std::ranges::any_of(bindings, [](const ModuleBinding& binding) { return binding.texel_words == 0; });
+}
+
 std::string debugName(const EmbeddedKernel& kernel, const Specialization& specialization)
 {
     return specialization.empty() ? std::string(kernel.name)
@@ -80,9 +88,23 @@ std::string debugName(const EmbeddedKernel& kernel, const Specialization& specia
 
 } // namespace
 
-KernelCache::KernelCache(Device& device, std::span<const EmbeddedKernel> kernels, VkPipelineCache pipeline_cache)
+KernelCache::KernelCache(Device& device, std::span<const EmbeddedKernel> kernels, VkPipelineCache pipeline_cache,
+                         LoadForm loads)
     : m_device(device), m_embedded(kernels.begin(), kernels.end()), m_pipeline_cache(pipeline_cache)
 {
+    for (const EmbeddedKernel& kernel : kernels)
+    {
+        if (!kernel.bound_words.empty() &&
+            (loads == LoadForm::Descriptors || (loads == LoadForm::Atomics && bindsStorage(kernel))))
+        {
+            m_bound.emplace(kernel.name);
+        }
+    }
+}
+
+KernelForm KernelCache::usualForm(std::string_view name) const
+{
+    return m_bound.count(name) != 0 ? KernelForm::Bound : KernelForm::Addressed;
 }
 
 KernelCache::~KernelCache()
@@ -177,6 +199,7 @@ void KernelCache::replace(std::string_view name, std::vector<std::uint32_t> word
     m_replaced.insert(m_replaced.end(), made.begin(), made.end());
     std::vector<std::uint32_t>& kept = m_modules[std::string(name)];
     kept = std::move(words);
+    m_bound.erase(std::string(name));
     *std::ranges::find(m_embedded, name, &EmbeddedKernel::name) = {.name = old.name, .words = kept};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vk/functions.h"
+#include "vk/tuning.h"
 
 #include <array>
 #include <bit>
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,11 +57,15 @@ struct ModuleConstant
     bool operator==(const ModuleConstant&) const = default;
 };
 
-/// A buffer that a module reaches through a descriptor of set 0, where its parameters have the buffer's address.
+/// A buffer that a module reaches through a descriptor of set 0.
 struct ModuleBinding
 {
+    /// In address_offset: the parameters do not have the buffer's address. The pass names the buffer (AnyPass::reach).
+    static constexpr std::uint32_t kNoAddress = UINT32_MAX;
+
     std::uint32_t binding = 0;
     std::uint32_t texel_words = 0;    // of a uniform texel buffer: 32-bit words of a texel; 0: it is a storage buffer
+    std::string name;                 // of the parameter that is the buffer's address, or that the pass gives it
     std::uint32_t address_offset = 0; // of the address in the push constants, in bytes
 
     bool operator==(const ModuleBinding&) const = default;
@@ -75,7 +81,7 @@ struct KernelInterface
     std::uint32_t push_constant_bytes = 0; // size of the push constant block, with its tail padding: sizeof in C++
     std::string params_name;               // of the struct that is the push constant block's only member, or empty
     std::vector<ModuleConstant> constants; // by ascending id
-    std::vector<ModuleBinding> bindings;   // 0, 1, 2 and so on
+    std::vector<ModuleBinding> bindings;   // by ascending number
 };
 
 /// Reads the interface of a SPIR-V 1.x compute module with one entry point. Throws Error{Other} if it is not one, has
@@ -123,7 +129,9 @@ struct Kernel
 class KernelCache
 {
 public:
-    KernelCache(Device& device, std::span<const EmbeddedKernel> kernels, VkPipelineCache pipeline_cache);
+    /// loads: which kernels passes run in their bound form; not Auto.
+    KernelCache(Device& device, std::span<const EmbeddedKernel> kernels, VkPipelineCache pipeline_cache,
+                LoadForm loads);
     ~KernelCache();
     KernelCache(const KernelCache&) = delete;
     KernelCache& operator=(const KernelCache&) = delete;
@@ -134,6 +142,9 @@ public:
     const Kernel& get(std::string_view name, const Specialization& specialization = {},
                       KernelForm form = KernelForm::Addressed);
     template <DeclaredKernel K> const Kernel& get(const K& kernel) { return get(K::kName, specializationOf(kernel)); }
+
+    /// The form in which passes run the kernel of that name if its buffers allow it.
+    [[nodiscard]] KernelForm usualForm(std::string_view name) const;
 
     /// Replaces the module of the kernel of that name, also in pipelines that get() has returned, except in those of
     /// bound forms, which get() no longer returns. Work that was recorded before uses the old pipelines, which are kept
@@ -163,6 +174,7 @@ private:
 
     Device& m_device;
     std::vector<EmbeddedKernel> m_embedded;
+    std::set<std::string, std::less<>> m_bound; // kernels that passes run in their bound form
     std::map<std::string, std::vector<std::uint32_t>, std::less<>> m_modules; // of kernels that were replaced
     VkPipelineCache m_pipeline_cache;
     std::map<Key, Kernel> m_kernels;

@@ -36,6 +36,14 @@ void AnyPass::declare(const Buffer& buffer, Access access)
     }
 }
 
+void AnyPass::reach(std::string_view name, const Buffer& buffer)
+{
+    if (!m_kernel->interface.bindings.empty())
+    {
+        m_reached.push_back({name, &buffer});
+    }
+}
+
 void AnyPass::prepare(const void* params, std::size_t params_bytes)
 {
     if (m_dispatched)
@@ -54,31 +62,60 @@ void AnyPass::prepare(const void* params, std::size_t params_bytes)
     m_dispatched = true;
 }
 
-// Makes descriptors for the buffers whose addresses the parameters have. False if there is none for one of them.
+// The buffer of a binding, which is empty where the kernel does not use it; null if it is none that the pass knows.
+const Buffer* AnyPass::boundBuffer(const ModuleBinding& binding, const void* params) const
+{
+    static const Buffer kEmpty;
+    if (binding.address_offset == ModuleBinding::kNoAddress)
+    {
+        const auto found = std::ranges::find(m_reached, binding.name, &Reached::name);
+        if (found == m_reached.end())
+        {
+            misuse(fmt::format("pass {} does not say which buffer {} is", m_kernel->name, binding.name));
+        }
+        return found->buffer;
+    }
+    std::uint64_t address = 0;
+    std::memcpy(&address, static_cast<const std::byte*>(params) + binding.address_offset, sizeof(address));
+    if (address == 0)
+    {
+        return &kEmpty;
+    }
+    const auto found = std::ranges::find(m_buffers, address, &Buffer::address);
+    return found != m_buffers.end() ? *found : nullptr;
+}
+
+// Makes descriptors for the kernel's bindings. False if there is none for one of them.
 bool AnyPass::findDescriptors(const void* params)
 {
     DescriptorSets& descriptors = m_graph.m_device.descriptors();
     const std::vector<ModuleBinding>& bindings = m_kernel->interface.bindings;
-    std::vector<VkBuffer> buffers;
+    std::vector<const Buffer*> buffers;
     for (const ModuleBinding& binding : bindings)
     {
-        std::uint64_t address = 0;
-        std::memcpy(&address, static_cast<const std::byte*>(params) + binding.address_offset, sizeof(address));
-        const auto found = std::ranges::find(m_buffers, address, &Buffer::address);
-        if (address != 0 && (found == m_buffers.end() || !descriptors.canBind(binding, **found)))
+        const Buffer* const buffer = boundBuffer(binding, params);
+        const bool is_empty = buffer != nullptr && buffer->handle() == VK_NULL_HANDLE;
+        if (buffer == nullptr || (!is_empty && !descriptors.canBind(binding, *buffer)))
         {
             return false;
         }
-        buffers.push_back(address != 0 ? (*found)->handle() : VK_NULL_HANDLE);
+        buffers.push_back(is_empty ? nullptr : buffer);
     }
     // Each descriptor needs a buffer, even if the kernel never reads it.
-    const auto any = std::ranges::find_if(buffers, [](VkBuffer buffer) { return buffer != VK_NULL_HANDLE; });
-    if (any == buffers.end())
+    std::vector<VkBuffer> handles;
+    for (std::size_t i = 0; i < bindings.size(); ++i)
     {
-        return false;
+        const auto usable = [&](const Buffer* buffer)
+        { return buffer != nullptr && descriptors.canBind(bindings[i], *buffer); };
+        const auto any = usable(buffers[i]) ? buffers.begin() + static_cast<std::ptrdiff_t>(i)
+                                            : std::ranges::find_if(buffers, usable);
+        if (any == buffers.end())
+        {
+            return false;
+        }
+        handles.push_back((*any)->handle());
     }
-    std::ranges::replace(buffers, VkBuffer{VK_NULL_HANDLE}, VkBuffer{*any});
-    m_descriptors = descriptors.get(bindings, buffers);
+    m_descriptors = descriptors.get(bindings, handles);
     return true;
 }
 
@@ -113,7 +150,7 @@ void AnyPass::dispatchRaw(std::uint64_t threads, const void* params, std::size_t
         misuse(fmt::format("pass {} asks for {} threads, more than one dispatch can have", m_kernel->name, threads));
     }
     m_graph.declarePass(m_kernel->name, m_accesses,
-                        fmt::format("{} threads in {} x {} groups of {}", threads, x, y, group_threads));
+                        fmt::format("{} threads in {} x {} groups of {}{}", threads, x, y, group_threads, formText()));
     recordGroups(groups, {x, y}, params, bytes);
 }
 
@@ -123,7 +160,7 @@ void AnyPass::dispatchIndirectRaw(const Buffer& args, std::uint64_t offset, cons
     declare(args, Access::IndirectRead);
     prepare(params, bytes);
     checkRange(args, offset, sizeof(gpu::DispatchArgs));
-    m_graph.declarePass(m_kernel->name, m_accesses, "indirect");
+    m_graph.declarePass(m_kernel->name, m_accesses, fmt::format("indirect{}", formText()));
     Slicer* const slicer = m_graph.m_slicer;
     if (slicer != nullptr && !slicer->admitUnseen(key(), max_groups))
     {

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
+#include <string_view>
 
 namespace zvo::vk
 {
@@ -178,6 +180,20 @@ void applyOverrides(const DeviceOverrides& overrides, DeviceReport& report, VkPh
         }
     }
     report.type = overrides.type.empty() ? report.type : overrides.type;
+}
+
+LoadForm usualLoadForm(const DeviceReport& report)
+{
+    if (report.type != "cpu")
+    {
+        return LoadForm::Addresses;
+    }
+    constexpr std::string_view kLavapipe = "llvmpipe Mesa ";
+    // Measured: 22.3 has slow loads, 25.0 has fast ones. What lies between is taken for slow.
+    constexpr int kFastLoads = 25;
+    const bool is_lavapipe = report.driver.starts_with(kLavapipe);
+    const int version = is_lavapipe ? std::atoi(report.driver.c_str() + kLavapipe.size()) : kFastLoads;
+    return version < kFastLoads ? LoadForm::Descriptors : LoadForm::Atomics;
 }
 
 std::uint32_t usualSubgroupSize(const DeviceReport& report)

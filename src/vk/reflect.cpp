@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string>
 #include <string_view>
 
 namespace zvo::vk
@@ -17,7 +19,10 @@ namespace
 constexpr std::uint32_t kPointerBytes = 8;
 constexpr std::uint32_t kMaxBytes = 1 << 20; // far above any push constant block; keeps broken modules from overflowing
 constexpr int kMaxNesting = 32;
-constexpr std::string_view kTexelsName = "texels"; // of variables of lib/bound.glsl, before words, _ and the member
+
+// Names of the variables of lib/bound.glsl begin so.
+constexpr std::string_view kTexelNames[] = {"texels1_", "texels2_", "texels3_", "texels4_"};
+constexpr std::string_view kStorageName = "storage_";
 
 struct Layout
 {
@@ -110,31 +115,31 @@ private:
             const std::string name = m_module.name(resource.id);
             const auto set = m_module.descriptor_sets.find(resource.id);
             const auto binding = m_module.bindings.find(resource.id);
-            const std::size_t digits = kTexelsName.size();
-            const bool is_named = name.starts_with(kTexelsName) && name.size() > digits + 2 &&
-                                  std::string_view("124").find(name[digits]) != std::string_view::npos &&
-                                  name[digits + 1] == '_';
-            if (resource.storage != spv::StorageClass::UniformConstant || !is_named ||
+            const auto texels = std::ranges::find_if(kTexelNames, [&](auto begin) { return name.starts_with(begin); });
+            const bool is_texels = texels != std::end(kTexelNames);
+            const spv::StorageClass storage =
+                is_texels ? spv::StorageClass::UniformConstant : spv::StorageClass::StorageBuffer;
+            if (resource.storage != storage || !(is_texels || name.starts_with(kStorageName)) ||
                 set == m_module.descriptor_sets.end() || set->second != 0 || binding == m_module.bindings.end())
             {
-                failModule(fmt::format("{} is not a texel buffer of lib/bound.glsl", name));
+                failModule(fmt::format("{} is not a buffer of lib/bound.glsl", name));
             }
-            result.push_back({.binding = binding->second,
-                              .texel_words = static_cast<std::uint32_t>(name[digits] - '0'),
-                              .address_offset = addressOffset(std::string_view(name).substr(digits + 2))});
+            ModuleBinding& bound = result.emplace_back();
+            bound.binding = binding->second;
+            bound.texel_words = is_texels ? static_cast<std::uint32_t>(texels - std::begin(kTexelNames)) + 1 : 0;
+            bound.name = name.substr(is_texels ? texels->size() : kStorageName.size());
+            bound.address_offset = addressOffset(bound.name);
         }
         std::ranges::sort(result, {}, &ModuleBinding::binding);
-        for (std::size_t i = 0; i < result.size(); ++i)
+        if (std::ranges::adjacent_find(result, {}, &ModuleBinding::binding) != result.end())
         {
-            if (result[i].binding != i)
-            {
-                failModule("its bindings are not numbered 0, 1, 2 and so on");
-            }
+            failModule("two of its buffers have the same binding");
         }
         return result;
     }
 
-    // Where the parameters' member of that name, an address, stands in the push constants.
+    // Where the parameters' member of that name, an address, stands in the push constants; ModuleBinding::kNoAddress if
+    // there is none.
     [[nodiscard]] std::uint32_t addressOffset(std::string_view name) const
     {
         if (m_module.push_constants)
@@ -153,7 +158,7 @@ private:
                 }
             }
         }
-        failModule(fmt::format("its parameters have no address {}", name));
+        return ModuleBinding::kNoAddress;
     }
 
     [[nodiscard]] ModuleConstant specializationConstant(std::uint32_t id, std::uint32_t spec_id) const

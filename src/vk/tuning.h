@@ -19,10 +19,13 @@ inline constexpr const char* kSubgroupSizeName = "subgroup-size";
 /// The name of the value that says how kernels reach their buffers: a LoadForm.
 inline constexpr const char* kLoadsName = "loads";
 
+/// Kernels that have a bound form (lib/bound.glsl) reach some buffers through descriptors in it.
 enum class LoadForm : std::uint8_t
 {
-    Addresses,  ///< all by their addresses; zvo's choice
-    Descriptors ///< some through descriptors, in kernels that have that form (lib/bound.glsl)
+    Auto,       ///< zvo's choice, usualLoadForm()
+    Addresses,  ///< no kernel runs in its bound form
+    Atomics,    ///< those do in whose bound form atomics go through descriptors
+    Descriptors ///< all do
 };
 
 } // namespace zvo::vk

@@ -59,10 +59,68 @@ gpu::uint thirdOf(vk::HeadlessDevice& device, gpu::uint first = 0)
 TEST(BoundForm, ItsDescriptorsStandForParameters)
 {
     const vk::KernelInterface interface = vk::reflectKernel(embedded("test/bound").bound_words);
-    EXPECT_EQ(interface.bindings,
-              (std::vector<vk::ModuleBinding>{{.binding = 0, .texel_words = 1, .address_offset = 0}}));
+    EXPECT_EQ(interface.bindings, (std::vector<vk::ModuleBinding>{
+                                      {.binding = 0, .texel_words = 1, .name = "source", .address_offset = 0}}));
     EXPECT_TRUE(vk::reflectKernel(embedded("test/bound").words).bindings.empty());
     EXPECT_TRUE(embedded("test/scale").bound_words.empty());
+}
+
+TEST(BoundForm, SuitsSoftwareDevices)
+{
+    DeviceReport report;
+    report.type = "cpu";
+    report.driver = "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)";
+    EXPECT_EQ(vk::usualLoadForm(report), vk::LoadForm::Descriptors);
+    report.driver = "llvmpipe Mesa 25.0.7-2 (LLVM 15.0.6)";
+    EXPECT_EQ(vk::usualLoadForm(report), vk::LoadForm::Atomics);
+    report.driver = "another one";
+    EXPECT_EQ(vk::usualLoadForm(report), vk::LoadForm::Atomics);
+    report.type = "discrete";
+    EXPECT_EQ(vk::usualLoadForm(report), vk::LoadForm::Addresses);
+}
+
+TEST(BoundForm, OfAtomicsAloneLeavesTexelsToOthers)
+{
+    vk::HeadlessDevice device(optionsWith(vk::LoadForm::Atomics), testKernels());
+    EXPECT_EQ(thirdOf(device), 2U);
+    EXPECT_EQ(device.device().kernels().usualForm("test/bound"), vk::KernelForm::Addressed);
+    EXPECT_EQ(device.device().kernels().usualForm("test/insert_bricks"), vk::KernelForm::Bound);
+}
+
+// A buffer whose address is in a table on the device.
+TEST(BoundForm, FindsBuffersByTheNamesThatThePassGivesThem)
+{
+    for (const vk::LoadForm loads : {vk::LoadForm::Addresses, vk::LoadForm::Descriptors})
+    {
+        vk::HeadlessDevice device(optionsWith(loads), testKernels());
+        const std::vector<gpu::uvec3> values = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+        const vk::BufferOf<gpu::uvec3> triples = device.makeBuffer("triples", std::span(values));
+        const gpu::ReachedTable table = {{triples.address()}};
+        const vk::BufferOf<gpu::ReachedTable> tables = device.makeBuffer("table", std::span(&table, 1));
+        Words sums(device.device(), "sums", values.size());
+        device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                vk::Pass pass = graph.addPass(gpu::test::Reached{});
+                pass.reach("triples", triples);
+                pass.dispatch(values.size(), {pass.read(tables), pass.write(sums), 3, 0});
+            });
+        const gpu::uint mark = loads == vk::LoadForm::Descriptors ? kBoundMark : 0;
+        EXPECT_EQ(device.download(sums), (std::vector<gpu::uint>{6 + mark, 15 + mark, 24 + mark}));
+    }
+}
+
+TEST(BoundForm, NeedsTheNamesOfAllItsBuffers)
+{
+    vk::HeadlessDevice device(optionsWith(vk::LoadForm::Descriptors), testKernels());
+    vk::BufferOf<gpu::ReachedTable> tables(device.device(), "table", 1);
+    Words sums(device.device(), "sums", 3);
+    const auto record = [&](vk::FrameGraph& graph)
+    {
+        vk::Pass pass = graph.addPass(gpu::test::Reached{});
+        pass.dispatch(3, {pass.read(tables), pass.write(sums), 3, 0});
+    };
+    EXPECT_THROW(device.run(record), Error);
 }
 
 TEST(BoundForm, RunsWhereDescriptorsAreChosen)

@@ -22,6 +22,7 @@ enum class Tunable : std::uint8_t
     BandLanes,
     AtomicBits,
     SharedSums,
+    MixedSums,
     RayStack,
     PathForm,
     SubgroupSize,

@@ -32,7 +32,22 @@ GPU_KERNEL(test, bound, Bound, CopyParams)
 GPU_KERNEL(test, branch, Branch, CopyParams)
 GPU_KERNEL(test, scale, Scale, CopyParams)
 
-const uint kBoundMark = 1u << 30; // what the bound form of test/bound adds
+const uint kBoundMark = 1u << 30; // what the bound forms of test/bound and test/reached add
+
+struct ReachedTable
+{
+    GPU_CONST_PTR(uvec3) triples; // [ReachedParams::count]
+};
+GPU_BUFFER(ReachedTable, 8);
+
+struct ReachedParams // push constants
+{
+    GPU_CONST_PTR(ReachedTable) tables; // [1]
+    GPU_PTR(uint) sums;                 // [count]
+    uint count;
+    uint padding;
+};
+GPU_KERNEL(test, reached, Reached, ReachedParams)
 
 struct WriteArgsParams // push constants
 {

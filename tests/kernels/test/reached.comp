@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Sums of the components of vectors that a table on the device knows; the bound form adds kBoundMark.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "params.h"
+#include "lib/bound.glsl"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = 32) in;
+layout(push_constant, scalar) uniform Params
+{
+    ReachedParams params;
+};
+
+#ifdef BOUND
+TEXELS_3(0, triples);
+
+uvec3 load(uint i)
+{
+    return texelFetch(texels3_triples, int(i)).xyz + uvec3(kBoundMark, 0u, 0u);
+}
+#else
+uvec3 load(uint i)
+{
+    return params.tables.data[0].triples.data[i];
+}
+#endif
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= params.count)
+        return;
+    uvec3 triple = load(i);
+    params.sums.data[i] = triple.x + triple.y + triple.z;
+}
