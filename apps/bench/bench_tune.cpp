@@ -98,6 +98,8 @@ public:
         case Tunable::AtomicBits:
         case Tunable::SharedSums:
             return msOf(build(), {"voxelize/triangles", "voxelize/rows"});
+        case Tunable::MixedSums:
+            return sumMs(build());
         case Tunable::RayStack:
             return sumMs(picture());
         case Tunable::PathForm:
@@ -193,6 +195,7 @@ bool canHave(const vk::Device& device, Tunable tunable, std::uint32_t value)
                               value <= report.max_subgroup_size);
     case Tunable::RowColumns:
     case Tunable::SharedSums:
+    case Tunable::MixedSums:
     case Tunable::PathForm:
     case Tunable::Loads:
         break;

@@ -6,6 +6,7 @@
 // a multiple of kLanes, and before this defines
 //   kLanes             of a node, a power of two; 1: nobody meets at barriers
 //   AVERAGE_CHILDREN   the pointer to children's attributes: Attribute_Ptr where the dispatch writes some of them itself
+//   CHILDREN_BINDING   optional: the binding of `children` in the kernel's bound form (lib/bound.glsl)
 #include "lib/attribute.glsl"
 
 const uint kChildrenAtOnce = 4u; // that a lane loads before it looks at them
@@ -31,7 +32,22 @@ struct ChildSums
 
 shared uint s_child_sums[kLanes > 1u ? gl_WorkGroupSize.x / kLanes * kSumWords : 1u];
 
-void addChild(uint_ConstPtr to_linear, Attribute child, inout ChildSums sums)
+#if defined(BOUND) && defined(CHILDREN_BINDING)
+TEXELS_2(CHILDREN_BINDING, children);
+
+Attribute loadChild(AVERAGE_CHILDREN children, uint i)
+{
+    uvec2 words = texelFetch(texels2_children, int(i)).xy;
+    return Attribute(words.x, words.y);
+}
+#else
+Attribute loadChild(AVERAGE_CHILDREN children, uint i)
+{
+    return children.data[i];
+}
+#endif
+
+void addChild(LinearTable to_linear, Attribute child, inout ChildSums sums)
 {
     sums.color += linearColor(to_linear, child.color);
     sums.normal += decodeNormal(child.normal);
@@ -39,19 +55,19 @@ void addChild(uint_ConstPtr to_linear, Attribute child, inout ChildSums sums)
 }
 
 // The same for kChildrenAtOnce children, of which the first exists.
-void addChildren(uint_ConstPtr to_linear, AVERAGE_CHILDREN children, uvec4 indices, bvec4 exists, inout ChildSums sums)
+void addChildren(LinearTable to_linear, AVERAGE_CHILDREN children, uvec4 indices, bvec4 exists, inout ChildSums sums)
 {
     Attribute none = Attribute(0u, 0u);
-    Attribute a = children.data[indices.x];
+    Attribute a = loadChild(children, indices.x);
     Attribute b = none;
     Attribute c = none;
     Attribute d = none;
     if (exists.y)
-        b = children.data[indices.y];
+        b = loadChild(children, indices.y);
     if (exists.z)
-        c = children.data[indices.z];
+        c = loadChild(children, indices.z);
     if (exists.w)
-        d = children.data[indices.w];
+        d = loadChild(children, indices.w);
     sums.flags |= (a.color | b.color | c.color | d.color) >> 24;
     sums.normal += decodeNormal(a.normal) + (exists.y ? decodeNormal(b.normal) : ivec3(0)) +
                    (exists.z ? decodeNormal(c.normal) : ivec3(0)) + (exists.w ? decodeNormal(d.normal) : ivec3(0));
@@ -106,13 +122,13 @@ void addLanes(inout ChildSums sums)
 // uniform control flow.
 Attribute averageChildren(SceneView_ConstPtr scene, Node node, AVERAGE_CHILDREN children)
 {
-    uint_ConstPtr to_linear = scene.data[0].srgb_to_linear;
+    LinearTable to_linear = LINEAR_TABLE(scene);
     uint count = bitCount(node.mask_lo) + bitCount(node.mask_hi);
     ChildSums sums = ChildSums(uvec3(0u), ivec3(0), 0u);
     if (kLanes == 1u)
     {
         for (uint i = 0u; i < count; ++i)
-            addChild(to_linear, children.data[node.base_lo + i], sums);
+            addChild(to_linear, loadChild(children, node.base_lo + i), sums);
     }
     else
     {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Keys, and lock-free find and insert, in the brick table (shared/bricks.h). Linear probing; entries are never removed.
-// The includer defines before:
-//   BRICKS_CONSTANT_ID    constant_id of kWideKeys
+// Lock-free find and insert in the brick table (shared/bricks.h). Linear probing; entries are never removed.
+// The includer has a kernel's parameters as params, with bricks and brick_mask, and defines before:
+//   BRICKS_CONSTANT_ID    as lib/brick_keys.glsl says
+//   BRICKS_BINDING        optional: the first of two bindings for the table in the kernel's bound form (lib/bound.glsl)
 //
 // Why wide keys need neither 64-bit atomics nor waiting. An insert takes an entry's two words in order: it writes its
 // lower word where the first is 0, and goes on to the next entry if that holds another one; then it does the same with
@@ -10,37 +11,24 @@
 // the same key stop at the same entry, in any order, and the one that wrote the second word has claimed it. No entry
 // stays half full: the thread that wrote the first word goes on to the second, which becomes its own, or that of
 // another key with the same lower word.
-#include "lib/morton.glsl"
-#include "shared/bricks.h"
-
-// The octree has more than kNarrowLevelsMax levels.
-layout(constant_id = BRICKS_CONSTANT_ID) const bool kWideKeys = false;
+#include "lib/brick_keys.glsl"
+#include "lib/brick_loads.glsl"
 
 const uint kNoEntry = ~0u;
 
-// The key of a cell among the 4^levels cells of its level. Narrow keys are in x, with y = 0.
-uvec2 brickKey(uvec3 cell, uint levels)
-{
-    uint marker = 6u * levels;
-    if (!kWideKeys)
-        return uvec2(mortonEncode(cell) | (1u << marker), 0u);
-    uvec2 leading = marker < kBrickKeyBits ? uvec2(1u << marker, 0u) : uvec2(0u, 1u << (marker - kBrickKeyBits));
-    return mortonEncodeWide(cell) | leading | kBrickKeyTag;
-}
+// Words of an entry.
+const uint kKeyWord = 0u;
+const uint kMaskWord = 1u; // and the next one
+const uint kBaseWord = 3u;
+const uint kEntryWords = 4u;
 
-uvec2 parentKey(uvec2 key)
-{
-    if (!kWideKeys)
-        return uvec2(key.x >> 6, 0u);
-    uvec2 code = key & ~kBrickKeyTag;
-    return uvec2((code.x >> 6) | ((code.y << (kBrickKeyBits - 6u)) & ((1u << kBrickKeyBits) - 1u)), code.y >> 6) |
-           kBrickKeyTag;
-}
-
-bool isSameKey(uvec2 a, uvec2 b)
-{
-    return a.x == b.x && (!kWideKeys || a.y == b.y);
-}
+// BRICK_WORD: a word of an entry, for atomics. Behind the table: of MixedVoxels.
+#if defined(BOUND) && defined(BRICKS_BINDING)
+STORAGE(BRICKS_BINDING + 1, uint, bricks);
+#define BRICK_WORD(ENTRY, WORD) storage_bricks.data[kEntryWords * (ENTRY) + (WORD)]
+#else
+#define BRICK_WORD(ENTRY, WORD) uint_Ptr(uint64_t(params.bricks) + uint64_t(ENTRY) * kBrickBytes).data[WORD]
+#endif
 
 // First entry to probe. Keys that differ only in the lowest bits stand side by side.
 uint brickHome(uvec2 key, uint mask)
@@ -54,19 +42,20 @@ uint brickHome(uvec2 key, uint mask)
 }
 
 // The entry of key, which is claimed if there is none; kNoEntry if the probes ran out. claimed: this call inserted the
-// key.
-uint brickFindOrInsert(BrickEntry_Ptr bricks, uint mask, uvec2 key, out bool claimed)
+// key. brick: what was loaded of the entry, in which masks may be out of date.
+uint brickFindOrInsert(uvec2 key, out bool claimed, out BrickEntry brick)
 {
-    uint entry = brickHome(key, mask);
-    uint found = 0u;
+    uint entry = brickHome(key, params.brick_mask);
     bool searching = true;
     claimed = false;
+    brick = BrickEntry(0u, 0u, 0u, 0u);
     for (uint probe = 0u; searching && probe < kBrickProbesMax; ++probe)
     {
-        found = bricks.data[entry].key;
+        brick = loadBrick(entry);
+        uint found = brick.key;
         if (found == 0u)
         {
-            found = atomicCompSwap(bricks.data[entry].key, 0u, key.x);
+            found = atomicCompSwap(BRICK_WORD(entry, kKeyWord), 0u, key.x);
             if (kWideKeys)
                 found = found == 0u ? key.x : found;
             else
@@ -74,50 +63,41 @@ uint brickFindOrInsert(BrickEntry_Ptr bricks, uint mask, uvec2 key, out bool cla
         }
         if (kWideKeys && found == key.x)
         {
-            found = bricks.data[entry].base;
+            found = brick.base;
             if (found == 0u)
             {
-                found = atomicCompSwap(bricks.data[entry].base, 0u, key.y);
+                found = atomicCompSwap(BRICK_WORD(entry, kBaseWord), 0u, key.y);
                 claimed = found == 0u;
             }
             found = found == key.y ? key.x : 0u;
         }
         searching = !claimed && found != key.x;
-        entry = searching ? (entry + 1u) & mask : entry;
+        entry = searching ? (entry + 1u) & params.brick_mask : entry;
     }
     return searching ? kNoEntry : entry;
 }
 
-// Sets the bit of the node with a key in its parent's mask.
-void setCell(BrickEntry_Ptr bricks, uint parent, uvec2 key)
+uint brickFindOrInsert(uvec2 key, out bool claimed)
 {
-    uint bit = 1u << (key.x & 31u);
-    if ((key.x & 32u) == 0u)
-        atomicOr(bricks.data[parent].mask_lo, bit);
-    else
-        atomicOr(bricks.data[parent].mask_hi, bit);
+    BrickEntry brick;
+    return brickFindOrInsert(key, claimed, brick);
 }
 
-// The entry of a key that an earlier dispatch inserted, or kNoEntry.
-uint brickFind(BrickEntry_ConstPtr bricks, uint mask, uvec2 key)
+// Sets the bit of a cell in the masks of an entry.
+void setCell(uint entry, uint cell)
 {
-    uint entry = brickHome(key, mask);
-    uvec2 found = uvec2(bricks.data[entry].key, kWideKeys ? bricks.data[entry].base : 0u);
-    for (uint probe = 0u; !isSameKey(found, key) && found.x != 0u && probe < kBrickProbesMax; ++probe)
+    atomicOr(BRICK_WORD(entry, kMaskWord + (cell >> 5)), 1u << (cell & 31u));
+}
+
+// The entry of a key that an earlier dispatch inserted, or kNoEntry. brick: its contents.
+uint brickFind(uvec2 key, out BrickEntry brick)
+{
+    uint entry = brickHome(key, params.brick_mask);
+    brick = loadBrick(entry);
+    for (uint probe = 0u; !isSameKey(keyOf(brick), key) && brick.key != 0u && probe < kBrickProbesMax; ++probe)
     {
-        entry = (entry + 1u) & mask;
-        found = uvec2(bricks.data[entry].key, kWideKeys ? bricks.data[entry].base : 0u);
+        entry = (entry + 1u) & params.brick_mask;
+        brick = loadBrick(entry);
     }
-    return isSameKey(found, key) ? entry : kNoEntry;
-}
-
-uvec2 keyOf(BrickEntry brick)
-{
-    return uvec2(brick.key, brick.base);
-}
-
-// Index of a node that octree/place has numbered.
-uint nodeOf(BrickEntry brick)
-{
-    return kWideKeys ? brick.mask_lo : brick.base;
+    return isSameKey(keyOf(brick), key) ? entry : kNoEntry;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the occupied entries of a brick table, kCollectItems for each thread of workgroups of kCollectGroup, and counts
-// their voxels. To list them, a kernel takes room for a whole subgroup by one atomic; there are no barriers.
+// their voxels. To list them, a kernel takes room for a whole subgroup by one atomic; there are no barriers. The
+// includer includes lib/brick_loads.glsl.
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
@@ -13,7 +14,7 @@ struct FoundBricks
 };
 
 // Call in uniform control flow.
-FoundBricks findBricks(BrickEntry_ConstPtr bricks, uint brick_capacity)
+FoundBricks findBricks(uint brick_capacity)
 {
     FoundBricks found;
     found.first = workgroupIndex() * (kCollectGroup * kCollectItems) + gl_LocalInvocationIndex;
@@ -23,11 +24,10 @@ FoundBricks findBricks(BrickEntry_ConstPtr bricks, uint brick_capacity)
     {
         uint entry = found.first + i * kCollectGroup;
         uint loaded = min(entry, brick_capacity - 1u); // no load waits for a condition, so many are under way
-        uint key = bricks.data[loaded].key;
-        uvec2 mask = uvec2(bricks.data[loaded].mask_lo, bricks.data[loaded].mask_hi);
-        bool is_brick = entry < brick_capacity && key != 0u;
+        BrickEntry brick = loadBrick(loaded);
+        bool is_brick = entry < brick_capacity && brick.key != 0u;
         found.occupied |= is_brick ? 1u << i : 0u;
-        voxels += is_brick ? bitCount(mask.x) + bitCount(mask.y) : 0u;
+        voxels += is_brick ? bitCount(brick.mask_lo) + bitCount(brick.mask_hi) : 0u;
     }
     uvec2 count = uvec2(bitCount(found.occupied), voxels);
     found.before = subgroupExclusiveAdd(count);

@@ -17,6 +17,16 @@ Attribute resolveSums(SceneView_ConstPtr scene, VoxelSums sums, uint sum_shift, 
     return Attribute(packColor(scene, color, flags), encodeNormal(normalSum(sums, sum_shift)));
 }
 
+// Writes the mean of sums as the attribute of a voxel: one store, not two. The includer's parameters have attributes.
+#define STORE_MEAN(VOXEL, SUMS, FLAGS)                                                                                 \
+    uint64_t_Ptr(uint64_t(params.attributes)).data[VOXEL] =                                                            \
+        packAttribute(resolveSums(params.scene, SUMS, params.sum_shift, FLAGS))
+
+uint64_t packAttribute(Attribute mean)
+{
+    return packUint2x32(uvec2(mean.color, mean.normal));
+}
+
 // 16-bit fractions to RGB9E5 (value = mantissa * 2^(exponent - 24)): the exponent fits the largest channel, what lies
 // below nine bits is cut off.
 uint encodeRgb9e5(uvec3 fraction)

@@ -3,6 +3,7 @@
 // Computes the attribute of each node of a level: the mean of its children's, with equal weights.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 
 layout(constant_id = 0) const uint kLanes = 1u;
@@ -14,6 +15,8 @@ layout(push_constant, scalar) uniform Push
 };
 
 #define AVERAGE_CHILDREN Attribute_ConstPtr
+#define CHILDREN_BINDING 0
+#define COLOR_BINDING 1
 #include "lib/average.glsl"
 
 void main()

@@ -1,13 +1,16 @@
 #version 460
 // SPDX-License-Identifier: MIT
 // Lists the occupied entries of the brick table, and counts the voxels in them. The order of the list is arbitrary:
-// nodes get their numbers from their position in the tree later.
+// nodes get their numbers from their position in the tree later. So is that of the sums of mixed voxels, for which each
+// leaf gets room.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #include "lib/arrivals.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/found_bricks.glsl"
 #include "octree/levels.glsl"
+
+layout(constant_id = 0) const bool kMixed = false; // MixedVoxels stand behind the table
 
 layout(local_size_x = kCollectGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -15,9 +18,23 @@ layout(push_constant, scalar) uniform Push
     CollectParams params;
 };
 
+#define BRICKS_BINDING 0
+#include "lib/brick_loads.glsl"
+#include "lib/found_bricks.glsl"
+
+// Gives the mixed voxels of a leaf room for their sums.
+void placeMixed(uint entry)
+{
+    MixedVoxels mixed = loadMixed(params.brick_capacity, entry);
+    uint count = bitCount(mixed.mask_lo) + bitCount(mixed.mask_hi);
+    uint64_t behind = uint64_t(params.bricks) + uint64_t(params.brick_capacity) * kBrickBytes;
+    if (count != 0u)
+        MixedVoxels_Ptr(behind).data[entry].first = atomicAdd(params.counters.data[0].mixed_count, count);
+}
+
 void main()
 {
-    FoundBricks found = findBricks(params.bricks, params.brick_capacity);
+    FoundBricks found = findBricks(params.brick_capacity);
     uint first = 0u;
     if (subgroupElect() && found.total.x != 0u)
     {
@@ -29,7 +46,10 @@ void main()
     uint slot = subgroupBroadcastFirst(first) + found.before.x;
     for (; found.occupied != 0u;)
     {
-        params.items.data[slot] = WorkItem(takeBrick(found), 0u);
+        uint entry = takeBrick(found);
+        params.items.data[slot] = WorkItem(entry, 0u);
+        if (kMixed)
+            placeMixed(entry);
         ++slot;
     }
     const uint block = kCollectGroup * kCollectItems;

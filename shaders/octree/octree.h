@@ -20,14 +20,6 @@ const uint kRootLevels = 2u;    // levels that it takes
 const uint kAssignGroup = 256u; // threads of a workgroup of octree/assign
 const uint kAssignItems = 4u;   // nodes that a thread of it takes: kScanBlock in all
 
-/// A node under construction: the numbers of its own and its parent's entry in the brick table.
-struct WorkItem
-{
-    uint entry;
-    uint parent_entry;
-};
-GPU_BUFFER(WorkItem, 4);
-
 /// The work items of one level of nodes. Element 0 is for the leaves, the last one for the root.
 struct LevelRange
 {
@@ -38,15 +30,17 @@ GPU_BUFFER(LevelRange, 4);
 
 struct CollectParams // push constants of octree/collect
 {
-    GPU_CONST_PTR(BrickEntry) bricks; // [brick_capacity], leaves only
-    GPU_PTR(WorkItem) items;          // [brick_capacity]
-    GPU_PTR(BrickCounters) counters;  // [1]
-    GPU_PTR(LevelRange) ranges;       // [kNodeLevelsMax] element 0 is set
-    GPU_PTR(DispatchArgs) args;       // likewise
+    GPU_PTR(BrickEntry) bricks;      // [brick_capacity] leaves; with kMixed, MixedVoxels behind them get `first`
+    GPU_PTR(WorkItem) items;         // [brick_capacity]
+    GPU_PTR(BrickCounters) counters; // [1]
+    GPU_PTR(LevelRange) ranges;      // [kNodeLevelsMax] element 0 is set
+    GPU_PTR(DispatchArgs) args;      // likewise
     uint brick_capacity;
     uint max_groups_x;
 };
-GPU_KERNEL(octree, collect, Collect, CollectParams)
+GPU_KERNEL_BEGIN(octree, collect, Collect, CollectParams)
+    GPU_CONSTANT(bool, mixed, false)
+GPU_KERNEL_END
 
 struct ParentsParams // push constants of octree/parents
 {

@@ -4,9 +4,8 @@
 // In the end, the level of the parents has its range and its workgroups.
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
-#define BRICKS_CONSTANT_ID 0
 #include "lib/arrivals.glsl"
-#include "lib/bricks.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 #include "octree/levels.glsl"
 
@@ -16,17 +15,21 @@ layout(push_constant, scalar) uniform Push
     ParentsParams params;
 };
 
+#define BRICKS_CONSTANT_ID 0
+#define BRICKS_BINDING 0
+#include "lib/bricks.glsl"
+
 void addToParent(uint item)
 {
-    uvec2 key = keyOf(params.bricks.data[params.items.data[item].entry]);
+    uvec2 key = keyOf(loadBrick(params.items.data[item].entry));
     bool claimed;
-    uint parent = brickFindOrInsert(params.bricks, params.brick_mask, parentKey(key), claimed);
+    uint parent = brickFindOrInsert(parentKey(key), claimed);
     if (parent == kNoEntry)
     {
         atomicAdd(params.counters.data[0].overflow_count, 1u);
         return;
     }
-    setCell(params.bricks, parent, key);
+    setCell(parent, key.x & 63u);
     params.items.data[item].parent_entry = parent;
     if (claimed)
         params.items.data[atomicAdd(params.counters.data[0].node_count, 1u)] = WorkItem(parent, 0u);

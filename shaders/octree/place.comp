@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "octree/octree.h"
 #define BRICKS_CONSTANT_ID 0
-#include "lib/bricks.glsl"
+#include "lib/brick_keys.glsl"
 #include "lib/dispatch.glsl"
 
 layout(local_size_x = kNodesGroup) in;

@@ -29,6 +29,22 @@ struct BrickEntry
 };
 GPU_BUFFER(BrickEntry, 16);
 
+/// The mixed voxels of a leaf: those that several fragments share. A voxelization that keeps sums of these alone has as
+/// many elements behind the entries of its table, in the same order.
+///
+///     byte 0        4        8        12       16
+///          | mask_lo| mask_hi| first  | 0      |
+struct MixedVoxels
+{
+    uint mask_lo;
+    uint mask_hi;
+    uint first; // of their sums; those of a leaf stand together, in the order of the mask
+    uint zero;
+};
+GPU_BUFFER(MixedVoxels, 16);
+
+const uint kBrickBytes = 16u; // of an entry, and of MixedVoxels
+
 const uint kNarrowLevelsMax = 6u;   // node levels of octrees whose keys fit one word
 const uint kBrickKeyBits = 30u;     // of a wide key in its first word: five levels of octants twice over
 const uint kBrickKeyTag = 1u << 31; // in both words of a wide key
@@ -36,13 +52,22 @@ const uint kBrickKeyTag = 1u << 31; // in both words of a wide key
 const uint kBrickProbesMax = 256u; // entries looked at before the table counts as full
 const uint kBrickRunLog2 = 3u;     // neighbours in Morton order share a run of 1 << kBrickRunLog2 entries
 
+/// A node under construction: the numbers of its own and its parent's entry in the brick table.
+struct WorkItem
+{
+    uint entry;
+    uint parent_entry;
+};
+GPU_BUFFER(WorkItem, 4);
+
 /// Counts of what happened to the table.
 struct BrickCounters
 {
     uint node_count;     // nodes listed so far
     uint voxel_count;    // voxels in the leaves, modulo 2^32
     uint voxel_carry;    // how often that wrapped around
-    uint overflow_count; // inserts that found no slot
+    uint overflow_count; // inserts that found no slot; in a build those of leaves are in RasterCounters
+    uint mixed_count;    // mixed voxels
     uint arrived[10];    // threads that have listed the nodes of a level, leaves first (lib/arrivals.glsl)
 };
 GPU_BUFFER(BrickCounters, 4);

@@ -44,6 +44,8 @@ struct Draw
 };
 GPU_BUFFER(Draw, 4);
 
+const uint kDrawWords = 29u; // 32-bit words of a Draw
+
 struct Material
 {
     uvec2 base_color;      // linear r | g << 16, b | a << 16 as 16-bit fractions

@@ -4,9 +4,7 @@
 // exclusive prefix sum, and the next level has its size.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#define BRICKS_CONSTANT_ID 0
 #include "lib/arrivals.glsl"
-#include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/dispatch_args.glsl"
 #include "lib/node.glsl"
@@ -26,6 +24,8 @@ layout(push_constant, scalar) uniform Push
     ExpandParams params;
 };
 
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
 #include "update/expand.glsl"
 #include "update/next_level.glsl"
 

@@ -62,8 +62,8 @@ uint expandChild(uint entry, uint cell, bool dag_leaves, out uint child)
     uint count = 0u;
     if (((cell < 32u ? brick.mask_lo >> cell : brick.mask_hi >> (cell - 32u)) & 1u) != 0u)
     {
-        uint child_entry = brickFind(params.bricks, params.brick_mask, childKey(keyOf(brick), cell));
-        BrickEntry child_brick = params.bricks.data[child_entry];
+        BrickEntry child_brick;
+        uint child_entry = brickFind(childKey(keyOf(brick), cell), child_brick);
         merged.mask_lo |= child_brick.mask_lo;
         merged.mask_hi |= child_brick.mask_hi;
         params.touched.data[child_entry] = TouchedNode(child, base.node);

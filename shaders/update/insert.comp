@@ -5,9 +5,7 @@
 // parent, too, and so on up: the table has all touched nodes then, and each level a list of its own.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#define BRICKS_CONSTANT_ID 0
 #include "lib/arrivals.glsl"
-#include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 #include "octree/levels.glsl"
 
@@ -16,6 +14,9 @@ layout(push_constant, scalar) uniform Push
 {
     InsertParams params;
 };
+
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
 
 // The last layer whose records begin at this one or before.
 uint layerOf(uint record)
@@ -48,7 +49,7 @@ void insertLeaf(uint record)
         return;
     uvec2 key = layer.keys.data[i];
     bool claimed;
-    uint entry = brickFindOrInsert(params.bricks, params.brick_mask, key, claimed);
+    uint entry = brickFindOrInsert(key, claimed);
     if (entry == kNoEntry)
     {
         atomicAdd(params.counters.data[0].overflow_count, 1u);
@@ -69,9 +70,9 @@ void insertLeaf(uint record)
         {
             uvec2 child = key;
             key = parentKey(child);
-            entry = brickFindOrInsert(params.bricks, params.brick_mask, key, claimed);
+            entry = brickFindOrInsert(key, claimed);
             if (entry != kNoEntry)
-                setCell(params.bricks, entry, child);
+                setCell(entry, child.x & 63u);
             else
                 atomicAdd(params.counters.data[0].overflow_count, 1u);
         }

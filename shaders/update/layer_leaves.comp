@@ -7,9 +7,8 @@
 #include "update/update.h"
 #define BRICKS_CONSTANT_ID 0
 #include "lib/arrivals.glsl"
-#include "lib/bricks.glsl"
+#include "lib/brick_keys.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/found_bricks.glsl"
 
 layout(local_size_x = kCollectGroup) in;
 layout(push_constant, scalar) uniform Push
@@ -17,9 +16,12 @@ layout(push_constant, scalar) uniform Push
     LayerLeavesParams params;
 };
 
+#include "lib/brick_loads.glsl"
+#include "lib/found_bricks.glsl"
+
 void listLeaves()
 {
-    FoundBricks found = findBricks(BrickEntry_ConstPtr(params.bricks), params.brick_capacity);
+    FoundBricks found = findBricks(params.brick_capacity);
     uvec2 first = uvec2(0u); // leaf and voxel
     if (subgroupElect() && found.total.x != 0u)
     {
@@ -74,11 +76,11 @@ void checkLayer()
     LayerCounters counters = LayerCounters(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     counters.leaf_count = atomicAdd(params.counters.data[0].leaf_count, 0u);
     counters.voxel_count = atomicAdd(params.counters.data[0].voxel_count, 0u);
-    counters.overflow_count = params.brick_counters.data[0].overflow_count;
     for (uint i = 0u; i < kClassCount; ++i)
         if (uint64_t(params.rasters[i]) != 0ul)
         {
             RasterCounters raster = params.rasters[i].data[0];
+            counters.overflow_count += raster.overflow_count;
             counters.big_count = max(counters.big_count, raster.big_count);
             counters.block_count = max(counters.block_count, raster.block_count);
             counters.blocks_exceeded |= raster.blocks_exceeded;

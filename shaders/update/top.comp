@@ -5,8 +5,6 @@
 // touched nodes found no room, there is no overlay.
 #extension GL_GOOGLE_include_directive : require
 #include "update/update.h"
-#define BRICKS_CONSTANT_ID 0
-#include "lib/bricks.glsl"
 #include "lib/dispatch_args.glsl"
 #include "lib/node.glsl"
 #define SCAN_GROUP kRootGroup
@@ -25,6 +23,8 @@ layout(push_constant, scalar) uniform Push
     TopParams params;
 };
 
+#define BRICKS_CONSTANT_ID 0
+#include "lib/bricks.glsl"
 #include "update/expand.glsl"
 #include "update/next_level.glsl"
 

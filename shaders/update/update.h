@@ -142,12 +142,11 @@ GPU_BUFFER(OverlayState, 8);
 
 struct LayerLeavesParams // push constants of update/layer_leaves
 {
-    GPU_PTR(BrickEntry) bricks;      // [brick_capacity], leaves only
-    GPU_PTR(uvec2) keys;             // [leaf_capacity]
-    GPU_PTR(Node) leaves;            // [leaf_capacity]
-    GPU_PTR(LayerCounters) counters; // [1] cleared
-    GPU_PTR(LayerCounters) reports;  // copies that the host can read
-    GPU_CONST_PTR(BrickCounters) brick_counters;
+    GPU_PTR(BrickEntry) bricks;               // [brick_capacity], leaves only
+    GPU_PTR(uvec2) keys;                      // [leaf_capacity]
+    GPU_PTR(Node) leaves;                     // [leaf_capacity]
+    GPU_PTR(LayerCounters) counters;          // [1] cleared
+    GPU_PTR(LayerCounters) reports;           // copies that the host can read
     GPU_CONST_PTR(RasterCounters) rasters[3]; // of each material class, or null
     uint brick_capacity;
     uint leaf_capacity;

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Uses of a fragment, chosen by kMode: it sets a bit in the brick table, or is added to the voxel's sums.
+//
+// With kMixed, coverage tells voxels that several fragments share from the others, and sums are kept of those alone:
+// the attribute of a voxel with one fragment is written at once. It is the same as the one that sums would give.
+
+layout(constant_id = 7) const bool kMixed = false;
 
 // The leaf of this thread's last fragment, which neighbours mostly share.
 struct BrickCursor
 {
     uvec2 key;
     uint entry;
-    uint base;    // first voxel of the leaf
-    uvec2 masks;
+    uint base;         // first voxel of the leaf; not in coverage mode
+    uvec2 masks;       // in coverage mode a hint: other threads may have set more voxels
+    MixedVoxels mixed; // likewise
 };
 
 // Level of the leaves among the nodes' levels.
@@ -18,7 +24,7 @@ uint leafLevel()
 
 BrickCursor noBrick()
 {
-    return BrickCursor(uvec2(0u), kNoEntry, 0u, uvec2(0u));
+    return BrickCursor(uvec2(0u), kNoEntry, 0u, uvec2(0u), MixedVoxels(0u, 0u, 0u, 0u));
 }
 
 void moveToBrick(uvec2 key, inout BrickCursor cursor)
@@ -26,56 +32,66 @@ void moveToBrick(uvec2 key, inout BrickCursor cursor)
     if (!isSameKey(key, cursor.key))
     {
         cursor.key = key;
+        BrickEntry leaf;
         if (kMode == kModeCoverage)
         {
             bool claimed;
-            cursor.entry = brickFindOrInsert(params.bricks, params.brick_mask, key, claimed);
+            cursor.entry = brickFindOrInsert(key, claimed, leaf);
             if (cursor.entry == kNoEntry)
-                atomicAdd(params.brick_counters.data[0].overflow_count, 1u);
+                atomicAdd(params.counters.data[0].overflow_count, 1u);
         }
         else
         {
-            cursor.entry = brickFind(BrickEntry_ConstPtr(params.bricks), params.brick_mask, key);
-            BrickEntry leaf = params.bricks.data[cursor.entry == kNoEntry ? 0u : cursor.entry];
-            cursor.base = leaf.base;
-            cursor.masks = uvec2(leaf.mask_lo, leaf.mask_hi);
-            if (kWideKeys && cursor.entry != kNoEntry)
-            {
-                Node node = params.nodes.data[nodeOf(leaf)];
-                cursor.base = node.base_lo;
-                cursor.masks = uvec2(node.mask_lo, node.mask_hi);
-            }
+            cursor.entry = brickFind(key, leaf);
+        }
+        cursor.base = leaf.base;
+        cursor.masks = uvec2(leaf.mask_lo, leaf.mask_hi);
+        if (kMixed && cursor.entry != kNoEntry)
+            cursor.mixed = loadMixed(params.brick_mask + 1u, cursor.entry);
+        if (kMode != kModeCoverage && kWideKeys && cursor.entry != kNoEntry)
+        {
+            Node node = params.nodes.data[nodeOf(leaf)];
+            cursor.base = node.base_lo;
+            cursor.masks = uvec2(node.mask_lo, node.mask_hi);
         }
     }
 }
 
-// Sets voxels of a leaf, as the bits of its masks.
-void setVoxels(uint entry, uvec2 masks)
+// Sets voxels in word `word` of a leaf's masks, and notes those that were set before.
+void setVoxels(BrickCursor cursor, uint word, uint bits)
 {
-    if (masks.x != 0u)
-        atomicOr(params.bricks.data[entry].mask_lo, masks.x);
-    if (masks.y != 0u)
-        atomicOr(params.bricks.data[entry].mask_hi, masks.y);
+    uint known = word == 0u ? cursor.masks.x : cursor.masks.y;
+    uint again = bits & known;
+    if ((bits & ~known) != 0u)
+        again |= atomicOr(BRICK_WORD(cursor.entry, kMaskWord + word), bits) & bits;
+    uint known_mixed = word == 0u ? cursor.mixed.mask_lo : cursor.mixed.mask_hi;
+    if (kMixed && (again & ~known_mixed) != 0u)
+        atomicOr(BRICK_WORD(params.brick_mask + 1u + cursor.entry, word), again);
 }
 
-uvec2 cellMasks(uint cell)
-{
-    uint bit = 1u << (cell & 31u);
-    return cell < 32u ? uvec2(bit, 0u) : uvec2(0u, bit);
-}
-
-uint voxelIndex(BrickCursor cursor, uint cell)
+// The number of the voxels of a leaf's masks before a cell.
+uint rankInMasks(uvec2 masks, uint cell)
 {
     uint below = (1u << (cell & 31u)) - 1u;
-    return cell < 32u ? cursor.base + bitCount(cursor.masks.x & below)
-                      : cursor.base + bitCount(cursor.masks.x) + bitCount(cursor.masks.y & below);
+    return cell < 32u ? bitCount(masks.x & below) : bitCount(masks.x) + bitCount(masks.y & below);
 }
 
-void addAttributes(Surface surface, uint voxel, uvec3 weights, uvec3 color)
+void addAttributes(Surface surface, BrickCursor cursor, uint cell, uvec3 weights, uvec3 color)
 {
-    addToSums(voxel, color, fragmentNormal(surface, weights));
+    uint voxel = cursor.base + rankInMasks(cursor.masks, cell);
+    VoxelSums sums = sumsOf(color, fragmentNormal(surface, weights));
     if (kEmits && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
         atomicOr(params.emission_words.data[voxel >> 5].x, 1u << (voxel & 31u));
+    if (kMixed)
+    {
+        uvec2 mixed = uvec2(cursor.mixed.mask_lo, cursor.mixed.mask_hi);
+        if (((cell < 32u ? mixed.x : mixed.y) >> (cell & 31u) & 1u) != 0u)
+            addToSums(cursor.mixed.first + rankInMasks(mixed, cell), sums);
+        else
+            STORE_MEAN(voxel, sums, 0u);
+        return;
+    }
+    addToSums(voxel, sums);
 }
 
 void addEmission(Surface surface, uint voxel, uvec3 weights)
@@ -109,7 +125,7 @@ Fragment shadeFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corn
         uvec4 color = fragmentColor(surface, fragment.weights);
         fragment.color = color.rgb;
         if (kMaterialClass == kClassAlpha)
-            fragment.exists = passesAlpha(surface.material, color.a, voxel);
+            fragment.exists = passesAlpha(surface, color.a, voxel);
     }
     return fragment;
 }
@@ -123,9 +139,9 @@ uvec2 leafKey(uvec3 voxel)
 void addFragment(Surface surface, Fragment fragment, BrickCursor cursor, uint cell)
 {
     if (kMode == kModeAttributes)
-        addAttributes(surface, voxelIndex(cursor, cell), fragment.weights, fragment.color);
+        addAttributes(surface, cursor, cell, fragment.weights, fragment.color);
     if (kMode == kModeEmission)
-        addEmission(surface, voxelIndex(cursor, cell), fragment.weights);
+        addEmission(surface, cursor.base + rankInMasks(cursor.masks, cell), fragment.weights);
 }
 
 // Called for each voxel that the triangle covers.
@@ -138,10 +154,10 @@ void emitFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, 
         if (cursor.entry != kNoEntry)
         {
             uint cell = cellInBlock(voxel);
-            if (kMode == kModeCoverage)
-                setVoxels(cursor.entry, cellMasks(cell));
-            else
+            if (kMode != kModeCoverage)
                 addFragment(surface, fragment, cursor, cell);
+            else
+                setVoxels(cursor, cell >> 5, 1u << (cell & 31u));
         }
     }
 }

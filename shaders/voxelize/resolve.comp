@@ -3,7 +3,9 @@
 // Computes the attribute of each voxel from its sums: the mean of its fragments.
 #extension GL_GOOGLE_include_directive : require
 #include "voxelize/voxelize.h"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#define COLOR_BINDING 0
 #include "lib/resolve.glsl"
 
 layout(local_size_x = kResolveGroup) in;
@@ -12,16 +14,18 @@ layout(push_constant, scalar) uniform Push
     ResolveParams params;
 };
 
+#define SUMS_BINDING 2
+#include "voxelize/sum_loads.glsl"
+
 void main()
 {
     uint voxel = threadIndex();
     if (voxel >= params.voxel_count)
         return;
-    VoxelSums sums = params.sums.data[voxel];
-    if ((sums.fragments >> params.sum_shift) > kFragmentsMax)
-        atomicMax(params.max_fragments.data[0], sums.fragments);
+    VoxelSums sums = loadSums(voxel);
+    noteFragments(sums);
     uint flags = 0u;
     if (params.has_emission != 0u && ((params.emission_words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u)
         flags = kAttributeEmissive;
-    params.attributes.data[voxel] = resolveSums(params.scene, sums, params.sum_shift, flags);
+    STORE_MEAN(voxel, sums, flags);
 }

@@ -7,11 +7,15 @@
 #define EDGE_IVEC3 i64vec3
 #define EDGE_WIDE
 #define BRICKS_CONSTANT_ID 6
+#define BRICKS_BINDING 0
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 #include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
 #include "voxelize/big_triangle.glsl"
+#define COLOR_BINDING 15
+#include "lib/resolve.glsl"
+#include "voxelize/loads.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"
 #include "voxelize/surface.glsl"
@@ -20,6 +24,35 @@
 #include "voxelize/tile.glsl"
 
 layout(local_size_x = kRowsGroup) in;
+
+#ifdef BOUND
+TEXELS_4(13, big_triangles);
+TEXELS_2(14, row_blocks);
+
+RowBlock loadRowBlock(uint i)
+{
+    uvec2 words = texelFetch(texels2_row_blocks, int(i)).xy;
+    return RowBlock(words.x, words.y);
+}
+
+BigTriangle loadBigTriangle(uint i)
+{
+    uvec4 a = texelFetch(texels4_big_triangles, int(3u * i));
+    uvec4 b = texelFetch(texels4_big_triangles, int(3u * i + 1u));
+    uvec4 c = texelFetch(texels4_big_triangles, int(3u * i + 2u));
+    return BigTriangle(ivec3(a.xyz), ivec3(a.w, b.xy), ivec3(b.zw, c.x), c.y, c.z, c.w);
+}
+#else
+RowBlock loadRowBlock(uint i)
+{
+    return params.row_blocks.data[i];
+}
+
+BigTriangle loadBigTriangle(uint i)
+{
+    return params.big_triangles.data[i];
+}
+#endif
 
 void rasterizeRow(RasterTriangle t, Surface surface, ivec2 column, int column_last)
 {
@@ -80,10 +113,10 @@ void main()
     uint block_number = thread / kBlockRows;
     if (block_number >= block_count)
         return;
-    RowBlock block = params.row_blocks.data[block_number];
-    BigTriangle big = params.big_triangles.data[block.band];
-    Draw draw = params.scene.data[0].draws.data[big.draw];
-    uvec3 vertices = params.scene.data[0].triangles.data[draw.first_triangle + big.triangle];
+    RowBlock block = loadRowBlock(block_number);
+    BigTriangle big = loadBigTriangle(block.band);
+    Draw draw = loadDraw(big.draw);
+    uvec3 vertices = loadTriangle(draw.first_triangle + big.triangle);
 
     i64vec3 normal;
     RasterTriangle t = setupBigTriangle(big, normal);

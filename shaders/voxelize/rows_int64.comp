@@ -4,4 +4,5 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_shader_atomic_int64 : require
 #define INT64_ATOMICS
+#include "lib/bound.glsl"
 #include "voxelize/rows.glsl"

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The attributes of a fragment, in integers (docs/voxelization.md).
 
-#include "lib/divide.glsl"
-
 // Per triangle, fetched once before the walk.
 struct Surface
 {
-    uint material;
+    uint alpha_mode;
+    uint alpha_cutoff;
     ivec3 uv_u; // of the three vertices, 16.16
     ivec3 uv_v;
-    uint64_t_ConstPtr texels; // of the scene
+    SceneTexels texels;
     TextureInfo texture;
     TextureLevel level; // the level of detail that suits the triangle
     bool textured;
@@ -71,13 +70,13 @@ TextureLevel pickLevel(TextureInfo info, ivec3 uv_u, ivec3 uv_v, float double_ar
     i64vec2 d1 = i64vec2(uv_u.y - uv_u.x, uv_v.y - uv_v.x);
     i64vec2 d2 = i64vec2(uv_u.z - uv_u.x, uv_v.z - uv_v.x);
     float uv_area = float(abs(d1.x * d2.y - d2.x * d1.y));
-    TextureLevel level = params.scene.data[0].levels.data[info.first_level];
+    TextureLevel level = loadLevel(info.first_level);
     precise float texels = uv_area * (float(level.width * level.height) * (1.0 / float(kUvOne)));
     float budget = double_area * 2.0;
     uint l = 0u;
     for (; l + 1u < info.level_count && texels > budget; ++l)
         budget *= 4.0;
-    return params.scene.data[0].levels.data[info.first_level + l];
+    return loadLevel(info.first_level + l);
 }
 
 // Texel numbers and weight of the second one along an axis.
@@ -99,13 +98,8 @@ uvec3 texelPair(int64_t coordinate, uint size, uint wrap)
     return uvec3(first, second, (x >> 8) & 255);
 }
 
-uvec4 unpackTexel(uint64_t texel)
-{
-    return unpackFractions(unpack32(texel));
-}
-
 // Linear colour and alpha as 16-bit fractions, filtered bilinearly.
-uvec4 sampleTexture(uint64_t_ConstPtr texels, TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v,
+uvec4 sampleTexture(SceneTexels texels, TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v,
                     uvec3 weights)
 {
     i64vec3 w = i64vec3(weights);
@@ -116,10 +110,10 @@ uvec4 sampleTexture(uint64_t_ConstPtr texels, TextureInfo info, TextureLevel lev
     uvec2 wx = uvec2(256u - x.z, x.z);
     uvec2 wy = uvec2(256u - y.z, y.z);
     uvec2 row = level.first_texel + y.xy * level.width;
-    uvec4 sum = unpackTexel(texels.data[row.x + x.x]) * (wx.x * wy.x) +
-                unpackTexel(texels.data[row.x + x.y]) * (wx.y * wy.x) +
-                unpackTexel(texels.data[row.y + x.x]) * (wx.x * wy.y) +
-                unpackTexel(texels.data[row.y + x.y]) * (wx.y * wy.y);
+    uvec4 sum = unpackFractions(loadTexel(texels, row.x + x.x)) * (wx.x * wy.x) +
+                unpackFractions(loadTexel(texels, row.x + x.y)) * (wx.y * wy.x) +
+                unpackFractions(loadTexel(texels, row.y + x.x)) * (wx.x * wy.y) +
+                unpackFractions(loadTexel(texels, row.y + x.y)) * (wx.y * wy.y);
     return (uvec4(sum.rgb, sum.a * 257u) + 32768u) >> 16;
 }
 
@@ -150,12 +144,11 @@ uint ditherRank(uvec3 voxel)
 }
 
 // Whether the fragment exists.
-bool passesAlpha(uint material, uint alpha, uvec3 voxel)
+bool passesAlpha(Surface surface, uint alpha, uvec3 voxel)
 {
-    uint mode = params.scene.data[0].materials.data[material].alpha_mode;
-    uint cutoff = params.scene.data[0].materials.data[material].alpha_cutoff;
-    uint threshold = mode == kAlphaMask ? cutoff : 1024u * ditherRank(voxel) + 512u;
-    return mode == kAlphaOpaque || alpha >= threshold;
+    uint threshold =
+        surface.alpha_mode == kAlphaMask ? surface.alpha_cutoff : 1024u * ditherRank(voxel) + 512u;
+    return surface.alpha_mode == kAlphaOpaque || alpha >= threshold;
 }
 
 // Interpolated normal, not longer than 32767.

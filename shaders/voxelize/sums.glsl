@@ -8,28 +8,50 @@
 //                           triangles of a dense mesh meet in the same voxels, and the workgroup's sums in the end.
 //                           For GPUs: barriers cost software devices more than that saves.
 
+// SUM_PAIR, SUM_WORD: a pair of words, or a word, of the sums of a voxel.
+#ifdef BOUND
+#ifdef INT64_ATOMICS
+STORAGE(2, uint64_t, sums);
+#define SUM_PAIR(VOXEL, PAIR) storage_sums.data[kVoxelSumsBytes / 8u * (VOXEL) + (PAIR)]
+#else
+STORAGE(2, uint, sums);
+#define SUM_WORD(VOXEL, WORD) storage_sums.data[kVoxelSumsBytes / 4u * (VOXEL) + (WORD)]
+#endif
+#else
+#define SUM_PAIR(VOXEL, PAIR) uint64_t_Ptr(sumsAddress(VOXEL)).data[PAIR]
+#define SUM_WORD(VOXEL, WORD) uint_Ptr(sumsAddress(VOXEL)).data[WORD]
+
 uint64_t sumsAddress(uint voxel)
 {
     return uint64_t(params.sums) + uint64_t(voxel) * kVoxelSumsBytes;
 }
+#endif
 
-// Adds a fragment in memory. color, normal: what it adds to the words of VoxelSums.
-void addInMemory(uint voxel, uvec3 color, uvec3 normal)
+// The sums of one fragment. color: 16-bit fractions; normal: of length 32767.
+VoxelSums sumsOf(uvec3 color, ivec3 normal)
+{
+    color >>= params.sum_shift;
+    uvec3 biased = uvec3(normal >> params.sum_shift) + normalBias(params.sum_shift);
+    return VoxelSums(color.r, color.g, color.b, biased.x, biased.y, biased.z, 1u, 0u);
+}
+
+// Adds a fragment in memory.
+void addInMemory(uint voxel, VoxelSums sums)
 {
 #ifdef INT64_ATOMICS
-    uint64_t_Ptr pairs = uint64_t_Ptr(sumsAddress(voxel));
-    atomicAdd(pairs.data[0], packUint2x32(color.rg));
-    atomicAdd(pairs.data[1], packUint2x32(uvec2(color.b, normal.x)));
-    atomicAdd(pairs.data[2], packUint2x32(normal.yz));
+    atomicAdd(SUM_PAIR(voxel, 0u), packUint2x32(uvec2(sums.red, sums.green)));
+    atomicAdd(SUM_PAIR(voxel, 1u), packUint2x32(uvec2(sums.blue, sums.normal_x)));
+    atomicAdd(SUM_PAIR(voxel, 2u), packUint2x32(uvec2(sums.normal_y, sums.normal_z)));
+    atomicAdd(SUM_PAIR(voxel, 3u), 1ul);
 #else
-    atomicAdd(params.sums.data[voxel].red, color.r);
-    atomicAdd(params.sums.data[voxel].green, color.g);
-    atomicAdd(params.sums.data[voxel].blue, color.b);
-    atomicAdd(params.sums.data[voxel].normal_x, normal.x);
-    atomicAdd(params.sums.data[voxel].normal_y, normal.y);
-    atomicAdd(params.sums.data[voxel].normal_z, normal.z);
+    atomicAdd(SUM_WORD(voxel, 0u), sums.red);
+    atomicAdd(SUM_WORD(voxel, 1u), sums.green);
+    atomicAdd(SUM_WORD(voxel, 2u), sums.blue);
+    atomicAdd(SUM_WORD(voxel, 3u), sums.normal_x);
+    atomicAdd(SUM_WORD(voxel, 4u), sums.normal_y);
+    atomicAdd(SUM_WORD(voxel, 5u), sums.normal_z);
+    atomicAdd(SUM_WORD(voxel, 6u), 1u);
 #endif
-    atomicAdd(params.sums.data[voxel].fragments, 1u);
 }
 
 #ifdef SHARED_SUMS_CONSTANT_ID
@@ -71,14 +93,14 @@ uint slotOf(uint voxel)
     return found;
 }
 
-void addInSlot(uint slot, uvec3 color, uvec3 normal)
+void addInSlot(uint slot, VoxelSums sums)
 {
-    atomicAdd(s_words[slot], color.r | (1u << kSharedBits));
-    atomicAdd(s_words[slot + kWordStride], color.g);
-    atomicAdd(s_words[slot + 2u * kWordStride], color.b);
-    atomicAdd(s_words[slot + 3u * kWordStride], normal.x);
-    atomicAdd(s_words[slot + 4u * kWordStride], normal.y);
-    atomicAdd(s_words[slot + 5u * kWordStride], normal.z);
+    atomicAdd(s_words[slot], sums.red | (1u << kSharedBits));
+    atomicAdd(s_words[slot + kWordStride], sums.green);
+    atomicAdd(s_words[slot + 2u * kWordStride], sums.blue);
+    atomicAdd(s_words[slot + 3u * kWordStride], sums.normal_x);
+    atomicAdd(s_words[slot + 4u * kWordStride], sums.normal_y);
+    atomicAdd(s_words[slot + 5u * kWordStride], sums.normal_z);
 }
 
 // Word number `word` of the VoxelSums that a slot stands for.
@@ -107,10 +129,10 @@ void flushSharedSums()
         {
 #ifdef INT64_ATOMICS
             uvec2 pair = uvec2(wordOf(slot, 2u * lane), wordOf(slot, 2u * lane + 1u));
-            atomicAdd(uint64_t_Ptr(sumsAddress(voxel)).data[lane], packUint2x32(pair));
+            atomicAdd(SUM_PAIR(voxel, lane), packUint2x32(pair));
 #else
             if (lane <= kSharedWords)
-                atomicAdd(uint_Ptr(sumsAddress(voxel)).data[lane], wordOf(slot, lane));
+                atomicAdd(SUM_WORD(voxel, lane), wordOf(slot, lane));
 #endif
         }
     }
@@ -118,21 +140,19 @@ void flushSharedSums()
 
 #endif
 
-// Adds a fragment. color: 16-bit fractions; normal: of length 32767.
-void addToSums(uint voxel, uvec3 color, ivec3 normal)
+// Adds a fragment. voxel: index of its sums.
+void addToSums(uint voxel, VoxelSums sums)
 {
-    uvec3 color_part = color >> params.sum_shift;
-    uvec3 normal_part = uvec3(normal >> params.sum_shift) + normalBias(params.sum_shift);
 #ifdef SHARED_SUMS_CONSTANT_ID
     if (kSharesSums)
     {
         uint slot = slotOf(voxel);
         if (slot < kSlots)
-            addInSlot(slot, color_part, normal_part);
+            addInSlot(slot, sums);
         else
-            addInMemory(voxel, color_part, normal_part);
+            addInMemory(voxel, sums);
         return;
     }
 #endif
-    addInMemory(voxel, color_part, normal_part);
+    addInMemory(voxel, sums);
 }

@@ -106,17 +106,27 @@ Tile coverTile(RasterTriangle t, ivec2 column, int extent)
     return tile;
 }
 
+// Word number `word` of the masks of a tile's leaves.
+uint wordOfMasks(Tile tile, uint word)
+{
+    uvec2 mask = word < 2u ? tile.masks[0] : (word < 4u ? tile.masks[1] : tile.masks[2]);
+    return (word & 1u) == 0u ? mask.x : mask.y;
+}
+
+// One loop over the words that are not empty, mostly two or three: unrolled, software devices would run the body for
+// empty ones, too.
 void setTile(RasterTriangle t, Tile tile)
 {
-    for (uint leaf = 0u; leaf < kTileLeaves; ++leaf)
+    uint words = 0u;
+    [[unroll]] for (uint word = 0u; word < 2u * kTileLeaves; ++word)
+        words |= wordOfMasks(tile, word) != 0u ? 1u << word : 0u;
+    BrickCursor cursor = noBrick();
+    for (; words != 0u; words &= words - 1u)
     {
-        uvec2 mask = leaf == 0u ? tile.masks[0] : (leaf == 1u ? tile.masks[1] : tile.masks[2]);
-        if (mask != uvec2(0u))
-        {
-            BrickCursor cursor = noBrick();
-            moveToBrick(leafKey(uvec3(voxelOf(t, tile.column, ((tile.w_low >> 2) + int(leaf)) * 4))), cursor);
-            if (cursor.entry != kNoEntry)
-                setVoxels(cursor.entry, mask);
-        }
+        uint word = uint(findLSB(words));
+        int leaf = (tile.w_low >> 2) + int(word >> 1);
+        moveToBrick(leafKey(uvec3(voxelOf(t, tile.column, leaf * 4))), cursor);
+        if (cursor.entry != kNoEntry)
+            setVoxels(cursor, word & 1u, wordOfMasks(tile, word));
     }
 }

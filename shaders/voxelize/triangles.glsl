@@ -6,18 +6,24 @@
 #define EDGE_INT int
 #define EDGE_IVEC3 ivec3
 #define BRICKS_CONSTANT_ID 6
-#define SHARED_SUMS_CONSTANT_ID 7
+#define BRICKS_BINDING 0
+#define SHARED_SUMS_CONSTANT_ID 8
 #include "lib/arrivals.glsl"
 #include "lib/bricks.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/dispatch_args.glsl"
 #include "voxelize/window.glsl"
 #include "voxelize/raster.glsl"
+#define COLOR_BINDING 15
+#include "lib/resolve.glsl"
+#include "voxelize/loads.glsl"
 #include "voxelize/shading.glsl"
 #include "voxelize/vertex.glsl"
 #include "voxelize/surface.glsl"
 #include "voxelize/sums.glsl"
 #include "voxelize/fragment.glsl"
+
+layout(constant_id = 9) const bool kSingle = false; // a chunk is one triangle, and a thread takes it
 
 layout(local_size_x = kChunkTriangles) in;
 
@@ -162,7 +168,7 @@ void rasterizeConservative(RasterTriangle t, Surface surface, bool selected)
 
 void takeTriangle(uint draw_number, Draw draw, uint triangle)
 {
-    uvec3 vertices = params.scene.data[0].triangles.data[draw.first_triangle + triangle];
+    uvec3 vertices = loadTriangle(draw.first_triangle + triangle);
     SnappedTriangle snapped = snapTriangle(draw, vertices);
     uint axis = majorAxis(snapped.normal, snapped.low, snapped.high);
     RasterTriangle t = setupTriangle(snapped.v0, snapped.v1, snapped.v2, snapped.normal, axis, snapped.low,
@@ -185,11 +191,11 @@ void takeTriangle(uint draw_number, Draw draw, uint triangle)
 }
 
 // The last subgroup of a walk over chunks sizes voxelize/bands for what has been listed so far.
-void sizeBands()
+void sizeBands(uint group_count)
 {
     uint here = arrivingThreads();
     uint before = subgroupElect() ? atomicAdd(params.counters.data[0].arrived, here) : 0u;
-    if (areLastThreads(before, here, params.chunk_count * kChunkTriangles) && subgroupElect())
+    if (areLastThreads(before, here, group_count * kChunkTriangles) && subgroupElect())
     {
         uint bands = min(atomicOr(params.counters.data[0].big_count, 0u), params.big_capacity);
         params.counters.data[0].bands = foldedArgs(bandGroups(bands), kGroupsXMax);
@@ -197,20 +203,51 @@ void sizeBands()
     }
 }
 
+#ifdef BOUND
+shared uint s_draw[kDrawWords];
+
+// The draw of all threads of the workgroup. Call in uniform control flow.
+Draw loadDrawOfGroup(uint number)
+{
+    if (gl_LocalInvocationIndex < kDrawWords)
+        s_draw[gl_LocalInvocationIndex] = drawWord(number, gl_LocalInvocationIndex);
+    barrier();
+#define WORD(I) s_draw[I]
+    return DRAW_OF_WORDS(WORD);
+#undef WORD
+}
+#else
+Draw loadDrawOfGroup(uint number)
+{
+    return loadDraw(number);
+}
+#endif
+
+Chunk loadChunk(uint number)
+{
+    uint64_t_ConstPtr chunks = uint64_t_ConstPtr(uint64_t(params.chunks)); // one load, not two
+    uvec2 words = unpackUint2x32(chunks.data[number]);
+    return Chunk(words.x, words.y);
+}
+
+// No thread returns early: lavapipe loads for one thread what is uniform, but only where all threads are active.
 void main()
 {
-    uint chunk_number = workgroupIndex();
-    if (chunk_number >= params.chunk_count)
-        return;
-    Chunk chunk = params.chunks.data[interleave(chunk_number, params.chunk_count)];
-    uint triangle = chunk.first_triangle + gl_LocalInvocationIndex;
-    Draw draw = params.scene.data[0].draws.data[chunk.draw];
+    uint group_count = kSingle ? (params.chunk_count + kChunkTriangles - 1u) / kChunkTriangles : params.chunk_count;
+    bool is_group = workgroupIndex() < group_count;
+    uint number = interleave(min(workgroupIndex(), group_count - 1u), group_count);
+    if (kSingle)
+        number = number * kChunkTriangles + gl_LocalInvocationIndex;
+    bool is_chunk = is_group && number < params.chunk_count;
+    Chunk chunk = loadChunk(min(number, params.chunk_count - 1u));
+    uint triangle = chunk.first_triangle + (kSingle ? 0u : gl_LocalInvocationIndex);
+    Draw draw = kSingle ? loadDraw(chunk.draw) : loadDrawOfGroup(chunk.draw);
     if (kSharesSums)
         clearSharedSums();
-    if (triangle < draw.triangle_count)
+    if (is_chunk && triangle < draw.triangle_count)
         takeTriangle(chunk.draw, draw, triangle);
     if (kSharesSums)
         flushSharedSums();
-    if (kMode == kModeCoverage)
-        sizeBands();
+    if (kMode == kModeCoverage && is_group)
+        sizeBands(group_count);
 }

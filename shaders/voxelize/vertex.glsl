@@ -15,7 +15,7 @@ const float kUnitLength = 32767.0; // of a direction in integers
 // World position of vertex v of a draw.
 vec3 worldPosition(Draw draw, uint v)
 {
-    vec3 p = params.scene.data[0].positions.data[draw.first_vertex + v];
+    vec3 p = loadPosition(draw.first_vertex + v);
     precise vec3 world = draw.transform[0] * p.x;
     precise vec3 by_y = draw.transform[1] * p.y;
     precise vec3 by_z = draw.transform[2] * p.z;

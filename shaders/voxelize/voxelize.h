@@ -15,6 +15,7 @@ GPU_NAMESPACE_BEGIN
 
 const uint kChunkTrianglesLog2 = 6u;
 const uint kChunkTriangles = 1u << kChunkTrianglesLog2; // triangles of one draw that one workgroup takes
+const uint kSingleTriangles = 24u;                      // a draw of fewer shares workgroups with others
 const uint kResolveGroup = 64u;                         // threads of a workgroup where one thread takes one voxel
 const uint kRowsGroup = 64u;                            // threads of a workgroup of voxelize/rows
 const uint kBandsGroup = 32u;                           // threads of a workgroup of voxelize/bands
@@ -79,7 +80,8 @@ struct EmissionSums
 };
 GPU_BUFFER(EmissionSums, 4);
 
-/// Triangles [first_triangle, first_triangle + kChunkTriangles) of a draw.
+/// Triangles [first_triangle, first_triangle + kChunkTriangles) of a draw; of a draw that shares workgroups, the first
+/// of these alone.
 struct Chunk
 {
     uint draw;
@@ -114,6 +116,7 @@ struct RasterCounters
     uint big_count;       // bands
     uint block_count;     // of the bands that found room
     uint blocks_exceeded; // more than kRowBlocksMax: a count may have wrapped around
+    uint overflow_count;  // leaves that found no slot in the brick table
     uint nonfinite;
     uint out_of_range;
     uint outside;
@@ -136,19 +139,19 @@ GPU_BUFFER(RasterCounters, 4);
 struct RasterParams // push constants of voxelize/triangles and voxelize/rows
 {
     GPU_CONST_PTR(SceneView) scene;
-    GPU_CONST_PTR(Chunk) chunks;           // [chunk_count]
-    GPU_PTR(BrickEntry) bricks;            // [brick_mask + 1]
-    GPU_PTR(BigTriangle) big_triangles;    // [big_capacity]
-    GPU_PTR(RowBlock) row_blocks;          // [block_capacity]
-    GPU_PTR(RasterCounters) counters;      // [1]
-    GPU_PTR(BrickCounters) brick_counters; // [1]
-    GPU_CONST_PTR(Node) nodes;             // not in coverage mode
-    GPU_PTR(VoxelSums) sums;               // [voxel_count]
-    GPU_PTR(uvec2) emission_words;         // [ceil(voxel_count / 32)]
-    GPU_PTR(EmissionSums) emission_sums;   // [emissive voxels]
-    vec3 origin;                           // world position of the grid's minimum corner
-    float lattice_scale;                   // lattice units per world unit
-    uint window;                           // depth of the grid, and which cube of it is voxelized (voxelize/window.h)
+    GPU_CONST_PTR(Chunk) chunks;        // [chunk_count]
+    GPU_PTR(BrickEntry) bricks;         // [brick_mask + 1], and as many MixedVoxels where these are told apart
+    GPU_PTR(BigTriangle) big_triangles; // [big_capacity]
+    GPU_PTR(RowBlock) row_blocks;       // [block_capacity]
+    GPU_PTR(RasterCounters) counters;   // [1]
+    GPU_CONST_PTR(Node) nodes;          // not in coverage mode
+    GPU_PTR(VoxelSums) sums;            // [voxel_count], or of mixed voxels alone
+    GPU_PTR(Attribute) attributes;      // [voxel_count] written for voxels that are not mixed, where these have no sums
+    GPU_PTR(uvec2) emission_words;      // [ceil(voxel_count / 32)]
+    GPU_PTR(EmissionSums) emission_sums; // [emissive voxels]
+    vec3 origin;                         // world position of the grid's minimum corner
+    float lattice_scale;                 // lattice units per world unit
+    uint window;                         // depth of the grid, and which cube of it is voxelized (voxelize/window.h)
     uint brick_mask;
     uint chunk_count;
     uint big_capacity;
@@ -161,20 +164,26 @@ GPU_KERNEL_END
 GPU_KERNEL_BEGIN(voxelize, rows, Rows, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, mixed, false)
 GPU_KERNEL_END
 GPU_KERNEL_BEGIN(voxelize, rows_int64, RowsInt64, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, mixed, false)
 GPU_KERNEL_END
 GPU_KERNEL_BEGIN(voxelize, triangles, Triangles, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, mixed, false)
     GPU_CONSTANT(bool, shares_sums, false)
+    GPU_CONSTANT(bool, single, false)
 GPU_KERNEL_END
 GPU_KERNEL_BEGIN(voxelize, triangles_int64, TrianglesInt64, RasterParams)
     RASTER_CONSTANTS
     GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(bool, mixed, false)
     GPU_CONSTANT(bool, shares_sums, false)
+    GPU_CONSTANT(bool, single, false)
 GPU_KERNEL_END
 
 struct ResolveParams // push constants of voxelize/resolve
@@ -189,6 +198,24 @@ struct ResolveParams // push constants of voxelize/resolve
     uint sum_shift;
 };
 GPU_KERNEL(voxelize, resolve, Resolve, ResolveParams)
+
+struct ResolveMixedParams // push constants of voxelize/resolve_mixed: kLanes threads a leaf
+{
+    GPU_CONST_PTR(SceneView) scene;
+    GPU_CONST_PTR(BrickEntry) bricks; // [brick_mask + 1], and as many MixedVoxels
+    GPU_CONST_PTR(WorkItem) items;    // [leaf_count]
+    GPU_CONST_PTR(Node) nodes;        // with wide keys, which are not in the table any more
+    GPU_CONST_PTR(VoxelSums) sums;    // [mixed voxels]
+    GPU_PTR(Attribute) attributes;    // [voxel_count]
+    GPU_PTR(uint) max_fragments;      // [1] raised to the largest fragment count of a voxel
+    uint brick_mask;
+    uint leaf_count;
+    uint sum_shift;
+};
+GPU_KERNEL_BEGIN(voxelize, resolve_mixed, ResolveMixed, ResolveMixedParams)
+    GPU_CONSTANT(bool, wide_keys, false)
+    GPU_CONSTANT(uint, lanes, 1u)
+GPU_KERNEL_END
 
 struct EmissionRankParams // push constants of voxelize/emission_count and voxelize/emission_rank
 {

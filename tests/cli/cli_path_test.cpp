@@ -3,6 +3,7 @@
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
 #include "core/base/read_file.h"
+#include "core/base/tuning.h"
 #include "io/image/hdr_image_io.h"
 #include "io/image/image_io.h"
 #include "support/temp_dir.h"
@@ -323,7 +324,7 @@ TEST_F(CliPath, BenchMeasuresEveryChoiceByDevice)
     }
     EXPECT_EQ(value_counts["node-lanes"], 5);
     EXPECT_EQ(value_counts["path-form"], 2);
-    EXPECT_EQ(value_counts.size(), 9U);
+    EXPECT_EQ(value_counts.size(), tuningTable().size());
     for (const auto& [choice, count] : default_counts)
     {
         EXPECT_EQ(count, 1) << choice;

@@ -28,9 +28,18 @@ struct Table
     std::vector<gpu::uvec2> found;
 };
 
+// Whether kernels reach the table through descriptors.
+class BrickTable : public testing::TestWithParam<vk::LoadForm>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(LoadForms, BrickTable, testing::Values(vk::LoadForm::Addresses, vk::LoadForm::Atomics));
+
 Table insertAndFind(const std::vector<gpu::uvec2>& keys, std::uint32_t capacity, bool wide)
 {
-    vk::HeadlessDevice& device = test::device();
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.tuning[vk::kLoadsName] = static_cast<std::uint32_t>(BrickTable::GetParam());
+    vk::HeadlessDevice device(options, testKernels());
     vk::BufferOf<gpu::BrickEntry> bricks(device.device(), "bricks", capacity);
     const vk::BufferOf<gpu::uvec2> key_buffer = device.makeBuffer("keys", std::span(keys));
     vk::BufferOf<gpu::uvec2> inserted(device.device(), "inserted", keys.size());
@@ -102,7 +111,7 @@ std::vector<gpu::uvec2> shuffledCopies(const std::set<Key>& keys, std::uint32_t 
     return copies;
 }
 
-TEST(BrickTable, WideKeysThatShareWordsStayApart)
+TEST_P(BrickTable, WideKeysThatShareWordsStayApart)
 {
     std::mt19937 random(1);
     struct Words
@@ -135,7 +144,7 @@ TEST(BrickTable, WideKeysThatShareWordsStayApart)
     }
 }
 
-TEST(BrickTable, NarrowKeysStayApart)
+TEST_P(BrickTable, NarrowKeysStayApart)
 {
     std::mt19937 random(2);
     std::set<Key> keys;
@@ -147,7 +156,7 @@ TEST(BrickTable, NarrowKeysStayApart)
     expectIsTheSetOf(copies, insertAndFind(copies, 256, false), false);
 }
 
-TEST(BrickTable, KeysBeyondTheRoomAreTurnedAwayAndTheRestIsWhole)
+TEST_P(BrickTable, KeysBeyondTheRoomAreTurnedAwayAndTheRestIsWhole)
 {
     std::mt19937 random(3);
     std::set<Key> keys;

@@ -477,6 +477,26 @@ Names addInAllForms(const GpuScene& scene, const Grid& grid, Coverage coverage, 
     return names;
 }
 
+// Builds an octree of a scene that emits nothing, with sums of mixed voxels alone and of all voxels.
+Names addMixed(const Grid& grid, Coverage coverage)
+{
+    Names names;
+    const GpuScene dark = uploadScene(device(), test::sphereScene(glm::vec3(8.0F), 6.0F, 6), true);
+    SumForm form = SumForm::on(device().device());
+    std::vector<std::vector<test::Cell>> cells;
+    for (const bool mixed : {false, true})
+    {
+        form.mixed = mixed;
+        BuildOptions options = {coverage};
+        options.sum_form = form;
+        const BuildResult built = buildOctree(device(), dark, grid, options);
+        addNames(names, built.passes);
+        cells.push_back(test::cellsOf(device(), built.octree));
+    }
+    EXPECT_EQ(test::difference(cells[0], cells[1]), "");
+    return names;
+}
+
 // Expects that all kernels of brushes have run, or all others, of those that the device can run.
 void expectAllRan(const Names& names, bool of_brushes)
 {
@@ -527,6 +547,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(scene, grid, c.coverage).codes);
         addNames(names, built.passes);
         names.merge(addInAllForms(gpu_scene, grid, c.coverage, built.octree, c.pictures));
+        names.merge(addMixed(grid, c.coverage));
         if (c.pictures)
         {
             names.merge(mergeObjects(scene, grid, c.coverage, false));

@@ -125,6 +125,17 @@ void setPose(vk::FrameGraph& graph, const DeformMesh& mesh, const Pose& pose, Dy
 
 gpu::ConstPtr<gpu::SceneView> PosedGpuScene::read(vk::AnyPass& pass) const
 {
+    const bool deforms = m_object != nullptr && m_object->positions.count() != 0;
+    pass.reach("draws", m_object != nullptr ? m_object->draws : m_scene.draws);
+    pass.reach("positions", deforms ? m_object->positions : m_scene.positions);
+    pass.reach("normals", deforms ? m_object->normals : m_scene.normals);
+    pass.reach("triangles", m_scene.triangles);
+    pass.reach("uvs", m_scene.uvs);
+    pass.reach("colors", m_scene.colors);
+    pass.reach("materials", m_scene.materials);
+    pass.reach("textures", m_scene.textures);
+    pass.reach("levels", m_scene.levels);
+    pass.reach("texels", m_scene.texels);
     if (m_object == nullptr)
     {
         return pass.read(m_scene.view);

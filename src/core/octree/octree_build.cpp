@@ -83,16 +83,16 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
     graph.fill(work.args, 0);
     const std::uint32_t max_groups_x = graph.device().limits().maxComputeWorkGroupCount[0];
     {
-        vk::Pass pass = graph.addPass(gpu::octree::Collect{});
+        vk::Pass pass = graph.addPass(gpu::octree::Collect{.mixed = voxelize.sum_form.mixed});
         gpu::CollectParams params{};
-        params.bricks = pass.read(voxelize.bricks);
+        params.bricks = pass.readWrite(voxelize.bricks);
         params.items = pass.write(work.items);
         params.counters = pass.readWrite(voxelize.counters);
         params.ranges = pass.readWrite(work.ranges);
         params.args = pass.readWrite(work.args);
-        params.brick_capacity = static_cast<std::uint32_t>(voxelize.bricks.count());
+        params.brick_capacity = static_cast<std::uint32_t>(voxelize.brickCapacity());
         params.max_groups_x = max_groups_x;
-        pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
+        pass.dispatch(divideUp(voxelize.brickCapacity(), gpu::kCollectItems), params);
     }
     for (std::uint32_t height = 0; height + 1 < grid.nodeLevels(); ++height) // the root has no parent
     {
@@ -103,7 +103,7 @@ void listNodes(vk::FrameGraph& graph, const Grid& grid, VoxelizeBuffers& voxeliz
         params.counters = pass.readWrite(voxelize.counters);
         params.ranges = pass.readWrite(work.ranges);
         params.args = pass.readWrite(work.args);
-        params.brick_mask = static_cast<std::uint32_t>(voxelize.bricks.count() - 1);
+        params.brick_mask = static_cast<std::uint32_t>(voxelize.brickCapacity() - 1);
         params.height = height;
         params.max_groups_x = max_groups_x;
         pass.dispatchIndirect(work.args, height, params, divideUp(work.items.count(), gpu::kNodesGroup));
@@ -146,7 +146,7 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octr
         const std::uint32_t lanes = lanesOn(graph.device(), node_count);
         vk::Pass pass = graph.addPass(gpu::octree::Average{.lanes = lanes});
         gpu::AverageParams params{};
-        params.scene = pass.read(scene.view);
+        params.scene = readColorTables(pass, scene);
         params.nodes = pass.read(octree.nodes);
         params.children = is_leaf ? pass.read(octree.voxel_attributes) : pass.read(octree.node_attributes);
         params.averages = pass.readWrite(octree.node_attributes);
@@ -163,7 +163,7 @@ void averageNodes(vk::FrameGraph& graph, const GpuScene& scene, DeviceTree& octr
     const std::uint32_t lanes = lanesOn(graph.device());
     vk::Pass pass = graph.addPass(gpu::octree::AverageTop{.lanes = lanes, .local_size_x = threads});
     gpu::AverageTopParams params{};
-    params.scene = pass.read(scene.view);
+    params.scene = readColorTables(pass, scene);
     params.nodes = pass.read(octree.nodes);
     params.averages = pass.readWrite(octree.node_attributes);
     params.lowest_children =

@@ -31,13 +31,14 @@ constexpr std::uint32_t kRetriesMax = 32; // a table of one brick grows to the l
 }
 
 // Bytes of everything that the coverage step allocates.
-std::uint64_t coverageBytes(const VoxelizeCapacities& capacities, const GpuScene& scene)
+std::uint64_t coverageBytes(const VoxelizeCapacities& capacities, const GpuScene& scene, bool mixed)
 {
-    std::uint64_t bytes = capacities.bricks * (sizeof(gpu::BrickEntry) + sizeof(gpu::WorkItem)) +
+    std::uint64_t bytes = VoxelizeBuffers::brickBytes(capacities.bricks, mixed) +
+                          capacities.bricks * sizeof(gpu::WorkItem) +
                           divideUp(capacities.bricks, gpu::kScanBlock) * sizeof(gpu::uint);
-    for (const vk::BufferOf<gpu::Chunk>& chunks : scene.chunks)
+    for (const TriangleChunks& chunks : scene.chunks)
     {
-        if (chunks.count() != 0)
+        if (chunks.workgroups() != 0)
         {
             bytes +=
                 capacities.big_triangles * sizeof(gpu::BigTriangle) + capacities.row_blocks * sizeof(gpu::RowBlock);
@@ -74,7 +75,8 @@ std::optional<OctreeBuilder::Growth> growthOf(const VoxelizeCapacities& tried, c
 {
     OctreeBuilder::Growth growth = {tried, tried};
     bool grown = false;
-    if (bricks.overflow_count != 0)
+    const auto hasOverflowed = [](const gpu::RasterCounters& raster) { return raster.overflow_count != 0; };
+    if (bricks.overflow_count != 0 || std::ranges::any_of(rasters, hasOverflowed))
     {
         if (tried.bricks >= VoxelizeCapacities::kBricksMax)
         {
@@ -99,6 +101,15 @@ std::optional<OctreeBuilder::Growth> growthOf(const VoxelizeCapacities& tried, c
         growth.likely.row_blocks = std::max(growth.likely.row_blocks, likelyRowBlocks(raster, tried.big_triangles));
     }
     return grown ? std::optional(growth) : std::nullopt;
+}
+
+// Whether the scene's triangles have voxels of their own. In a dense mesh nearly all voxels are mixed, and telling them
+// from others gains nothing.
+bool hasLargeTriangles(const GpuScene& scene, const Grid& grid)
+{
+    constexpr double kVoxelsOfTriangle = 2;
+    const double voxel = grid.voxel_size;
+    return scene.surface_area >= kVoxelsOfTriangle * voxel * voxel * static_cast<double>(scene.triangle_count);
 }
 
 std::map<std::string, std::uint64_t> droppedTriangles(const std::vector<gpu::RasterCounters>& rasters)
@@ -154,6 +165,10 @@ OctreeBuilder::OctreeBuilder(vk::Device& device, const PosedGpuScene& scene, con
     m_readback = {device, kReadbackBytes};
     m_result.octree.grid = grid;
     m_row_shape = options.row_shape.value_or(RowShape::on(device));
+    m_sum_form = options.sum_form.value_or(SumForm::on(device));
+    const bool emits = scene.uploaded().emission_scale > 0.0F;
+    m_sum_form.mixed = m_sum_form.mixed && options.attributes && !options.keep_sums && !emits &&
+                       (options.sum_form || hasLargeTriangles(scene.uploaded(), grid));
     m_result.capacities =
         usable(options.capacities.value_or(VoxelizeCapacities::estimate(scene.uploaded(), grid, m_row_shape)));
 }
@@ -168,8 +183,8 @@ void OctreeBuilder::cover(vk::FrameGraph& graph)
     const GpuScene& scene = m_scene.uploaded();
     if (!m_coverings)
     {
-        m_device.memory().require(coverageBytes(m_result.capacities, scene), "voxelization");
-        m_coverings.emplace(Coverings{{m_device, m_result.capacities, scene, m_row_shape, m_options.sum_form},
+        m_device.memory().require(coverageBytes(m_result.capacities, scene, m_sum_form.mixed), "voxelization");
+        m_coverings.emplace(Coverings{{m_device, m_result.capacities, scene, m_row_shape, m_sum_form},
                                       {m_device, m_result.capacities.bricks}});
     }
     voxelizeCoverage(graph, voxelizeJob());
@@ -230,7 +245,8 @@ void OctreeBuilder::grow(const Growth& growth)
                                 kRetriesMax, m_result.capacities.bricks));
     }
     // The likely one: fewer runs, where memory allows it.
-    const bool fits = coverageBytes(growth.likely, m_scene.uploaded()) <= m_device.memory().roomBytes();
+    const bool fits =
+        coverageBytes(growth.likely, m_scene.uploaded(), m_sum_form.mixed) <= m_device.memory().roomBytes();
     m_result.capacities = fits ? growth.likely : growth.needed;
 }
 
@@ -241,6 +257,7 @@ void OctreeBuilder::allocateNodes(const gpu::BrickCounters& counters)
     DeviceTree& octree = m_result.octree;
     octree.node_count = counters.node_count;
     octree.voxel_count = counters.voxel_count;
+    m_mixed_count = counters.mixed_count;
     if (octree.node_count == 0)
     {
         return;
@@ -262,7 +279,10 @@ void OctreeBuilder::number(vk::FrameGraph& graph)
 
 void OctreeBuilder::endNumbers()
 {
-    m_coverings->work.items = {};
+    if (!m_sum_form.mixed)
+    {
+        m_coverings->work.items = {};
+    }
     m_coverings->work.partials = {};
     if (!m_options.attributes)
     {
@@ -279,16 +299,17 @@ void OctreeBuilder::attributes(vk::FrameGraph& graph)
     if (!m_sums)
     {
         const std::uint64_t word_count = emits ? divideUp(octree.voxel_count, gpu::kVoxelsPerEmissionWord) : 0;
-        m_device.memory().require(octree.voxel_count * (sizeof(gpu::Attribute) + sizeof(gpu::VoxelSums)) +
+        const std::uint32_t sum_count = m_sum_form.mixed ? m_mixed_count : octree.voxel_count;
+        m_device.memory().require(octree.voxel_count * sizeof(gpu::Attribute) + sum_count * sizeof(gpu::VoxelSums) +
                                       word_count * sizeof(gpu::uvec2),
                                   "averaging the attributes");
         vk::BufferOf<gpu::Attribute> voxel_attributes(m_device, "octree/voxel_attributes", octree.voxel_count);
         vk::BufferOf<gpu::uvec2> emission_words(m_device, "octree/emission_words", word_count);
-        m_sums.emplace(m_device, octree.voxel_count, emits);
+        m_sums.emplace(m_device, octree.voxel_count, sum_count, emits);
         octree.voxel_attributes = std::move(voxel_attributes); // all or nothing: the step may come again
         octree.emission_words = std::move(emission_words);
     }
-    voxelizeAttributes(graph, voxelizeJob(), *m_sums, octree);
+    voxelizeAttributes(graph, voxelizeJob(), m_coverings->work.items, *m_sums, octree);
     m_offsets.max_fragments = m_readback.copy(graph, m_sums->max_fragments, 0, 1);
     if (emits)
     {

@@ -29,7 +29,9 @@ struct BuildOptions
     std::optional<VoxelizeCapacities> capacities = std::nullopt; // of the first run; by default, an estimate
     bool keep_sums = false; // keeps the sums of attributes in DeviceTree::sums: 32 bytes a voxel
     std::optional<RowShape> row_shape = std::nullopt; // by default, what suits the device
-    std::optional<SumForm> sum_form = std::nullopt;   // likewise
+    /// Likewise, with sums of mixed voxels alone only where triangles are large enough. Where sums are kept, or
+    /// something emits light, all voxels have sums in any case.
+    std::optional<SumForm> sum_form = std::nullopt;
 };
 
 /// GPU time of those passes that belong to an operation, "voxelize" or "octree": its kernels and the fills of its
@@ -107,6 +109,8 @@ private:
     GridTile m_tile;
     BuildOptions m_options;
     RowShape m_row_shape;
+    SumForm m_sum_form;
+    std::uint32_t m_mixed_count = 0; // mixed voxels, where they alone have sums
     std::optional<Coverings> m_coverings;
     std::optional<AttributeBuffers> m_sums;
     std::uint32_t m_emissive_count = 0;

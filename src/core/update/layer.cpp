@@ -55,11 +55,11 @@ std::uint64_t LayerBuffers::bytes(const LayerCapacities& capacities, const GpuSc
 {
     std::uint64_t bytes = capacities.voxelize.bricks * sizeof(gpu::BrickEntry) +
                           capacities.leaves * (sizeof(gpu::uvec2) + sizeof(gpu::Node));
-    for (const vk::BufferOf<gpu::Chunk>& chunks : scene.chunks)
+    for (const TriangleChunks& chunks : scene.chunks)
     {
-        bytes += chunks.count() == 0 ? 0
-                                     : capacities.voxelize.big_triangles * sizeof(gpu::BigTriangle) +
-                                           capacities.voxelize.row_blocks * sizeof(gpu::RowBlock);
+        bytes += chunks.workgroups() == 0 ? 0
+                                          : capacities.voxelize.big_triangles * sizeof(gpu::BigTriangle) +
+                                                capacities.voxelize.row_blocks * sizeof(gpu::RowBlock);
     }
     bytes += contents.attributes ? capacities.voxels * sizeof(gpu::VoxelSums) : 0;
     bytes += contents.emission ? capacities.voxels * sizeof(gpu::EmissionSums) +
@@ -97,8 +97,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
     params.leaves = pass.write(layer.leaves);
     params.counters = pass.readWrite(layer.counters);
     params.reports = pass.readWrite(job.reports);
-    params.brick_counters = pass.read(voxelize.counters);
-    params.brick_capacity = static_cast<std::uint32_t>(voxelize.bricks.count());
+    params.brick_capacity = static_cast<std::uint32_t>(voxelize.brickCapacity());
     params.leaf_capacity = static_cast<std::uint32_t>(layer.leaves.count());
     // Where no sums are kept, nothing limits their number.
     params.voxel_capacity = layer.sums.count() != 0 ? static_cast<std::uint32_t>(layer.sums.count()) : UINT32_MAX;
@@ -110,7 +109,7 @@ void listLeaves(vk::FrameGraph& graph, const LayerJob& job)
         params.big_capacity = std::max(params.big_capacity, static_cast<std::uint32_t>(rows.big_triangles.count()));
         params.block_capacity = std::max(params.block_capacity, static_cast<std::uint32_t>(rows.row_blocks.count()));
     }
-    pass.dispatch(divideUp(voxelize.bricks.count(), gpu::kCollectItems), params);
+    pass.dispatch(divideUp(voxelize.brickCapacity(), gpu::kCollectItems), params);
 }
 
 // Adds a walk over the triangles: for each material class, the chunks of small ones in pieces, then the big ones.
@@ -118,8 +117,8 @@ void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedSta
 {
     for (const MaterialClass material_class : kMaterialClasses)
     {
-        const std::uint64_t chunk_count = job.scene.uploaded().chunksOf(material_class).count();
-        if (chunk_count == 0)
+        const std::uint64_t group_count = job.scene.uploaded().chunksOf(material_class).workgroups();
+        if (group_count == 0)
         {
             continue;
         }
@@ -131,10 +130,10 @@ void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedSta
             record(RasterWalk{{job.scene, job.grid, job.coverage, layer.voxelize}, mode, &sums});
         };
         addStage(
-            stages, {name, chunk_count, true},
+            stages, {name, group_count, true},
             [=](vk::FrameGraph& graph, std::uint64_t first, std::uint64_t count)
             { withWalk([&](const RasterWalk& walk) { walkTriangles(graph, walk, material_class, first, count); }); });
-        addStage(stages, {fmt::format("{}, large triangles", name), chunk_count},
+        addStage(stages, {fmt::format("{}, large triangles", name), group_count},
                  [=](vk::FrameGraph& graph, std::uint64_t, std::uint64_t)
                  {
                      withWalk(
@@ -151,7 +150,7 @@ void addWalk(const LayerJob& job, const char* name, RasterMode mode, RecordedSta
 
 void addLayerStages(const LayerJob& job, RecordedStages& stages)
 {
-    const std::uint64_t capacity = job.layer.voxelize.bricks.count();
+    const std::uint64_t capacity = job.layer.voxelize.brickCapacity();
     addStage(stages, {"clear a layer", capacity},
              [job](vk::FrameGraph& graph, std::uint64_t, std::uint64_t) { clearCoverage(graph, job.layer.voxelize); });
     addWalk(job, "cover voxels", RasterMode::Coverage, stages);

@@ -78,7 +78,8 @@ struct Staging
     std::vector<gpu::Material> materials;
     std::vector<gpu::TextureInfo> textures;
     TexturePool pool;
-    std::array<std::vector<gpu::Chunk>, gpu::kClassCount> chunks;
+    std::array<std::vector<gpu::Chunk>, gpu::kClassCount> whole_chunks;
+    std::array<std::vector<gpu::Chunk>, gpu::kClassCount> single_chunks;
 };
 
 void addPrimitive(Staging& staging, const Primitive& primitive)
@@ -177,13 +178,16 @@ double triangleArea(const Primitive& primitive, const glm::dmat3& linear)
 void addChunks(Staging& staging, std::uint32_t draw_number)
 {
     const gpu::Draw& draw = staging.draws[draw_number];
-    const MaterialClass material_class = classOf(staging.materials[draw.material]);
-    std::vector<gpu::Chunk>& chunks = staging.chunks[static_cast<std::size_t>(material_class)];
-    for (std::uint64_t first = 0; first < draw.triangle_count; first += gpu::kChunkTriangles)
+    const auto material_class = static_cast<std::size_t>(classOf(staging.materials[draw.material]));
+    const bool shares = draw.triangle_count < gpu::kSingleTriangles;
+    std::vector<gpu::Chunk>& chunks =
+        shares ? staging.single_chunks[material_class] : staging.whole_chunks[material_class];
+    const std::uint32_t step = shares ? 1 : gpu::kChunkTriangles;
+    for (std::uint64_t first = 0; first < draw.triangle_count; first += step)
     {
         chunks.push_back({draw_number, static_cast<std::uint32_t>(first)});
     }
-    checkedCount(chunks.size() * gpu::kChunkTriangles, "triangles");
+    checkedCount(chunks.size() * step, "triangles");
 }
 
 template <typename T> vk::BufferOf<T> upload(vk::Uploader& device, const char* name, const std::vector<T>& values)
@@ -252,8 +256,9 @@ GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, 
     const std::vector<std::uint32_t> to_srgb = packBytes(linearToSrgbTable());
     device.device().memory().require(bytesOf(staging.draws, staging.triangles, staging.positions, staging.normals,
                                              staging.uvs, staging.colors, staging.materials, staging.textures,
-                                             staging.pool.levels, texels, to_srgb, staging.chunks[0], staging.chunks[1],
-                                             staging.chunks[2]) +
+                                             staging.pool.levels, texels, to_srgb, staging.whole_chunks[0],
+                                             staging.whole_chunks[1], staging.whole_chunks[2], staging.single_chunks[0],
+                                             staging.single_chunks[1], staging.single_chunks[2]) +
                                          sizeof(to_linear) + sizeof(gpu::SceneView),
                                      "the scene");
     static_assert(gpu::kClassCount == 3);
@@ -271,7 +276,8 @@ GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, 
     result.linear_to_srgb = upload(device, "scene/linear_to_srgb", to_srgb);
     for (std::size_t i = 0; i < result.chunks.size(); ++i)
     {
-        result.chunks[i] = upload(device, "scene/chunks", staging.chunks[i]);
+        result.chunks[i] = {upload(device, "scene/chunks", staging.whole_chunks[i]),
+                            upload(device, "scene/single_chunks", staging.single_chunks[i])};
     }
 
     const gpu::SceneView view = sceneView(result);
@@ -295,6 +301,13 @@ gpu::SceneView sceneView(const GpuScene& scene)
     view.srgb_to_linear = {scene.srgb_to_linear.address()};
     view.linear_to_srgb = {scene.linear_to_srgb.address()};
     return view;
+}
+
+gpu::ConstPtr<gpu::SceneView> readColorTables(vk::AnyPass& pass, const GpuScene& scene)
+{
+    pass.reach("linear_to_srgb", scene.linear_to_srgb);
+    pass.reach("srgb_to_linear", scene.srgb_to_linear);
+    return pass.read(scene.view);
 }
 
 } // namespace zvo

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/base/divide_up.h"
 #include "core/scene/scene.h"
 #include "shared/scene.h"
 #include "vk/device.h"
+#include "vk/frame_graph.h"
 #include "vk/uploader.h"
 #include "voxelize/voxelize.h"
 
@@ -26,6 +28,19 @@ enum class MaterialClass : std::uint32_t
 inline constexpr std::array kMaterialClasses = {MaterialClass::Plain, MaterialClass::Textured, MaterialClass::Alpha};
 static_assert(kMaterialClasses.size() == gpu::kClassCount);
 
+/// The triangles of a material class as workgroups take them.
+struct TriangleChunks
+{
+    vk::BufferOf<gpu::Chunk> whole;  // for a workgroup each
+    vk::BufferOf<gpu::Chunk> single; // of draws with few triangles: of one triangle, for a thread each
+
+    /// The workgroups that take them, whole chunks first.
+    [[nodiscard]] std::uint64_t workgroups() const
+    {
+        return whole.count() + divideUp(single.count(), gpu::kChunkTriangles);
+    }
+};
+
 /// A scene in device memory; shaders/shared/scene.h documents the layout. Nothing changes it after the upload.
 struct GpuScene
 {
@@ -43,14 +58,14 @@ struct GpuScene
     vk::BufferOf<gpu::uint> linear_to_srgb;  // [16384]
     vk::BufferOf<gpu::SceneView> view;       // [1]
 
-    std::array<vk::BufferOf<gpu::Chunk>, gpu::kClassCount> chunks; // of the draws of each MaterialClass
+    std::array<TriangleChunks, gpu::kClassCount> chunks; // of the draws of each MaterialClass
 
     bool has_attributes = false;      // the textures for colour and emission were uploaded
     std::uint64_t triangle_count = 0; // those of a primitive count once for each instance
     double surface_area = 0;          // world units squared
     float emission_scale = 0;         // the emission that the fraction 1 stands for; 0: nothing emits light
 
-    [[nodiscard]] const vk::BufferOf<gpu::Chunk>& chunksOf(MaterialClass material_class) const
+    [[nodiscard]] const TriangleChunks& chunksOf(MaterialClass material_class) const
     {
         return chunks[static_cast<std::size_t>(material_class)];
     }
@@ -69,5 +84,9 @@ GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes,
 
 /// The table of the addresses of scene's buffers.
 gpu::SceneView sceneView(const GpuScene& scene);
+
+/// Declares that pass reads the tables of colours, which shaders/lib/attribute.glsl uses. Returns the address of the
+/// scene's table of buffers.
+gpu::ConstPtr<gpu::SceneView> readColorTables(vk::AnyPass& pass, const GpuScene& scene);
 
 } // namespace zvo

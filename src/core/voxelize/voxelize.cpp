@@ -2,6 +2,7 @@
 #include "core/voxelize/voxelize.h"
 
 #include "core/base/divide_up.h"
+#include "core/base/lanes.h"
 #include "core/base/tuning.h"
 #include "core/tree/device_tree.h"
 #include "octree/octree.h"
@@ -20,6 +21,12 @@ static_assert(static_cast<gpu::uint>(Coverage::Thin) == gpu::kCoverageThin);
 static_assert(Grid::kDepthMax < 1U << gpu::kWindowDepthBits);
 static_assert(GridTile::kTilesMax == 1U << gpu::kWindowIndexBits);
 static_assert(sizeof(gpu::VoxelSums) == gpu::kVoxelSumsBytes);
+static_assert(sizeof(gpu::BrickEntry) == gpu::kBrickBytes && sizeof(gpu::MixedVoxels) == gpu::kBrickBytes);
+// What shaders/voxelize/loads.glsl and rows.glsl put together from words.
+static_assert(sizeof(gpu::Draw) == gpu::kDrawWords * sizeof(gpu::uint));
+static_assert(sizeof(gpu::Material) == 8 * sizeof(gpu::uint) && sizeof(gpu::TextureInfo) == 4 * sizeof(gpu::uint));
+static_assert(sizeof(gpu::TextureLevel) == 3 * sizeof(gpu::uint));
+static_assert(sizeof(gpu::BigTriangle) == 12 * sizeof(gpu::uint) && sizeof(gpu::RowBlock) == 2 * sizeof(gpu::uint));
 
 namespace
 {
@@ -55,15 +62,15 @@ gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, Materi
     VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
     gpu::RasterParams params{};
     params.scene = walk.job.scene.read(pass);
+    readColorTables(pass, walk.job.scene.uploaded());
     params.bricks = accumulation(pass, walk.job.buffers.bricks, covers);
     params.big_triangles = access(pass, rows.big_triangles, covers);
     params.row_blocks = access(pass, rows.row_blocks, covers);
     params.counters = access(pass, rows.counters, covers);
-    params.brick_counters = accumulation(pass, walk.job.buffers.counters, covers);
     params.origin = walk.job.tile.grid.origin;
     params.lattice_scale = static_cast<float>(gpu::kVoxelLattice / static_cast<double>(walk.job.tile.grid.voxel_size));
     params.window = gpu::packWindow(walk.job.tile.grid.depth, walk.job.tile.depth, walk.job.tile.index);
-    params.brick_mask = static_cast<std::uint32_t>(walk.job.buffers.bricks.count() - 1);
+    params.brick_mask = static_cast<std::uint32_t>(walk.job.buffers.brickCapacity() - 1);
     params.big_capacity = static_cast<std::uint32_t>(rows.big_triangles.count());
     params.block_capacity = static_cast<std::uint32_t>(rows.row_blocks.count());
     if (!covers)
@@ -74,6 +81,10 @@ gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, Materi
         params.emission_words = accumulation(pass, walk.sums->emission_words, !emits);
         params.emission_sums = accumulation(pass, walk.sums->emission_sums, emits);
         params.sum_shift = walk.sums->sum_shift;
+        if (walk.job.buffers.sum_form.mixed && !emits)
+        {
+            params.attributes = pass.accumulate(*walk.sums->attributes); // each element once, in any order
+        }
     }
     return params;
 }
@@ -92,6 +103,10 @@ template <typename Kernel> Kernel rasterKernel(const RasterWalk& walk, MaterialC
     if constexpr (requires { kernel.wide_keys; })
     {
         kernel.wide_keys = hasWideKeys(walk.job.tile.grid);
+    }
+    if constexpr (requires { kernel.mixed; })
+    {
+        kernel.mixed = walk.mode != RasterMode::Emission && walk.job.buffers.sum_form.mixed;
     }
     if constexpr (requires { kernel.shares_sums; })
     {
@@ -112,13 +127,30 @@ void recordRaster(const RasterWalk& walk, MaterialClass material_class, const Re
     record(rasterKernel<Kernel>(walk, material_class));
 }
 
+// Records the pass over `count` chunks from `first` on. single: they are of one triangle each.
+void walkChunks(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
+                const vk::BufferOf<gpu::Chunk>& chunks, std::uint64_t first, std::uint64_t count, bool single)
+{
+    const auto record = [&](auto kernel)
+    {
+        kernel.single = single;
+        vk::Pass pass = graph.addPass(kernel);
+        gpu::RasterParams params = rasterParams(pass, walk, material_class);
+        params.chunks = pass.read(chunks);
+        params.chunks.address += first * sizeof(gpu::Chunk);
+        params.chunk_count = static_cast<std::uint32_t>(count);
+        pass.dispatch(single ? count : count * gpu::kChunkTriangles, params);
+    };
+    recordRaster<gpu::voxelize::Triangles, gpu::voxelize::TrianglesInt64>(walk, material_class, record);
+}
+
 // Walks the triangles of all classes; in coverage mode the big ones are listed on the way, later modes use that list.
 // Passes of different classes need no barriers between them.
 void walkAll(vk::FrameGraph& graph, const RasterWalk& walk)
 {
     for (const MaterialClass material_class : kMaterialClasses)
     {
-        walkTriangles(graph, walk, material_class, 0, walk.job.scene.uploaded().chunksOf(material_class).count());
+        walkTriangles(graph, walk, material_class, 0, walk.job.scene.uploaded().chunksOf(material_class).workgroups());
     }
     for (const MaterialClass material_class : kMaterialClasses)
     {
@@ -152,9 +184,30 @@ void rankEmissiveVoxels(vk::FrameGraph& graph, AttributeBuffers& attributes, Dev
     pass.dispatch(threads, params);
 }
 
+void resolveMixed(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::BufferOf<gpu::WorkItem>& leaves,
+                  AttributeBuffers& attributes, DeviceTree& octree)
+{
+    const std::uint32_t leaf_count = octree.levels.back().node_count;
+    const std::uint32_t lanes = lanesOn(graph.device(), leaf_count);
+    vk::Pass pass = graph.addPass(gpu::voxelize::ResolveMixed{.wide_keys = hasWideKeys(job.tile.grid), .lanes = lanes});
+    gpu::ResolveMixedParams params{};
+    params.scene = readColorTables(pass, job.scene.uploaded());
+    params.bricks = pass.read(job.buffers.bricks);
+    params.items = pass.read(leaves);
+    params.nodes = pass.read(octree.nodes);
+    params.sums = pass.read(attributes.sums);
+    params.attributes = pass.readWrite(octree.voxel_attributes);
+    params.max_fragments = pass.readWrite(attributes.max_fragments);
+    params.brick_mask = static_cast<std::uint32_t>(job.buffers.brickCapacity() - 1);
+    params.leaf_count = leaf_count;
+    params.sum_shift = attributes.sum_shift;
+    pass.dispatch(std::uint64_t{leaf_count} * lanes, params);
+}
+
 AttributeSums sumsOf(AttributeBuffers& attributes, DeviceTree& octree)
 {
-    return {octree.nodes, attributes.sums, octree.emission_words, attributes.emission_sums, attributes.sum_shift};
+    return {octree.nodes,         attributes.sums,         octree.emission_words, attributes.emission_sums,
+            attributes.sum_shift, &octree.voxel_attributes};
 }
 
 } // namespace
@@ -168,7 +221,8 @@ RowShape RowShape::on(const vk::Device& device)
 SumForm SumForm::on(const vk::Device& device)
 {
     return {.int64 = device.isEnabled(kInt64Atomics) && tunedValue(device, Tunable::AtomicBits) == 64,
-            .shared = tunedValue(device, Tunable::SharedSums) != 0};
+            .shared = tunedValue(device, Tunable::SharedSums) != 0,
+            .mixed = tunedValue(device, Tunable::MixedSums) != 0};
 }
 
 VoxelizeEstimate VoxelizeEstimate::of(const GpuScene& scene, const Grid& grid, RowShape shape)
@@ -198,9 +252,11 @@ VoxelizeCapacities VoxelizeCapacities::estimate(const GpuScene& scene, const Gri
 
 VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
                                  std::optional<RowShape> asked, std::optional<SumForm> asked_form)
-    : bricks(device, "voxelize/bricks", capacities.bricks), counters(device, "voxelize/brick_counters", 1),
-      shape(asked.value_or(RowShape::on(device))), sum_form(asked_form.value_or(SumForm::on(device)))
+    : counters(device, "voxelize/brick_counters", 1), shape(asked.value_or(RowShape::on(device))),
+      sum_form(asked_form.value_or(SumForm::on(device)))
 {
+    sum_form.mixed = sum_form.mixed && asked_form;
+    bricks = {device, "voxelize/bricks", brickBytes(capacities.bricks, sum_form.mixed) / sizeof(gpu::BrickEntry)};
     assert(!sum_form.int64 || device.isEnabled(kInt64Atomics));
     assert(std::has_single_bit(shape.block_columns) && shape.block_columns >= 4);
     assert(shape.block_columns <= RowShape::kBlockColumnsMax);
@@ -208,7 +264,7 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
     assert(shape.block_columns * shape.strip_lanes >= RowShape::kProductMin);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-        if (scene.chunks[i].count() != 0)
+        if (scene.chunks[i].workgroups() != 0)
         {
             rows[i].big_triangles = {device, "voxelize/big_triangles", capacities.big_triangles};
             rows[i].row_blocks = {device, "voxelize/row_blocks", capacities.row_blocks};
@@ -217,8 +273,14 @@ VoxelizeBuffers::VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& c
     }
 }
 
-AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission)
-    : sums(device, "voxelize/sums", voxel_count), max_fragments(device, "voxelize/max_fragments", 1)
+std::uint64_t VoxelizeBuffers::brickBytes(std::uint64_t capacity, bool mixed)
+{
+    return capacity * (sizeof(gpu::BrickEntry) + (mixed ? sizeof(gpu::MixedVoxels) : 0));
+}
+
+AttributeBuffers::AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, std::uint32_t sum_count,
+                                   bool emission)
+    : sums(device, "voxelize/sums", sum_count), max_fragments(device, "voxelize/max_fragments", 1)
 {
     if (emission)
     {
@@ -242,27 +304,28 @@ void clearCoverage(vk::FrameGraph& graph, VoxelizeBuffers& buffers)
 }
 
 void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
-                   std::uint64_t first_chunk, std::uint64_t chunk_count)
+                   std::uint64_t first_group, std::uint64_t group_count)
 {
-    if (chunk_count == 0)
+    const TriangleChunks& chunks = walk.job.scene.uploaded().chunksOf(material_class);
+    const std::uint64_t end = first_group + group_count;
+    const std::uint64_t whole_end = std::min(end, chunks.whole.count());
+    if (first_group < whole_end)
     {
-        return;
+        walkChunks(graph, walk, material_class, chunks.whole, first_group, whole_end - first_group, false);
     }
-    const auto record = [&](const auto& kernel)
+    if (end > chunks.whole.count())
     {
-        vk::Pass pass = graph.addPass(kernel);
-        gpu::RasterParams params = rasterParams(pass, walk, material_class);
-        params.chunks = pass.read(walk.job.scene.uploaded().chunksOf(material_class));
-        params.chunks.address += first_chunk * sizeof(gpu::Chunk);
-        params.chunk_count = static_cast<std::uint32_t>(chunk_count);
-        pass.dispatch(chunk_count * gpu::kChunkTriangles, params);
-    };
-    recordRaster<gpu::voxelize::Triangles, gpu::voxelize::TrianglesInt64>(walk, material_class, record);
+        const std::uint64_t first_single = std::max(first_group, chunks.whole.count()) - chunks.whole.count();
+        const std::uint64_t first = first_single * gpu::kChunkTriangles;
+        const std::uint64_t single_end =
+            std::min((end - chunks.whole.count()) * gpu::kChunkTriangles, chunks.single.count());
+        walkChunks(graph, walk, material_class, chunks.single, first, single_end - first, true);
+    }
 }
 
 void listRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
 {
-    if (walk.mode != RasterMode::Coverage || walk.job.scene.uploaded().chunksOf(material_class).count() == 0)
+    if (walk.mode != RasterMode::Coverage || walk.job.scene.uploaded().chunksOf(material_class).workgroups() == 0)
     {
         return;
     }
@@ -274,7 +337,7 @@ void listRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass mater
 
 void walkRows(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class)
 {
-    if (walk.job.scene.uploaded().chunksOf(material_class).count() == 0)
+    if (walk.job.scene.uploaded().chunksOf(material_class).workgroups() == 0)
     {
         return;
     }
@@ -294,9 +357,11 @@ void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job)
     walkAll(graph, {job});
 }
 
-void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes, DeviceTree& octree)
+void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::BufferOf<gpu::WorkItem>& leaves,
+                        AttributeBuffers& attributes, DeviceTree& octree)
 {
     const bool emission = octree.emission_words.count() != 0;
+    assert(!emission || !job.buffers.sum_form.mixed);
     graph.fill(attributes.sums, 0);
     graph.fill(attributes.max_fragments, 0);
     if (emission)
@@ -305,10 +370,15 @@ void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, Attribute
     }
     const AttributeSums sums = sumsOf(attributes, octree);
     walkAll(graph, {job, RasterMode::Attributes, &sums});
+    if (job.buffers.sum_form.mixed)
+    {
+        resolveMixed(graph, job, leaves, attributes, octree);
+        return;
+    }
     {
         vk::Pass pass = graph.addPass(gpu::voxelize::Resolve{});
         gpu::ResolveParams params{};
-        params.scene = pass.read(job.scene.uploaded().view); // for its tables of colours
+        params.scene = readColorTables(pass, job.scene.uploaded());
         params.sums = pass.read(attributes.sums);
         params.emission_words = pass.read(octree.emission_words);
         params.attributes = pass.write(octree.voxel_attributes);

@@ -45,6 +45,7 @@ struct SumForm
 {
     bool int64 = false;  // two words by one atomic; takes shaderBufferInt64Atomics
     bool shared = false; // those of small triangles in shared memory first, a workgroup's sums in the end
+    bool mixed = false;  // sums of mixed voxels alone (gpu::MixedVoxels), where nothing else needs them
 
     /// What suits a device.
     static SumForm on(const vk::Device& device);
@@ -91,13 +92,18 @@ struct VoxelizeBuffers
     };
 
     /// shape: of the row blocks that all walks with these buffers list and use; sum_form: of their sums. By default,
-    /// what suits the device.
+    /// what suits the device, with sums of all voxels.
     VoxelizeBuffers(vk::Device& device, const VoxelizeCapacities& capacities, const GpuScene& scene,
                     std::optional<RowShape> shape = std::nullopt, std::optional<SumForm> sum_form = std::nullopt);
 
+    /// The bytes of the brick table.
+    static std::uint64_t brickBytes(std::uint64_t capacity, bool mixed);
+
+    [[nodiscard]] std::uint64_t brickCapacity() const { return sum_form.mixed ? bricks.count() / 2 : bricks.count(); }
+
     RowWork& rowsOf(MaterialClass material_class) { return rows[static_cast<std::size_t>(material_class)]; }
 
-    vk::BufferOf<gpu::BrickEntry> bricks;       // [capacities.bricks]
+    vk::BufferOf<gpu::BrickEntry> bricks;       // [capacities.bricks], and as many MixedVoxels with sum_form.mixed
     vk::BufferOf<gpu::BrickCounters> counters;  // [1]
     std::array<RowWork, gpu::kClassCount> rows; // of each MaterialClass; empty for those that the scene does not have
     RowShape shape;
@@ -107,9 +113,10 @@ struct VoxelizeBuffers
 /// The buffers for averaging attributes: sums over the fragments of each voxel, and the numbering of emissive voxels.
 struct AttributeBuffers
 {
-    AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, bool emission);
+    /// sum_count: of all voxels, or of mixed ones.
+    AttributeBuffers(vk::Device& device, std::uint32_t voxel_count, std::uint32_t sum_count, bool emission);
 
-    vk::BufferOf<gpu::VoxelSums> sums;             // [voxel_count]
+    vk::BufferOf<gpu::VoxelSums> sums;             // [sum_count]
     vk::BufferOf<gpu::uint> max_fragments;         // [1] most fragments of a voxel if too many for sum_shift, else 0
     vk::BufferOf<gpu::uint> partials;              // of the scan over emission_words
     vk::BufferOf<gpu::uint> emissive_count;        // [1]
@@ -125,6 +132,7 @@ struct AttributeSums
     vk::BufferOf<gpu::uvec2>& emission_words; // empty unless something emits
     vk::BufferOf<gpu::EmissionSums>& emission_sums;
     std::uint32_t sum_shift = 0;
+    vk::BufferOf<gpu::Attribute>* attributes = nullptr; // of voxels that have no sums, with SumForm::mixed
 };
 
 /// What a walk over the triangles does with a fragment.
@@ -152,7 +160,8 @@ struct RasterWalk
     const AttributeSums* sums = nullptr; // null in coverage mode
 };
 
-/// Records the pass over chunk_count chunks of a material class from first_chunk on.
+/// Records the passes over the chunks of a material class that group_count workgroups take, from first_group on: at
+/// most one over whole chunks and one over single triangles (TriangleChunks).
 ///
 /// In coverage mode it sets the bits of the voxels that small triangles cover, and lists big triangles. The buffers
 /// must have been cleared.
@@ -162,7 +171,7 @@ struct RasterWalk
 /// emission to sums->emission_sums, at the indices that emission_words tells. The brick table must hold the first voxel
 /// of each leaf or, with wide keys, the leaf's index in sums->leaves.
 void walkTriangles(vk::FrameGraph& graph, const RasterWalk& walk, MaterialClass material_class,
-                   std::uint64_t first_chunk, std::uint64_t chunk_count);
+                   std::uint64_t first_group, std::uint64_t group_count);
 
 /// Records the pass that lists the rows of a material class' big triangles; in coverage mode only, as later modes find
 /// them listed. To be recorded after all its chunks.
@@ -181,9 +190,10 @@ void voxelizeCoverage(vk::FrameGraph& graph, const VoxelizeJob& job);
 
 /// Records the passes that average colour and normal of each voxel's fragments into octree.voxel_attributes, and
 /// mark emissive voxels in octree.emission_words. The brick table must hold the first voxel of each leaf (numberNodes).
-/// Cost: triangles plus fragments plus voxels.
-void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, AttributeBuffers& attributes,
-                        DeviceTree& octree);
+/// leaves: [leaves first] work items of octree construction. With sums of mixed voxels alone, nothing may emit. Cost:
+/// triangles plus fragments plus voxels.
+void voxelizeAttributes(vk::FrameGraph& graph, const VoxelizeJob& job, const vk::BufferOf<gpu::WorkItem>& leaves,
+                        AttributeBuffers& attributes, DeviceTree& octree);
 
 /// Records the passes that average emission into octree.emission. Runs after voxelizeAttributes, when the emissive
 /// voxels have been counted and emission_sums and octree.emission are allocated. Cost: as voxelizeAttributes.

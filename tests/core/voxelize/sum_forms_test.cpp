@@ -13,6 +13,10 @@
 #include <algorithm>
 #include <cstring>
 #include <random>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
 
 namespace zvo
 {
@@ -101,6 +105,145 @@ class SumFormsBothCoverages : public testing::TestWithParam<Coverage>
 
 INSTANTIATE_TEST_SUITE_P(Coverages, SumFormsBothCoverages, testing::Values(Coverage::Conservative, Coverage::Thin),
                          test::paramName<Coverage>);
+
+// Builds with sums of mixed voxels alone, which are not kept: by addresses, and as the software device does by default.
+void expectMixedSumsGive(const std::string& octree, const Scene& scene, const Grid& grid, Coverage coverage)
+{
+    static vk::HeadlessDevice by_addresses(
+        []
+        {
+            vk::HeadlessOptions options = test::deviceOptions();
+            options.tuning[vk::kLoadsName] = static_cast<std::uint32_t>(vk::LoadForm::Addresses);
+            return options;
+        }(),
+        zvoKernels());
+    for (vk::HeadlessDevice* const builder : {&by_addresses, &device()})
+    {
+        const GpuScene uploaded = uploadScene(*builder, scene, true);
+        SumForm form = SumForm::on(builder->device());
+        form.mixed = true;
+        for (const bool shared : {false, true})
+        {
+            SCOPED_TRACE(testing::Message() << "default " << (builder == &device()) << ", shared " << shared);
+            BuildOptions options = {coverage, true, {}};
+            form.shared = shared;
+            options.sum_form = form;
+            const BuildResult built = buildOctree(*builder, uploaded, grid, options);
+            EXPECT_EQ(octreeSha256(*builder, built.octree), octree);
+            const auto isResolveMixed = [](const vk::PassTime& pass) { return pass.name == "voxelize/resolve_mixed"; };
+            EXPECT_EQ(std::ranges::any_of(built.passes, isResolveMixed), uploaded.emission_scale == 0.0F);
+        }
+    }
+}
+
+// The scene without lights, of which no sums need to be kept.
+Scene withoutEmission(Scene scene)
+{
+    for (Material& material : scene.materials)
+    {
+        material.emission = glm::vec3(0.0F);
+    }
+    return scene;
+}
+
+TEST_P(SumFormsBothCoverages, OfMixedVoxelsAloneLeaveTheSameBytes)
+{
+    const auto expectMixedGives = [](const Scene& scene, const Grid& grid)
+    {
+        const Left left = build(device(), scene, grid, GetParam(), std::nullopt);
+        expectMixedSumsGive(left.octree, scene, grid, GetParam());
+    };
+    const Grid grid = {glm::vec3(-10.0F, 5.0F, 0.25F), 90.0F / 128, 7};
+    const Scene materials = test::materialsScene(100.0F, 40);
+    expectMixedGives(materials, grid); // emits: all voxels have sums
+    expectMixedGives(withoutEmission(materials), grid);
+    expectMixedGives(withoutEmission(materials), {grid.origin, grid.voxel_size, 13}); // keys of two words
+    // Some share voxels, others do not.
+    expectMixedGives(scatteredTriangles(256, 6.0F, 50.0F), {glm::vec3(0.0F), 1.0F, 6});
+}
+
+// The passes of a build as the frame graph lists them.
+std::string dumpOfBuild(vk::HeadlessDevice& device, const Scene& scene, const Grid& grid, bool keep_sums = false)
+{
+    const GpuScene uploaded = uploadScene(device, scene, true);
+    BuildOptions options;
+    options.keep_sums = keep_sums;
+    OctreeBuilder builder(device.device(), uploaded, grid, options);
+    std::string dump;
+    while (!builder.isDone())
+    {
+        builder.resume(device.run(
+            [&](vk::FrameGraph& graph)
+            {
+                builder.record(graph);
+                dump += graph.dump();
+            }));
+    }
+    return dump;
+}
+
+TEST(SumForms, OfMixedVoxelsAloneAreForTrianglesThatHaveVoxelsOfTheirOwn)
+{
+    const auto resolves = [](const std::string& dump) { return dump.find("voxelize/resolve_mixed") != dump.npos; };
+    const Scene large = scatteredTriangles(64, 6.0F, 50.0F);
+    const Scene dense = test::sphereScene(glm::vec3(32.0F), 30.0F, 160);
+    const Grid grid = {glm::vec3(0.0F), 1.0F, 6};
+    EXPECT_TRUE(resolves(dumpOfBuild(device(), large, grid)));
+    EXPECT_FALSE(resolves(dumpOfBuild(device(), large, grid, true))) << "sums are kept";
+    EXPECT_FALSE(resolves(dumpOfBuild(device(), dense, grid)));
+}
+
+// A pass falls back to addresses where a buffer has no descriptor, which nothing else would tell.
+TEST(SumForms, KernelsOfBuildsReachTheirBuffersThroughDescriptors)
+{
+    vk::HeadlessOptions options = test::deviceOptions();
+    options.tuning[vk::kLoadsName] = static_cast<std::uint32_t>(vk::LoadForm::Descriptors);
+    vk::HeadlessDevice bound(options, zvoKernels());
+    const Grid grid = {glm::vec3(0.0F), 0.25F, 8};
+    const Scene materials = withoutEmission(test::materialsScene(60.0F, 40));
+    std::istringstream lines(dumpOfBuild(bound, materials, grid) + dumpOfBuild(bound, materials, grid, true));
+    std::set<std::string> names;
+    for (std::string line; std::getline(lines, line);)
+    {
+        std::istringstream words(line);
+        std::string pass;
+        std::string name;
+        words >> pass >> name;
+        name = name.substr(0, name.find(':'));
+        const auto kernel = std::ranges::find(zvoKernels(), std::string_view(name), &vk::EmbeddedKernel::name);
+        if (pass == "pass" && kernel != zvoKernels().end() && !kernel->bound_words.empty())
+        {
+            names.insert(name);
+            EXPECT_NE(line.find("through descriptors"), line.npos) << line;
+        }
+    }
+    const std::string suffix = SumForm::on(bound.device()).int64 ? "_int64" : "";
+    EXPECT_EQ(names, (std::set<std::string>{"octree/average", "octree/collect", "octree/parents", "voxelize/resolve",
+                                            "voxelize/resolve_mixed", "voxelize/rows", "voxelize/rows" + suffix,
+                                            "voxelize/triangles", "voxelize/triangles" + suffix}));
+}
+
+TEST_P(SumFormsBothCoverages, OfMixedVoxelsWithTooManyFragmentsLeaveTheSameBytes)
+{
+    Scene scene = scatteredTriangles(70000, 0.5F, 0.75F);
+    const Scene others = scatteredTriangles(20, 3.0F, 15.0F);
+    for (const glm::vec3& position : others.primitives[0].positions)
+    {
+        scene.primitives[0].positions.push_back(position + 1.0F);
+    }
+    const auto first = static_cast<std::uint32_t>(scene.primitives[0].positions.size() - 60);
+    for (std::uint32_t i = 0; i < 60; i += 3)
+    {
+        scene.primitives[0].triangles.emplace_back(first + i, first + i + 1, first + i + 2);
+    }
+    const Grid grid = {glm::vec3(0.0F), 1.0F, 4};
+    const Left left = build(device(), scene, grid, GetParam(), std::nullopt);
+    if (GetParam() == Coverage::Conservative) // thin coverage leaves some out
+    {
+        EXPECT_EQ(left.sum_shift, 1U);
+    }
+    expectMixedSumsGive(left.octree, scene, grid, GetParam());
+}
 
 TEST_P(SumFormsBothCoverages, OfAllMaterialsLeaveTheSameBytes)
 {
@@ -208,6 +351,7 @@ TEST(SumForms, OfGpusShare)
         options.overrides.type = type;
         vk::HeadlessDevice device(options, zvoKernels());
         EXPECT_EQ(SumForm::on(device.device()).shared, std::string(type) != "cpu");
+        EXPECT_EQ(SumForm::on(device.device()).mixed, std::string(type) == "cpu");
         EXPECT_EQ(SumForm::on(device.device()).int64, device.device().isEnabled("shaderBufferInt64Atomics"));
         options.tuning = {{"atomic-bits", 32}, {"shared-sums", std::string(type) == "cpu" ? 1 : 0}};
         vk::HeadlessDevice tuned(options, zvoKernels());

@@ -3,8 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "insert_bricks.h"
-#define BRICKS_CONSTANT_ID 0
-#include "lib/bricks.glsl"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
 
 layout(constant_id = 1) const bool kFind = false; // look for keys of an earlier dispatch instead
@@ -15,6 +14,10 @@ layout(push_constant, scalar) uniform Params
     InsertBricksParams params;
 };
 
+#define BRICKS_CONSTANT_ID 0
+#define BRICKS_BINDING 0
+#include "lib/bricks.glsl"
+
 void main()
 {
     uint i = threadIndex();
@@ -22,7 +25,7 @@ void main()
         return;
     bool claimed = false;
     uvec2 key = params.keys.data[i];
-    uint entry = kFind ? brickFind(BrickEntry_ConstPtr(params.bricks), params.brick_mask, key)
-                       : brickFindOrInsert(params.bricks, params.brick_mask, key, claimed);
+    BrickEntry brick;
+    uint entry = kFind ? brickFind(key, brick) : brickFindOrInsert(key, claimed);
     params.results.data[i] = uvec2(entry, claimed ? 1u : 0u);
 }

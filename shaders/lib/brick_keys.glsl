@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Keys of the brick table (shared/bricks.h). The includer defines before:
+//   BRICKS_CONSTANT_ID    constant_id of kWideKeys
+#include "lib/morton.glsl"
+#include "shared/bricks.h"
+
+// The octree has more than kNarrowLevelsMax levels.
+layout(constant_id = BRICKS_CONSTANT_ID) const bool kWideKeys = false;
+
+// The key of a cell among the 4^levels cells of its level. Narrow keys are in x, with y = 0.
+uvec2 brickKey(uvec3 cell, uint levels)
+{
+    uint marker = 6u * levels;
+    if (!kWideKeys)
+        return uvec2(mortonEncode(cell) | (1u << marker), 0u);
+    uvec2 leading = marker < kBrickKeyBits ? uvec2(1u << marker, 0u) : uvec2(0u, 1u << (marker - kBrickKeyBits));
+    return mortonEncodeWide(cell) | leading | kBrickKeyTag;
+}
+
+uvec2 parentKey(uvec2 key)
+{
+    if (!kWideKeys)
+        return uvec2(key.x >> 6, 0u);
+    uvec2 code = key & ~kBrickKeyTag;
+    return uvec2((code.x >> 6) | ((code.y << (kBrickKeyBits - 6u)) & ((1u << kBrickKeyBits) - 1u)), code.y >> 6) |
+           kBrickKeyTag;
+}
+
+bool isSameKey(uvec2 a, uvec2 b)
+{
+    return a.x == b.x && (!kWideKeys || a.y == b.y);
+}
+
+uvec2 keyOf(BrickEntry brick)
+{
+    return uvec2(brick.key, brick.base);
+}
+
+// Index of a node that octree/place has numbered.
+uint nodeOf(BrickEntry brick)
+{
+    return kWideKeys ? brick.mask_lo : brick.base;
+}

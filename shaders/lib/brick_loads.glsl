@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Loads of the brick table (shared/bricks.h). The includer has a kernel's parameters as params, with bricks, and defines
+// before:
+//   BRICKS_BINDING    optional: the binding of the table in the kernel's bound form (lib/bound.glsl)
+#include "shared/bricks.h"
+
+#if defined(BOUND) && defined(BRICKS_BINDING)
+
+TEXELS_4(BRICKS_BINDING, bricks);
+
+// May be out of date where other threads change the entry.
+BrickEntry loadBrick(uint entry)
+{
+    uvec4 words = texelFetch(texels4_bricks, int(entry));
+    return BrickEntry(words.x, words.y, words.z, words.w);
+}
+
+// Likewise, of an entry of a table of `capacity` entries.
+MixedVoxels loadMixed(uint capacity, uint entry)
+{
+    uvec4 words = texelFetch(texels4_bricks, int(capacity + entry));
+    return MixedVoxels(words.x, words.y, words.z, words.w);
+}
+
+#else
+
+BrickEntry loadBrick(uint entry)
+{
+    return params.bricks.data[entry];
+}
+
+MixedVoxels loadMixed(uint capacity, uint entry)
+{
+    uint64_t behind = uint64_t(params.bricks) + uint64_t(capacity) * kBrickBytes;
+    return MixedVoxels_ConstPtr(behind).data[entry];
+}
+
+#endif

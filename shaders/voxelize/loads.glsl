@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// What the raster kernels load of a scene and of the lists of big triangles: by address, or, in their bound form
+// (lib/bound.glsl), from texels. Bindings 0 to 2 are those of lib/bricks.glsl and voxelize/sums.glsl, 13 and 14 those of
+// voxelize/rows.glsl, 15 is that of lib/attribute.glsl. A kernel has 14 texel buffers at most; Vulkan promises 16.
+#ifdef BOUND
+
+TEXELS_1(3, draws);
+TEXELS_3(4, triangles);
+TEXELS_3(5, positions);
+TEXELS_3(6, normals);
+TEXELS_2(7, uvs);
+TEXELS_2(8, colors);
+TEXELS_4(9, materials);
+TEXELS_4(10, textures);
+TEXELS_3(11, levels);
+TEXELS_2(12, texels);
+
+#define SceneTexels uint // stands for an address that this form does not need
+#define SCENE_TEXELS 0u
+
+// The draw that consists of the words WORD(0) to WORD(kDrawWords - 1).
+#define DRAW_VECTOR(WORD, I) uintBitsToFloat(uvec3(WORD(I), WORD(I + 1), WORD(I + 2)))
+#define DRAW_OF_WORDS(WORD)                                                                                            \
+    Draw(mat4x3(DRAW_VECTOR(WORD, 0), DRAW_VECTOR(WORD, 3), DRAW_VECTOR(WORD, 6), DRAW_VECTOR(WORD, 9)),               \
+         mat3(DRAW_VECTOR(WORD, 12), DRAW_VECTOR(WORD, 15), DRAW_VECTOR(WORD, 18)), WORD(21), WORD(22), WORD(23),      \
+         WORD(24), WORD(25), WORD(26), WORD(27), WORD(28))
+
+uint drawWord(uint number, uint word)
+{
+    return texelFetch(texels1_draws, int(number * kDrawWords + word)).x;
+}
+
+Draw loadDraw(uint number)
+{
+#define WORD(I) drawWord(number, I)
+    return DRAW_OF_WORDS(WORD);
+#undef WORD
+}
+
+uvec3 loadTriangle(uint i)
+{
+    return texelFetch(texels3_triangles, int(i)).xyz;
+}
+
+vec3 loadPosition(uint i)
+{
+    return uintBitsToFloat(texelFetch(texels3_positions, int(i)).xyz);
+}
+
+vec3 loadNormal(uint i)
+{
+    return uintBitsToFloat(texelFetch(texels3_normals, int(i)).xyz);
+}
+
+ivec2 loadUv(uint i)
+{
+    return ivec2(texelFetch(texels2_uvs, int(i)).xy);
+}
+
+uvec2 loadColor(uint i)
+{
+    return texelFetch(texels2_colors, int(i)).xy;
+}
+
+Material loadMaterial(uint i)
+{
+    uvec4 factors = texelFetch(texels4_materials, int(2u * i));
+    uvec4 rest = texelFetch(texels4_materials, int(2u * i + 1u));
+    return Material(factors.xy, factors.zw, rest.x, rest.y, rest.z, rest.w);
+}
+
+TextureInfo loadTexture(uint i)
+{
+    uvec4 words = texelFetch(texels4_textures, int(i));
+    return TextureInfo(words.x, words.y, words.z, words.w);
+}
+
+TextureLevel loadLevel(uint i)
+{
+    uvec3 words = texelFetch(texels3_levels, int(i)).xyz;
+    return TextureLevel(words.x, words.y, words.z);
+}
+
+uvec2 loadTexel(SceneTexels texels, uint i)
+{
+    return texelFetch(texels2_texels, int(i)).xy;
+}
+
+#else
+
+// For loadTexel(). To be read before a loop: in it, the address would be loaded each time.
+#define SceneTexels uint64_t_ConstPtr
+#define SCENE_TEXELS params.scene.data[0].texels
+
+Draw loadDraw(uint number)
+{
+    return params.scene.data[0].draws.data[number];
+}
+
+uvec3 loadTriangle(uint i)
+{
+    return params.scene.data[0].triangles.data[i];
+}
+
+vec3 loadPosition(uint i)
+{
+    return params.scene.data[0].positions.data[i];
+}
+
+vec3 loadNormal(uint i)
+{
+    return params.scene.data[0].normals.data[i];
+}
+
+ivec2 loadUv(uint i)
+{
+    return params.scene.data[0].uvs.data[i];
+}
+
+uvec2 loadColor(uint i)
+{
+    return params.scene.data[0].colors.data[i];
+}
+
+Material loadMaterial(uint i)
+{
+    return params.scene.data[0].materials.data[i];
+}
+
+TextureInfo loadTexture(uint i)
+{
+    return params.scene.data[0].textures.data[i];
+}
+
+TextureLevel loadLevel(uint i)
+{
+    return params.scene.data[0].levels.data[i];
+}
+
+uvec2 loadTexel(SceneTexels texels, uint i)
+{
+    return unpack32(texels.data[i]);
+}
+
+#endif
