@@ -32,7 +32,7 @@ DynamicScenery& scenery()
 std::size_t dispatchCount(std::string_view dump)
 {
     std::size_t count = 0;
-    for (const std::string_view kind : {" threads in ", ": indirect;"})
+    for (const std::string_view kind : {" threads in ", ": indirect"})
     {
         for (std::size_t at = dump.find(kind); at != std::string_view::npos; at = dump.find(kind, at + 1))
         {

@@ -55,7 +55,7 @@ void addPasses(PassCounts& counts, const std::string& dump)
     std::istringstream lines(dump);
     for (std::string line; std::getline(lines, line);)
     {
-        const bool runs = line.find(" in ") != std::string::npos || line.find(": indirect;") != std::string::npos;
+        const bool runs = line.find(" in ") != std::string::npos || line.find(": indirect") != std::string::npos;
         const bool dispatch =
             line.starts_with("pass ") && line.find('/') < line.find(':') && runs && !line.starts_with("pass fill ");
         counts.dispatches += dispatch ? 1 : 0;
