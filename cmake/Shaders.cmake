@@ -10,6 +10,10 @@ find_program(SPIRV_VAL spirv-val REQUIRED)
 # goes. None of these passes changes arithmetic, so results stay the same bits.
 set(ZVO_SPIRV_PASSES --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
                      --eliminate-dead-code-aggressive)
+# The kernels of voxelize/ are the longest: there, variables that are stored once become values as well. Elsewhere that
+# changes which floating-point operations drivers fuse, and with them colours by 1/255.
+set(ZVO_SPIRV_PASSES_VOXELIZE ${ZVO_SPIRV_PASSES} --eliminate-local-single-block --eliminate-local-single-store
+                              --eliminate-dead-code-aggressive)
 
 # zvo_compile_kernel(SOURCE OUTPUT SYMBOL INCLUDE DEFINES PASSES DEPENDS): makes OUTPUT.spv and OUTPUT.cpp, which defines
 # the words as zvo::kernels::SYMBOL.
@@ -55,14 +59,18 @@ function(zvo_embed_kernels target root function_name)
         string(REGEX REPLACE "\\.comp$" "" name ${kernel})
         string(MAKE_C_IDENTIFIER ${name} symbol)
         set(forms ${symbol})
-        zvo_compile_kernel(${root}/${kernel} ${out_dir}/${name} ${symbol} ${arg_INCLUDE} "" "${passes}" "${arg_DEPENDS}")
+        set(kernel_passes ${passes})
+        if(passes AND name MATCHES "^voxelize/")
+            set(kernel_passes ${ZVO_SPIRV_PASSES_VOXELIZE})
+        endif()
+        zvo_compile_kernel(${root}/${kernel} ${out_dir}/${name} ${symbol} ${arg_INCLUDE} "" "${kernel_passes}" "${arg_DEPENDS}")
         list(APPEND embedded ${out_dir}/${name}.cpp)
         file(STRINGS ${root}/${kernel} has_bound_form REGEX "^#include \"lib/bound.glsl\"$")
         set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/${kernel})
         if(has_bound_form)
             list(APPEND forms ${symbol}_bound)
             zvo_compile_kernel(${root}/${kernel} ${out_dir}/${name}.bound ${symbol}_bound ${arg_INCLUDE} -DBOUND
-                               "${passes}" "${arg_DEPENDS}")
+                               "${kernel_passes}" "${arg_DEPENDS}")
             list(APPEND embedded ${out_dir}/${name}.bound.cpp)
         endif()
         foreach(form ${forms})

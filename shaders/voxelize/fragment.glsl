@@ -76,11 +76,20 @@ uint rankInMasks(uvec2 masks, uint cell)
     return cell < 32u ? bitCount(masks.x & below) : bitCount(masks.x) + bitCount(masks.y & below);
 }
 
-void addAttributes(Surface surface, BrickCursor cursor, uint cell, uvec3 weights, uvec3 color)
+// The attributes of a fragment that kMode needs.
+struct Fragment
+{
+    uvec3 weights;
+    uvec3 color;
+    uvec3 emission;
+    bool exists;
+};
+
+void addAttributes(Surface surface, Fragment fragment, BrickCursor cursor, uint cell)
 {
     uint voxel = cursor.base + rankInMasks(cursor.masks, cell);
-    VoxelSums sums = sumsOf(color, fragmentNormal(surface, weights));
-    if (kEmits && any(notEqual(fragmentEmission(surface, weights), uvec3(0u))))
+    VoxelSums sums = sumsOf(fragment.color, fragmentNormal(surface, fragment.weights));
+    if (kEmits && any(notEqual(fragment.emission, uvec3(0u))))
         atomicOr(params.emission_words.data[voxel >> 5].x, 1u << (voxel & 31u));
     if (kMixed)
     {
@@ -94,9 +103,8 @@ void addAttributes(Surface surface, BrickCursor cursor, uint cell, uvec3 weights
     addToSums(voxel, sums);
 }
 
-void addEmission(Surface surface, uint voxel, uvec3 weights)
+void addEmission(uvec3 emission, uint voxel)
 {
-    uvec3 emission = fragmentEmission(surface, weights);
     uvec2 word = params.emission_words.data[voxel >> 5];
     uint bit = 1u << (voxel & 31u);
     if (any(notEqual(emission, uvec3(0u))) && (word.x & bit) != 0u)
@@ -108,17 +116,9 @@ void addEmission(Surface surface, uint voxel, uvec3 weights)
     }
 }
 
-// The attributes of a fragment that kMode needs.
-struct Fragment
-{
-    uvec3 weights;
-    uvec3 color;
-    bool exists;
-};
-
 Fragment shadeFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corners, uvec3 voxel)
 {
-    Fragment fragment = Fragment(uvec3(0u), uvec3(0u), true);
+    Fragment fragment = Fragment(uvec3(0u), uvec3(0u), uvec3(0u), true);
     if (kMode != kModeCoverage || kMaterialClass == kClassAlpha)
     {
         fragment.weights = fixedWeights(corners, triangle.n_w != 0);
@@ -126,6 +126,8 @@ Fragment shadeFragment(RasterTriangle triangle, Surface surface, EDGE_IVEC3 corn
         fragment.color = color.rgb;
         if (kMaterialClass == kClassAlpha)
             fragment.exists = passesAlpha(surface, color.a, voxel);
+        if (kMode == kModeEmission || (kMode == kModeAttributes && kEmits))
+            fragment.emission = fragmentEmission(surface, fragment.weights);
     }
     return fragment;
 }
@@ -139,9 +141,9 @@ uvec2 leafKey(uvec3 voxel)
 void addFragment(Surface surface, Fragment fragment, BrickCursor cursor, uint cell)
 {
     if (kMode == kModeAttributes)
-        addAttributes(surface, cursor, cell, fragment.weights, fragment.color);
+        addAttributes(surface, fragment, cursor, cell);
     if (kMode == kModeEmission)
-        addEmission(surface, cursor.base + rankInMasks(cursor.masks, cell), fragment.weights);
+        addEmission(fragment.emission, cursor.base + rankInMasks(cursor.masks, cell));
 }
 
 // Called for each voxel that the triangle covers.

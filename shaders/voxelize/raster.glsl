@@ -200,13 +200,7 @@ ivec2 blockOrigin(ivec2 low)
 RasterCell startColumn(RasterTriangle t, ivec2 column)
 {
     RasterCell cell;
-    if (kCoverage == kCoverageThin)
-    {
-        cell.w = min(columnLayer(t, column, EDGE_INT(0), 0, cell.rest), t.layer_top);
-        cell.w_high = cell.w;
-        cell.rest_high = EDGE_INT(0);
-    }
-    else if (t.n_w == 0) // a segment or a point: every layer of its box is a candidate
+    if (kCoverage == kCoverageConservative && t.n_w == 0) // a segment or a point: every layer of its box is a candidate
     {
         cell.w = t.low.z;
         cell.w_high = t.high.z;
@@ -215,13 +209,18 @@ RasterCell startColumn(RasterTriangle t, ivec2 column)
     }
     else
     {
-        // The plane's range over the closed column is +-128 (|n_u| + |n_v|); the lower end excludes one unit, because
-        // a plane that touches a layer's upper face covers that layer too.
-        EDGE_INT spread = t.rise_u + t.rise_v;
+        // Conservative: the plane's range over the closed column is +-128 (|n_u| + |n_v|); the lower end excludes one
+        // unit, because a plane that touches a layer's upper face covers that layer too.
+        const bool kThin = kCoverage == kCoverageThin;
+        EDGE_INT spread = kThin ? EDGE_INT(0) : t.rise_u + t.rise_v;
         EDGE_INT half_spread = spread >> 1;
         int odd = (int(spread) & 1) * (kVoxelLattice / 2);
-        cell.w = columnLayer(t, column, -half_spread, -odd - 1, cell.rest);
-        cell.w_high = columnLayer(t, column, half_spread, odd, cell.rest_high);
+        int layer = columnLayer(t, column, -half_spread, kThin ? 0 : -odd - 1, cell.rest);
+        cell.w = kThin ? min(layer, t.layer_top) : layer;
+        cell.w_high = cell.w;
+        cell.rest_high = EDGE_INT(0);
+        if (!kThin)
+            cell.w_high = columnLayer(t, column, half_spread, odd, cell.rest_high);
     }
     ivec3 to_u = column.x * kVoxelLattice + kVoxelLattice / 2 - t.u;
     ivec3 to_v = column.y * kVoxelLattice + kVoxelLattice / 2 - t.v;

@@ -101,13 +101,12 @@ void listBigTriangle(SnappedTriangle snapped, RasterTriangle t, uint draw, uint 
                 BigTriangle(snapped.v0, snapped.v1, snapped.v2, draw, triangle, band);
 }
 
-// Thin coverage, with at most one voxel a column: first finds the covered columns, then rasterizes only these. On
-// devices that do not skip branches an empty column is then as cheap as the test, while a fragment is expensive.
-void rasterizeThin(RasterTriangle t, Surface surface, uvec2 extent, bool selected)
+// Thin coverage, with at most one voxel a column: the covered columns. Bit i: column i of the bounding box, row by row.
+uint coveredColumns(RasterTriangle t, uvec2 extent)
 {
-    uint covered = 0u; // bit i: column i, row by row
+    uint covered = 0u;
     uint column = 0u;
-    uint column_count = selected ? extent.x * extent.y : 0u;
+    uint column_count = extent.x * extent.y;
     uint row_end = extent.x;
     RasterCell row = startColumn(t, t.low.xy);
     RasterCell cell = row;
@@ -123,30 +122,38 @@ void rasterizeThin(RasterTriangle t, Surface surface, uvec2 extent, bool selecte
             row_end += extent.x;
         }
     }
-    BrickCursor cursor = noBrick();
-    for (; covered != 0u; covered &= covered - 1u)
-    {
-        uint number = uint(findLSB(covered));
-        uint y = divideSmall(number, extent.x);
-        ivec2 column = t.low.xy + ivec2(number - y * extent.x, y);
-        RasterCell fragment = startColumn(t, column);
-        emitFragment(t, surface, cornerWeights(t, fragment), uvec3(voxelOf(t, column, fragment.w)), cursor);
-    }
+    return covered;
 }
 
-// Conservative coverage: walks all layers of all columns of the bounding box in one loop.
-void rasterizeConservative(RasterTriangle t, Surface surface, bool selected)
+// The voxels of thin coverage are those of the covered columns alone: on devices that do not skip branches, an empty
+// column is then as cheap as its test, while a fragment is expensive. Those of conservative coverage are found in a walk
+// over all layers of all columns of the bounding box. Both are one loop, as fragments are most of the kernel's code.
+void rasterize(RasterTriangle t, Surface surface, uvec2 extent, bool selected)
 {
+    const bool kThin = kCoverage == kCoverageThin;
+    uint covered = kThin && selected ? coveredColumns(t, extent) : 0u;
     ivec2 column = t.low.xy;
-    RasterCell row = startColumn(t, column);
-    RasterCell cell = row;
+    RasterCell cell = startColumn(t, column);
+    RasterCell row = cell;
     RasterCell first = cell; // the column's lowest layer
     BrickCursor cursor = noBrick();
-    for (bool walking = selected; walking;)
+    for (bool walking = kThin ? covered != 0u : selected; walking;)
     {
-        if (isCovered(t, cell))
+        if (kThin)
+        {
+            uint number = uint(findLSB(covered));
+            uint y = divideSmall(number, extent.x);
+            column = t.low.xy + ivec2(number - y * extent.x, y);
+            cell = startColumn(t, column);
+        }
+        if (kThin || isCovered(t, cell))
             emitFragment(t, surface, cornerWeights(t, cell), uvec3(voxelOf(t, column, cell.w)), cursor);
-        if (cell.w < min(cell.w_high, t.high.z))
+        if (kThin)
+        {
+            covered &= covered - 1u;
+            walking = covered != 0u;
+        }
+        else if (cell.w < min(cell.w_high, t.high.z))
         {
             moveUp(t, true, cell);
         }
@@ -184,10 +191,7 @@ void takeTriangle(uint draw_number, Draw draw, uint triangle)
             listBigTriangle(snapped, t, draw_number, triangle);
     }
     Surface surface = loadSurface(draw, vertices, vec3(snapped.normal), float(t.n_w));
-    if (kCoverage == kCoverageThin)
-        rasterizeThin(t, surface, extent, kept && small);
-    else
-        rasterizeConservative(t, surface, kept && small);
+    rasterize(t, surface, extent, kept && small);
 }
 
 // The last subgroup of a walk over chunks sizes voxelize/bands for what has been listed so far.
