@@ -35,10 +35,11 @@ FoundBricks findBricks(uint brick_capacity)
     return found;
 }
 
-// Takes the next of the entries away from found.
+// Takes the next of the entries away from found. Without any, returns one of the workgroup's own: lanes that are switched
+// off fetch texels too, but not those that other workgroups write.
 uint takeBrick(inout FoundBricks found)
 {
-    uint entry = found.first + uint(findLSB(found.occupied)) * kCollectGroup;
+    uint entry = found.first + min(uint(findLSB(found.occupied)), kCollectItems - 1u) * kCollectGroup;
     found.occupied &= found.occupied - 1u;
     return entry;
 }
