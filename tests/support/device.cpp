@@ -37,6 +37,8 @@ vk::HeadlessOptions deviceOptions()
     {
         // The instrumentation takes a vec3, and each column of a matrix, for as long as a vec4, also at a buffer's end.
         options.overrides.buffer_slack = 64;
+        // It checks accesses through addresses, and changes what kernels read through descriptors beside its own.
+        options.tuning[vk::kLoadsName] = static_cast<std::uint32_t>(vk::LoadForm::Addresses);
     }
     return options;
 }
