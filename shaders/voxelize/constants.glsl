@@ -9,6 +9,7 @@ layout(constant_id = 3) const bool kEmits = false;
 layout(constant_id = 4) const uint kBlockColumns = 256u; // columns of a row block: bounds the work of a thread
 layout(constant_id = 5) const uint kStripLanes = 1u;     // threads of voxelize/bands that share a band
 
+const bool kThin = kCoverage == kCoverageThin;
 const uint kGroupBands = kBandsGroup / kStripLanes; // bands that a workgroup of voxelize/bands takes
 
 layout(push_constant, scalar) uniform Push

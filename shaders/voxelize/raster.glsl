@@ -193,7 +193,7 @@ int columnLayer(RasterTriangle t, ivec2 column, EDGE_INT addend_high, int addend
 // Where the first row block of a triangle begins, whose box begins at low: tiles are aligned to leaves.
 ivec2 blockOrigin(ivec2 low)
 {
-    return kCoverage == kCoverageThin ? low & ~3 : low;
+    return kThin ? low & ~3 : low;
 }
 
 // The walk's state at the first layer of a column.
@@ -211,7 +211,6 @@ RasterCell startColumn(RasterTriangle t, ivec2 column)
     {
         // Conservative: the plane's range over the closed column is +-128 (|n_u| + |n_v|); the lower end excludes one
         // unit, because a plane that touches a layer's upper face covers that layer too.
-        const bool kThin = kCoverage == kCoverageThin;
         EDGE_INT spread = kThin ? EDGE_INT(0) : t.rise_u + t.rise_v;
         EDGE_INT half_spread = spread >> 1;
         int odd = (int(spread) & 1) * (kVoxelLattice / 2);

@@ -125,7 +125,7 @@ void main()
     ivec2 corner = blockOrigin(t.low.xy) + ivec2(unpackBlock(block.position) * uvec2(kBlockColumns, kBlockRows));
     int column_last = min(corner.x + int(kBlockColumns) - 1, t.high.x);
     int lane = int(thread % kBlockRows);
-    if (kCoverage == kCoverageThin && kMode == kModeCoverage && kMaterialClass != kClassAlpha)
+    if (kThin && kMode == kModeCoverage && kMaterialClass != kClassAlpha)
         rasterizeTiles(t, ivec2(corner.x, corner.y + (lane & ~3)), column_last, lane & 3);
     else if (corner.y + lane >= t.low.y && corner.y + lane <= t.high.y)
         rasterizeRow(t, surface, ivec2(max(corner.x, t.low.x), corner.y + lane), column_last);

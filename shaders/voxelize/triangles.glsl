@@ -70,7 +70,7 @@ SnappedTriangle snapTriangle(Draw draw, uvec3 vertices)
     t.low = low;
     t.high = high;
     clipToWindow(t.low, t.high);
-    bool flat_out = kCoverage == kCoverageThin && t.normal == i64vec3(0);
+    bool flat_out = kThin && t.normal == i64vec3(0);
     t.fate = !finite ? kNonfinite : (!in_range ? kOutOfRange : (outside ? kOutside : (flat_out ? kZeroArea : kKept)));
     return t;
 }
@@ -130,7 +130,6 @@ uint coveredColumns(RasterTriangle t, uvec2 extent)
 // over all layers of all columns of the bounding box. Both are one loop, as fragments are most of the kernel's code.
 void rasterize(RasterTriangle t, Surface surface, uvec2 extent, bool selected)
 {
-    const bool kThin = kCoverage == kCoverageThin;
     uint covered = kThin && selected ? coveredColumns(t, extent) : 0u;
     ivec2 column = t.low.xy;
     RasterCell cell = startColumn(t, column);

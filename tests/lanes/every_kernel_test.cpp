@@ -458,10 +458,12 @@ Names traceForHosts(const DeviceTree& tree)
 }
 
 // Builds the octree of a scene in each form of sums. Only the forms of GPUs get all variants.
-Names addInAllForms(const GpuScene& scene, const Grid& grid, Coverage coverage, bool all)
+Names addInAllForms(const Scene& scene, const Grid& grid, Coverage coverage, bool all)
 {
     Names names;
-    const DeviceTree octree = buildOctree(device(), scene, grid, {coverage}).octree;
+    const GpuScene gpu_scene = uploadScene(device(), scene, true);
+    const DeviceTree octree = buildOctree(device(), gpu_scene, grid, {coverage}).octree;
+    EXPECT_EQ(voxelCodes(device(), octree), oracle::voxelize(scene, grid, coverage).codes);
     const bool has_int64 = SumForm::on(device().device()).int64;
     for (const SumForm form : {SumForm{false, false}, {false, true}, {true, false}, {true, true}})
     {
@@ -471,7 +473,7 @@ Names addInAllForms(const GpuScene& scene, const Grid& grid, Coverage coverage, 
         }
         BuildOptions options = {coverage};
         options.sum_form = form;
-        const BuildResult built = buildOctree(device(), scene, grid, options);
+        const BuildResult built = buildOctree(device(), gpu_scene, grid, options);
         addNames(names, built.passes);
         EXPECT_EQ(test::difference(test::cellsOf(device(), built.octree), test::cellsOf(device(), octree)), "");
     }
@@ -552,7 +554,7 @@ TEST(EveryKernel, RunsOnASmallScene)
         BuildResult built = buildOctree(device(), uploadScene(device(), built_scene, true), grid, {c.coverage});
         EXPECT_EQ(voxelCodes(device(), built.octree), oracle::voxelize(built_scene, grid, c.coverage).codes);
         addNames(names, built.passes);
-        names.merge(addInAllForms(uploadScene(device(), plain, true), grid, c.coverage, c.pictures));
+        names.merge(addInAllForms(plain, grid, c.coverage, c.pictures));
         names.merge(addMixed(grid, c.coverage));
         if (c.pictures)
         {
