@@ -46,21 +46,22 @@ struct ShadowParams // push constants of trace/shadow
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(Attribute) attributes;      // of voxels, in the format of kFormat
     GPU_CONST_PTR(Attribute) node_attributes; // kDetail only
+    GPU_CONST_PTR(uint64_t) paths;            // of trace/beam_paths; kPaths only
     GPU_PTR(TraceStatus) status;
-    GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
-    GPU_PTR(uint) light;          // [width * height] light that arrives; undefined in dead tiles
-    vec3 forward;                 // of the camera
+    GPU_PTR(DispatchArgs) next_round; // [1] cleared: of the round that unfinished rays wait for; kMore only
+    GPU_PTR(uint) light;              // [width * height] light that arrives; undefined in dead tiles
+    vec3 forward;                     // of the camera
     vec3 half_pixel_x;
     vec3 half_pixel_y;
     vec3 to_sun; // length 1
     uint width;
     uint height;
-    uint round;
 };
 GPU_KERNEL_BEGIN(trace, shadow, Shadow, ShadowParams)
     TRAVERSE_CONSTANTS
     GPU_CONSTANT(bool, orthographic, false)
     GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    PATHS_CONSTANTS
     GPU_CONSTANT(bool, resume, false)
     GPU_CONSTANT(bool, more, false)
 GPU_KERNEL_END
@@ -72,6 +73,7 @@ struct OcclusionParams // push constants of trace/occlusion
     GPU_CONST_PTR(Hit) hits;
     GPU_CONST_PTR(Attribute) attributes;
     GPU_CONST_PTR(Attribute) node_attributes;
+    GPU_CONST_PTR(uint64_t) paths;
     GPU_PTR(TraceStatus) status;
     GPU_PTR(uint) light;
     vec3 forward;
@@ -86,6 +88,7 @@ GPU_KERNEL_BEGIN(trace, occlusion, Occlusion, OcclusionParams)
     TRAVERSE_CONSTANTS
     GPU_CONSTANT(bool, orthographic, false)
     GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    PATHS_CONSTANTS
     GPU_CONSTANT(bool, shadows, true)
 GPU_KERNEL_END
 

@@ -16,7 +16,9 @@
 
 layout(constant_id = 5) const bool kOrthographic = false;
 layout(constant_id = 6) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 7) const bool kShadows = true; // trace/shadow has run
+layout(constant_id = 7) const bool kPaths = false; // begin below the root
+layout(constant_id = 8) const bool kPathsRelative = false; // the octree does not stand by levels
+layout(constant_id = 9) const bool kShadows = true; // trace/shadow has run
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -26,6 +28,7 @@ layout(push_constant, scalar) uniform Push
 
 #define TRAVERSE_GROUP kTilePixels
 #include "lib/octree_loads.glsl"
+#include "trace/path_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/lit_point.glsl"
 
@@ -52,6 +55,7 @@ void main()
     mat3 frame = frameAround(point.normal);
     float end = isMiss(hit) ? 0.0 : params.radius;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    g_paths = params.paths;
     float open = 0.0;
     uint iterations_left = kIterationsMax;
     uint unfinished_count = 0u;

@@ -27,29 +27,12 @@ layout(push_constant, scalar) uniform Push
 #endif
 };
 
-uint64_t_ConstPtr g_paths;
-
-#ifdef BOUND
-TEXELS_2(1, paths);
-
-uvec2 loadPath(uint cell)
-{
-    return texelFetch(texels2_paths, int(cell)).xy;
-}
-#else
-uvec2 loadPath(uint cell)
-{
-    return unpackUint2x32(g_paths.data[cell]);
-}
-#endif
-
 #ifdef PRIMARY_RANKS
 #define TRAVERSE_ENTRIES
 #endif
 #define TRAVERSE_GROUP kTilePixels
-#define TRAVERSE_PATHS kPaths
-#define TRAVERSE_PATHS_RELATIVE kPathsRelative
 #include "lib/octree_loads.glsl"
+#include "trace/path_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/rounds.glsl"
 
@@ -126,7 +109,7 @@ void main()
     if (any(greaterThanEqual(pixel, size)))
         return;
     if (result.unfinished)
-        endUnfinished(kMore, params.rounds, params.round, params.status.data[0].live_tiles, params.status);
+        endUnfinished(kMore, params.next_round, params.status.data[0].live_tiles, params.status);
 #ifdef PRIMARY_RANKS
     result.index = rankOf(result);
 #endif

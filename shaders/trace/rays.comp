@@ -47,7 +47,7 @@ void main()
     Traversal result = traverse(valid ? ray.origin : vec3(0.0), valid ? ray.inverse_direction : vec3(1.0),
                                 valid ? ray.t_min : 1.0, valid ? ray.t_max : 0.0, params.detail, from, kIterationsMax);
     if (result.unfinished)
-        endUnfinished(kMore, params.rounds, params.round, (ray_count - 1u) / kRaysGroup + 1u, params.status);
+        endUnfinished(kMore, params.next_round, (ray_count - 1u) / kRaysGroup + 1u, params.status);
     uint miss = kMore && result.unfinished ? kHitUnfinished : kHitMiss;
     storeHit(params.hits, i, result.t, result.hit ? result.index : miss, result.cell, result.level, result.face);
 }

@@ -14,8 +14,10 @@
 
 layout(constant_id = 5) const bool kOrthographic = false;
 layout(constant_id = 6) const uint kFormat = kFormat8; // of attributes
-layout(constant_id = 7) const bool kResume = false; // only rays that the round before left unfinished
-layout(constant_id = 8) const bool kMore = false;     // another round follows
+layout(constant_id = 7) const bool kPaths = false; // begin below the root
+layout(constant_id = 8) const bool kPathsRelative = false; // the octree does not stand by levels
+layout(constant_id = 9) const bool kResume = false; // only rays that the round before left unfinished
+layout(constant_id = 10) const bool kMore = false;     // another round follows
 
 layout(local_size_x = kTilePixels) in;
 layout(push_constant, scalar) uniform Push
@@ -25,6 +27,7 @@ layout(push_constant, scalar) uniform Push
 
 #define TRAVERSE_GROUP kTilePixels
 #include "lib/octree_loads.glsl"
+#include "trace/path_loads.glsl"
 #include "lib/traverse.glsl"
 #include "lib/lit_point.glsl"
 #include "lib/rounds.glsl"
@@ -58,10 +61,11 @@ void main()
     vec3 origin = point.origin + kLiftSun * point.edge * params.to_sun;
     bool faces_sun = !isMiss(hit) && dot(point.normal, params.to_sun) > 0.0;
     g_halves = uint64_t_ConstPtr(uint64_t(params.nodes));
+    g_paths = params.paths;
     Traversal shadow = traverse(origin, inverseDirection(params.to_sun), kTraceTimeMin, faces_sun ? kTraceTimeMax : 0.0,
                                 vec2(0.0), from, kIterationsMax);
     if (shadow.unfinished)
-        endUnfinished(kMore, params.rounds, params.round, params.status.data[0].live_tiles, params.status);
+        endUnfinished(kMore, params.next_round, params.status.data[0].live_tiles, params.status);
     uint light = kLightAll - (faces_sun && !shadow.hit ? 0u : kLightSun);
     params.light.data[i] = kMore && shadow.unfinished ? floatBitsToUint(shadow.t) : light;
 }

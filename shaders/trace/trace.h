@@ -31,12 +31,16 @@ const float kTileDead = kTraceTimeMax; // a tile's start where no ray of the til
     GPU_CONSTANT(uint, iterations_max, kTraceIterationsMax)                                                            \
     GPU_CONSTANT(uint, entries_per_word, 0u)
 
-// Of every kernel with trace/primary.glsl, behind those.
+// Of every kernel with trace/path_loads.glsl.
+#define PATHS_CONSTANTS                                                                                                \
+    GPU_CONSTANT(bool, paths, false)                                                                                   \
+    GPU_CONSTANT(bool, paths_relative, false)
+
+// Of every kernel with trace/primary.glsl, behind TRAVERSE_CONSTANTS.
 #define PRIMARY_CONSTANTS                                                                                              \
     GPU_CONSTANT(bool, orthographic, false)                                                                            \
     GPU_CONSTANT(bool, count_iterations, false)                                                                        \
-    GPU_CONSTANT(bool, paths, false)                                                                                   \
-    GPU_CONSTANT(bool, paths_relative, false)                                                                          \
+    PATHS_CONSTANTS                                                                                                    \
     GPU_CONSTANT(bool, overlays, false)                                                                                \
     GPU_CONSTANT(bool, resume, false)                                                                                  \
     GPU_CONSTANT(bool, more, false)
@@ -47,11 +51,10 @@ struct RaysParams // push constants of trace/rays
     GPU_CONST_PTR(Ray) rays; // [ray_count]
     GPU_PTR(Hit) hits;       // [ray_count]
     GPU_PTR(TraceStatus) status;
-    GPU_PTR(DispatchArgs) rounds;    // [kTraceRoundsMax] cleared; kMore only
-    GPU_CONST_PTR(uint) list_length; // [1], at most ray_count; kCounted only
-    vec2 detail;                     // as traverse()
+    GPU_PTR(DispatchArgs) next_round; // [1] cleared; kMore only
+    GPU_CONST_PTR(uint) list_length;  // [1], at most ray_count; kCounted only
+    vec2 detail;                      // as traverse()
     uint ray_count;
-    uint round; // that unfinished rays wait for
 };
 GPU_KERNEL_BEGIN(trace, rays, Rays, RaysParams)
     TRAVERSE_CONSTANTS
@@ -87,14 +90,13 @@ struct PrimaryParams // push constants of trace/primary
     GPU_CONST_PTR(uint64_t) paths; // of trace/beam_paths; kPaths only
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
-    GPU_PTR(DispatchArgs) rounds; // [kTraceRoundsMax] cleared; kMore only
-    GPU_PTR(Hit) hits;            // [width * height] row by row, undefined in dead tiles
-    GPU_PTR(uint) iterations;     // [width * height] likewise; kCountIterations only
+    GPU_PTR(DispatchArgs) next_round; // [1] cleared: of the round that unfinished rays wait for; kMore only
+    GPU_PTR(Hit) hits;                // [width * height] row by row, undefined in dead tiles
+    GPU_PTR(uint) iterations;         // [width * height] likewise; kCountIterations only
     CameraRays camera;
     uint width;
     uint height;
     vec2 detail;
-    uint round;
 };
 GPU_KERNEL_BEGIN(trace, primary, Primary, PrimaryParams)
     TRAVERSE_CONSTANTS
@@ -107,7 +109,7 @@ struct PrimaryRanksParams // push constants of trace/primary_ranks
     GPU_CONST_PTR(uint64_t) paths; // of trace/beam_paths and trace/beam_ranks
     GPU_CONST_PTR(uvec2) live;
     GPU_PTR(TraceStatus) status;
-    GPU_PTR(DispatchArgs) rounds;
+    GPU_PTR(DispatchArgs) next_round;
     GPU_PTR(Hit) hits;
     GPU_CONST_PTR(BeforeChild) before; // this and the next as in RankSource
     GPU_CONST_PTR(uint) voxels_before_leaf;
@@ -115,7 +117,6 @@ struct PrimaryRanksParams // push constants of trace/primary_ranks
     uint width;
     uint height;
     uint first_short_entry;
-    uint round;
 };
 GPU_KERNEL_BEGIN(trace, primary_ranks, PrimaryRanks, PrimaryRanksParams)
     TRAVERSE_CONSTANTS

@@ -51,7 +51,7 @@ void ShotTaker::record(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& 
         buildBeam(graph, tree, beam);
     }
     tracePrimary(graph, tree, beam, camera, options, m_buffers);
-    traceLight(graph, tree, camera, options, m_buffers);
+    traceLight(graph, tree, beam, camera, options, m_buffers);
     for (std::size_t i = 0; i < kViews.size(); ++i)
     {
         options.view = kViews[i];

@@ -20,23 +20,6 @@ static_assert(static_cast<gpu::uint>(View::Voxel) == gpu::kViewVoxel);
 static_assert(static_cast<gpu::uint>(View::Bricks) == gpu::kViewBricks);
 static_assert(static_cast<gpu::uint>(View::Origin) == gpu::kViewOrigin);
 
-namespace
-{
-
-// Whether the nodes stand level by level with nothing behind them, as in a tree that no update has changed.
-bool standsByLevels(const DeviceTree& tree)
-{
-    if (tree.levels.empty())
-    {
-        return false;
-    }
-    const DeviceTree::Level& last = tree.levels.back();
-    const std::uint64_t node_count = tree.isDag() ? tree.node_count : tree.nodes.count();
-    return std::uint64_t{last.first_node} + last.node_count == node_count;
-}
-
-} // namespace
-
 TraceBuffers::TraceBuffers(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height,
                            TexelFormat picture_texels)
     : width(picture_width), height(picture_height), texels(picture_texels), args(device, "trace args", 1),
@@ -72,16 +55,14 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid&
 {
     traceBeam(graph, tree, beam, camera, options, buffers);
     const bool count_iterations = options.view == View::Iterations;
-    const bool use_paths = options.beam && hasPaths(tree) && !isEmpty(tree) && !options.hasDetail();
+    const bool use_paths = usesPaths(tree, options);
     const bool wants_ranks = tree.isDag() && showsAttributes(options) && usesAttributes(tree, options);
     const bool has_ranks = options.beam && wants_ranks && !options.hasDetail() && hasRankTable(tree, beam);
     const auto primary = [&]<typename Kernel>(Kernel kernel)
     {
-        kernel = traversing(kernel, graph.device(), tree, options);
+        kernel = beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options);
         kernel.orthographic = camera.orthographic;
         kernel.count_iterations = count_iterations;
-        kernel.paths = use_paths;
-        kernel.paths_relative = use_paths && !standsByLevels(tree);
         kernel.overlays = has_ranks && tree.hasOverlays();
         return kernel;
     };
@@ -136,7 +117,7 @@ void trace(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, 
     tracePrimary(graph, tree, beam, camera, options, buffers);
     if (needsLight(options))
     {
-        traceLight(graph, tree, camera, options, buffers);
+        traceLight(graph, tree, beam, camera, options, buffers);
     }
     shade(graph, tree, camera, options, buffers);
 }

@@ -110,8 +110,8 @@ void tracePrimary(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid&
 
 /// Records the passes that find how much light of sun and sky, as options ask for it, arrives at hits: they fill
 /// buffers.light.
-void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-                TraceBuffers& buffers);
+void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+                const TraceOptions& options, TraceBuffers& buffers);
 
 /// Records the passes that make buffers.image of hits and, where options ask for it, light.
 void shade(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,

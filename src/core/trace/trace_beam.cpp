@@ -23,6 +23,12 @@ bool hasFineBeam(const DeviceTree& tree)
     return tree.grid.nodeLevels() > gpu::kBeamLevels;
 }
 
+// Whether the children of all nodes that paths (shaders/trace/beam.h) name are nodes, not voxels.
+bool hasPaths(const DeviceTree& tree)
+{
+    return tree.grid.nodeLevels() > gpu::kPathLevels;
+}
+
 // Blocks that a workgroup refines, one after the other. Most have no cells. On software devices workgroups without any
 // work cost as much as others.
 std::uint32_t blocksOn(const vk::Device& device)
@@ -49,9 +55,20 @@ BeamGrid::BeamGrid(vk::Device& device, bool for_dag)
 {
 }
 
-bool hasPaths(const DeviceTree& tree)
+bool standsByLevels(const DeviceTree& tree)
 {
-    return tree.grid.nodeLevels() > gpu::kPathLevels;
+    if (tree.levels.empty())
+    {
+        return false;
+    }
+    const DeviceTree::Level& last = tree.levels.back();
+    const std::uint64_t node_count = tree.isDag() ? tree.node_count : tree.nodes.count();
+    return std::uint64_t{last.first_node} + last.node_count == node_count;
+}
+
+bool usesPaths(const DeviceTree& tree, const TraceOptions& options)
+{
+    return options.beam && hasPaths(tree) && !isEmpty(tree) && !options.hasDetail();
 }
 
 void buildBeam(vk::FrameGraph& graph, const DeviceTree& tree, BeamGrid& beam)

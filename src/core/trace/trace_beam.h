@@ -7,8 +7,20 @@
 namespace zvo
 {
 
-/// Whether the children of all nodes that paths (shaders/trace/beam.h) name are nodes, not voxels.
-bool hasPaths(const DeviceTree& tree);
+/// Whether the nodes stand level by level with nothing behind them, as in a tree that no update has changed.
+bool standsByLevels(const DeviceTree& tree);
+
+/// Whether rays begin below the root, by paths (shaders/trace/beam.h).
+bool usesPaths(const DeviceTree& tree, const TraceOptions& options);
+
+/// Sets the constants of a kernel with trace/path_loads.glsl for a tree and options.
+template <typename Kernel> Kernel beginningOnPaths(Kernel kernel, const DeviceTree& tree, const TraceOptions& options)
+{
+    const bool paths = usesPaths(tree, options);
+    kernel.paths = paths;
+    kernel.paths_relative = paths && !standsByLevels(tree);
+    return kernel;
+}
 
 /// Records the passes that find where the rays of each tile start: they fill buffers.starts, live and args, and clear
 /// status. Cost: tiles.

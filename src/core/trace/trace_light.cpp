@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light at hits, and colours from hits and light.
+#include "core/trace/trace_beam.h"
 #include "core/trace/trace_passes.h"
 
 #include <algorithm>
@@ -55,13 +56,15 @@ gpu::vec2 depthRange(const Grid& grid, const TraceCamera& camera)
 
 // The parameters that all passes share which trace rays from hits.
 template <typename Params>
-Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const TraceCamera& camera, TraceBuffers& buffers)
+Params lightParams(vk::AnyPass& pass, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+                   const TraceOptions& options, TraceBuffers& buffers)
 {
     Params params{};
     params.nodes = pass.read(tree.nodes);
     params.live = pass.read(buffers.live);
     params.hits = pass.read(buffers.hits);
     readAttributes(pass, tree, params);
+    params.paths = usesPaths(tree, options) ? pass.read(beam.paths) : gpu::ConstPtr<uint64_t>{};
     params.status = pass.readWrite(buffers.status);
     params.forward = camera.rays.forward;
     params.half_pixel_x = camera.rays.half_pixel_x;
@@ -127,8 +130,8 @@ void shadeView(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera&
 
 } // namespace
 
-void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const TraceOptions& options,
-                TraceBuffers& buffers)
+void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const BeamGrid& beam, const TraceCamera& camera,
+                const TraceOptions& options, TraceBuffers& buffers)
 {
     const AttributeFormat format = formatToRead(tree, options);
     if (options.shadows)
@@ -137,21 +140,22 @@ void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera
         const gpu::vec3 to_sun = sunDirection(options);
         const auto declare = [&](vk::AnyPass& pass)
         {
-            auto params = lightParams<gpu::ShadowParams>(pass, tree, camera, buffers);
+            auto params = lightParams<gpu::ShadowParams>(pass, tree, beam, camera, options, buffers);
             params.light = pass.readWrite(buffers.light);
             params.to_sun = to_sun;
             return params;
         };
-        addRounds(graph, traversing(kernel, graph.device(), tree, options), roundsFor(tree, options), buffers.rounds,
-                  buffers.live.count(), declare, dispatchLive(buffers));
+        addRounds(graph, beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options),
+                  roundsFor(tree, options), buffers.rounds, buffers.live.count(), declare, dispatchLive(buffers));
     }
     if (options.occlusion_rays != 0)
     {
         const Grid& grid = tree.grid;
         const gpu::trace::Occlusion kernel{
             .orthographic = camera.orthographic, .format = format, .shadows = options.shadows};
-        vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, options));
-        auto params = lightParams<gpu::OcclusionParams>(pass, tree, camera, buffers);
+        vk::Pass pass =
+            graph.addPass(beginningOnPaths(traversing(kernel, graph.device(), tree, options), tree, options));
+        auto params = lightParams<gpu::OcclusionParams>(pass, tree, beam, camera, options, buffers);
         params.light = pass.readWrite(buffers.light);
         params.ray_count = std::min(options.occlusion_rays, kOcclusionRaysMax);
         params.radius =

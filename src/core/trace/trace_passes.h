@@ -94,8 +94,10 @@ void addRounds(vk::FrameGraph& graph, Kernel kernel, std::uint32_t round_count, 
         kernel.more = more;
         vk::Pass pass = graph.addPass(kernel);
         typename Kernel::Params params = declare(pass);
-        params.rounds = more ? pass.readWrite(rounds) : gpu::Ptr<gpu::DispatchArgs>{};
-        params.round = round + 1;
+        if (more)
+        {
+            params.next_round = {pass.readWrite(rounds).address + (round + 1) * sizeof(gpu::DispatchArgs)};
+        }
         if (round == 0)
         {
             dispatch_first(pass, params);

@@ -420,7 +420,7 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
                 ZVO_EXPECT_OFFSET(PrimaryParams, iterations);
                 ZVO_EXPECT_OFFSET(PrimaryParams, camera);
                 ZVO_EXPECT_OFFSET(PrimaryParams, detail);
-                ZVO_EXPECT_OFFSET(PrimaryParams, round);
+                ZVO_EXPECT_OFFSET(PrimaryParams, next_round);
                 ++checked;
             }
             else if (name == "BeamPathsParams")
@@ -438,14 +438,14 @@ TEST(TracePicture, ParametersLieWhereTheKernelsExpectThem)
             {
                 ZVO_EXPECT_OFFSET(ShadowParams, light);
                 ZVO_EXPECT_OFFSET(ShadowParams, to_sun);
-                ZVO_EXPECT_OFFSET(ShadowParams, round);
+                ZVO_EXPECT_OFFSET(ShadowParams, next_round);
                 ++checked;
             }
             else if (name == "RaysParams")
             {
                 ZVO_EXPECT_OFFSET(RaysParams, detail);
                 ZVO_EXPECT_OFFSET(RaysParams, ray_count);
-                ZVO_EXPECT_OFFSET(RaysParams, round);
+                ZVO_EXPECT_OFFSET(RaysParams, next_round);
                 ++checked;
             }
             else if (name == "Ray")

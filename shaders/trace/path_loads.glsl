@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Loads the nodes with which rays begin below the root, for lib/traverse.glsl. The includer declares the constants
+// kPaths and kPathsRelative, has buffer parameter `paths`, and sets g_paths.
+#include "trace/beam.h"
+
+uint64_t_ConstPtr g_paths; // of trace/beam_paths
+
+#ifdef BOUND
+TEXELS_2(1, paths);
+
+uvec2 loadPath(uint cell)
+{
+    return texelFetch(texels2_paths, int(cell)).xy;
+}
+#else
+uvec2 loadPath(uint cell)
+{
+    return unpackUint2x32(g_paths.data[cell]);
+}
+#endif
+
+#define TRAVERSE_PATHS kPaths
+#define TRAVERSE_PATHS_RELATIVE kPathsRelative
