@@ -108,6 +108,14 @@ void addLoadOptions(CLI::App& app, LoadOptions& options)
              "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)");
     addValue(app, "--scale", options.scale, parsePositive, "FACTOR",
              "multiplies the files' coordinates, after --up (default 1)");
+    app.add_option(
+           "--skip-material", options.skip_materials,
+           "leaves out what has a material with a name like this, such as 'Outline*'; may be given several times")
+        ->type_name("GLOB")
+        ->expected(1)
+        ->take_all();
+    app.add_flag("--keep-hulls", options.keep_hulls,
+                 "keeps inverted hulls, the dark outlines of toon shading, which are left out otherwise");
 }
 
 void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also)

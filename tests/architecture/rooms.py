@@ -13,7 +13,8 @@ SUFFIXES = {".h", ".hpp", ".c", ".cpp", ".glsl", ".comp"}
 SEARCHED = {"include": ["include"], "shaders": ["shaders"], "src": ["src", "shaders", "include"],
             "apps": ["apps", "src", "shaders", "include"]}
 # Headers of the system, which do not count as a library. Those of C++ have no extension.
-SYSTEM = {"dlfcn.h", "fcntl.h", "spawn.h", "stddef.h", "stdint.h", "sys/stat.h", "sys/wait.h", "unistd.h"}
+SYSTEM = {"dlfcn.h", "fcntl.h", "fnmatch.h", "spawn.h", "stddef.h", "stdint.h", "sys/file.h", "sys/stat.h", "sys/wait.h",
+          "unistd.h"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 

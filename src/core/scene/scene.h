@@ -40,6 +40,7 @@ struct Material
     std::optional<std::uint32_t> emission_texture;   // multiplies emission
     AlphaMode alpha_mode = AlphaMode::Opaque;
     float alpha_cutoff = 0.5F; // AlphaMode::Mask
+    bool double_sided = true;  // whether a rasterizer shows back faces; voxels have no sides
 };
 
 /// A triangle list with one material. Each vertex array is either empty or as long as positions.

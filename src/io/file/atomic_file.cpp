@@ -7,11 +7,15 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <mutex>
+#include <set>
 #include <string>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -89,6 +93,49 @@ std::filesystem::path temporaryBeside(const std::filesystem::path& target)
     return target.parent_path() / fmt::format(".zvo-{}-{}.tmp", ::getpid(), next++);
 }
 
+/// Removes a temporary file of an AtomicFile unless it may still be written: its process has ended, and nobody holds
+/// the lock on it, as a process of another machine or container would.
+void removeIfAbandoned(const std::filesystem::path& path)
+{
+    pid_t process = 0;
+    unsigned number = 0;
+    int length = 0;
+    const std::string name = path.filename().string();
+    const bool is_temporary = std::sscanf(name.c_str(), ".zvo-%d-%u.tmp%n", &process, &number, &length) == 2 &&
+                              static_cast<std::size_t>(length) == name.size();
+    if (!is_temporary || process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH)
+    {
+        return;
+    }
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor >= 0)
+    {
+        if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+        {
+            ::unlink(path.c_str());
+        }
+        ::close(descriptor);
+    }
+}
+
+/// Removes what killed processes have left in a folder, once for each folder.
+void removeAbandoned(const std::filesystem::path& folder)
+{
+    static std::mutex mutex;
+    static std::set<std::filesystem::path> seen;
+    const std::lock_guard lock(mutex);
+    if (!seen.insert(folder).second)
+    {
+        return;
+    }
+    std::error_code failure;
+    for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
+         entry.increment(failure))
+    {
+        removeIfAbandoned(entry->path());
+    }
+}
+
 /// Renames without replacing. If the file system cannot do that in one step, it checks first.
 int renameIfAbsent(const char* from, const char* to)
 {
@@ -145,6 +192,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, Overwrite overwrite)
     {
         throw existsError(m_target);
     }
+    removeAbandoned(m_target.parent_path());
     m_temporary = temporaryBeside(m_target);
     m_pending_slot = addPendingFile(m_temporary.string());
     constexpr mode_t kReadWriteForAll = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH; // less the umask
@@ -155,6 +203,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, Overwrite overwrite)
         dropPendingFile(m_pending_slot);
         throw writeError(m_target, code);
     }
+    static_cast<void>(::flock(m_descriptor, LOCK_EX | LOCK_NB)); // so that no process takes it for abandoned
     if (exists)
     {
         static_cast<void>(::fchmod(m_descriptor, existing.st_mode & ~static_cast<mode_t>(S_IFMT)));

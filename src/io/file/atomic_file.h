@@ -15,8 +15,9 @@ enum class Overwrite
 };
 
 /// A file that appears complete under its name or not at all: it is written beside the target under a temporary name,
-/// brought to disk, then renamed. Links are followed. A target that is no regular file, such as a pipe or /dev/stdout,
-/// is written directly. Every function throws Error{Output}.
+/// brought to disk, then renamed. What killed processes have left in that folder is removed. Links are followed. A
+/// target that is no regular file, such as a pipe or /dev/stdout, is written directly. Every function throws
+/// Error{Output}.
 class AtomicFile
 {
 public:

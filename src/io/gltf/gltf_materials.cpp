@@ -166,6 +166,7 @@ GltfMaterial GltfMaterials::load(int index)
     Material material;
     material.name = index < 0 ? "default" : source.name;
     material.alpha_mode = toAlphaMode(m_document, source.alphaMode, where);
+    material.double_sided = source.doubleSided;
     material.alpha_cutoff = factor(source.alphaCutoff, ".alphaCutoff");
     for (int i = 0; i < 4; ++i)
     {

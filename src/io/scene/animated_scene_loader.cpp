@@ -113,8 +113,8 @@ SceneSize sizeOf(const Scene& scene)
 class ObjectLoader
 {
 public:
-    ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths)
-        : m_scene_file_path(scene_file_path)
+    ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths, const LoadOptions& options)
+        : m_scene_file_path(scene_file_path), m_keep_hulls(options.keep_hulls), m_skipped(options.skip_materials)
     {
         for (const fs::path& path : paths)
         {
@@ -128,7 +128,8 @@ public:
         File& file = m_files.at(path);
         if (!file.is_loaded)
         {
-            file.scene = loadScene(std::span(&path, 1), {.every_animation = true});
+            file.scene = loadScene(std::span(&path, 1), {.every_animation = true, .keep_hulls = m_keep_hulls});
+            m_skipped.leaveOut(file.scene);
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
         }
@@ -147,6 +148,8 @@ public:
         return copy;
     }
 
+    [[nodiscard]] const SkippedMaterials& skipped() const { return m_skipped; }
+
 private:
     struct File
     {
@@ -157,6 +160,8 @@ private:
     };
 
     const fs::path& m_scene_file_path;
+    bool m_keep_hulls;
+    SkippedMaterials m_skipped;
     std::map<fs::path, File> m_files;
     SceneSize m_size; // of all objects
 };
@@ -356,7 +361,7 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
     {
         animated.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
     }
-    ObjectLoader loader(path, animated.files);
+    ObjectLoader loader(path, animated.files, options.load);
     for (std::size_t i = 0; i < file.objects.size(); ++i)
     {
         const SceneFileObject& object = file.objects[i];
@@ -364,6 +369,10 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
         checkTransform(path, object, scene);
         chooseAnimation(path, object, scene);
         addObject(animated, object, std::move(scene));
+    }
+    for (std::string& warning : loader.skipped().warnings())
+    {
+        animated.warnings.push_back(std::move(warning));
     }
     checkCamera(path, animated);
     animated.files.push_back(path);

@@ -8,6 +8,8 @@
 #include "io/gltf/gltf_loader.h"
 #include "io/mesh/mesh_import.h"
 #include "io/mesh/stl_file.h"
+#include "io/scene/hulls.h"
+#include "io/scene/scene_part.h"
 
 #include <algorithm>
 #include <cctype>
@@ -118,6 +120,20 @@ void placeNodes(Scene& scene, const glm::mat4& to_world)
     scene = std::move(placed);
 }
 
+void leaveOutHulls(Scene& scene, const std::filesystem::path& path)
+{
+    const LeftOutHulls left_out = leaveOutHulls(scene);
+    if (left_out.hull_count != 0)
+    {
+        scene.warnings.emplace_back(
+            inputError(path, fmt::format("left out {} inverted hull{}, which would hide what they lie around ({} "
+                                         "triangles of material {}); --keep-hulls keeps them",
+                                         left_out.hull_count, left_out.hull_count == 1 ? "" : "s",
+                                         left_out.triangle_count, fmt::join(left_out.materials, ", ")))
+                .what());
+    }
+}
+
 } // namespace
 
 bool isSceneFile(const std::filesystem::path& path)
@@ -149,14 +165,24 @@ glm::mat3 rotationToY(UpAxis up)
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
     Scene scene;
+    SkippedMaterials skipped(options.skip_materials);
     for (const std::filesystem::path& path : paths)
     {
         Scene loaded = loadFile(path);
+        skipped.leaveOut(loaded);
+        if (!options.keep_hulls)
+        {
+            leaveOutHulls(loaded, path);
+        }
         if (!options.every_animation)
         {
             keepAnimation(loaded);
         }
         scene.append(std::move(loaded));
+    }
+    for (std::string& warning : skipped.warnings())
+    {
+        scene.warnings.push_back(std::move(warning));
     }
     applyLoadOptions(scene, options);
     return scene;

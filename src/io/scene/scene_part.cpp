@@ -3,6 +3,8 @@
 
 #include <cassert>
 #include <cstddef>
+#include <fmt/format.h>
+#include <fnmatch.h>
 #include <utility>
 
 namespace zvo
@@ -107,6 +109,42 @@ Scene atRest(Scene scene)
         instance.skin = kNone;
     }
     return scene;
+}
+
+SkippedMaterials::SkippedMaterials(std::vector<std::string> patterns)
+    : m_patterns(std::move(patterns)), m_found(m_patterns.size())
+{
+}
+
+void SkippedMaterials::leaveOut(Scene& scene)
+{
+    std::vector<bool> skipped(scene.materials.size());
+    for (std::size_t i = 0; i < m_patterns.size(); ++i)
+    {
+        for (std::size_t k = 0; k < scene.materials.size(); ++k)
+        {
+            if (fnmatch(m_patterns[i].c_str(), scene.materials[k].name.c_str(), 0) == 0)
+            {
+                skipped[k] = true;
+                m_found[i] = true;
+            }
+        }
+    }
+    std::erase_if(scene.instances,
+                  [&](const Instance& instance) { return skipped[scene.primitives[instance.primitive].material]; });
+}
+
+std::vector<std::string> SkippedMaterials::warnings() const
+{
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < m_patterns.size(); ++i)
+    {
+        if (!m_found[i])
+        {
+            lines.push_back(fmt::format("--skip-material: no material has a name like \"{}\"", m_patterns[i]));
+        }
+    }
+    return lines;
 }
 
 } // namespace zvo

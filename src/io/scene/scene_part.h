@@ -3,6 +3,7 @@
 
 #include "core/scene/scene.h"
 
+#include <string>
 #include <vector>
 
 namespace zvo
@@ -14,5 +15,23 @@ Scene partOf(const Scene& scene, const std::vector<bool>& keep);
 
 /// The scene at rest, without anything that could move it: no nodes, skins, animations and morph targets.
 Scene atRest(Scene scene);
+
+/// Leaves out what has materials with certain names.
+class SkippedMaterials
+{
+public:
+    /// patterns: of names, as in a shell: *, ? and [...].
+    explicit SkippedMaterials(std::vector<std::string> patterns);
+
+    /// Leaves out the instances whose material has a name that matches a pattern.
+    void leaveOut(Scene& scene);
+
+    /// A line for each pattern that no material of any scene so far has matched.
+    [[nodiscard]] std::vector<std::string> warnings() const;
+
+private:
+    std::vector<std::string> m_patterns;
+    std::vector<bool> m_found; // by pattern
+};
 
 } // namespace zvo

@@ -6,11 +6,13 @@
 
 #include <csignal>
 #include <cstdint>
+#include <fcntl.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -222,6 +224,58 @@ TEST(AtomicFile, InterruptRemovesTheTemporary)
     EXPECT_EQ(contentOf(path), "old");
     EXPECT_EQ(contentOf(dir.path() / "done.bin"), "done");
     EXPECT_EQ(fileCount(dir.path()), 2U);
+}
+
+// Runs what in a process of its own, which is killed then. Returns the process's number.
+template <typename Work> pid_t runAndKill(const Work& work)
+{
+    const pid_t child = fork();
+    if (child == 0)
+    {
+        work();
+        std::raise(SIGKILL);
+    }
+    int status = 0;
+    EXPECT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status));
+    return child;
+}
+
+TEST(AtomicFile, WhatAKilledProcessLeftIsRemoved)
+{
+    const test::TempDir dir;
+    runAndKill(
+        [&]
+        {
+            AtomicFile file(dir.path() / "lost.bin", Overwrite::Refuse);
+            file.write(asBytes("half"));
+            std::raise(SIGKILL);
+        });
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+    writeFileAtomically(dir.path() / "out.bin", asBytes("whole"), Overwrite::Refuse);
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+    EXPECT_EQ(contentOf(dir.path() / "out.bin"), "whole");
+}
+
+TEST(AtomicFile, WhatMayStillBeWrittenStays)
+{
+    const test::TempDir dir;
+    const pid_t gone = runAndKill([] {});
+    const auto temporary = [&](pid_t process, const std::string& end)
+    { return dir.write(".zvo-" + std::to_string(process) + "-0" + end, "half"); };
+    // Of a living process; of one whose number is unknown here, as in another container, but which holds its lock; and
+    // what has another name.
+    const auto living = temporary(getppid(), ".tmp");
+    const auto locked = temporary(gone, ".tmp");
+    const auto other = temporary(gone, ".tmp.png");
+    const int descriptor = ::open(locked.c_str(), O_RDONLY);
+    ASSERT_GE(descriptor, 0);
+    ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
+    writeFileAtomically(dir.path() / "out.bin", asBytes("whole"), Overwrite::Refuse);
+    EXPECT_TRUE(std::filesystem::exists(living));
+    EXPECT_TRUE(std::filesystem::exists(locked));
+    EXPECT_TRUE(std::filesystem::exists(other));
+    ::close(descriptor);
 }
 
 } // namespace

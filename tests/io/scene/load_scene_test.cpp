@@ -3,6 +3,7 @@
 
 #include "io/gltf/gltf_builder.h"
 #include "support/mesh_files.h"
+#include "support/toon_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -130,6 +131,71 @@ TEST(LoadScene, ScaleMovesPointsAndCamerasButNotTheirAxes)
     {
         EXPECT_EQ(error.code(), ErrorCode::Usage);
     }
+}
+
+// The primitives of a toon scene of one object, single-sided as glTF has them by default.
+std::vector<std::uint8_t> toonGlb(bool double_sided)
+{
+    const Scene scene = toonScene(1);
+    GltfBuilder builder;
+    for (const char* name : {"floor", "ball", "outline"})
+    {
+        builder.add("materials", {{"name", name}, {"doubleSided", double_sided}});
+    }
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    {
+        const Primitive& primitive = scene.primitives[scene.instances[i].primitive];
+        std::vector<float> positions;
+        for (const glm::uvec3& triangle : primitive.triangles)
+        {
+            for (int corner = 0; corner < 3; ++corner)
+            {
+                const glm::vec3 p = transformPoint(scene.instances[i].transform, primitive.positions[triangle[corner]]);
+                positions.insert(positions.end(), {p.x, p.y, p.z});
+            }
+        }
+        const std::size_t accessor = builder.addPositions(positions);
+        builder.addMeshNode({{"attributes", {{"POSITION", accessor}}}, {"material", i}});
+    }
+    builder.add("scenes", {{"nodes", {0, 1, 2}}});
+    return builder.glb();
+}
+
+TEST(LoadScene, HullsAreLeftOutWithAWarning)
+{
+    const TempDir dir;
+    const std::filesystem::path path = dir.write("toon.glb", toonGlb(false));
+    const Scene scene = loadScene(std::span(&path, 1));
+    EXPECT_EQ(scene.instances.size(), 2U);
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    for (const char* part : {"toon.glb", "1 inverted hull,", "material outline", "--keep-hulls"})
+    {
+        EXPECT_NE(scene.warnings[0].find(part), std::string::npos) << scene.warnings[0];
+    }
+    const Scene kept = loadScene(std::span(&path, 1), {.keep_hulls = true});
+    EXPECT_EQ(kept.instances.size(), 3U);
+    EXPECT_TRUE(kept.warnings.empty());
+    const std::filesystem::path double_sided = dir.write("both.glb", toonGlb(true));
+    EXPECT_EQ(loadScene(std::span(&double_sided, 1)).instances.size(), 3U);
+}
+
+TEST(LoadScene, MaterialsAreSkippedByTheirNames)
+{
+    const TempDir dir;
+    const std::filesystem::path paths[] = {dir.write("a.glb", toonGlb(true)), dir.write("b.glb", toonGlb(true))};
+    const auto instanceCount = [&](std::vector<std::string> patterns)
+    {
+        const Scene scene = loadScene(paths, {.skip_materials = std::move(patterns)});
+        EXPECT_TRUE(scene.warnings.empty());
+        return scene.instances.size();
+    };
+    EXPECT_EQ(instanceCount({"outline"}), 4U);
+    EXPECT_EQ(instanceCount({"out*"}), 4U);
+    EXPECT_EQ(instanceCount({"[fb]*"}), 2U);
+    EXPECT_EQ(instanceCount({"floor", "ball", "outline"}), 0U);
+    const Scene whole = loadScene(paths, {.skip_materials = {"Outline"}});
+    EXPECT_EQ(whole.instances.size(), 6U);
+    EXPECT_EQ(whole.warnings, std::vector<std::string>{"--skip-material: no material has a name like \"Outline\""});
 }
 
 } // namespace

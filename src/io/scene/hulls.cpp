@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: MIT
+#include "io/scene/hulls.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+// A hull is probed at up to so many triangles.
+constexpr std::size_t kProbesMax = 32;
+// How far a probe looks, in diagonals of the hull's box.
+constexpr double kReach = 0.05;
+// The volume of a surface that is inside out, at least: in volumes of the cube that has its area.
+constexpr double kVolumeMin = 0.02;
+
+using Corners = std::array<glm::dvec3, 3>;
+
+Corners cornersOf(const Primitive& primitive, const glm::uvec3& triangle)
+{
+    return {glm::dvec3(primitive.positions[triangle.x]), glm::dvec3(primitive.positions[triangle.y]),
+            glm::dvec3(primitive.positions[triangle.z])};
+}
+
+// The volume that triangles enclose, positive where their front faces look outwards, and their area. Both count six
+// fold and twofold.
+struct Extent
+{
+    double volume6 = 0.0;
+    double area2 = 0.0;
+
+    void add(const Corners& corners, const glm::dvec3& centre)
+    {
+        const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        volume6 += glm::dot(corners[0] - centre, normal);
+        area2 += glm::length(normal);
+    }
+
+    [[nodiscard]] bool isInsideOut() const { return volume6 / 6.0 < -kVolumeMin * std::pow(area2 / 12.0, 1.5); }
+};
+
+bool isInsideOut(const Primitive& primitive)
+{
+    if (primitive.triangles.empty())
+    {
+        return false;
+    }
+    const glm::dvec3 centre(primitive.positions[primitive.triangles.front().x]);
+    Extent extent;
+    for (const glm::uvec3& triangle : primitive.triangles)
+    {
+        extent.add(cornersOf(primitive, triangle), centre);
+    }
+    return extent.isInsideOut();
+}
+
+// The connected parts of a primitive. Triangles are connected by corners at the same place.
+struct Parts
+{
+    std::vector<std::uint32_t> of_triangle; // [triangles] number of the part
+    std::uint32_t count = 0;
+};
+
+std::uint32_t rootOf(std::vector<std::uint32_t>& parents, std::uint32_t i)
+{
+    while (parents[i] != i)
+    {
+        parents[i] = parents[parents[i]];
+        i = parents[i];
+    }
+    return i;
+}
+
+// For each vertex, a vertex at the same place: the same one for all that are there.
+std::vector<std::uint32_t> weldVertices(const std::vector<glm::vec3>& positions)
+{
+    std::vector<std::uint32_t> order(positions.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto key = [&](std::uint32_t i) { return std::array{positions[i].x, positions[i].y, positions[i].z}; };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::vector<std::uint32_t> welded(positions.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+        const bool same = i != 0 && positions[order[i]] == positions[order[i - 1]];
+        welded[order[i]] = same ? welded[order[i - 1]] : order[i];
+    }
+    return welded;
+}
+
+Parts partsOf(const Primitive& primitive)
+{
+    std::vector<std::uint32_t> parents = weldVertices(primitive.positions);
+    for (const glm::uvec3& triangle : primitive.triangles)
+    {
+        const std::uint32_t root = rootOf(parents, triangle.x);
+        parents[rootOf(parents, triangle.y)] = root;
+        parents[rootOf(parents, triangle.z)] = root;
+    }
+    std::vector<std::uint32_t> numbers(parents.size(), kNone);
+    Parts parts;
+    for (const glm::uvec3& triangle : primitive.triangles)
+    {
+        std::uint32_t& number = numbers[rootOf(parents, triangle.x)];
+        number = number == kNone ? parts.count++ : number;
+        parts.of_triangle.push_back(number);
+    }
+    return parts;
+}
+
+// A part of a primitive that is inside out.
+struct Candidate
+{
+    std::uint32_t primitive = 0;
+    std::uint32_t part = 0;
+    std::size_t probe_count = 0;
+    std::size_t facing_count = 0; // probes that meet the front of something
+};
+
+// A segment from a triangle of a candidate along its front normal.
+struct Probe
+{
+    glm::dvec3 from;
+    glm::dvec3 way;
+    std::uint32_t candidate = 0;
+    double nearest = 2.0; // where it meets something first, in lengths of way
+    bool faces = false;   // whether that is a front face
+
+    [[nodiscard]] glm::dvec3 low() const { return glm::min(from, from + way); }
+    [[nodiscard]] glm::dvec3 high() const { return glm::max(from, from + way); }
+};
+
+// A tree of boxes around probes.
+class ProbeTree
+{
+public:
+    explicit ProbeTree(std::vector<Probe>& probes) : m_probes(probes)
+    {
+        if (!m_probes.empty())
+        {
+            build(0, m_probes.size());
+        }
+    }
+
+    // Calls visit(probe) for each probe whose box touches that of the triangle.
+    template <typename Visit> void visitNear(const Corners& corners, const Visit& visit)
+    {
+        const glm::dvec3 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+        const glm::dvec3 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+        for (std::size_t i = 0; i < m_nodes.size();)
+        {
+            const Node& node = m_nodes[i];
+            const bool touches =
+                glm::all(glm::lessThanEqual(low, node.high)) && glm::all(glm::lessThanEqual(node.low, high));
+            if (touches && node.count != 0)
+            {
+                std::for_each(m_probes.begin() + node.first, m_probes.begin() + node.first + node.count, visit);
+            }
+            i = touches ? i + 1 : node.next;
+        }
+    }
+
+private:
+    static constexpr std::size_t kLeafProbes = 4;
+
+    struct Node
+    {
+        glm::dvec3 low{0.0};
+        glm::dvec3 high{0.0};
+        std::ptrdiff_t first = 0;
+        std::ptrdiff_t count = 0; // of a leaf
+        std::size_t next = 0;     // the node behind those below this one
+    };
+
+    void build(std::size_t first, std::size_t last)
+    {
+        const std::size_t number = m_nodes.size();
+        Node node;
+        node.low = m_probes[first].low();
+        node.high = m_probes[first].high();
+        for (std::size_t i = first + 1; i < last; ++i)
+        {
+            node.low = glm::min(node.low, m_probes[i].low());
+            node.high = glm::max(node.high, m_probes[i].high());
+        }
+        node.first = static_cast<std::ptrdiff_t>(first);
+        const bool is_leaf = last - first <= kLeafProbes;
+        node.count = is_leaf ? static_cast<std::ptrdiff_t>(last - first) : 0;
+        m_nodes.push_back(node);
+        if (!is_leaf)
+        {
+            const glm::dvec3 size = node.high - node.low;
+            const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+            const std::size_t middle = (first + last) / 2;
+            const auto at = [&](std::size_t i) { return m_probes.begin() + static_cast<std::ptrdiff_t>(i); };
+            std::nth_element(at(first), at(middle), at(last),
+                             [axis](const Probe& a, const Probe& b) { return a.from[axis] < b.from[axis]; });
+            build(first, middle);
+            build(middle, last);
+        }
+        m_nodes[number].next = m_nodes.size();
+    }
+
+    std::vector<Probe>& m_probes;
+    std::vector<Node> m_nodes; // depth first
+};
+
+// Where a segment meets a triangle, in lengths of the segment; beyond its end if it does not (T. Moeller, B. Trumbore,
+// Fast, Minimum Storage Ray-Triangle Intersection, 1997).
+double meets(const Probe& probe, const Corners& corners)
+{
+    constexpr double kMiss = 2.0;
+    const glm::dvec3 u = corners[1] - corners[0];
+    const glm::dvec3 v = corners[2] - corners[0];
+    const glm::dvec3 p = glm::cross(probe.way, v);
+    const double determinant = glm::dot(u, p);
+    if (determinant == 0.0)
+    {
+        return kMiss;
+    }
+    const glm::dvec3 s = probe.from - corners[0];
+    const double a = glm::dot(s, p) / determinant;
+    const glm::dvec3 q = glm::cross(s, u);
+    const double b = glm::dot(probe.way, q) / determinant;
+    const double t = glm::dot(v, q) / determinant;
+    return a >= 0.0 && b >= 0.0 && a + b <= 1.0 && t >= 0.0 && t <= 1.0 ? t : kMiss;
+}
+
+// Finds the inverted hulls of a scene.
+class HullFinder
+{
+public:
+    explicit HullFinder(const Scene& scene)
+        : m_scene(scene), m_instances(scene.primitives.size()), m_parts(scene.primitives.size())
+    {
+        for (const Instance& instance : scene.instances)
+        {
+            m_instances[instance.primitive].push_back(&instance);
+        }
+    }
+
+    // For each primitive, which of its triangles belong to hulls; empty: none.
+    std::vector<std::vector<bool>> find()
+    {
+        findCandidates();
+        std::vector<std::vector<bool>> found(m_scene.primitives.size());
+        if (m_candidates.empty())
+        {
+            return found;
+        }
+        probe();
+        for (const Candidate& candidate : m_candidates)
+        {
+            if (4 * candidate.facing_count >= 3 * candidate.probe_count && candidate.probe_count != 0)
+            {
+                const std::vector<std::uint32_t>& parts = m_parts[candidate.primitive].of_triangle;
+                std::vector<bool>& triangles = found[candidate.primitive];
+                triangles.resize(parts.size());
+                for (std::size_t i = 0; i < parts.size(); ++i)
+                {
+                    triangles[i] = triangles[i] || parts[i] == candidate.part;
+                }
+                ++m_hull_count;
+            }
+        }
+        return found;
+    }
+
+    [[nodiscard]] std::uint64_t hullCount() const { return m_hull_count; }
+
+private:
+    void findCandidates()
+    {
+        for (std::uint32_t i = 0; i < m_scene.primitives.size(); ++i)
+        {
+            const Primitive& primitive = m_scene.primitives[i];
+            if (!m_instances[i].empty() && !m_scene.materials[primitive.material].double_sided &&
+                isInsideOut(primitive))
+            {
+                addCandidates(i);
+            }
+        }
+    }
+
+    void addCandidates(std::uint32_t number)
+    {
+        const Primitive& primitive = m_scene.primitives[number];
+        m_parts[number] = partsOf(primitive);
+        const Parts& parts = m_parts[number];
+        struct Part
+        {
+            Extent extent;
+            glm::dvec3 centre{0.0};
+            glm::dvec3 low{0.0};
+            glm::dvec3 high{0.0};
+            std::vector<std::uint32_t> triangles;
+        };
+        std::vector<Part> all(parts.count);
+        for (std::uint32_t i = 0; i < primitive.triangles.size(); ++i)
+        {
+            Part& part = all[parts.of_triangle[i]];
+            const Corners corners = cornersOf(primitive, primitive.triangles[i]);
+            if (part.triangles.empty())
+            {
+                part.centre = part.low = part.high = corners[0];
+            }
+            for (const glm::dvec3& corner : corners)
+            {
+                part.low = glm::min(part.low, corner);
+                part.high = glm::max(part.high, corner);
+            }
+            part.extent.add(corners, part.centre);
+            part.triangles.push_back(i);
+        }
+        for (std::uint32_t i = 0; i < parts.count; ++i)
+        {
+            if (all[i].extent.isInsideOut())
+            {
+                m_candidates.push_back({.primitive = number, .part = i});
+                addProbes(primitive, all[i].triangles, all[i].high - all[i].low);
+            }
+        }
+    }
+
+    // Spreads probes of the last candidate over its triangles and the primitive's instances.
+    void addProbes(const Primitive& primitive, const std::vector<std::uint32_t>& triangles, const glm::dvec3& size)
+    {
+        Candidate& candidate = m_candidates.back();
+        const std::vector<const Instance*>& instances = m_instances[candidate.primitive];
+        const std::size_t count = std::min(triangles.size(), kProbesMax);
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            const Instance& instance = *instances[i * instances.size() / count];
+            const Corners corners =
+                placed(instance, primitive.positions, primitive.triangles[triangles[i * triangles.size() / count]]);
+            const glm::dvec3 normal = frontNormal(instance, corners);
+            const double length = glm::length(normal);
+            if (length > 0.0 && std::isfinite(length))
+            {
+                const double reach = kReach * glm::length(glm::dmat3(instance.transform) * size);
+                Probe probe;
+                probe.from = (corners[0] + corners[1] + corners[2]) / 3.0;
+                probe.way = reach / length * normal;
+                probe.candidate = static_cast<std::uint32_t>(m_candidates.size() - 1);
+                m_probes.push_back(probe);
+                ++candidate.probe_count;
+            }
+        }
+    }
+
+    static Corners placed(const Instance& instance, const std::vector<glm::vec3>& positions, const glm::uvec3& triangle)
+    {
+        const auto at = [&](std::uint32_t i) { return glm::dvec3(transformPoint(instance.transform, positions[i])); };
+        return {at(triangle.x), at(triangle.y), at(triangle.z)};
+    }
+
+    // Towards the side from which a triangle is seen. A transform that mirrors turns no surface inside out.
+    static glm::dvec3 frontNormal(const Instance& instance, const Corners& corners)
+    {
+        const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        return glm::determinant(glm::dmat3(instance.transform)) < 0.0 ? -normal : normal;
+    }
+
+    // Finds what each probe meets first, other than the surface that it begins on.
+    void probe()
+    {
+        ProbeTree tree(m_probes);
+        for (const Instance& instance : m_scene.instances)
+        {
+            const Primitive& primitive = m_scene.primitives[instance.primitive];
+            const bool double_sided = m_scene.materials[primitive.material].double_sided;
+            const std::vector<std::uint32_t>& parts = m_parts[instance.primitive].of_triangle;
+            for (std::size_t i = 0; i < primitive.triangles.size(); ++i)
+            {
+                const Corners corners = placed(instance, primitive.positions, primitive.triangles[i]);
+                tree.visitNear(corners,
+                               [&](Probe& probe)
+                               {
+                                   const Candidate& own = m_candidates[probe.candidate];
+                                   const bool is_own =
+                                       own.primitive == instance.primitive && !parts.empty() && parts[i] == own.part;
+                                   const double t = is_own ? probe.nearest : meets(probe, corners);
+                                   if (t < probe.nearest)
+                                   {
+                                       probe.nearest = t;
+                                       probe.faces =
+                                           double_sided || glm::dot(frontNormal(instance, corners), probe.way) < 0.0;
+                                   }
+                               });
+            }
+        }
+        for (const Probe& probe : m_probes)
+        {
+            m_candidates[probe.candidate].facing_count += probe.faces ? 1 : 0;
+        }
+    }
+
+    const Scene& m_scene;
+    std::vector<std::vector<const Instance*>> m_instances; // by primitive
+    std::vector<Parts> m_parts;                            // by primitive; of those with candidates
+    std::vector<Candidate> m_candidates;
+    std::vector<Probe> m_probes;
+    std::uint64_t m_hull_count = 0;
+};
+
+} // namespace
+
+LeftOutHulls leaveOutHulls(Scene& scene)
+{
+    HullFinder finder(scene);
+    const std::vector<std::vector<bool>> hulls = finder.find();
+    LeftOutHulls left_out;
+    left_out.hull_count = finder.hullCount();
+    if (left_out.hull_count == 0)
+    {
+        return left_out;
+    }
+    for (std::size_t i = 0; i < hulls.size(); ++i)
+    {
+        Primitive& primitive = scene.primitives[i];
+        if (hulls[i].empty())
+        {
+            continue;
+        }
+        std::vector<glm::uvec3> kept;
+        for (std::size_t k = 0; k < primitive.triangles.size(); ++k)
+        {
+            if (!hulls[i][k])
+            {
+                kept.push_back(primitive.triangles[k]);
+            }
+        }
+        left_out.triangle_count += primitive.triangles.size() - kept.size();
+        primitive.triangles = std::move(kept);
+        const std::string& name = scene.materials[primitive.material].name;
+        if (std::find(left_out.materials.begin(), left_out.materials.end(), name) == left_out.materials.end())
+        {
+            left_out.materials.push_back(name);
+        }
+    }
+    std::erase_if(
+        scene.instances, [&](const Instance& instance)
+        { return !hulls[instance.primitive].empty() && scene.primitives[instance.primitive].triangles.empty(); });
+    return left_out;
+}
+
+} // namespace zvo
