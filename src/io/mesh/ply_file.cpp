@@ -103,7 +103,7 @@ public:
         }
         checkIndices();
         cutPolygons();
-        if (m_triangles.empty() && !m_primitive.positions.empty())
+        if (m_triangles.empty() && m_polygons.empty() && !m_primitive.positions.empty())
         {
             note = "a cloud of points, without faces; only triangles become voxels";
         }
@@ -225,23 +225,24 @@ private:
     void readFace(const PlyProperty& property)
     {
         const std::uint64_t count = listCount(property);
-        if (count == 3)
-        {
-            glm::uvec3 triangle;
-            for (int i = 0; i < 3; ++i)
-            {
-                triangle[i] = vertexIndex(number(property.type));
-            }
-            addTriangle(triangle);
-            return;
-        }
+        const std::size_t first = m_polygon_vertices.size();
         for (std::uint64_t i = 0; i < count; ++i)
         {
-            m_bytes_left.take(sizeof(std::uint32_t) + sizeof(glm::uvec3));
+            m_bytes_left.take(count > 3 ? sizeof(std::uint32_t) + sizeof(glm::uvec3) : 0);
             m_polygon_vertices.push_back(vertexIndex(number(property.type)));
         }
-        m_bytes_left.take(sizeof(Polygon));
-        m_polygons.push_back({m_triangles.size(), static_cast<std::size_t>(count)});
+        if (count > 3)
+        {
+            m_bytes_left.take(sizeof(Polygon));
+            m_polygons.push_back({m_triangles.size(), static_cast<std::size_t>(count)});
+            return;
+        }
+        if (count == 3)
+        {
+            const std::uint32_t* corners = &m_polygon_vertices[first];
+            addTriangle({corners[0], corners[1], corners[2]});
+        }
+        m_polygon_vertices.resize(first);
     }
 
     void readStrips(const PlyProperty& property)
@@ -414,7 +415,7 @@ private:
     PlyEncoding m_encoding = PlyEncoding::Text;
     SceneBytesLeft m_bytes_left;
     std::vector<glm::uvec3> m_triangles;
-    std::vector<Polygon> m_polygons; // faces without exactly three vertices, in the order of the file
+    std::vector<Polygon> m_polygons; // faces of more than three vertices, in the order of the file
     std::vector<std::uint32_t> m_polygon_vertices;
     Primitive m_primitive;
 };
