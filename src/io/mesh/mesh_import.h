@@ -17,11 +17,12 @@ enum class MeshFormat
     Stl
 };
 
-/// The triangles of an OBJ, PLY or STL file. Polygons are cut into triangles; points and lines are left out. OBJ files
-/// are read by assimp, but not the other two, as assimp's importers hang on damaged files of these formats. Vertex
-/// colours are sRGB in the file, material colours linear. Material files and textures must lie in the file's folder or
-/// below; a texture that is missing or not an image is left out with a warning. bytes: the content of path. Throws
-/// Error{Input}, one line with the path, for a file that is broken or names a material file outside of its folder.
+/// The triangles of an OBJ, PLY or STL file. Polygons are cut into triangles (polygon_triangulator.h); points and lines
+/// are left out. OBJ files are read by assimp, but not the other two, as assimp's importers hang on damaged files of
+/// these formats. Vertex colours are sRGB in the file, material colours linear. Material files and textures must lie in
+/// the file's folder or below; a texture that is missing or not an image is left out with a warning. bytes: the content
+/// of path. Throws Error{Input}, one line with the path, for a file that is broken or names a material file outside of
+/// its folder.
 Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshFormat format);
 
 } // namespace zvo

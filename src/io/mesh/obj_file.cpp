@@ -7,11 +7,11 @@
 #include "io/image/image_io.h"
 #include "io/image/srgb.h"
 #include "io/mesh/obj_assimp_files.h"
+#include "io/mesh/polygon_triangulator.h"
 
 #include <algorithm>
 #include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <cmath>
 #include <fmt/format.h>
@@ -105,36 +105,54 @@ private:
                                                  (mesh->mNormals != nullptr ? sizeof(glm::vec3) : 0) +
                                                  (mesh->mTextureCoords[0] != nullptr ? sizeof(glm::vec2) : 0) +
                                                  (mesh->mColors[0] != nullptr ? sizeof(glm::vec4) : 0);
+                const std::size_t triangle_count = triangleCount(*mesh);
                 ++size.instance_count;
-                size.triangle_count += mesh->mNumFaces;
+                size.triangle_count += static_cast<double>(triangle_count);
                 size.vertex_count = std::max(size.vertex_count, static_cast<double>(mesh->mNumVertices));
-                size.bytes += static_cast<double>(mesh->mNumVertices * vertex_bytes +
-                                                  std::size_t{mesh->mNumFaces} * sizeof(glm::uvec3));
+                size.bytes +=
+                    static_cast<double>(mesh->mNumVertices * vertex_bytes + triangle_count * sizeof(glm::uvec3));
             }
         }
         checkSceneSize(m_path, size);
     }
 
+    /// The most triangles that the faces of a mesh become.
+    static std::size_t triangleCount(const aiMesh& mesh)
+    {
+        std::size_t count = 0;
+        for (unsigned int i = 0; mesh.mFaces != nullptr && i < mesh.mNumFaces; ++i)
+        {
+            count += std::max(mesh.mFaces[i].mNumIndices, 2U) - 2;
+        }
+        return count;
+    }
+
     std::vector<glm::uvec3> readTriangles(const aiMesh& mesh)
     {
         std::vector<glm::uvec3> triangles;
-        triangles.reserve(mesh.mNumFaces);
+        triangles.reserve(triangleCount(mesh));
         for (unsigned int i = 0; i < mesh.mNumFaces; ++i)
         {
             const aiFace& face = mesh.mFaces[i];
-            if (face.mNumIndices != 3 || face.mIndices == nullptr)
+            if (face.mNumIndices < 3 || face.mIndices == nullptr)
             {
                 warn("points and lines left out, only triangles become voxels");
                 continue;
             }
-            const glm::uvec3 triangle(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
-            if (std::max({triangle.x, triangle.y, triangle.z}) >= mesh.mNumVertices)
+            const std::span corners(face.mIndices, face.mNumIndices);
+            const unsigned int largest = *std::max_element(corners.begin(), corners.end());
+            if (largest >= mesh.mNumVertices)
             {
-                throw inputError(m_path, fmt::format("face {} has vertex {}, but there are {}; {}", i,
-                                                     std::max({triangle.x, triangle.y, triangle.z}), mesh.mNumVertices,
-                                                     kExportAgain));
+                throw inputError(m_path, fmt::format("face {} has vertex {}, but there are {}; {}", i, largest,
+                                                     mesh.mNumVertices, kExportAgain));
             }
-            triangles.push_back(triangle);
+            m_corners.clear();
+            for (const unsigned int corner : corners)
+            {
+                const aiVector3D& position = mesh.mVertices[corner];
+                m_corners.emplace_back(position.x, position.y, position.z);
+            }
+            m_triangulator.triangulate(m_corners, corners, triangles);
         }
         return triangles;
     }
@@ -289,6 +307,8 @@ private:
     const aiScene& m_source;
     bool m_with_materials;
     std::uint64_t m_image_bytes_left = sceneBytesMax();
+    PolygonTriangulator m_triangulator;
+    std::vector<glm::vec3> m_corners; // of the current face
     Scene m_scene;
     std::map<std::optional<unsigned int>, std::uint32_t> m_materials;
     std::map<std::string, std::optional<std::uint32_t>> m_images;
@@ -303,7 +323,7 @@ Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> b
     keepObj(importer);
     auto* files = new SceneFiles(path, bytes, name); // the importer owns it from now on
     importer.SetIOHandler(files);
-    const aiScene* source = importer.ReadFile(name, aiProcess_Triangulate);
+    const aiScene* source = importer.ReadFile(name, 0);
     if (!files->outside().empty())
     {
         throw inputError(path, fmt::format("the material file {} leaves the folder; only files in it and below are "

@@ -6,6 +6,7 @@
 #include "io/file/text_cursor.h"
 #include "io/image/srgb.h"
 #include "io/mesh/ply_header.h"
+#include "io/mesh/polygon_triangulator.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -76,6 +78,12 @@ Use useOf(std::string_view name)
     return found != kNames.end() ? found->second : Use::Nothing;
 }
 
+struct Polygon
+{
+    std::size_t triangles_before = 0; // in the file
+    std::size_t vertex_count = 0;
+};
+
 class PlyReader
 {
 public:
@@ -93,8 +101,9 @@ public:
         {
             readElement(element);
         }
-        checkTriangles();
-        if (m_triangles.empty() && !m_primitive.positions.empty())
+        checkIndices();
+        cutPolygons();
+        if (m_triangles.empty() && m_polygons.empty() && !m_primitive.positions.empty())
         {
             note = "a cloud of points, without faces; only triangles become voxels";
         }
@@ -216,18 +225,24 @@ private:
     void readFace(const PlyProperty& property)
     {
         const std::uint64_t count = listCount(property);
-        std::uint32_t first = 0;
-        std::uint32_t previous = 0;
+        const std::size_t first = m_polygon_vertices.size();
         for (std::uint64_t i = 0; i < count; ++i)
         {
-            const std::uint32_t vertex = vertexIndex(number(property.type));
-            if (i >= 2)
-            {
-                addTriangle({first, previous, vertex});
-            }
-            first = i == 0 ? vertex : first;
-            previous = vertex;
+            m_bytes_left.take(count > 3 ? sizeof(std::uint32_t) + sizeof(glm::uvec3) : 0);
+            m_polygon_vertices.push_back(vertexIndex(number(property.type)));
         }
+        if (count > 3)
+        {
+            m_bytes_left.take(sizeof(Polygon));
+            m_polygons.push_back({m_triangles.size(), static_cast<std::size_t>(count)});
+            return;
+        }
+        if (count == 3)
+        {
+            const std::uint32_t* corners = &m_polygon_vertices[first];
+            addTriangle({corners[0], corners[1], corners[2]});
+        }
+        m_polygon_vertices.resize(first);
     }
 
     void readStrips(const PlyProperty& property)
@@ -269,17 +284,50 @@ private:
         return static_cast<std::uint32_t>(value);
     }
 
-    void checkTriangles() const
+    void checkIndices() const
     {
         const std::size_t vertex_count = m_primitive.positions.size();
+        const auto check = [&](std::uint32_t vertex)
+        {
+            if (vertex >= vertex_count)
+            {
+                throw fail(fmt::format("a face has the vertex {}, but there are {}", vertex, vertex_count));
+            }
+        };
         for (const glm::uvec3& triangle : m_triangles)
         {
-            const std::uint32_t largest = std::max({triangle.x, triangle.y, triangle.z});
-            if (largest >= vertex_count)
-            {
-                throw fail(fmt::format("a face has the vertex {}, but there are {}", largest, vertex_count));
-            }
+            check(std::max({triangle.x, triangle.y, triangle.z}));
         }
+        std::for_each(m_polygon_vertices.begin(), m_polygon_vertices.end(), check);
+    }
+
+    /// Puts the triangles of the polygons among the others, in the order of the file.
+    void cutPolygons()
+    {
+        if (m_polygons.empty())
+        {
+            return;
+        }
+        const std::vector<glm::uvec3> others = std::exchange(m_triangles, {});
+        std::span<const glm::uvec3> others_left(others);
+        std::span<const std::uint32_t> vertices_left(m_polygon_vertices);
+        std::vector<glm::vec3> positions;
+        PolygonTriangulator triangulator;
+        for (const Polygon& polygon : m_polygons)
+        {
+            const auto before = others_left.first(polygon.triangles_before - (others.size() - others_left.size()));
+            m_triangles.insert(m_triangles.end(), before.begin(), before.end());
+            others_left = others_left.subspan(before.size());
+            const auto vertices = vertices_left.first(polygon.vertex_count);
+            vertices_left = vertices_left.subspan(polygon.vertex_count);
+            positions.clear();
+            for (const std::uint32_t vertex : vertices)
+            {
+                positions.push_back(m_primitive.positions[vertex]);
+            }
+            triangulator.triangulate(positions, vertices, m_triangles);
+        }
+        m_triangles.insert(m_triangles.end(), others_left.begin(), others_left.end());
     }
 
     std::uint64_t listCount(const PlyProperty& property)
@@ -367,6 +415,8 @@ private:
     PlyEncoding m_encoding = PlyEncoding::Text;
     SceneBytesLeft m_bytes_left;
     std::vector<glm::uvec3> m_triangles;
+    std::vector<Polygon> m_polygons; // faces of more than three vertices, in the order of the file
+    std::vector<std::uint32_t> m_polygon_vertices;
     Primitive m_primitive;
 };
 

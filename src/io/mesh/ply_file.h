@@ -12,9 +12,10 @@ namespace zvo
 {
 
 /// The vertices and triangles of a PLY file, text or binary of either byte order: positions, normals, sRGB colours.
-/// Polygons are cut into fans; in triangle strips, -1 begins a new strip. note: receives one line about what is left
-/// out, or stays empty. bytes: the content of path. Memory stays in proportion to its size, whatever counts it
-/// announces. Throws Error{Input}. After: Greg Turk, The PLY Polygon File Format, Stanford University, 1994.
+/// Polygons are cut into triangles as polygon_triangulator.h says; in triangle strips, -1 begins a new strip. note:
+/// receives one line about what is left out, or stays empty. bytes: the content of path. Memory stays in proportion to
+/// its size, whatever counts it announces. Throws Error{Input}. After: Greg Turk, The PLY Polygon File Format, Stanford
+/// University, 1994.
 Primitive readPly(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::string& note);
 
 } // namespace zvo

@@ -4,6 +4,7 @@
 #include "io/gltf/gltf_builder.h"
 #include "io/image/image_io.h"
 #include "io/scene/load_scene.h"
+#include "oracle/voxelizer.h"
 #include "support/mesh_files.h"
 
 #include <cmath>
@@ -125,6 +126,43 @@ TEST(MeshImport, ObjPolygonsBecomeTriangles)
     EXPECT_NEAR(area, 1.5 + 0.5, 1e-6);
     ASSERT_EQ(scene.warnings.size(), 1U);
     EXPECT_TRUE(contains(scene.warnings[0], "quad.obj: points and lines left out")) << scene.warnings[0];
+}
+
+TEST(MeshImport, ConcaveFacesCoverTheSameVoxelsInEveryFormat)
+{
+    const std::string points = "0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n";
+    const std::string header = "ply\nformat ascii 1.0\n";
+    const std::string vertices = "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n";
+    const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+    for (int first = 0; first < 6; ++first) // the notch lies on the diagonal
+    {
+        std::string obj = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf";
+        std::string face = "6";
+        for (int i = 0; i < 6; ++i)
+        {
+            obj += fmt::format(" {}", (first + i) % 6 + 1);
+            face += fmt::format(" {}", (first + i) % 6);
+        }
+        for (const Scene& scene :
+             {loadText("l.obj", obj + "\n"),
+              loadText("l.ply", header + vertices + faces + "end_header\n" + points + face + "\n"),
+              loadText("l.ply", header + faces + vertices + "end_header\n" + face + "\n" + points)})
+        {
+            EXPECT_EQ(scene.triangleCount(), 4U);
+            const Grid grid = Grid::around({{0, 0, 0}, {2, 2, 0}}, 6);
+            EXPECT_EQ(oracle::voxelize(scene, grid, Coverage::Thin).codes.size(), 3135U);
+        }
+    }
+}
+
+TEST(MeshImport, PlyFacesStayInTheirOrder)
+{
+    const Scene scene = loadText("faces.ply", "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty "
+                                              "float y\nproperty float z\nelement face 6\nproperty list uchar int "
+                                              "vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n"
+                                              "3 0 1 2\n4 0 1 2 3\n2 0 1\n3 1 4 5\n4 1 4 5 2\n3 5 4 1\n");
+    EXPECT_EQ(scene.primitives.at(0).triangles,
+              (std::vector<glm::uvec3>{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 4, 5}, {1, 5, 2}, {5, 4, 1}}));
 }
 
 TEST(MeshImport, ObjHasTheMaterialsOfItsMtlFile)
