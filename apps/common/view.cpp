@@ -2,6 +2,7 @@
 #include "common/view.h"
 
 #include "common/parse.h"
+#include "core/scene/main_bounds.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
@@ -79,6 +80,11 @@ Bounds subjectOf(const Bounds& scene, const Grid& grid)
     const Bounds cube = {grid.origin, grid.origin + edge};
     const Bounds common = {glm::max(cube.min, scene.min), glm::min(cube.max, scene.max)};
     return common.empty() ? cube : common;
+}
+
+Bounds subjectOf(const AnimatedScene& scene, const Bounds& bounds, const Grid& grid)
+{
+    return subjectOf(scene.objects.empty() ? mainBounds(scene.fixed) : bounds, grid);
 }
 
 ViewCamera chooseCamera(const std::string& wanted, const Scene& scene, const Bounds& subject, double aspect)

@@ -17,6 +17,9 @@ namespace zvo::cli
 /// part.
 Bounds subjectOf(const Bounds& scene, const Grid& grid);
 
+/// The same for a scene with the given bounds over its time, without far outliers (mainBounds()) where nothing moves.
+Bounds subjectOf(const AnimatedScene& scene, const Bounds& bounds, const Grid& grid);
+
 /// The camera that `wanted` names: "ex,ey,ez,tx,ty,tz[,fov]", the name of a camera of scene, "auto", which fits subject
 /// into the picture, or "close", which is less than half as far from subject's centre. Empty: the scene's first camera,
 /// else as "auto". Throws Error{Usage} if there is no such camera.

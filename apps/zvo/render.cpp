@@ -383,7 +383,7 @@ void render(const RenderOptions& options)
     pictures.checkInputs(animated.files);
     const Bounds bounds = boundsOverTime(animated);
     const Grid grid = placeGrid(options.voxels, animated, bounds);
-    const Bounds subject = subjectOf(bounds, grid);
+    const Bounds subject = subjectOf(animated, bounds, grid);
     const ViewCamera camera =
         chooseCamera(options.camera, animated, subject, static_cast<double>(options.width) / options.height);
 

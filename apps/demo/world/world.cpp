@@ -86,7 +86,8 @@ std::unique_ptr<World> World::make(vk::HeadlessDevice& device, const WorldOption
     {
         const Bounds bounds = boundsOverTime(*input.animated);
         const Grid grid = cli::placeGrid(options.voxels, *input.animated, bounds);
-        world.reset(new World{name, cli::subjectOf(bounds, grid),
+        const Bounds subject = cli::subjectOf(*input.animated, bounds, grid);
+        world.reset(new World{name, subject,
                               LiveScene(device, std::move(*input.animated), grid, liveOptions(options), listener)});
         if (!world->scene.moves())
         {
