@@ -133,7 +133,7 @@ AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in
     const bool has_triangles =
         animated.fixed.triangleCount() != 0 ||
         std::any_of(animated.objects.begin(), animated.objects.end(),
-                    [](const DynamicObject& object) { return object.scene.triangleCount() != 0; });
+                    [](const DynamicObject& object) { return object.scene->triangleCount() != 0; });
     warnOfNothing(has_triangles);
     if (options.time && animated.objects.empty())
     {

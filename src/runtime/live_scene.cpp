@@ -8,6 +8,8 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <utility>
 
 namespace zvo
@@ -38,7 +40,7 @@ float brightestEmission(const AnimatedScene& animated)
     float brightest = brightestEmission(animated.fixed);
     for (const DynamicObject& object : animated.objects)
     {
-        brightest = std::max(brightest, brightestEmission(object.scene));
+        brightest = std::max(brightest, brightestEmission(*object.scene));
     }
     return brightest;
 }
@@ -81,11 +83,16 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
     m_info.fixed = std::move(part.info);
     m_dynamic = std::make_unique<DynamicOctree>(device, std::move(part.tree), dynamic);
     listener.operation("copying what moves");
+    std::map<const Scene*, std::shared_ptr<const DynamicMesh>> meshes;
     for (const DynamicObject& object : m_animated.objects)
     {
-        m_info.moving_triangle_count += object.scene.triangleCount();
-        m_objects.push_back(m_dynamic->add(
-            uploadDynamicMesh(device, object.scene, options.attributes, dynamic.emission_scale), poseAt(object, 0.0)));
+        m_info.moving_triangle_count += object.scene->triangleCount();
+        std::shared_ptr<const DynamicMesh>& mesh = meshes[object.scene.get()];
+        if (mesh == nullptr)
+        {
+            mesh = uploadDynamicMesh(device, *object.scene, options.attributes, dynamic.emission_scale);
+        }
+        m_objects.push_back(m_dynamic->add(mesh, poseAt(object, 0.0)));
     }
 }
 

@@ -120,7 +120,7 @@ std::optional<std::size_t> World::objectAt(const glm::dvec3& point) const
     double best_size = 0;
     for (std::size_t i = 0; i < scene.animated().objects.size(); ++i)
     {
-        const Bounds bounds = boundsOf(scene.animated().objects[i].scene, scene.shownPose(i));
+        const Bounds bounds = boundsOf(*scene.animated().objects[i].scene, scene.shownPose(i));
         const bool is_inside = glm::all(glm::greaterThanEqual(point, glm::dvec3(bounds.min) - slack)) &&
                                glm::all(glm::lessThanEqual(point, glm::dvec3(bounds.max) + slack));
         const double size = glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min));

@@ -98,11 +98,11 @@ Bounds boundsOfObject(const DynamicObject& object, const AnimatedScene& animated
 {
     if (!object.deforms && std::holds_alternative<std::monostate>(object.motion))
     {
-        return posedScene(object.scene, poseAt(object, 0.0)).bounds();
+        return posedScene(*object.scene, poseAt(object, 0.0)).bounds();
     }
     if (!object.deforms)
     {
-        return sweptBounds(posedScene(object.scene, poseAt(object.scene, 0.0)), object.transform, object.motion,
+        return sweptBounds(posedScene(*object.scene, poseAt(*object.scene, 0.0)), object.transform, object.motion,
                            animated.seconds);
     }
     Bounds bounds;
@@ -112,7 +112,7 @@ Bounds boundsOfObject(const DynamicObject& object, const AnimatedScene& animated
     for (double sample = 0.0; sample < count; ++sample)
     {
         const double seconds = animated.seconds * sample / count;
-        extend(bounds, posedScene(object.scene, poseAt(object, seconds)).bounds());
+        extend(bounds, posedScene(*object.scene, poseAt(object, seconds)).bounds());
     }
     return bounds;
 }
@@ -121,7 +121,7 @@ Scene withObjects(Scene scene, const std::vector<DynamicObject>& objects, double
 {
     for (const DynamicObject& object : objects)
     {
-        scene.append(posedScene(object.scene, poseAt(object, seconds)));
+        scene.append(posedScene(*object.scene, poseAt(object, seconds)));
     }
     return scene;
 }
@@ -151,7 +151,7 @@ glm::dmat4 transformAt(const DynamicObject& object, double seconds)
 
 Pose poseAt(const DynamicObject& object, double seconds)
 {
-    return poseAt(object.scene, seconds, transformAt(object, seconds));
+    return poseAt(*object.scene, seconds, transformAt(object, seconds));
 }
 
 Scene sceneAt(const AnimatedScene& animated, double seconds)

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ namespace zvo
 struct DynamicObject
 {
     std::string name;
-    Scene scene;               // at rest, as its file has it; without cameras
+    std::shared_ptr<const Scene> scene; // at rest, as its file has it; without cameras. Objects of a file share it
     glm::dmat4 transform{1.0}; // of the scene before the motion; affine
     Motion motion;
     bool deforms = false; // animations of the scene move or bend parts of it, besides transformAt()

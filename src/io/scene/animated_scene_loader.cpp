@@ -17,8 +17,10 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <span>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace zvo
@@ -266,11 +268,12 @@ void addParts(AnimatedScene& animated, DynamicObject moving, Scene&& scene, cons
     std::vector<bool> stays = moves;
     stays.flip();
     addFixed(animated, partOf(scene, stays), moving.transform);
-    moving.scene = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
-    moving.scene.cameras.clear();
-    moving.scene.rest_warnings.clear();
-    const std::vector<bool> is_animated = animatedInstances(moving.scene);
+    Scene part = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
+    part.cameras.clear();
+    part.rest_warnings.clear();
+    const std::vector<bool> is_animated = animatedInstances(part);
     moving.deforms = std::find(is_animated.begin(), is_animated.end(), true) != is_animated.end();
+    moving.scene = std::make_shared<const Scene>(std::move(part));
     animated.objects.push_back(std::move(moving));
 }
 
@@ -284,6 +287,29 @@ void addObject(AnimatedScene& animated, const SceneFileObject& object, Scene&& s
     moving.motion = object.motion;
     addParts(animated, std::move(moving), std::move(scene), moves);
 }
+
+// Lets objects that are the same parts of the same file share them.
+class SharedParts
+{
+public:
+    /// Adds object, of a file. Where it moves, its scene is that of an earlier object with the same parts, if any.
+    void add(AnimatedScene& animated, const SceneFileObject& object, const fs::path& file, Scene&& scene)
+    {
+        const std::size_t object_count = animated.objects.size();
+        addObject(animated, object, std::move(scene));
+        if (animated.objects.size() != object_count)
+        {
+            std::shared_ptr<const Scene>& part = m_parts[{file, object.animation, object.is_dynamic}];
+            std::shared_ptr<const Scene>& own = animated.objects.back().scene;
+            part = part == nullptr ? own : part;
+            own = part;
+        }
+    }
+
+private:
+    using Key = std::tuple<fs::path, decltype(SceneFileObject::animation), decltype(SceneFileObject::is_dynamic)>;
+    std::map<Key, std::shared_ptr<const Scene>> m_parts;
+};
 
 void checkCamera(const fs::path& scene_file_path, const AnimatedScene& animated)
 {
@@ -362,13 +388,14 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
         animated.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
     }
     ObjectLoader loader(path, animated.files, options.load);
+    SharedParts parts;
     for (std::size_t i = 0; i < file.objects.size(); ++i)
     {
         const SceneFileObject& object = file.objects[i];
         Scene scene = loader.load(animated.files[i]);
         checkTransform(path, object, scene);
         chooseAnimation(path, object, scene);
-        addObject(animated, object, std::move(scene));
+        parts.add(animated, object, animated.files[i], std::move(scene));
     }
     for (std::string& warning : loader.skipped().warnings())
     {

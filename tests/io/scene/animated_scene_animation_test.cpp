@@ -44,8 +44,8 @@ TEST_F(AnimatedSceneTest, AnimatedInstancesOfAFileAreADynamicObject)
     ASSERT_EQ(animated.objects.size(), 1U);
     EXPECT_EQ(animated.objects[0].name, "animated");
     EXPECT_TRUE(animated.objects[0].deforms);
-    EXPECT_EQ(animated.objects[0].scene.triangleCount(), 1U);
-    EXPECT_EQ(animated.objects[0].scene.materials.size(), 1U) << "only what it needs";
+    EXPECT_EQ(animated.objects[0].scene->triangleCount(), 1U);
+    EXPECT_EQ(animated.objects[0].scene->materials.size(), 1U) << "only what it needs";
     EXPECT_EQ(animated.fixed.materials.size(), 2U);
     EXPECT_EQ(
         animated.fixed.materials.at(animated.fixed.primitives.at(animated.fixed.instances.at(1).primitive).material)
@@ -81,7 +81,7 @@ TEST_F(AnimatedSceneTest, AnimationsOfObjectsRunUnlessTheyAreStatic)
     const AnimatedScene whole = load(R"({"objects": [{"file": "animated.glb", "dynamic": true}]})");
     ASSERT_EQ(whole.objects.size(), 1U);
     EXPECT_EQ(whole.fixed.triangleCount(), 0U);
-    EXPECT_EQ(whole.objects[0].scene.triangleCount(), 3U);
+    EXPECT_EQ(whole.objects[0].scene->triangleCount(), 3U);
     EXPECT_EQ(whole.fixed.cameras.size(), 1U) << "its place does not move";
 
     // The motion is applied after the animation.
@@ -132,7 +132,7 @@ TEST_F(AnimatedSceneTest, ObjectsChooseTheAnimationThatPlays)
     for (const char* choice : {"\"rise\"", "2"})
     {
         const AnimatedScene animated = play(choice);
-        EXPECT_EQ(animated.objects.at(0).scene.triangleCount(), 1U);
+        EXPECT_EQ(animated.objects.at(0).scene->triangleCount(), 1U);
         EXPECT_EQ(corners(sceneAt(animated, 1.0)).at(6), glm::vec3(0, 2, 0)) << choice;
     }
     EXPECT_EQ(corners(sceneAt(play("3"), 0.5)).at(6), glm::vec3(0.5F, 0, 0)) << "the second node";
@@ -140,8 +140,23 @@ TEST_F(AnimatedSceneTest, ObjectsChooseTheAnimationThatPlays)
     const AnimatedScene both =
         load(R"({"objects": [{"file": "many.glb", "animation": 0}, {"file": "many.glb", "animation": 2}]})");
     ASSERT_EQ(both.objects.size(), 2U);
-    EXPECT_EQ(corners(posedScene(both.objects[0].scene, poseAt(both.objects[0], 1.0))).at(0), glm::vec3(2, 0, 0));
-    EXPECT_EQ(corners(posedScene(both.objects[1].scene, poseAt(both.objects[1], 1.0))).at(0), glm::vec3(0, 2, 0));
+    EXPECT_EQ(corners(posedScene(*both.objects[0].scene, poseAt(both.objects[0], 1.0))).at(0), glm::vec3(2, 0, 0));
+    EXPECT_EQ(corners(posedScene(*both.objects[1].scene, poseAt(both.objects[1], 1.0))).at(0), glm::vec3(0, 2, 0));
+}
+
+TEST_F(AnimatedSceneTest, ObjectsShareWhatIsTheSameInTheirFile)
+{
+    m_dir.write("scenes/many.glb", manyAnimationsDocument().glb());
+    const AnimatedScene animated = load(R"({"objects": [
+        {"file": "many.glb", "animation": 0}, {"file": "many.glb", "animation": 2}, {"file": "many.glb", "dynamic": true},
+        {"file": "many.glb", "animation": 2, "place": {"scale": 2}}, {"file": "many.glb", "dynamic": true}]})");
+    ASSERT_EQ(animated.objects.size(), 5U);
+    EXPECT_NE(animated.objects[0].scene, animated.objects[1].scene) << "of another animation";
+    EXPECT_NE(animated.objects[0].scene, animated.objects[2].scene) << "all of it moves";
+    EXPECT_EQ(animated.objects[1].scene, animated.objects[3].scene);
+    EXPECT_EQ(animated.objects[2].scene, animated.objects[4].scene);
+    EXPECT_EQ(corners(posedScene(*animated.objects[3].scene, poseAt(animated.objects[3], 1.0))).at(0),
+              glm::vec3(0, 4, 0));
 }
 
 TEST_F(AnimatedSceneTest, AnimationsThatAreNotThereAreToldWithThoseThatAre)
