@@ -108,6 +108,7 @@ void addLoadOptions(CLI::App& app, LoadOptions& options)
              "which axis points up in the files: x, y, z, -x, -y or -z; it becomes y (default y)");
     addValue(app, "--scale", options.scale, parsePositive, "FACTOR",
              "multiplies the files' coordinates, after --up (default 1)");
+    app.add_flag("--strict", options.strict, "refuse files of which something would be left out with a warning");
 }
 
 void addVoxelOptions(CLI::App& app, VoxelOptions& options, const std::string& also)

@@ -243,6 +243,7 @@ void checkTreeOptions(const RenderOptions& options)
     const std::pair<const char*, bool> given[] = {
         {"--up", voxels.load.up != plain.load.up},
         {"--scale", voxels.load.scale != plain.load.scale},
+        {"--strict", voxels.load.strict},
         {"--scenes", voxels.scenes_folder.has_value()},
         {"--time", voxels.time.has_value() && !options.camera_path},
         {"--resolution", voxels.depth.has_value()},

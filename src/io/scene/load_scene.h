@@ -26,11 +26,12 @@ struct LoadOptions
     UpAxis up = UpAxis::Y;
     float scale = 1.0F;           // world units of a unit of the file, above 0
     bool every_animation = false; // keeps all animations of a file, for keepAnimation(); otherwise only the first one
+    bool strict = false;          // refuses files that Scene::warnings would have a line about
 };
 
 /// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content
-/// where it is clear, otherwise by their extension. Throws Error{Input}, one line with the path, and what
-/// applyLoadOptions() throws.
+/// where it is clear, otherwise by their extension. Throws Error{Input}, one line with the path, also
+/// for Scene::warnings with LoadOptions::strict, and what applyLoadOptions() throws.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
 
 /// Whether a path names a scene file, NAME.scene.json (io/scene/scene_file.h). loadScene() refuses scene files.
