@@ -54,6 +54,10 @@ constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
     "KHR_materials_transmission", "KHR_materials_unlit",      "KHR_materials_variants",
     "KHR_materials_volume",       "KHR_xmp_json_ld"};
 
+/// Formats of images that are not read: they cost the textures that have no other image.
+constexpr std::array<std::string_view, 3> kImageExtensions = {"EXT_texture_avif", "KHR_texture_basisu",
+                                                              "MSFT_texture_dds"};
+
 template <typename List, typename Item> bool contains(const List& list, const Item& item)
 {
     return std::find(list.begin(), list.end(), item) != list.end();
@@ -80,7 +84,8 @@ void checkExtensions(const json& document, const std::filesystem::path& path)
     for (const json& item : gltfItems(document, "extensionsRequired"))
     {
         const auto name = item.get<std::string>();
-        if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name))
+        if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name) &&
+            !contains(kImageExtensions, name))
         {
             throw gltfError(path,
                             fmt::format("requires the extension {}, which is not supported; export it without", name));
@@ -274,6 +279,10 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
                                 "put the file there and name it",
                                 where, uri));
     }
+    if (!std::filesystem::exists(file, unreadable))
+    {
+        throw error(fmt::format("{} is {}: there is no such file; put it there, or name another", where, uri));
+    }
     if (std::filesystem::is_fifo(file, unreadable) || std::filesystem::is_socket(file, unreadable))
     {
         throw error(fmt::format("{} is {}, which is not a file; name one", where, uri));
@@ -286,6 +295,13 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
     {
         throw error(fmt::format("{}: {}", where, failure.what()));
     }
+}
+
+std::string GltfDocument::reason(const Error& error) const
+{
+    const std::string message = error.what();
+    const std::string start = this->error("").what();
+    return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
 bool GltfDocument::uses(std::string_view extension) const

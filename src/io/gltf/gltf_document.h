@@ -56,6 +56,10 @@ struct GltfDocument
     void countUnpacked(std::uint64_t bytes, const std::string& where) const;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(path, text); }
+
+    /// What an error of this document says, without the path.
+    [[nodiscard]] std::string reason(const Error& error) const;
+
     [[nodiscard]] bool uses(std::string_view extension) const;
 };
 

@@ -214,11 +214,16 @@ std::optional<std::uint32_t> GltfMaterials::texture(int index, const std::string
     const int source_image = imageOf(source);
     if (source_image < 0)
     {
-        m_warnings.add("texture left out, as it has no PNG, JPEG or WebP image", where);
+        m_warnings.add("texture left out: it has no PNG, JPEG or WebP image; export it with one", where);
+        return std::nullopt;
+    }
+    const std::optional<std::uint32_t> usable = usableImage(source_image, where);
+    if (!usable)
+    {
         return std::nullopt;
     }
     Texture texture;
-    texture.image = image(source_image);
+    texture.image = *usable;
     if (source.sampler >= 0)
     {
         const tinygltf::Sampler& sampler = m_document.model.samplers[source.sampler];
@@ -230,6 +235,32 @@ std::optional<std::uint32_t> GltfMaterials::texture(int index, const std::string
     m_scene.textures.push_back(texture);
     m_textures.emplace(index, added);
     return added;
+}
+
+/// Index into Scene::images, or nothing, with a warning for each texture, if the image cannot be used.
+std::optional<std::uint32_t> GltfMaterials::usableImage(int index, const std::string& where)
+{
+    const auto leaveOut = [&](const std::string& reason)
+    { m_warnings.add("texture left out: " + reason, where); };
+    const auto known = m_unusable_images.find(index);
+    if (known != m_unusable_images.end())
+    {
+        leaveOut(known->second);
+        return std::nullopt;
+    }
+    try
+    {
+        return image(index);
+    }
+    catch (const Error& failure)
+    {
+        if (failure.code() != ErrorCode::Input)
+        {
+            throw;
+        }
+        leaveOut(m_unusable_images.emplace(index, m_document.reason(failure)).first->second);
+        return std::nullopt;
+    }
 }
 
 std::uint32_t GltfMaterials::image(int index)

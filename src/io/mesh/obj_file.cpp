@@ -199,7 +199,8 @@ private:
         material.emission = {factor(emission.r), factor(emission.g), factor(emission.b)};
         material.alpha_mode = material.base_color.a < 1.0F ? AlphaMode::Blend : AlphaMode::Opaque;
         material.base_color_texture = texture(source, aiTextureType_DIFFUSE);
-        if (material.base_color_texture && glm::vec3(material.base_color) == glm::vec3(0.0F))
+        const bool has_texture = !texturePath(source, aiTextureType_DIFFUSE).empty(); // even if it cannot be used
+        if (has_texture && glm::vec3(material.base_color) == glm::vec3(0.0F))
         {
             material.base_color = glm::vec4(
                 1.0F, 1.0F, 1.0F, material.base_color.a); // black would hide the texture, which exporters do not mean
@@ -263,12 +264,14 @@ private:
         const std::optional<std::filesystem::path> file = fileBeside(m_path, name);
         if (!file)
         {
-            warn(fmt::format("texture {} left out, as it leaves the file's folder", name));
+            warn(fmt::format("texture left out: {}: it leaves the file's folder; only files in it and below are read; "
+                             "put it there and name it",
+                             name));
             return std::nullopt;
         }
         if (!isFile(*file))
         {
-            warn(fmt::format("texture {} left out, as there is no such file", name));
+            warn(fmt::format("texture left out: {}: there is no such file; put it there, or name another", name));
             return std::nullopt;
         }
         try

@@ -172,13 +172,14 @@ TEST(MeshImport, WhatAnMtlFileNamesWronglyIsAWarning)
           std::pair(std::string("link.png"), "leaves"), std::pair(std::string("absent.png"), "no such file"),
           std::pair(std::string("."), "no such file"), std::pair(std::string("notes.png"), "not a PNG, JPEG or WebP")})
     {
-        dir.write("a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd " + name + "\n");
+        dir.write("a.mtl", "newmtl m\nKd 0 0 0\nmap_Kd " + name + "\n");
         const Scene scene = loadIn(dir, "a.obj");
         EXPECT_EQ(scene.triangleCount(), 1U);
         EXPECT_TRUE(scene.images.empty()) << name;
         EXPECT_FALSE(scene.materials.at(0).base_color_texture) << name;
+        EXPECT_EQ(scene.materials.at(0).base_color, glm::vec4(1.0F)) << "black stands for the texture";
         ASSERT_EQ(scene.warnings.size(), 1U) << name;
-        EXPECT_TRUE(contains(scene.warnings[0], "texture")) << scene.warnings[0];
+        EXPECT_TRUE(contains(scene.warnings[0], "a.obj: texture left out: " + name)) << scene.warnings[0];
         EXPECT_TRUE(contains(scene.warnings[0], reason)) << scene.warnings[0];
     }
 }
