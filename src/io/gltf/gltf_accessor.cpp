@@ -248,6 +248,7 @@ std::size_t elementBytes(const GltfAccessor& accessor)
 
 GltfAccessor describeAccessor(const GltfDocument& document, int index, const std::string& use)
 {
+    document.use(fmt::format("accessors[{}]", index));
     const tinygltf::Accessor& source = document.model.accessors[index];
     GltfAccessor accessor;
     accessor.where = fmt::format("accessors[{}] ({})", index, use);

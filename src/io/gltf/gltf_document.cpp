@@ -31,10 +31,10 @@ constexpr std::uint64_t kUnpackedFreeBytes = std::uint64_t{1} << 30U;
 constexpr std::uint64_t kUnpackedBytesPerByte = 128; // twice what a vertex codec reaches on equal vertices
 
 /// The parts of the document that tinygltf reads. Buffers and images are read here, because it does not check their
-/// sizes and files enough, and animations, because it refuses some that are allowed. Extras are not needed.
-constexpr std::array kModelParts = {
-    "asset",     "extensionsUsed", "extensionsRequired", "scene",       "scenes",   "nodes",  "meshes",
-    "accessors", "materials",      "textures",           "bufferViews", "samplers", "cameras"};
+/// sizes and files enough; animations and cameras, because it refuses some that can be used.
+constexpr std::array kModelParts = {"asset",       "extensionsUsed", "extensionsRequired", "scene",     "scenes",
+                                    "nodes",       "meshes",         "accessors",          "materials", "textures",
+                                    "bufferViews", "samplers"};
 
 /// Extensions whose effect is loaded.
 constexpr std::array<std::string_view, 7> kSupportedExtensions = {"EXT_meshopt_compression",
@@ -148,7 +148,7 @@ tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
                                                                  static_cast<unsigned int>(text.size()), "");
     if (!parsed || !failure.empty() || !putIndices(model, indices))
     {
-        throw gltfError(path, fmt::format("{}; {}", failure.empty() ? "not valid glTF" : failure, kExportAgain));
+        throw gltfError(path, fmt::format("not valid glTF; {}", kExportAgain)); // nothing that the schema lets through
     }
     return model;
 }
@@ -194,6 +194,35 @@ void loadBuffers(GltfDocument& document, const json& root, Bytes bin)
     }
 }
 
+std::vector<tinygltf::Camera> listCameras(const json& cameras, GltfFaults& faults)
+{
+    std::vector<tinygltf::Camera> list;
+    for (const json& source : cameras)
+    {
+        tinygltf::Camera camera;
+        camera.name = source.value("name", std::string());
+        camera.type = source["type"].get<std::string>();
+        const auto shape = source.find(camera.type);
+        if (camera.type == "perspective" && shape != source.end())
+        {
+            camera.perspective.yfov = (*shape)["yfov"].get<double>();
+        }
+        else if (camera.type == "orthographic" && shape != source.end())
+        {
+            camera.orthographic.ymag = (*shape)["ymag"].get<double>();
+        }
+        else
+        {
+            const std::string part = fmt::format("cameras[{}]", list.size());
+            faults[part] = {fmt::format("{} has neither a perspective nor an orthographic shape that its type \"{}\" "
+                                        "names; {}",
+                                        part, camera.type, kExportAgain)};
+        }
+        list.push_back(std::move(camera));
+    }
+    return list;
+}
+
 std::vector<GltfImageSource> listImages(const json& images)
 {
     std::vector<GltfImageSource> sources;
@@ -212,11 +241,39 @@ Error gltfError(const std::filesystem::path& path, std::string_view text)
     return inputError(path, text);
 }
 
+void GltfDocument::use(const std::string& part) const
+{
+    const auto fault = faults.find(part);
+    if (fault != faults.end())
+    {
+        fault->second.is_told = true;
+        throw error(fault->second.text);
+    }
+}
+
+void GltfDocument::warnOfUnusedFaults() const
+{
+    for (const auto& [part, fault] : faults)
+    {
+        if (!fault.is_told)
+        {
+            const std::string without_advice = fault.text.substr(0, fault.text.rfind("; "));
+            warnings.add("parts with faults left out, as nothing needs them", without_advice);
+        }
+    }
+}
+
 Bytes GltfDocument::bufferView(int index) const
 {
-    const auto unpacked = unpacked_views.find(index);
-    if (unpacked != unpacked_views.end())
+    use(fmt::format("bufferViews[{}]", index));
+    const auto packed = packed_views.find(index);
+    if (packed != packed_views.end())
     {
+        auto unpacked = unpacked_views.find(index);
+        if (unpacked == unpacked_views.end())
+        {
+            unpacked = unpacked_views.emplace(index, unpackMeshoptView(*this, index, packed->second)).first;
+        }
         return unpacked->second;
     }
     const tinygltf::BufferView& view = model.bufferViews[index];
@@ -338,14 +395,16 @@ GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_
     const GltfContainer container = openGltfContainer(document.storage.front(), path);
     json root = parseGltfJson(container.json, path);
     checkVersion(root, path);
-    checkGltfSchema(root, path);
+    checkGltfSchema(root, document);
     checkExtensions(root, path);
     loadBuffers(document, root, container.bin);
-    unpackMeshoptViews(root, document);
+    document.packed_views = listMeshoptViews(root);
     document.images = listImages(gltfItems(root, "images"));
     document.skins = listGltfSkins(root);
     document.animations = listGltfAnimations(root, path);
+    std::vector<tinygltf::Camera> cameras = listCameras(gltfItems(root, "cameras"), document.faults);
     document.model = parseModel(root, path);
+    document.model.cameras = std::move(cameras);
     return document;
 }
 

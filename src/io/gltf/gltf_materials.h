@@ -53,10 +53,10 @@ private:
     Scene& m_scene;
     GltfWarnings& m_warnings;
     std::map<int, GltfMaterial> m_materials;
-    std::map<int, std::uint32_t> m_textures; // indices into Scene::textures
-    std::map<int, std::uint32_t> m_images;   // indices into Scene::images
+    std::map<int, std::uint32_t> m_textures;      // indices into Scene::textures
+    std::map<int, std::uint32_t> m_images;        // indices into Scene::images
     std::map<int, std::string> m_unusable_images; // why
-    std::uint64_t m_image_bytes_left;        // of images that are not decoded yet
+    std::uint64_t m_image_bytes_left;             // of images that are not decoded yet
 };
 
 } // namespace zvo
