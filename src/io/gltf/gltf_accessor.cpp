@@ -279,7 +279,8 @@ GltfAccessor openAccessor(const GltfDocument& document, int index, const std::st
     }
     else if (!source.sparse.isSparse)
     {
-        throw document.error(fmt::format("{} has no buffer view, so no data; {}", accessor.where, kExportAgain));
+        document.warnings.add("accessors without a buffer view have only zeros", accessor.where);
+        copyElements(document, accessor);
     }
     if (source.sparse.isSparse)
     {

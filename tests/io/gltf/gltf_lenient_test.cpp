@@ -34,6 +34,36 @@ Scene loadWithOneWarning(const GltfBuilder& builder, std::initializer_list<std::
     return scene;
 }
 
+TEST(GltfLenient, AccessorsWithoutBufferViewAreZeros)
+{
+    GltfBuilder builder = triangleDocument();
+    const std::size_t accessor = builder.add("accessors", {{"componentType", kF32}, {"count", 3}, {"type", "VEC3"}});
+    builder.document["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = accessor;
+    const Scene scene = loadWithOneWarning(
+        builder, {"accessors without a buffer view have only zeros (accessors[1] (NORMAL of meshes[0].primitives[0])"});
+    EXPECT_EQ(scene.primitives.at(0).normals, std::vector<glm::vec3>(3));
+    builder.document["meshes"][0]["primitives"][0]["attributes"] = {{"POSITION", accessor}};
+    const Scene flat = loadWithOneWarning(builder, {"accessors[1] (POSITION of meshes[0].primitives[0])"});
+    EXPECT_EQ(flat.primitives.at(0).positions, std::vector<glm::vec3>(3));
+}
+
+TEST(GltfLenient, AccessorsWithoutBufferViewAreZerosInRigsToo)
+{
+    GltfBuilder builder = triangleDocument();
+    const std::size_t times = builder.addAccessor<float>("SCALAR", kF32, 2, {0, 1});
+    const std::size_t values = builder.add("accessors", {{"componentType", kF32}, {"count", 2}, {"type", "VEC3"}});
+    builder.add("animations", {{"samplers", {{{"input", times}, {"output", values}}}},
+                               {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
+    const Scene moved =
+        loadWithOneWarning(builder, {"accessors[2] (output of animations[0].channels[0])", "have only zeros"});
+    ASSERT_EQ(moved.animations.size(), 1U);
+    EXPECT_EQ(moved.animations[0].channels.at(0).values, std::vector<float>(6));
+
+    builder.document["accessors"][times] = {{"componentType", kF32}, {"count", 2}, {"type", "SCALAR"}};
+    const Scene still = loadWithOneWarning(builder, {"have only zeros", "and 1 more"});
+    EXPECT_EQ(still.animations.at(0).channels.at(0).times, std::vector<float>(2));
+}
+
 TEST(GltfLenient, FaultsInWhatNothingNeedsCostNothing)
 {
     const char* const kind = "parts with faults left out, as nothing needs them";
