@@ -45,14 +45,6 @@ void setBuffer(GltfBuilder& builder, const std::string& uri)
 const std::vector<BadScene>& badScenes()
 {
     static const std::vector<BadScene> scenes = {
-        {"Cycle", [](GltfBuilder& b) { b.document["nodes"][0]["children"] = {0}; }, "cycle"},
-        {"TwoParents",
-         [](GltfBuilder& b)
-         {
-             b.add("nodes", {{"children", {0}}});
-             b.add("nodes", {{"children", {0}}});
-         },
-         "is a child of"},
         {"IndexOutOfRange", [](GltfBuilder& b) { b.bin[b.bin.size() - 71] = 255; }, "is vertex"},
         {"Count", [](GltfBuilder& b) { b.document["accessors"][0]["count"] = 1ULL << 60U; }, "1152921504606846976"},
         {"OffsetThatOverflows", [](GltfBuilder& b) { b.document["accessors"][0]["byteOffset"] = ~0ULL; },

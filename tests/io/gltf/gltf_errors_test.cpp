@@ -127,30 +127,6 @@ TEST(GltfErrors, WrongTypesAndIndicesAreNamedByTheirPlace)
     expectBroken([&](GltfBuilder& b) { primitive(b)["mode"] = 9; }, {"mode is 9"});
 }
 
-TEST(GltfErrors, CyclesAndSharedNodesAreRefused)
-{
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["children"] = {0}; }, {"nodes[0]", "cycle", kHint});
-    expectBroken(
-        [](GltfBuilder& b)
-        {
-            b.add("nodes", {{"children", {2}}});
-            b.add("nodes", {{"children", {1}}});
-        },
-        {"nodes[1]", "cycle"});
-    expectBroken(
-        [](GltfBuilder& b)
-        {
-            b.add("nodes", {{"children", {0}}});
-            b.add("nodes", {{"children", {0}}});
-        },
-        {"nodes[0] is a child of nodes[1] and of nodes[2]"});
-    expectBroken(
-        [](GltfBuilder& b) {
-            b.document["scenes"] = {{{"nodes", {0, 0}}}};
-        },
-        {"nodes[0] is in the scene twice"});
-}
-
 TEST(GltfErrors, TransformsThatAreNotAffineOrTooLargeAreRefused)
 {
     expectBroken([](GltfBuilder& b)

@@ -169,6 +169,38 @@ TEST(GltfLenient, WholeNumbersMayHaveADecimalPoint)
     }
 }
 
+TEST(GltfLenient, NodesAreTakenWhereTheyAreMetFirst)
+{
+    // Depth first from the scene's roots: 3, then its child 1, then 0 below that; 2 comes later.
+    GltfBuilder builder = triangleDocument();
+    builder.add("nodes", {{"translation", {1, 0, 0}}, {"children", {0}}});
+    builder.add("nodes", {{"translation", {2, 0, 0}}, {"children", {0, 1}}});
+    builder.add("nodes", {{"translation", {4, 0, 0}}, {"children", {1, 0}}});
+    builder.document["scenes"] = {{{"nodes", {3, 2}}}};
+    const Scene scene = loadWithOneWarning(
+        builder, {"nodes that are met again", "stay where they were met first (nodes[0] and 2 more)"});
+    ASSERT_EQ(scene.instances.size(), 1U);
+    EXPECT_EQ(scene.instances[0].transform[3], glm::vec4(5, 0, 0, 1));
+    ASSERT_EQ(scene.nodes.size(), 4U);
+    builder.document["scenes"] = {{{"nodes", {0, 0}}}};
+    EXPECT_EQ(loadWithOneWarning(builder, {"(nodes[0])"}).instances.at(0).transform[3], glm::vec4(0, 0, 0, 1));
+}
+
+TEST(GltfLenient, CyclesOfNodesEnd)
+{
+    GltfBuilder builder = triangleDocument();
+    builder.document["nodes"][0]["children"] = {0};
+    EXPECT_EQ(loadWithOneWarning(builder, {"in a cycle", "(nodes[0])"}).triangleCount(), 1U);
+    builder = triangleDocument();
+    builder.add("nodes", {{"translation", {1, 0, 0}}, {"children", {2}}});
+    builder.add("nodes", {{"translation", {2, 0, 0}}, {"children", {1}}});
+    const Scene scene = loadWithOneWarning(builder, {"in a cycle", "(nodes[1])"});
+    EXPECT_EQ(scene.nodes.size(), 3U); // without scenes a cycle without a root is in the scene, too
+    builder.document["nodes"][1]["children"] = {2, 0};
+    builder.document["scenes"] = {{{"nodes", {2}}}};
+    EXPECT_EQ(loadWithOneWarning(builder, {"(nodes[2])"}).instances.at(0).transform[3], glm::vec4(3, 0, 0, 1));
+}
+
 } // namespace
 
 } // namespace zvo::test
