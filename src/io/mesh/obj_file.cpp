@@ -4,6 +4,7 @@
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
+#include "io/file/utf16.h"
 #include "io/image/image_io.h"
 #include "io/image/srgb.h"
 #include "io/mesh/obj_assimp_files.h"
@@ -299,8 +300,10 @@ private:
 
 } // namespace
 
-Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> content)
 {
+    const std::optional<std::vector<std::uint8_t>> utf8 = asUtf8(content);
+    const std::span<const std::uint8_t> bytes = utf8 ? *utf8 : content;
     const std::string name = path.stem().string() + ".obj";
     Assimp::Importer importer;
     keepObj(importer);

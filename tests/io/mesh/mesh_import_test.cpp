@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh/mesh_import.h"
 
+#include "io/file/utf16.h"
 #include "io/gltf/gltf_builder.h"
 #include "io/image/image_io.h"
 #include "io/scene/load_scene.h"
@@ -278,6 +279,61 @@ TEST(MeshImport, PlyStripsStartAnewAndUnknownElementsAreSkipped)
                  "9 0\n8 0 1 2 3 -1 3 4 5\n");
     EXPECT_EQ(scene.primitives.at(0).triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {3, 4, 5}}));
     EXPECT_EQ(scene.primitives[0].positions[5], glm::vec3(2, 1, 0));
+}
+
+/// text in UTF-16, with or without its mark.
+std::string inUtf16(const std::string& text, bool is_big_endian, bool has_mark)
+{
+    std::string wide = !has_mark ? "" : is_big_endian ? "\xFE\xFF" : "\xFF\xFE";
+    for (const char character : text)
+    {
+        wide += is_big_endian ? std::string{'\0', character} : std::string{character, '\0'};
+    }
+    return wide;
+}
+
+TEST(MeshImport, ObjAndMtlFilesMayBeUtf16)
+{
+    const std::string obj = std::string("mtllib a.mtl\n") + kTriangle + "usemtl m\nf 1 2 3\n";
+    const std::string mtl = "newmtl m\nKd 0.5 0.25 1\n";
+    const auto expectTriangle = [](const std::string& obj_file, const std::string& mtl_file)
+    {
+        const TempDir dir;
+        dir.write("a.obj", std::string_view(obj_file));
+        dir.write("a.mtl", std::string_view(mtl_file));
+        const Scene scene = loadIn(dir, "a.obj");
+        EXPECT_EQ(cornersOf(scene), (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+        EXPECT_EQ(scene.materials.at(0).base_color, glm::vec4(0.5F, 0.25F, 1.0F, 1.0F));
+        EXPECT_TRUE(scene.warnings.empty());
+    };
+    for (const bool is_big_endian : {false, true})
+    {
+        for (const bool has_mark : {false, true})
+        {
+            expectTriangle(inUtf16(obj, is_big_endian, has_mark), inUtf16(mtl, is_big_endian, has_mark));
+            expectTriangle(obj, inUtf16(mtl, is_big_endian, has_mark));
+        }
+    }
+    expectTriangle("\xEF\xBB\xBF" + obj, "\xEF\xBB\xBF" + mtl);
+}
+
+TEST(MeshImport, Utf16OfAllPlanesBecomesUtf8)
+{
+    const auto utf8 = [](std::vector<std::uint8_t> bytes)
+    {
+        const std::vector<std::uint8_t> text = asUtf8(bytes).value();
+        return std::string(text.begin(), text.end());
+    };
+    EXPECT_EQ(utf8({0xFE, 0xFF, 0, 'a', 0, 0xE4, 0x20, 0xAC, 0xD8, 0x3D, 0xDE, 0}),
+              "a\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80");
+    EXPECT_EQ(utf8({0xFF, 0xFE, 0x3D, 0xD8, 'a', 0, 0, 0xDE, 0x3D, 0xD8, 'b'}),
+              "\xEF\xBF\xBD"
+              "a"
+              "\xEF\xBF\xBD"
+              "\xEF\xBF\xBD"); // surrogates alone; half a character at the end
+    EXPECT_FALSE(asUtf8(std::vector<std::uint8_t>{'v', ' '}));
+    EXPECT_FALSE(asUtf8(std::vector<std::uint8_t>{}));
+    EXPECT_FALSE(asUtf8(std::vector<std::uint8_t>{0, 0}));
 }
 
 TEST(MeshImport, PlyPointsAreAWarning)
