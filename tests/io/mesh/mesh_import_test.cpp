@@ -281,6 +281,28 @@ TEST(MeshImport, PlyStripsStartAnewAndUnknownElementsAreSkipped)
     EXPECT_EQ(scene.primitives[0].positions[5], glm::vec3(2, 1, 0));
 }
 
+TEST(MeshImport, PlyHeadersOfOldExportersAreTaken)
+{
+    // Blender wrote its comment without the keyword until 2008, and types by their sizes until 2007.
+    const std::string header = "ply \r\nformat ascii 1.0\r\nCreated by Blender3D 242 - www.blender.org, source file: "
+                               "a.blend\r\nelement vertex 3 \r\nproperty float32 x\r\nproperty float32 y\r\nproperty "
+                               "float32 z\r\nproperty float32 s\r\nproperty float32 t\r\nproperty uint8 red\r\n"
+                               "property uint8 green\r\nproperty uint8 blue\r\nelement face 1\r\nproperty list uint8 "
+                               "uint32 vertex_indices\r\nend_header\r\n";
+    const std::string data = "0 0 0 0 0 255 0 0\r\n1 0 0 1 0 255 0 0\r\n0 1 0 0 1 255 0 0\r\n3 0 1 2\r\n";
+    const TempDir dir;
+    const std::filesystem::path path = dir.write("old.ply", std::string_view(header + data));
+    const Scene scene = loadScene(std::span(&path, 1));
+    EXPECT_EQ(cornersOf(scene), (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(scene.primitives.at(0).colors, std::vector<glm::vec4>(3, {1, 0, 0, 1}));
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "old.ply: lines of the header without a keyword of PLY left out (\"Created "
+                                            "by Blender3D 242"))
+        << scene.warnings[0];
+    expectInputError([&] { static_cast<void>(loadScene(std::span(&path, 1), {.strict = true})); },
+                     {"old.ply", "Created by Blender3D"});
+}
+
 /// text in UTF-16, with or without its mark.
 std::string inUtf16(const std::string& text, bool is_big_endian, bool has_mark)
 {
