@@ -230,8 +230,9 @@ TEST(MeshImport, BrokenFilesAreInputErrors)
     };
     const FileMesh mesh = bentSheet(2);
     const std::string ply = asPly(mesh, PlyEncoding::LittleEndian);
-    expectBroken("empty.obj", "", "not a valid OBJ file");
-    expectBroken("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index out of range");
+    expectBroken("empty.obj", "", "not a valid OBJ file: it has no vertices");
+    expectBroken("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+                 "line 4 has a face with the vertex \"9\", but there are 3");
     expectBroken("empty.ply", "", "first line");
     expectBroken("text.ply", "hello", "first line");
     expectBroken("header.ply", ply.substr(0, 60), "header");
