@@ -45,31 +45,10 @@ void setBuffer(GltfBuilder& builder, const std::string& uri)
 const std::vector<BadScene>& badScenes()
 {
     static const std::vector<BadScene> scenes = {
-        {"Cycle", [](GltfBuilder& b) { b.document["nodes"][0]["children"] = {0}; }, "cycle"},
-        {"TwoParents",
-         [](GltfBuilder& b)
-         {
-             b.add("nodes", {{"children", {0}}});
-             b.add("nodes", {{"children", {0}}});
-         },
-         "is a child of"},
         {"IndexOutOfRange", [](GltfBuilder& b) { b.bin[b.bin.size() - 71] = 255; }, "is vertex"},
         {"Count", [](GltfBuilder& b) { b.document["accessors"][0]["count"] = 1ULL << 60U; }, "1152921504606846976"},
         {"OffsetThatOverflows", [](GltfBuilder& b) { b.document["accessors"][0]["byteOffset"] = ~0ULL; },
          "accessors[0]"},
-        {"MissingImage",
-         [](GltfBuilder& b) {
-             texture(b, {{"uri", "absent.png"}});
-         },
-         "absent.png"},
-        {"WideImage",
-         [](GltfBuilder& b)
-         {
-             std::vector<std::uint8_t> png = encodePng(1, 1, std::vector<std::uint8_t>(4));
-             png[16] = 127; // the upper byte of the width
-             texture(b, {{"bufferView", b.addView(png.data(), png.size())}});
-         },
-         "images[0]"},
         {"FileOutside", [](GltfBuilder& b) { setBuffer(b, "../../../../../../../../etc/passwd"); }, "leaves"},
         {"EncodedFileOutside", [](GltfBuilder& b) { setBuffer(b, "%2e%2e%2foutside.bin"); }, "leaves"},
         {"AbsoluteFile", [](GltfBuilder& b) { setBuffer(b, "/etc/passwd"); }, "leaves"},
@@ -104,6 +83,22 @@ TEST_P(CliBadScene, IsOneLineAndExitCodeThree)
     expectErrorLine(runZvo(dir.path(), {"voxelize", "scene.glb", "-o", "a.ply", "--resolution", "8"}), 3,
                     {GetParam().word});
     EXPECT_EQ(filesIn(dir.path()), std::vector<std::string>{"scene.glb"});
+}
+
+TEST(CliBadInput, TexturesThatCannotBeUsedAreLeftOutUnlessStrict)
+{
+    const TempDir dir;
+    GltfBuilder builder = coloredCube();
+    texture(builder, {{"uri", "absent.png"}});
+    dir.write("scene.glb", builder.glb());
+    const std::vector<std::string> arguments = {"voxelize", "scene.glb", "-o", "a.morton", "--resolution", "8"};
+    const Outcome outcome = runZvo(dir.path(), arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "warning: scene.glb: texture left out: images[0].uri is absent.png"))
+        << outcome.err;
+    std::vector<std::string> strict = arguments;
+    strict.insert(strict.end(), {"--strict", "-f"});
+    expectErrorLine(runZvo(dir.path(), strict), 3, {"absent.png", "strict"});
 }
 
 TEST(CliBadInput, EmptySceneRendersTheBackground)

@@ -121,6 +121,21 @@ bool isNumberInRange(const json& value)
 
 } // namespace
 
+std::string jsonFault(std::string_view text, const std::exception& failure)
+{
+    constexpr std::size_t kQuotedMax = 24; // bytes
+    const auto* const broken = dynamic_cast<const json::parse_error*>(&failure);
+    if (broken == nullptr)
+    {
+        return "a number in it is beyond double precision";
+    }
+    const std::string_view read = text.substr(0, broken->byte);
+    const auto line = 1 + std::count(read.begin(), read.end(), '\n');
+    const std::string_view end = read.substr(read.size() - std::min(read.size(), kQuotedMax));
+    return end.empty() ? "there is nothing in it"
+                       : fmt::format("it breaks off or is wrong in line {}, at the end of \"{}\"", line, end);
+}
+
 json parseJsonStrictly(std::string_view text, const std::filesystem::path& file)
 {
     ParserWatch watch(file);
@@ -135,11 +150,7 @@ json parseJsonStrictly(std::string_view text, const std::filesystem::path& file)
     }
     catch (const json::exception& failure)
     {
-        // Skips the "[json.exception...] " at the message's beginning.
-        const std::string message = failure.what();
-        const std::size_t start = message.find("] ");
-        throw inputError(file,
-                         fmt::format("not JSON: {}", start == std::string::npos ? message : message.substr(start + 2)));
+        throw inputError(file, fmt::format("not JSON: {}", jsonFault(text, failure)));
     }
 }
 

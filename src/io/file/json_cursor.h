@@ -4,6 +4,7 @@
 #include "zvo/error.h"
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <initializer_list>
@@ -22,6 +23,9 @@ inline constexpr double kJsonNumberMax = 3.4e38;
 /// Parses text as JSON. Throws Error{Input} if it is not JSON, is nested more than 64 deep, or has a key twice in an
 /// object.
 nlohmann::json parseJsonStrictly(std::string_view text, const std::filesystem::path& file);
+
+/// What is wrong with text that does not parse as JSON: the line, and where in it. failure: what the parser threw.
+std::string jsonFault(std::string_view text, const std::exception& failure);
 
 /// A value in a JSON document together with its path, so that errors can say what is wrong where. Every function that
 /// reads throws Error{Input}, one line with the file, the path, what is there and what is expected. Keeps references to

@@ -248,6 +248,7 @@ std::size_t elementBytes(const GltfAccessor& accessor)
 
 GltfAccessor describeAccessor(const GltfDocument& document, int index, const std::string& use)
 {
+    document.use(fmt::format("accessors[{}]", index));
     const tinygltf::Accessor& source = document.model.accessors[index];
     GltfAccessor accessor;
     accessor.where = fmt::format("accessors[{}] ({})", index, use);
@@ -278,7 +279,8 @@ GltfAccessor openAccessor(const GltfDocument& document, int index, const std::st
     }
     else if (!source.sparse.isSparse)
     {
-        throw document.error(fmt::format("{} has no buffer view, so no data; {}", accessor.where, kExportAgain));
+        document.warnings.add("accessors without a buffer view have only zeros", accessor.where);
+        copyElements(document, accessor);
     }
     if (source.sparse.isSparse)
     {

@@ -28,12 +28,14 @@ struct GltfAccessor
     GltfAccessor& operator=(GltfAccessor&&) = default;
 };
 
-/// Type and count of an accessor, without its data. Throws Error{Input} for a type that nothing in a scene has.
+/// Type and count of an accessor, without its data. Throws Error{Input} for one with a fault or of a type that nothing
+/// in a scene has.
 GltfAccessor describeAccessor(const GltfDocument& document, int index, const std::string& use);
 
-/// The elements of the accessor with that index. use: its purpose, for messages. The changes of a sparse accessor are
-/// applied, to zeros if it has no buffer view. Throws Error{Input} if the accessor has no data, leaves its buffer view,
-/// or has sparse indices that are not strictly increasing and below its count.
+/// The elements of the accessor with that index. use: its purpose, for messages. An accessor without a buffer view has
+/// zeros, with a warning if it is not sparse; the changes of a sparse one are applied to them. Throws Error{Input} if
+/// the accessor has a fault, leaves its buffer view, or has sparse indices that are not strictly increasing and below
+/// its count.
 GltfAccessor openAccessor(const GltfDocument& document, int index, const std::string& use);
 
 /// Bytes of an element whose components are stored without gaps.

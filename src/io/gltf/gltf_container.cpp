@@ -2,6 +2,7 @@
 #include "io/gltf/gltf_container.h"
 
 #include "core/base/input_error.h"
+#include "io/file/json_cursor.h"
 #include "io/gltf/gltf_document.h"
 
 #include <algorithm>
@@ -140,11 +141,8 @@ json parseGltfJson(std::string_view text, const std::filesystem::path& path)
     }
     catch (const json::exception& failure)
     {
-        // Skips the "[json.exception...] " at the message's beginning.
-        const std::string message = failure.what();
-        const std::size_t start = message.find("] ");
         throw gltfError(path, fmt::format("not a glTF file: {}; check that it is glTF 2.0 (.gltf or .glb)",
-                                          start == std::string::npos ? message : message.substr(start + 2)));
+                                          jsonFault(text, failure)));
     }
 }
 

@@ -31,10 +31,10 @@ constexpr std::uint64_t kUnpackedFreeBytes = std::uint64_t{1} << 30U;
 constexpr std::uint64_t kUnpackedBytesPerByte = 128; // twice what a vertex codec reaches on equal vertices
 
 /// The parts of the document that tinygltf reads. Buffers and images are read here, because it does not check their
-/// sizes and files enough, and animations, because it refuses some that are allowed. Extras are not needed.
-constexpr std::array kModelParts = {
-    "asset",     "extensionsUsed", "extensionsRequired", "scene",       "scenes",   "nodes",  "meshes",
-    "accessors", "materials",      "textures",           "bufferViews", "samplers", "cameras"};
+/// sizes and files enough; animations and cameras, because it refuses some that can be used.
+constexpr std::array kModelParts = {"asset",       "extensionsUsed", "extensionsRequired", "scene",     "scenes",
+                                    "nodes",       "meshes",         "accessors",          "materials", "textures",
+                                    "bufferViews", "samplers"};
 
 /// Extensions whose effect is loaded.
 constexpr std::array<std::string_view, 7> kSupportedExtensions = {"EXT_meshopt_compression",
@@ -53,6 +53,10 @@ constexpr std::array<std::string_view, 14> kHarmlessExtensions = {
     "KHR_materials_iridescence",  "KHR_materials_sheen",      "KHR_materials_specular",
     "KHR_materials_transmission", "KHR_materials_unlit",      "KHR_materials_variants",
     "KHR_materials_volume",       "KHR_xmp_json_ld"};
+
+/// Formats of images that are not read: they cost the textures that have no other image.
+constexpr std::array<std::string_view, 3> kImageExtensions = {"EXT_texture_avif", "KHR_texture_basisu",
+                                                              "MSFT_texture_dds"};
 
 template <typename List, typename Item> bool contains(const List& list, const Item& item)
 {
@@ -80,7 +84,8 @@ void checkExtensions(const json& document, const std::filesystem::path& path)
     for (const json& item : gltfItems(document, "extensionsRequired"))
     {
         const auto name = item.get<std::string>();
-        if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name))
+        if (!contains(kSupportedExtensions, name) && !contains(kHarmlessExtensions, name) &&
+            !contains(kImageExtensions, name))
         {
             throw gltfError(path,
                             fmt::format("requires the extension {}, which is not supported; export it without", name));
@@ -143,7 +148,7 @@ tinygltf::Model parseModel(json& document, const std::filesystem::path& path)
                                                                  static_cast<unsigned int>(text.size()), "");
     if (!parsed || !failure.empty() || !putIndices(model, indices))
     {
-        throw gltfError(path, fmt::format("{}; {}", failure.empty() ? "not valid glTF" : failure, kExportAgain));
+        throw gltfError(path, fmt::format("not valid glTF; {}", kExportAgain)); // nothing that the schema lets through
     }
     return model;
 }
@@ -189,6 +194,35 @@ void loadBuffers(GltfDocument& document, const json& root, Bytes bin)
     }
 }
 
+std::vector<tinygltf::Camera> listCameras(const json& cameras, GltfFaults& faults)
+{
+    std::vector<tinygltf::Camera> list;
+    for (const json& source : cameras)
+    {
+        tinygltf::Camera camera;
+        camera.name = source.value("name", std::string());
+        camera.type = source["type"].get<std::string>();
+        const auto shape = source.find(camera.type);
+        if (camera.type == "perspective" && shape != source.end())
+        {
+            camera.perspective.yfov = (*shape)["yfov"].get<double>();
+        }
+        else if (camera.type == "orthographic" && shape != source.end())
+        {
+            camera.orthographic.ymag = (*shape)["ymag"].get<double>();
+        }
+        else
+        {
+            const std::string part = fmt::format("cameras[{}]", list.size());
+            faults[part] = {fmt::format("{} has neither a perspective nor an orthographic shape that its type \"{}\" "
+                                        "names; {}",
+                                        part, camera.type, kExportAgain)};
+        }
+        list.push_back(std::move(camera));
+    }
+    return list;
+}
+
 std::vector<GltfImageSource> listImages(const json& images)
 {
     std::vector<GltfImageSource> sources;
@@ -207,11 +241,39 @@ Error gltfError(const std::filesystem::path& path, std::string_view text)
     return inputError(path, text);
 }
 
+void GltfDocument::use(const std::string& part) const
+{
+    const auto fault = faults.find(part);
+    if (fault != faults.end())
+    {
+        fault->second.is_told = true;
+        throw error(fault->second.text);
+    }
+}
+
+void GltfDocument::warnOfUnusedFaults() const
+{
+    for (const auto& [part, fault] : faults)
+    {
+        if (!fault.is_told)
+        {
+            const std::string without_advice = fault.text.substr(0, fault.text.rfind("; "));
+            warnings.add("parts with faults left out, as nothing needs them", without_advice);
+        }
+    }
+}
+
 Bytes GltfDocument::bufferView(int index) const
 {
-    const auto unpacked = unpacked_views.find(index);
-    if (unpacked != unpacked_views.end())
+    use(fmt::format("bufferViews[{}]", index));
+    const auto packed = packed_views.find(index);
+    if (packed != packed_views.end())
     {
+        auto unpacked = unpacked_views.find(index);
+        if (unpacked == unpacked_views.end())
+        {
+            unpacked = unpacked_views.emplace(index, unpackMeshoptView(*this, index, packed->second)).first;
+        }
         return unpacked->second;
     }
     const tinygltf::BufferView& view = model.bufferViews[index];
@@ -274,6 +336,10 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
                                 "put the file there and name it",
                                 where, uri));
     }
+    if (!std::filesystem::exists(file, unreadable))
+    {
+        throw error(fmt::format("{} is {}: there is no such file; put it there, or name another", where, uri));
+    }
     if (std::filesystem::is_fifo(file, unreadable) || std::filesystem::is_socket(file, unreadable))
     {
         throw error(fmt::format("{} is {}, which is not a file; name one", where, uri));
@@ -286,6 +352,13 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
     {
         throw error(fmt::format("{}: {}", where, failure.what()));
     }
+}
+
+std::string GltfDocument::reason(const Error& error) const
+{
+    const std::string message = error.what();
+    const std::string start = this->error("").what();
+    return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
 bool GltfDocument::uses(std::string_view extension) const
@@ -322,14 +395,16 @@ GltfDocument openGltf(const std::filesystem::path& path, std::vector<std::uint8_
     const GltfContainer container = openGltfContainer(document.storage.front(), path);
     json root = parseGltfJson(container.json, path);
     checkVersion(root, path);
-    checkGltfSchema(root, path);
+    checkGltfSchema(root, document);
     checkExtensions(root, path);
     loadBuffers(document, root, container.bin);
-    unpackMeshoptViews(root, document);
+    document.packed_views = listMeshoptViews(root);
     document.images = listImages(gltfItems(root, "images"));
     document.skins = listGltfSkins(root);
     document.animations = listGltfAnimations(root, path);
+    std::vector<tinygltf::Camera> cameras = listCameras(gltfItems(root, "cameras"), document.faults);
     document.model = parseModel(root, path);
+    document.model.cameras = std::move(cameras);
     return document;
 }
 

@@ -194,6 +194,7 @@ std::optional<GltfDracoMesh> GltfDracoMesh::unpack(const GltfDocument& document,
         throw document.error(
             fmt::format("{} stands for indices, but {}.indices is missing; {}", property, where, kExportAgain));
     }
+    document.use(fmt::format("accessors[{}]", primitive.indices));
     // A list must have all faces. A strip may have lost triangles without area; gltf_size counts one face for each
     // index.
     const std::size_t face_count = unpacked.m_mesh->num_faces();

@@ -57,6 +57,7 @@ public:
             }
         }
         rig.addAnimations();
+        m_document.warnOfUnusedFaults();
         m_scene.warnings = m_warnings.lines(m_document.path);
         m_scene.rest_warnings = m_rest_warnings.lines(m_document.path);
         return std::move(m_scene);
@@ -118,6 +119,7 @@ private:
     /// Indices into Scene::primitives.
     std::vector<std::uint32_t> addPrimitives(int mesh)
     {
+        m_document.use(fmt::format("meshes[{}]", mesh));
         const std::vector<tinygltf::Primitive>& sources = m_document.model.meshes[mesh].primitives;
         std::vector<std::uint32_t> added;
         for (int i = 0; i < static_cast<int>(sources.size()); ++i)
@@ -151,6 +153,7 @@ private:
     {
         const tinygltf::Camera& source = m_document.model.cameras[node.camera];
         const std::string where = fmt::format("cameras[{}]", node.camera);
+        m_document.use(where);
         Camera camera;
         camera.name = source.name.empty() ? node.name : source.name;
         camera.transform = to_world;
@@ -177,7 +180,7 @@ private:
 
     const GltfDocument& m_document;
     Scene m_scene;
-    GltfWarnings m_warnings;
+    GltfWarnings& m_warnings = m_document.warnings;
     GltfWarnings m_rest_warnings;
     GltfMaterials m_materials{m_document, m_scene, m_warnings};
     std::map<int, std::vector<std::uint32_t>> m_mesh_primitives;

@@ -4,6 +4,7 @@
 #include "core/scene/scene_size.h"
 #include "io/image/image_io.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -155,10 +156,15 @@ const GltfMaterial& GltfMaterials::get(int material)
 
 GltfMaterial GltfMaterials::load(int index)
 {
-    tinygltf::Material source = index < 0 ? tinygltf::Material() : m_document.model.materials[index];
-    useSpecularGlossiness(source);
     const std::string where = fmt::format("materials[{}]", index);
+    m_document.use(where);
+    tinygltf::Material source = index < 0 ? tinygltf::Material() : m_document.model.materials[index];
     const bool is_diffuse = source.extensions.contains(kSpecularGlossinessName);
+    if (!is_diffuse)
+    {
+        m_document.use(where + ".pbrMetallicRoughness");
+    }
+    useSpecularGlossiness(source);
     const std::string factor_name = is_diffuse ? ".diffuseFactor" : ".pbrMetallicRoughness.baseColorFactor";
     const std::string texture_name = is_diffuse ? ".diffuseTexture" : ".pbrMetallicRoughness.baseColorTexture";
     const auto factor = [&](double value, const std::string& name)
@@ -178,12 +184,18 @@ GltfMaterial GltfMaterials::load(int index)
         material.emission[i] = factor(source.emissiveFactor[i] * emissiveStrength(source), ".emissiveFactor");
     }
 
+    if (std::any_of(source.emissiveFactor.begin(), source.emissiveFactor.end(), [](double f) { return f != 0.0; }))
+    {
+        m_document.use(where + ".emissiveTexture");
+        m_document.use(where + ".extensions.KHR_materials_emissive_strength");
+    }
+
     GltfMaterial loaded;
     const tinygltf::TextureInfo& base_color = source.pbrMetallicRoughness.baseColorTexture;
     if (base_color.index >= 0)
     {
         material.base_color_texture = texture(base_color.index, where + texture_name);
-        loaded.uvs = uvSource(base_color);
+        loaded.uvs = material.base_color_texture ? std::optional(uvSource(base_color)) : std::nullopt;
     }
     if (source.emissiveTexture.index >= 0 && material.emission != glm::vec3(0.0F))
     {
@@ -191,7 +203,7 @@ GltfMaterial GltfMaterials::load(int index)
         if (loaded.uvs.value_or(uvs) == uvs)
         {
             material.emission_texture = texture(source.emissiveTexture.index, where + ".emissiveTexture");
-            loaded.uvs = uvs;
+            loaded.uvs = material.emission_texture ? std::optional(uvs) : loaded.uvs;
         }
         else
         {
@@ -211,19 +223,26 @@ std::optional<std::uint32_t> GltfMaterials::texture(int index, const std::string
     {
         return known->second;
     }
+    m_document.use(fmt::format("textures[{}]", index));
     const tinygltf::Texture& source = m_document.model.textures[index];
     const int source_image = imageOf(source);
     if (source_image < 0)
     {
-        m_warnings.add("texture left out, as it has no PNG, JPEG or WebP image", where);
+        m_warnings.add("texture left out: it has no PNG, JPEG or WebP image; export it with one", where);
+        return std::nullopt;
+    }
+    const std::optional<std::uint32_t> usable = usableImage(source_image, where);
+    if (!usable)
+    {
         return std::nullopt;
     }
     Texture texture;
-    texture.image = image(source_image);
+    texture.image = *usable;
     if (source.sampler >= 0)
     {
         const tinygltf::Sampler& sampler = m_document.model.samplers[source.sampler];
         const std::string sampler_name = fmt::format("samplers[{}]", source.sampler);
+        m_document.use(sampler_name);
         texture.wrap_u = toWrapMode(m_document, sampler.wrapS, sampler_name + ".wrapS");
         texture.wrap_v = toWrapMode(m_document, sampler.wrapT, sampler_name + ".wrapT");
     }
@@ -231,6 +250,32 @@ std::optional<std::uint32_t> GltfMaterials::texture(int index, const std::string
     m_scene.textures.push_back(texture);
     m_textures.emplace(index, added);
     return added;
+}
+
+/// Index into Scene::images, or nothing, with a warning for each texture, if the image cannot be used.
+std::optional<std::uint32_t> GltfMaterials::usableImage(int index, const std::string& where)
+{
+    const auto leaveOut = [&](const std::string& reason) { m_warnings.add("texture left out: " + reason, where); };
+    const auto known = m_unusable_images.find(index);
+    if (known != m_unusable_images.end())
+    {
+        leaveOut(known->second);
+        return std::nullopt;
+    }
+    try
+    {
+        m_document.use(fmt::format("images[{}]", index));
+        return image(index);
+    }
+    catch (const Error& failure)
+    {
+        if (failure.code() != ErrorCode::Input)
+        {
+            throw;
+        }
+        leaveOut(m_unusable_images.emplace(index, m_document.reason(failure)).first->second);
+        return std::nullopt;
+    }
 }
 
 std::uint32_t GltfMaterials::image(int index)

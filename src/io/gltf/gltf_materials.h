@@ -39,21 +39,24 @@ class GltfMaterials
 public:
     GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings);
 
-    /// The material with that index in the document; -1: the default material. Throws Error{Input}.
+    /// The material with that index in the document; -1: the default material. Textures whose image cannot be used are
+    /// left out with a warning. Throws Error{Input}.
     const GltfMaterial& get(int material);
 
 private:
     GltfMaterial load(int material);
     std::optional<std::uint32_t> texture(int texture, const std::string& where);
     std::uint32_t image(int image);
+    std::optional<std::uint32_t> usableImage(int image, const std::string& where);
 
     const GltfDocument& m_document;
     Scene& m_scene;
     GltfWarnings& m_warnings;
     std::map<int, GltfMaterial> m_materials;
-    std::map<int, std::uint32_t> m_textures; // indices into Scene::textures
-    std::map<int, std::uint32_t> m_images;   // indices into Scene::images
-    std::uint64_t m_image_bytes_left;        // of images that are not decoded yet
+    std::map<int, std::uint32_t> m_textures;      // indices into Scene::textures
+    std::map<int, std::uint32_t> m_images;        // indices into Scene::images
+    std::map<int, std::string> m_unusable_images; // why
+    std::uint64_t m_image_bytes_left;             // of images that are not decoded yet
 };
 
 } // namespace zvo

@@ -116,31 +116,6 @@ bool decode(const PackedView& view, std::vector<std::uint8_t>& unpacked)
     return true;
 }
 
-std::vector<std::uint8_t> unpack(const json& source, const json& extension, const std::string& where,
-                                 const GltfDocument& document)
-{
-    PackedView view;
-    view.where = where;
-    view.count = extension["count"].get<std::uint64_t>();
-    view.stride_bytes = extension["byteStride"].get<std::uint64_t>();
-    view.mode = extension["mode"].get<std::string>();
-    view.filter = extension.value("filter", std::string("NONE"));
-    const auto buffer_index = extension["buffer"].get<std::size_t>();
-    const auto offset = extension.value("byteOffset", std::uint64_t{0});
-    const auto length = extension["byteLength"].get<std::uint64_t>();
-    const std::span<const std::uint8_t> buffer = document.buffers[buffer_index];
-    require(
-        offset <= buffer.size() && length <= buffer.size() - offset, document, view,
-        fmt::format("takes {} bytes at {} of buffers[{}], which has {}", length, offset, buffer_index, buffer.size()));
-    view.data = buffer.subspan(offset, length);
-    const auto unpacked_bytes = source["byteLength"].get<std::uint64_t>();
-    checkSizes(document, view, unpacked_bytes);
-    document.countUnpacked(unpacked_bytes, where);
-    std::vector<std::uint8_t> unpacked(unpacked_bytes);
-    require(decode(view, unpacked), document, view, "does not decode");
-    return unpacked;
-}
-
 } // namespace
 
 bool isMeshoptFallback(const json& root, std::size_t buffer)
@@ -158,17 +133,47 @@ bool isMeshoptFallback(const json& root, std::size_t buffer)
                        { return extensionOf(view) != nullptr || view["buffer"].get<std::size_t>() != buffer; });
 }
 
-void unpackMeshoptViews(const json& root, GltfDocument& document)
+std::map<int, GltfPackedView> listMeshoptViews(const json& root)
 {
+    std::map<int, GltfPackedView> packed_views;
     const json& views = gltfItems(root, "bufferViews");
     for (std::size_t i = 0; i < views.size(); ++i)
     {
         if (const json* extension = extensionOf(views[i]))
         {
-            const std::string where = fmt::format("bufferViews[{}].extensions.{}", i, kMeshoptExtension);
-            document.unpacked_views.emplace(static_cast<int>(i), unpack(views[i], *extension, where, document));
+            packed_views[static_cast<int>(i)] = {.buffer = (*extension)["buffer"].get<std::size_t>(),
+                                                 .offset_bytes = extension->value("byteOffset", std::uint64_t{0}),
+                                                 .length_bytes = (*extension)["byteLength"].get<std::uint64_t>(),
+                                                 .count = (*extension)["count"].get<std::uint64_t>(),
+                                                 .stride_bytes = (*extension)["byteStride"].get<std::uint64_t>(),
+                                                 .unpacked_bytes = views[i]["byteLength"].get<std::uint64_t>(),
+                                                 .mode = (*extension)["mode"].get<std::string>(),
+                                                 .filter = extension->value("filter", std::string("NONE"))};
         }
     }
+    return packed_views;
+}
+
+std::vector<std::uint8_t> unpackMeshoptView(const GltfDocument& document, int index, const GltfPackedView& packed)
+{
+    PackedView view;
+    view.where = fmt::format("bufferViews[{}].extensions.{}", index, kMeshoptExtension);
+    view.count = packed.count;
+    view.stride_bytes = packed.stride_bytes;
+    view.mode = packed.mode;
+    view.filter = packed.filter;
+    const std::uint64_t offset = packed.offset_bytes;
+    const std::uint64_t length = packed.length_bytes;
+    const std::span<const std::uint8_t> buffer = document.buffers[packed.buffer];
+    require(
+        offset <= buffer.size() && length <= buffer.size() - offset, document, view,
+        fmt::format("takes {} bytes at {} of buffers[{}], which has {}", length, offset, packed.buffer, buffer.size()));
+    view.data = buffer.subspan(offset, length);
+    checkSizes(document, view, packed.unpacked_bytes);
+    document.countUnpacked(packed.unpacked_bytes, view.where);
+    std::vector<std::uint8_t> unpacked(packed.unpacked_bytes);
+    require(decode(view, unpacked), document, view, "does not decode");
+    return unpacked;
 }
 
 } // namespace zvo

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <optional>
+#include <utility>
 
 namespace zvo
 {
@@ -43,98 +43,102 @@ glm::dmat4 localMatrix(const GltfDocument& document, int index)
     return withAffineRow(matrix);
 }
 
-/// The parent of each node. Throws if a node has two, or is part of a cycle.
-std::vector<std::optional<int>> findParents(const GltfDocument& document)
-{
-    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
-    std::vector<std::optional<int>> parents(nodes.size());
-    for (int node = 0; node < static_cast<int>(nodes.size()); ++node)
-    {
-        for (const int child : nodes[node].children)
-        {
-            if (parents[child])
-            {
-                throw document.error(fmt::format("nodes[{}] is a child of nodes[{}] and of nodes[{}]; {}", child,
-                                                 *parents[child], node, kExportAgain));
-            }
-            parents[child] = node;
-        }
-    }
-    // Since nodes have at most one parent, a node that cannot be reached from a root belongs to a cycle.
-    std::vector<int> reached;
-    for (int node = 0; node < static_cast<int>(nodes.size()); ++node)
-    {
-        if (!parents[node])
-        {
-            reached.push_back(node);
-        }
-    }
-    std::vector<bool> is_reached(nodes.size(), false);
-    for (std::size_t i = 0; i < reached.size(); ++i)
-    {
-        is_reached[reached[i]] = true;
-        const std::vector<int>& children = nodes[reached[i]].children;
-        reached.insert(reached.end(), children.begin(), children.end());
-    }
-    const auto lost = std::find(is_reached.begin(), is_reached.end(), false);
-    if (lost != is_reached.end())
-    {
-        throw document.error(
-            fmt::format("nodes[{}] is in or below a cycle of nodes; {}", lost - is_reached.begin(), kExportAgain));
-    }
-    return parents;
-}
-
-std::vector<int> findRoots(const GltfDocument& document, const std::vector<std::optional<int>>& parents)
+/// The nodes to begin with: those of the scene, or else all without a parent, and then, as only cycles are left, all.
+std::vector<int> findRoots(const GltfDocument& document)
 {
     const tinygltf::Model& model = document.model;
     if (!model.scenes.empty())
     {
         return model.scenes[std::max(model.defaultScene, 0)].nodes;
     }
-    std::vector<int> roots;
-    for (int node = 0; node < static_cast<int>(parents.size()); ++node)
+    const int node_count = static_cast<int>(model.nodes.size());
+    std::vector<bool> is_child(model.nodes.size(), false);
+    for (const tinygltf::Node& node : model.nodes)
     {
-        if (!parents[node])
+        for (const int child : node.children)
         {
-            roots.push_back(node);
+            is_child[child] = true;
+        }
+    }
+    std::vector<int> roots;
+    for (const bool wanted : {false, true})
+    {
+        for (int node = 0; node < node_count; ++node)
+        {
+            if (is_child[node] == wanted)
+            {
+                roots.push_back(node);
+            }
         }
     }
     return roots;
 }
 
+/// Places nodes depth first, each once.
+class NodePlacer
+{
+public:
+    explicit NodePlacer(const GltfDocument& document)
+        : m_document(document), m_is_placed(document.model.nodes.size(), false)
+    {
+    }
+
+    [[nodiscard]] bool isPlaced(int node) const { return m_is_placed[node]; }
+
+    /// Places a root and all below it.
+    void place(int root)
+    {
+        struct Visit
+        {
+            int node;
+            std::uint32_t parent;
+        };
+        std::vector<Visit> open = {{root, kNone}}; // the last one is next
+        while (!open.empty())
+        {
+            const Visit visit = open.back();
+            open.pop_back();
+            if (m_is_placed[visit.node])
+            {
+                m_document.warnings.add("nodes that are met again, by another parent or in a cycle, stay where they "
+                                        "were met first",
+                                        fmt::format("nodes[{}]", visit.node));
+                continue;
+            }
+            m_is_placed[visit.node] = true;
+            const glm::dmat4 above = visit.parent == kNone ? glm::dmat4(1.0) : m_placed[visit.parent].to_world;
+            const auto index = static_cast<std::uint32_t>(m_placed.size());
+            m_placed.push_back({visit.node, visit.parent, above * localMatrix(m_document, visit.node)});
+            const std::vector<int>& children = m_document.model.nodes[visit.node].children;
+            for (auto child = children.rbegin(); child != children.rend(); ++child)
+            {
+                open.push_back({*child, index});
+            }
+        }
+    }
+
+    std::vector<GltfPlacedNode> take() { return std::move(m_placed); }
+
+private:
+    const GltfDocument& m_document;
+    std::vector<bool> m_is_placed;
+    std::vector<GltfPlacedNode> m_placed;
+};
+
 } // namespace
 
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document)
 {
-    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
-    const std::vector<int> roots = findRoots(document, findParents(document));
-    std::vector<GltfPlacedNode> placed;
-    std::vector<GltfPlacedNode> open; // the last one is visited next; to_world is its parent's
-    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+    NodePlacer placer(document);
+    const bool has_scenes = !document.model.scenes.empty();
+    for (const int root : findRoots(document))
     {
-        open.push_back({*root, kNone, glm::dmat4(1.0)});
-    }
-    std::vector<bool> is_placed(nodes.size(), false);
-    while (!open.empty())
-    {
-        GltfPlacedNode node = open.back();
-        open.pop_back();
-        if (is_placed[node.node])
+        if (has_scenes || !placer.isPlaced(root)) // without scenes every node is a root if no other one leads to it
         {
-            throw document.error(fmt::format("nodes[{}] is in the scene twice; {}", node.node, kExportAgain));
-        }
-        is_placed[node.node] = true;
-        node.to_world = node.to_world * localMatrix(document, node.node);
-        const auto index = static_cast<std::uint32_t>(placed.size());
-        placed.push_back(node);
-        const std::vector<int>& children = nodes[node.node].children;
-        for (auto child = children.rbegin(); child != children.rend(); ++child)
-        {
-            open.push_back({*child, index, node.to_world});
+            placer.place(root);
         }
     }
-    return placed;
+    return placer.take();
 }
 
 glm::mat4 toSinglePrecision(const GltfDocument& document, const GltfPlacedNode& node)

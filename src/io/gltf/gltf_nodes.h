@@ -21,8 +21,8 @@ struct GltfPlacedNode
 };
 
 /// The nodes of the default scene (the first one, or all nodes, where the file names none), parents before children,
-/// children in the file's order. Throws Error{Input} for a node with two parents, a cycle, or a matrix that is not
-/// affine.
+/// children in the file's order. A node that is met again, as the child of a second parent or in a cycle, stays where
+/// it was met first, with a warning. Throws Error{Input} for a matrix that is not affine.
 std::vector<GltfPlacedNode> placeGltfNodes(const GltfDocument& document);
 
 /// matrix in single precision, with the exact last row (0, 0, 0, 1). Throws Error{Input} where it overflows.

@@ -168,6 +168,7 @@ std::uint32_t GltfRig::loadSkin(int skin)
 {
     const GltfSkinSource& source = m_document.skins[skin];
     const std::string where = fmt::format("skins[{}]", skin);
+    m_document.use(where);
     Skin loaded;
     for (const int joint : source.joints)
     {

@@ -5,11 +5,14 @@
 #include "io/gltf/gltf_document.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -30,6 +33,9 @@ enum class Kind
     Numbering,  // object of small whole numbers
     Whole,      // whole number from 0 on
     Enumerator, // whole number that fits a signed 32-bit one
+    Stride,     // whole number that distances between elements may have
+    Type,       // of an accessor's elements, as text
+    Component,  // type of an accessor's components
     Number,
     Numbers, // array of `count` numbers, or of any number of them if that is 0
     Text,
@@ -47,6 +53,7 @@ struct Rule
     std::string_view target = {};
     std::size_t count = 0;
     std::span<const Rule> members = {};
+    const char* stand_in = nullptr; // for what fails, as JSON: an item of Objects, or an Object, "" for none
 };
 
 constexpr Rule index(std::string_view name, std::string_view target, bool required = false)
@@ -69,14 +76,33 @@ constexpr Rule objects(std::string_view name, std::span<const Rule> members, boo
     return {.name = name, .kind = Kind::Objects, .required = required, .members = members};
 }
 
+/// An array of objects that the scene may do without. stand_in: takes the place of one that fails, as JSON.
+constexpr Rule optionalObjects(std::string_view name, std::span<const Rule> members, const char* stand_in)
+{
+    return {.name = name, .kind = Kind::Objects, .members = members, .stand_in = stand_in};
+}
+
+/// An object that the scene may do without. One that fails is removed.
+constexpr Rule optionalObject(std::string_view name, std::span<const Rule> members)
+{
+    return {.name = name, .kind = Kind::Object, .members = members, .stand_in = ""};
+}
+
 constexpr bool kRequired = true;
 
 constexpr Rule kScene[] = {{"nodes", Kind::Indices, false, "nodes"}};
-constexpr Rule kNode[] = {
-    index("mesh", "meshes"), index("camera", "cameras"), {"children", Kind::Indices, false, "nodes"},
-    numbers("matrix", 16),   numbers("translation", 3),  numbers("rotation", 4),
-    numbers("scale", 3),     {"name", Kind::Text},       index("skin", "skins"),
-    numbers("weights", 0)};
+constexpr Rule kNodeExtensions[] = {optionalObject("EXT_mesh_gpu_instancing", {})};
+constexpr Rule kNode[] = {index("mesh", "meshes"),
+                          index("camera", "cameras"),
+                          {"children", Kind::Indices, false, "nodes"},
+                          numbers("matrix", 16),
+                          numbers("translation", 3),
+                          numbers("rotation", 4),
+                          numbers("scale", 3),
+                          {"name", Kind::Text},
+                          index("skin", "skins"),
+                          numbers("weights", 0),
+                          optionalObject("extensions", kNodeExtensions)};
 constexpr Rule kDraco[] = {index("bufferView", "bufferViews", kRequired), {"attributes", Kind::Numbering, kRequired}};
 constexpr Rule kPrimitiveExtensions[] = {object("KHR_draco_mesh_compression", kDraco)};
 constexpr Rule kPrimitive[] = {{"attributes", Kind::IndexMap, kRequired, "accessors"},
@@ -94,8 +120,8 @@ constexpr Rule kSparse[] = {{"count", Kind::Enumerator, kRequired},
                             object("indices", kSparseIndices, kRequired),
                             object("values", kSparseValues, kRequired)};
 constexpr Rule kAccessor[] = {
-    index("bufferView", "bufferViews"), {"byteOffset", Kind::Whole},     {"componentType", Kind::Enumerator, kRequired},
-    {"count", Kind::Whole, kRequired},  {"type", Kind::Text, kRequired}, {"normalized", Kind::Flag},
+    index("bufferView", "bufferViews"), {"byteOffset", Kind::Whole},     {"componentType", Kind::Component, kRequired},
+    {"count", Kind::Whole, kRequired},  {"type", Kind::Type, kRequired}, {"normalized", Kind::Flag},
     object("sparse", kSparse)};
 constexpr Rule kMeshoptView[] = {index("buffer", "buffers", kRequired),
                                  {"byteOffset", Kind::Whole},
@@ -108,7 +134,7 @@ constexpr Rule kViewExtensions[] = {object("EXT_meshopt_compression", kMeshoptVi
 constexpr Rule kBufferView[] = {index("buffer", "buffers", kRequired),
                                 {"byteOffset", Kind::Whole},
                                 {"byteLength", Kind::Whole, kRequired},
-                                {"byteStride", Kind::Whole},
+                                {"byteStride", Kind::Stride},
                                 object("extensions", kViewExtensions)};
 constexpr Rule kMeshoptBuffer[] = {{"fallback", Kind::Flag}};
 constexpr Rule kBufferExtensions[] = {object("EXT_meshopt_compression", kMeshoptBuffer)};
@@ -128,13 +154,14 @@ constexpr Rule kTextureInfo[] = {
 constexpr Rule kPbr[] = {numbers("baseColorFactor", 4), object("baseColorTexture", kTextureInfo)};
 constexpr Rule kEmissiveStrength[] = {{"emissiveStrength", Kind::Number}};
 constexpr Rule kSpecularGlossiness[] = {numbers("diffuseFactor", 4), object("diffuseTexture", kTextureInfo)};
-constexpr Rule kMaterialExtensions[] = {object("KHR_materials_emissive_strength", kEmissiveStrength),
+constexpr Rule kMaterialExtensions[] = {optionalObject("KHR_materials_emissive_strength", kEmissiveStrength),
                                         object("KHR_materials_pbrSpecularGlossiness", kSpecularGlossiness)};
-constexpr Rule kMaterial[] = {object("pbrMetallicRoughness", kPbr),
+constexpr Rule kMaterial[] = {optionalObject("pbrMetallicRoughness", kPbr),
                               numbers("emissiveFactor", 3),
-                              object("emissiveTexture", kTextureInfo),
+                              optionalObject("emissiveTexture", kTextureInfo),
                               {"alphaMode", Kind::Text},
                               {"alphaCutoff", Kind::Number},
+                              {"doubleSided", Kind::Flag},
                               {"name", Kind::Text},
                               object("extensions", kMaterialExtensions)};
 constexpr Rule kPerspective[] = {{"yfov", Kind::Number, kRequired}};
@@ -150,48 +177,88 @@ constexpr Rule kAnimationSampler[] = {
     index("input", "accessors", kRequired), index("output", "accessors", kRequired), {"interpolation", Kind::Text}};
 constexpr Rule kAnimation[] = {
     objects("channels", kChannel, kRequired), objects("samplers", kAnimationSampler, kRequired), {"name", Kind::Text}};
-constexpr Rule kDocument[] = {index("scene", "scenes"),
-                              {"extensionsUsed", Kind::Texts},
-                              {"extensionsRequired", Kind::Texts},
-                              objects("scenes", kScene),
-                              objects("nodes", kNode),
-                              objects("meshes", kMesh),
-                              objects("accessors", kAccessor),
-                              objects("bufferViews", kBufferView),
-                              objects("buffers", kBuffer),
-                              objects("images", kImage),
-                              objects("samplers", kSampler),
-                              objects("textures", kTexture),
-                              objects("materials", kMaterial),
-                              objects("cameras", kCamera),
-                              objects("skins", kSkin),
-                              objects("animations", kAnimation)};
+constexpr Rule kAsset[] = {{"version", Kind::Text, kRequired}};
+constexpr Rule kDocument[] = {
+    object("asset", kAsset, kRequired),
+    index("scene", "scenes"),
+    {"extensionsUsed", Kind::Texts},
+    {"extensionsRequired", Kind::Texts},
+    objects("scenes", kScene),
+    objects("nodes", kNode),
+    optionalObjects("meshes", kMesh, R"({"primitives": []})"),
+    optionalObjects("accessors", kAccessor, R"({"componentType": 5126, "count": 0, "type": "SCALAR"})"),
+    optionalObjects("bufferViews", kBufferView, R"({"buffer": 0, "byteLength": 0})"),
+    objects("buffers", kBuffer),
+    optionalObjects("images", kImage, "{}"),
+    optionalObjects("samplers", kSampler, "{}"),
+    optionalObjects("textures", kTexture, "{}"),
+    optionalObjects("materials", kMaterial, "{}"),
+    optionalObjects("cameras", kCamera, R"({"type": "orthographic", "orthographic": {"ymag": 1}})"),
+    optionalObjects("skins", kSkin, R"({"joints": []})"),
+    objects("animations", kAnimation)};
+
+/// Whole numbers up to this one are exact in double precision.
+constexpr double kExactMax = 9007199254740992.0;
+
+/// A property that fails: what and where.
+class SchemaFault : public std::runtime_error
+{
+    using std::runtime_error::runtime_error;
+};
 
 class Checker
 {
 public:
-    Checker(const json& document, const std::filesystem::path& path) : m_document(document), m_path(path) {}
+    Checker(json& root, GltfDocument& document) : m_root(root), m_document(document) {}
 
-    void checkObject(const json& value, std::span<const Rule> members, const std::string& where) const
+    void check()
+    {
+        try
+        {
+            checkObject(m_root, kDocument, "");
+        }
+        catch (const SchemaFault& fault)
+        {
+            throw m_document.error(fault.what());
+        }
+    }
+
+private:
+    /// Checks the members that are listed and removes the others.
+    void checkObject(json& value, std::span<const Rule> members, const std::string& where)
     {
         require(value.is_object(), where, "an object");
+        for (auto member = value.begin(); member != value.end();)
+        {
+            const bool is_read = std::any_of(members.begin(), members.end(),
+                                             [&](const Rule& rule) { return rule.name == member.key(); });
+            member = is_read ? std::next(member) : value.erase(member);
+        }
         const std::string prefix = where.empty() ? where : where + '.';
         for (const Rule& rule : members)
         {
             const auto member = value.find(rule.name);
             if (member != value.end())
             {
-                checkValue(*member, rule, prefix + std::string(rule.name));
+                const std::string property = prefix + std::string(rule.name);
+                const bool may_fail = rule.kind == Kind::Object && rule.stand_in != nullptr;
+                if (!may_fail)
+                {
+                    checkValue(*member, rule, property);
+                }
+                else if (!passes(property, [&] { checkValue(*member, rule, property); }))
+                {
+                    value.erase(member);
+                }
             }
             else if (rule.required)
             {
-                throw gltfError(m_path, fmt::format("{} has no {}; {}", where, rule.name, kExportAgain));
+                throw SchemaFault(fmt::format("{} has no {}; {}", where, rule.name, kExportAgain));
             }
         }
     }
 
-private:
-    void checkValue(const json& value, const Rule& rule, const std::string& where) const
+    void checkValue(json& value, const Rule& rule, const std::string& where)
     {
         switch (rule.kind)
         {
@@ -199,13 +266,12 @@ private:
             return checkIndex(value, rule, where);
         case Kind::Indices:
             return checkEach(value, where,
-                             [&](const json& item, const std::string& property) { checkIndex(item, rule, property); });
+                             [&](json& item, const std::string& property) { checkIndex(item, rule, property); });
         case Kind::IndexMap:
             return checkIndexMap(value, rule, where);
         case Kind::IndexMaps:
             return checkEach(value, where,
-                             [&](const json& item, const std::string& property)
-                             { checkIndexMap(item, rule, property); });
+                             [&](json& item, const std::string& property) { checkIndexMap(item, rule, property); });
         case Kind::Numbering:
             require(value.is_object(), where, "an object");
             for (const auto& [key, item] : value.items())
@@ -214,10 +280,12 @@ private:
             }
             return;
         case Kind::Whole:
-            return require(value.is_number_unsigned(), where, "a whole number from 0 on");
         case Kind::Enumerator:
-            return require(value.is_number_unsigned() && value.get<std::uint64_t>() <= kEnumeratorMax, where,
-                           "a small whole number");
+        case Kind::Stride:
+        case Kind::Component:
+            return checkWhole(value, rule.kind, where);
+        case Kind::Type:
+            return checkType(value, where);
         case Kind::Number:
             return require(value.is_number(), where, "a number");
         case Kind::Numbers:
@@ -237,12 +305,11 @@ private:
             return checkObject(value, rule.members, where);
         case Kind::Objects:
             return checkEach(value, where,
-                             [&](const json& item, const std::string& property)
-                             { checkObject(item, rule.members, property); });
+                             [&](json& item, const std::string& property) { checkItem(item, rule, property); });
         }
     }
 
-    template <typename Check> void checkEach(const json& array, const std::string& where, const Check& check) const
+    template <typename Check> void checkEach(json& array, const std::string& where, const Check& check)
     {
         require(array.is_array(), where, "an array");
         for (std::size_t i = 0; i < array.size(); ++i)
@@ -251,7 +318,34 @@ private:
         }
     }
 
-    void checkIndexMap(const json& value, const Rule& rule, const std::string& where) const
+    void checkItem(json& item, const Rule& rule, const std::string& where)
+    {
+        if (rule.stand_in == nullptr)
+        {
+            checkObject(item, rule.members, where);
+        }
+        else if (!passes(where, [&] { checkObject(item, rule.members, where); }))
+        {
+            item = json::parse(rule.stand_in);
+        }
+    }
+
+    /// Whether a part that the scene may do without passes check. If not, its fault is kept for who needs it.
+    template <typename Check> bool passes(const std::string& part, const Check& check)
+    {
+        try
+        {
+            check();
+            return true;
+        }
+        catch (const SchemaFault& fault)
+        {
+            m_document.faults[part] = {fault.what()};
+            return false;
+        }
+    }
+
+    void checkIndexMap(json& value, const Rule& rule, const std::string& where)
     {
         require(value.is_object(), where, "an object");
         for (const auto& [key, item] : value.items())
@@ -260,39 +354,78 @@ private:
         }
     }
 
-    void checkIndex(const json& value, const Rule& rule, const std::string& where) const
+    void checkIndex(json& value, const Rule& rule, const std::string& where)
     {
-        require(value.is_number_unsigned(), where, "a whole number from 0 on");
-        const auto target = m_document.find(rule.target);
-        const std::size_t count = target == m_document.end() || !target->is_array() ? 0 : target->size();
+        checkWhole(value, Kind::Whole, where);
+        const auto target = m_root.find(rule.target);
+        const std::size_t count = target == m_root.end() || !target->is_array() ? 0 : target->size();
         const auto wanted = value.get<std::uint64_t>();
         if (wanted >= count)
         {
-            throw gltfError(m_path, fmt::format("{} is {}, but the file has {} {}; {}", where, wanted, count,
-                                                rule.target, kExportAgain));
+            throw SchemaFault(
+                fmt::format("{} is {}, but the file has {} {}; {}", where, wanted, count, rule.target, kExportAgain));
         }
     }
 
-    void require(bool condition, const std::string& where, std::string_view wanted) const
+    /// Checks a whole number. One that is written as 1.0 becomes 1.
+    void checkWhole(json& value, Kind kind, const std::string& where)
+    {
+        const double number = value.is_number_float() ? value.get<double>() : -1.0;
+        if (number >= 0.0 && number <= kExactMax && number == std::floor(number))
+        {
+            value = static_cast<std::uint64_t>(number);
+            m_document.warnings.add("numbers with a decimal point taken as whole numbers", where);
+        }
+        require(value.is_number_unsigned(), where,
+                kind == Kind::Enumerator ? "a small whole number" : "a whole number from 0 on");
+        const auto whole = value.get<std::uint64_t>();
+        if (kind == Kind::Enumerator)
+        {
+            require(whole <= kEnumeratorMax, where, "a small whole number");
+        }
+        else if (kind == Kind::Stride)
+        {
+            require(whole <= kStrideMax && whole % 4 == 0, where, fmt::format("a multiple of 4 up to {}", kStrideMax));
+        }
+        else if (kind == Kind::Component)
+        {
+            require(whole >= TINYGLTF_COMPONENT_TYPE_BYTE && whole <= TINYGLTF_COMPONENT_TYPE_DOUBLE, where,
+                    "a component type");
+        }
+    }
+
+    static void checkType(const json& value, const std::string& where)
+    {
+        constexpr std::string_view kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+        require(value.is_string(), where, "a string");
+        const auto type = value.get<std::string>();
+        if (std::find(std::begin(kTypes), std::end(kTypes), type) == std::end(kTypes))
+        {
+            throw SchemaFault(fmt::format("{} is \"{}\", which is no type of elements; {}", where, type, kExportAgain));
+        }
+    }
+
+    static void require(bool condition, const std::string& where, std::string_view wanted)
     {
         if (!condition)
         {
-            throw gltfError(
-                m_path, fmt::format("{} is not {}; {}", where.empty() ? "the document" : where, wanted, kExportAgain));
+            throw SchemaFault(
+                fmt::format("{} is not {}; {}", where.empty() ? "the document" : where, wanted, kExportAgain));
         }
     }
 
     static constexpr std::uint64_t kEnumeratorMax = std::numeric_limits<std::int32_t>::max();
+    static constexpr std::uint64_t kStrideMax = 252; // bytes
 
-    const json& m_document;
-    const std::filesystem::path& m_path;
+    json& m_root;
+    GltfDocument& m_document;
 };
 
 } // namespace
 
-void checkGltfSchema(const json& document, const std::filesystem::path& path)
+void checkGltfSchema(json& root, GltfDocument& document)
 {
-    Checker(document, path).checkObject(document, kDocument, "");
+    Checker(root, document).check();
 }
 
 const json& gltfItems(const json& document, const char* array)

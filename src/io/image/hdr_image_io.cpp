@@ -330,7 +330,7 @@ HdrImage decodeExr(std::span<const std::uint8_t> encoded, const std::string& whe
     }
     catch (const std::exception& error)
     {
-        throw hdrError(where, fmt::format("the OpenEXR picture does not decode ({})", error.what()));
+        throw hdrError(where, "the OpenEXR picture does not decode; save it again");
     }
 }
 

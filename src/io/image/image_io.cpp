@@ -37,7 +37,7 @@ void* decoderReallocate(void* old, std::size_t bytes)
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_NO_STDIO
-#define STBI_FAILURE_USERMSG
+#define STBI_NO_FAILURE_STRINGS
 #define STBI_MALLOC(bytes) decoderAllocate(bytes)
 #define STBI_REALLOC(old, bytes) decoderReallocate(old, bytes)
 #define STBI_FREE(old) std::free(old)
@@ -144,7 +144,7 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
     }
     if (stbi_info_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels) == 0)
     {
-        throw fail(fmt::format("not a PNG, JPEG or WebP image ({}); save it as one", stbi_failure_reason()));
+        throw fail("not a PNG, JPEG or WebP image, or its header is broken; save it as one of them");
     }
     checkSize(width, height, bytes_max, where);
     const ImageCost cost =
@@ -161,7 +161,7 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
         stbi_load_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels, kChannels));
     if (!pixels)
     {
-        throw fail(fmt::format("the image does not decode ({}); save it again", stbi_failure_reason()));
+        throw fail("the image does not decode; save it again");
     }
     Image image;
     image.name = name;

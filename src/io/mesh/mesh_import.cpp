@@ -8,6 +8,7 @@
 #include "io/mesh/stl_file.h"
 
 #include <string>
+#include <vector>
 
 namespace zvo
 {
@@ -18,16 +19,16 @@ Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t
     {
         return readObj(path, bytes);
     }
-    std::string note;
+    std::vector<std::string> notes;
     Scene scene;
-    scene.primitives.push_back(format == MeshFormat::Ply ? readPly(path, bytes, note) : readStl(path, bytes));
+    scene.primitives.push_back(format == MeshFormat::Ply ? readPly(path, bytes, notes) : readStl(path, bytes));
     const Primitive& primitive = scene.primitives.front();
     checkSceneSize(path, {.instance_count = 1,
                           .triangle_count = static_cast<double>(primitive.triangles.size()),
                           .vertex_count = static_cast<double>(primitive.positions.size())});
     scene.materials.emplace_back().name = "default";
     scene.instances.emplace_back();
-    if (!note.empty())
+    for (const std::string& note : notes)
     {
         scene.warnings.emplace_back(inputError(path, note).what());
     }

@@ -3,6 +3,7 @@
 
 #include "core/base/read_file.h"
 #include "io/file/folder_bounds.h"
+#include "io/file/utf16.h"
 
 #include <algorithm>
 #include <assimp/IOStream.hpp>
@@ -104,7 +105,12 @@ Assimp::IOStream* SceneFiles::Open(const char* file, const char* /*mode*/)
     }
     // A scene may name it several times; only the first one loads its materials.
     const bool is_new = m_material_files.insert(*beside).second;
-    return keep(std::make_unique<MemoryStream>(padded(is_new ? readFile(*beside) : std::vector<std::uint8_t>())));
+    std::vector<std::uint8_t> content = is_new ? readFile(*beside) : std::vector<std::uint8_t>();
+    if (auto utf8 = asUtf8(content))
+    {
+        content = *std::move(utf8);
+    }
+    return keep(std::make_unique<MemoryStream>(padded(std::move(content))));
 }
 
 void SceneFiles::Close(Assimp::IOStream* file)

@@ -4,12 +4,15 @@
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
+#include "io/file/text_cursor.h"
+#include "io/file/utf16.h"
 #include "io/image/image_io.h"
 #include "io/image/srgb.h"
 #include "io/mesh/obj_assimp_files.h"
 #include "io/mesh/polygon_triangulator.h"
 
 #include <algorithm>
+#include <array>
 #include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
@@ -47,6 +50,71 @@ WrapMode toWrapMode(int mode)
     return mode == aiTextureMapMode_Clamp    ? WrapMode::ClampToEdge
            : mode == aiTextureMapMode_Mirror ? WrapMode::MirroredRepeat
                                              : WrapMode::Repeat;
+}
+
+/// What a face of an OBJ file names, in the order of the numbers between its slashes.
+struct ObjList
+{
+    std::string_view keyword; // of the lines that add to it
+    std::string_view name;
+    std::int64_t count = 0;
+};
+
+using ObjLists = std::array<ObjList, 3>;
+
+/// Counts a line that adds to a list.
+void countLine(std::string_view keyword, ObjLists& lists)
+{
+    for (ObjList& list : lists)
+    {
+        list.count += list.keyword == keyword ? 1 : 0;
+    }
+}
+
+/// The fault of a corner of a face, such as "3/1/2"; empty: it has none. above: the lists up to its line; all: the
+/// whole ones.
+std::string findCornerFault(std::string_view corner, const ObjLists& above, const ObjLists& all)
+{
+    for (std::size_t i = 0; i < all.size() && !corner.empty(); ++i)
+    {
+        const std::string_view word = corner.substr(0, corner.find('/'));
+        corner.remove_prefix(std::min(corner.size(), word.size() + 1));
+        const std::optional<std::int64_t> number = parseNumber<std::int64_t>(word);
+        const bool is_missing = word.empty() && i > 0;
+        const bool fits = number && (*number > 0 ? *number <= all[i].count : *number < 0 && *number >= -above[i].count);
+        if (!is_missing && !fits)
+        {
+            return fmt::format("has a face with the {} \"{}\", but there are {}", all[i].name, word, all[i].count);
+        }
+    }
+    return {};
+}
+
+/// Says why an OBJ file cannot be read.
+std::string findObjFault(std::string_view text)
+{
+    ObjLists all = {{{"v", "vertex"}, {"vt", "texture coordinate"}, {"vn", "normal"}}};
+    ObjLists above = all;
+    for (TextCursor lines(text); const std::optional<std::string_view> line = lines.line();)
+    {
+        countLine(TextCursor(*line).word(), all);
+    }
+    std::size_t number = 0;
+    for (TextCursor lines(text); const std::optional<std::string_view> line = lines.line();)
+    {
+        ++number;
+        TextCursor words(*line);
+        const std::string_view keyword = words.word();
+        countLine(keyword, above);
+        for (auto corner = keyword == "f" ? words.word() : ""; !corner.empty(); corner = words.word())
+        {
+            if (const std::string fault = findCornerFault(corner, above, all); !fault.empty())
+            {
+                return fmt::format("line {} {}", number, fault);
+            }
+        }
+    }
+    return all[0].count == 0 ? "it has no vertices" : "its lines are not in order";
 }
 
 /// Makes a Scene of assimp's result, and checks every count and index.
@@ -217,7 +285,8 @@ private:
         material.emission = {factor(emission.r), factor(emission.g), factor(emission.b)};
         material.alpha_mode = material.base_color.a < 1.0F ? AlphaMode::Blend : AlphaMode::Opaque;
         material.base_color_texture = texture(source, aiTextureType_DIFFUSE);
-        if (material.base_color_texture && glm::vec3(material.base_color) == glm::vec3(0.0F))
+        const bool has_texture = !texturePath(source, aiTextureType_DIFFUSE).empty(); // even if it cannot be used
+        if (has_texture && glm::vec3(material.base_color) == glm::vec3(0.0F))
         {
             material.base_color = glm::vec4(
                 1.0F, 1.0F, 1.0F, material.base_color.a); // black would hide the texture, which exporters do not mean
@@ -281,12 +350,14 @@ private:
         const std::optional<std::filesystem::path> file = fileBeside(m_path, name);
         if (!file)
         {
-            warn(fmt::format("texture {} left out, as it leaves the file's folder", name));
+            warn(fmt::format("texture left out: {}: it leaves the file's folder; only files in it and below are read; "
+                             "put it there and name it",
+                             name));
             return std::nullopt;
         }
         if (!isFile(*file))
         {
-            warn(fmt::format("texture {} left out, as there is no such file", name));
+            warn(fmt::format("texture left out: {}: there is no such file; put it there, or name another", name));
             return std::nullopt;
         }
         try
@@ -316,8 +387,10 @@ private:
 
 } // namespace
 
-Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> content)
 {
+    const std::optional<std::vector<std::uint8_t>> utf8 = asUtf8(content);
+    const std::span<const std::uint8_t> bytes = utf8 ? *utf8 : content;
     const std::string name = path.stem().string() + ".obj";
     Assimp::Importer importer;
     keepObj(importer);
@@ -332,7 +405,8 @@ Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> b
     }
     if (source == nullptr)
     {
-        throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", importer.GetErrorString(), kExportAgain));
+        const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", findObjFault(text), kExportAgain));
     }
     const std::optional<std::string> missing = files->missing();
     ObjReader reader(path, *source, !missing);

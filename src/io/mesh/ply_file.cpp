@@ -92,9 +92,14 @@ public:
     {
     }
 
-    Primitive read(std::string& note)
+    Primitive read(std::vector<std::string>& notes)
     {
         const PlyHeader header = readPlyHeader(m_cursor, m_path);
+        if (!header.unknown_line.empty())
+        {
+            notes.push_back(
+                fmt::format("lines of the header without a keyword of PLY left out (\"{}\")", header.unknown_line));
+        }
         m_encoding = header.encoding;
         m_data = m_cursor.rest();
         for (const PlyElement& element : header.elements)
@@ -105,7 +110,7 @@ public:
         cutPolygons();
         if (m_triangles.empty() && m_polygons.empty() && !m_primitive.positions.empty())
         {
-            note = "a cloud of points, without faces; only triangles become voxels";
+            notes.emplace_back("a cloud of points, without faces; only triangles become voxels");
         }
         m_primitive.triangles = std::move(m_triangles);
         return std::move(m_primitive);
@@ -422,9 +427,10 @@ private:
 
 } // namespace
 
-Primitive readPly(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, std::string& note)
+Primitive readPly(const std::filesystem::path& path, std::span<const std::uint8_t> bytes,
+                  std::vector<std::string>& notes)
 {
-    return PlyReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}).read(note);
+    return PlyReader(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}).read(notes);
 }
 
 } // namespace zvo

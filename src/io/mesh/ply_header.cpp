@@ -78,7 +78,7 @@ PlyHeader readPlyHeader(TextCursor& cursor, const std::filesystem::path& path)
 {
     const auto fail = [&](const std::string& what) { return plyError(path, what); };
     PlyHeader header;
-    if (cursor.line() != "ply")
+    if (TextCursor(cursor.line().value_or("")).word() != "ply")
     {
         throw fail("its first line is not \"ply\"");
     }
@@ -108,9 +108,9 @@ PlyHeader readPlyHeader(TextCursor& cursor, const std::filesystem::path& path)
         {
             addProperty(words, *line, header, path);
         }
-        else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
+        else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info" && header.unknown_line.empty())
         {
-            throw fail(fmt::format("\"{}\" in its header", *line));
+            header.unknown_line = *line;
         }
     }
     throw fail("its header has no end");

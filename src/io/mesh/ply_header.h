@@ -50,12 +50,13 @@ struct PlyElement
 /// How the data is written, and what it holds, in order.
 struct PlyHeader
 {
+    std::string unknown_line; // the first that is not part of the format, such as a comment without its keyword
     PlyEncoding encoding = PlyEncoding::Text;
     std::vector<PlyElement> elements;
 };
 
 /// Reads the header. cursor: at the start of the file, and afterwards at the start of the data. path: for messages.
-/// Throws Error{Input}.
+/// Lines of other keywords are left out. Throws Error{Input}.
 PlyHeader readPlyHeader(TextCursor& cursor, const std::filesystem::path& path);
 
 /// Error{Input}: why path is not a valid PLY file.

@@ -22,7 +22,7 @@ struct DynamicObject
 {
     std::string name;
     std::shared_ptr<const Scene> scene; // at rest, as its file has it; without cameras. Objects of a file share it
-    glm::dmat4 transform{1.0}; // of the scene before the motion; affine
+    glm::dmat4 transform{1.0};          // of the scene before the motion; affine
     Motion motion;
     bool deforms = false; // animations of the scene move or bend parts of it, besides transformAt()
 };
@@ -46,7 +46,7 @@ struct AnimatedSceneOptions
 {
     std::optional<std::filesystem::path> scenes_folder; // where else the files of objects may lie
     std::string scenes_folder_name = "scenes_folder";   // as whoever can choose it knows it, for messages
-    LoadOptions load = {}; // of a file that is no scene file; of the files of objects, what is left out of them
+    LoadOptions load = {}; // of a file that is no scene file; of the files of objects, `strict` and what is left out
 };
 
 /// Loads a scene file and the files that it names, or any other file as animatedSceneOf() does. The files of objects

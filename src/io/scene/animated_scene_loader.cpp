@@ -116,7 +116,8 @@ class ObjectLoader
 {
 public:
     ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths, const LoadOptions& options)
-        : m_scene_file_path(scene_file_path), m_keep_hulls(options.keep_hulls), m_skipped(options.skip_materials)
+        : m_scene_file_path(scene_file_path), m_keep_hulls(options.keep_hulls), m_strict(options.strict),
+          m_skipped(options.skip_materials)
     {
         for (const fs::path& path : paths)
         {
@@ -130,7 +131,8 @@ public:
         File& file = m_files.at(path);
         if (!file.is_loaded)
         {
-            file.scene = loadScene(std::span(&path, 1), {.every_animation = true, .keep_hulls = m_keep_hulls});
+            file.scene = loadScene(std::span(&path, 1),
+                                   {.every_animation = true, .keep_hulls = m_keep_hulls, .strict = m_strict});
             m_skipped.leaveOut(file.scene);
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
@@ -163,6 +165,7 @@ private:
 
     const fs::path& m_scene_file_path;
     bool m_keep_hulls;
+    bool m_strict;
     SkippedMaterials m_skipped;
     std::map<fs::path, File> m_files;
     SceneSize m_size; // of all objects

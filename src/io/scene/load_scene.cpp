@@ -106,6 +106,16 @@ Scene loadFile(const std::filesystem::path& path)
     }
 }
 
+/// Throws Error{Input} for the first of a file's warnings, if there is one.
+void refuseWarnings(const std::vector<std::string>& warnings)
+{
+    if (!warnings.empty())
+    {
+        const std::string more = warnings.size() > 1 ? fmt::format(" for this and {} more", warnings.size() - 1) : "";
+        throw Error(ErrorCode::Input, fmt::format("{}; strict loading refuses the file{}", warnings.front(), more));
+    }
+}
+
 /// Adds a root node with that transform above all others.
 void placeNodes(Scene& scene, const glm::mat4& to_world)
 {
@@ -173,6 +183,10 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
         if (!options.keep_hulls)
         {
             leaveOutHulls(loaded, path);
+        }
+        if (options.strict)
+        {
+            refuseWarnings(loaded.warnings);
         }
         if (!options.every_animation)
         {

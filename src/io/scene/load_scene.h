@@ -29,12 +29,14 @@ struct LoadOptions
     float scale = 1.0F;           // world units of a unit of the file, above 0
     bool every_animation = false; // keeps all animations of a file, for keepAnimation(); otherwise only the first one
     bool keep_hulls = false;      // of toon shading (io/scene/hulls.h); otherwise they are left out, with a warning
+    bool strict = false;          // refuses files that Scene::warnings would have a line about
     std::vector<std::string> skip_materials = {}; // patterns of names of materials to leave out (SkippedMaterials)
 };
 
 /// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content
 /// where it is clear, otherwise by their extension. Warns of a pattern in skip_materials that no material has. Throws
-/// Error{Input}, one line with the path, and what applyLoadOptions() throws.
+/// Error{Input}, one line with the path, also for Scene::warnings of files with LoadOptions::strict, and what
+/// applyLoadOptions() throws.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
 
 /// Whether a path names a scene file, NAME.scene.json (io/scene/scene_file.h). loadScene() refuses scene files.

@@ -31,7 +31,7 @@ void expectBounds(const Scene& scene, const Bounds& expected)
     EXPECT_EQ(bounds.max, expected.max);
 }
 
-void expectWhole(const Scene& scene)
+void expectSceneBounds(const Scene& scene)
 {
     expectBounds(scene, scene.bounds());
 }
@@ -55,24 +55,24 @@ TEST(MainBounds, LeaveOutSmallThingsFarAway)
 TEST(MainBounds, KeepWhatIsNearOrLarge)
 {
     const Scene ball = ballAt(glm::vec3(5.0F), 2.0F);
-    expectWhole(ball);
-    expectWhole(both(ball, ballAt({11.0F, 5.0F, 5.0F}, 0.01F)));                          // a gap shorter than the ball
-    expectWhole(both(ball, ballAt({1000.0F, 5.0F, 5.0F}, 0.5F)));                         // a sixteenth of the surface
-    expectWhole(both(ball, test::boxScene({4.99F, 7.0F, 4.99F}, {5.01F, 90.0F, 5.01F}))); // a mast, without a gap
+    expectSceneBounds(ball);
+    expectSceneBounds(both(ball, ballAt({11.0F, 5.0F, 5.0F}, 0.01F)));  // a gap shorter than the ball
+    expectSceneBounds(both(ball, ballAt({1000.0F, 5.0F, 5.0F}, 0.5F))); // a sixteenth of the surface
+    expectSceneBounds(both(ball, test::boxScene({4.99F, 7.0F, 4.99F}, {5.01F, 90.0F, 5.01F}))); // a mast, without a gap
     // A row of stepping stones, each farther than the one before, within what lies behind it.
     Scene row = ball;
     for (float x = 9.0F; x < 200.0F; x *= 1.7F)
     {
         row = both(std::move(row), ballAt({x, 5.0F, 5.0F}, 0.1F));
     }
-    expectWhole(row);
+    expectSceneBounds(row);
 }
 
 TEST(MainBounds, AreThoseOfTheSceneWhereNothingHasASurface)
 {
     EXPECT_TRUE(mainBounds(Scene()).empty());
-    expectWhole(test::triangleSoup({glm::vec3(1.0F), glm::vec3(1.0F), glm::vec3(1.0F)}));
-    expectWhole(test::triangleSoup({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {90, 90, 90}, {91, 91, 91}, {92, 92, 92}}));
+    expectSceneBounds(test::triangleSoup({glm::vec3(1.0F), glm::vec3(1.0F), glm::vec3(1.0F)}));
+    expectSceneBounds(test::triangleSoup({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {90, 90, 90}, {91, 91, 91}, {92, 92, 92}}));
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Scene ball = ballAt(glm::vec3(5.0F), 2.0F);
     expectBounds(both(ball, test::triangleSoup({{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}})),

@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMotionClose = 1e-12;
+constexpr double kRounding = 1e-12;
 
 glm::dvec3 moved(const glm::dmat4& transform, const glm::dvec3& point)
 {
@@ -27,7 +27,7 @@ glm::dvec3 movedAt(const Motion& motion, double seconds, const glm::dvec3& point
     return moved(motionAt(motion, seconds), point);
 }
 
-void expectNear(const glm::dvec3& point, const glm::dvec3& expected, double tolerance = kMotionClose)
+void expectNear(const glm::dvec3& point, const glm::dvec3& expected, double tolerance = kRounding)
 {
     EXPECT_NEAR(point.x, expected.x, tolerance);
     EXPECT_NEAR(point.y, expected.y, tolerance);
@@ -206,7 +206,7 @@ void expectSweepHolds(const Motion& motion, double seconds, double slack)
             low = glm::min(low, moved(transform, point));
             high = glm::max(high, moved(transform, point));
         }
-        const double stray = sweep.stray + sweep.stray_per_distance * glm::length(point - sweep.pivot) + kMotionClose;
+        const double stray = sweep.stray + sweep.stray_per_distance * glm::length(point - sweep.pivot) + kRounding;
         glm::dvec3 reached_low(INFINITY);
         glm::dvec3 reached_high(-INFINITY);
         for (int step = 0; step < 4096; ++step)
@@ -245,7 +245,7 @@ TEST(Motion, SweepHoldsEveryPlaceBetween)
     expectSweepHolds(line, 4.0, 0.01);
     line.returns = true;
     expectSweepHolds(line, 4.0, 0.01);
-    expectSweepHolds(Motion(), 4.0, 2 * kMotionClose);
+    expectSweepHolds(Motion(), 4.0, 2 * kRounding);
     KeyMotion keys = threeKeys();
     expectSweepHolds(keys, 4.0, 0.2);
     keys.rotations[2] = {std::cos(0.49 * kPi), std::sin(0.49 * kPi), 0.0, 0.0};

@@ -102,8 +102,8 @@ TEST(GltfErrors, GlbWithWrongChunksIsRefused)
 
 TEST(GltfErrors, RequiredExtensionsThatAreUnknownAreNamed)
 {
-    expectBroken([](GltfBuilder& b) { b.document["extensionsRequired"] = {"KHR_texture_basisu"}; },
-                 {"KHR_texture_basisu", "not supported", "export it without"});
+    expectBroken([](GltfBuilder& b) { b.document["extensionsRequired"] = {"KHR_unheard_of"}; },
+                 {"KHR_unheard_of", "not supported", "export it without"});
     expectBroken([](GltfBuilder& b) { b.document["extensionsRequired"] = {"NEW\nLINE"}; }, {"NEW LINE"});
 }
 
@@ -125,30 +125,6 @@ TEST(GltfErrors, WrongTypesAndIndicesAreNamedByTheirPlace)
     expectBroken([&](GltfBuilder& b) { primitive(b)["attributes"]["POSITION"] = 5; }, {"attributes.POSITION is 5"});
     expectBroken([&](GltfBuilder& b) { primitive(b)["material"] = 0; }, {"0 materials"});
     expectBroken([&](GltfBuilder& b) { primitive(b)["mode"] = 9; }, {"mode is 9"});
-}
-
-TEST(GltfErrors, CyclesAndSharedNodesAreRefused)
-{
-    expectBroken([](GltfBuilder& b) { b.document["nodes"][0]["children"] = {0}; }, {"nodes[0]", "cycle", kHint});
-    expectBroken(
-        [](GltfBuilder& b)
-        {
-            b.add("nodes", {{"children", {2}}});
-            b.add("nodes", {{"children", {1}}});
-        },
-        {"nodes[1]", "cycle"});
-    expectBroken(
-        [](GltfBuilder& b)
-        {
-            b.add("nodes", {{"children", {0}}});
-            b.add("nodes", {{"children", {0}}});
-        },
-        {"nodes[0] is a child of nodes[1] and of nodes[2]"});
-    expectBroken(
-        [](GltfBuilder& b) {
-            b.document["scenes"] = {{{"nodes", {0, 0}}}};
-        },
-        {"nodes[0] is in the scene twice"});
 }
 
 TEST(GltfErrors, TransformsThatAreNotAffineOrTooLargeAreRefused)
@@ -178,7 +154,6 @@ TEST(GltfErrors, AccessorsMustLieInsideTheirViewsAndBuffers)
     expectBroken([&](GltfBuilder& b) { view(b)["byteStride"] = 7; }, {"byteStride", kHint});
     expectBroken([&](GltfBuilder& b) { view(b)["byteLength"] = 37; }, {"bufferViews[0] takes 37 bytes", "has 36"});
     expectBroken([&](GltfBuilder& b) { view(b)["byteOffset"] = kHuge; }, {"bufferViews[0] takes 36 bytes"});
-    expectBroken([&](GltfBuilder& b) { accessor(b).erase("bufferView"); }, {"has no buffer view"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "MAT3"; }, {"element type that nothing has"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["type"] = "VEC9"; }, {"VEC9"});
     expectBroken([&](GltfBuilder& b) { accessor(b)["componentType"] = 5124; }, {"component type 5124"});
@@ -229,7 +204,7 @@ TEST(GltfErrors, BuffersMustBeThereAndLongEnough)
         [&](GltfBuilder& b) {
             set(b, {{"byteLength", 36}, {"uri", "missing.bin"}});
         },
-        {"buffers[0].uri", "missing.bin", "No such file"});
+        {"buffers[0].uri is missing.bin", "no such file"});
     expectBroken([&](GltfBuilder& b) { set(b, {{"byteLength", 41}}); }, {"buffers[0] needs 41 bytes", "has 36"});
     expectBroken(
         [&](GltfBuilder& b) {
@@ -248,34 +223,6 @@ TEST(GltfErrors, BuffersMustBeThereAndLongEnough)
         {"https://example.com/a.bin", "download it"});
     expectBrokenFile("none.gltf", R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1}]})",
                      {"buffers[0] has neither a URI nor a binary chunk"});
-}
-
-TEST(GltfErrors, ImagesMustBeThereAndDecode)
-{
-    expectBroken(
-        [](GltfBuilder& b) {
-            textured(b, {{"uri", "missing%20one.png"}});
-        },
-        {"images[0].uri", "missing one.png", "No such file"});
-    expectBroken(
-        [](GltfBuilder& b) {
-            textured(b, {{"uri", "data:image/png;base64,AAAA"}});
-        },
-        {"images[0]", "not a PNG, JPEG or WebP"});
-    expectBroken(
-        [](GltfBuilder& b) {
-            textured(b, {{"bufferView", 0}, {"mimeType", "image/png"}, {"name", "skin"}});
-        },
-        {"images[0]", "not a PNG, JPEG or WebP"});
-    expectBroken([](GltfBuilder& b) { textured(b, {{"name", "skin"}}); }, {"images[0] has neither"});
-    expectBroken(
-        [](GltfBuilder& b)
-        {
-            std::vector<std::uint8_t> png = encodePng(64, 64, std::vector<std::uint8_t>(64 * 64 * 4, 7));
-            png.resize(png.size() - 30);
-            textured(b, {{"bufferView", b.addView(png.data(), png.size())}});
-        },
-        {"images[0]", "does not decode"});
 }
 
 TEST(GltfErrors, MaterialsMustBePossible)

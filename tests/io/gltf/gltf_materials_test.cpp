@@ -3,6 +3,7 @@
 
 #include "gltf_builder.h"
 #include "io/image/image_io.h"
+#include "io/scene/load_scene.h"
 
 #include <gtest/gtest.h>
 #include <numbers>
@@ -235,6 +236,73 @@ TEST(GltfMaterials, TextureWithoutImageIsLeftOutWithAWarning)
     const Scene scene = builder.load();
     EXPECT_FALSE(scene.materials[0].base_color_texture.has_value());
     EXPECT_EQ(scene.warnings.size(), 1U);
+}
+
+TEST(GltfMaterials, ImagesThatCannotBeUsedAreLeftOutWithAWarning)
+{
+    const auto bytes = [](std::string_view text) { return std::vector<std::uint8_t>(text.begin(), text.end()); };
+    std::vector<std::uint8_t> cut = encodePng(64, 64, std::vector<std::uint8_t>(64 * 64 * 4, 7));
+    cut.resize(cut.size() - 30);
+    std::vector<std::uint8_t> wide = encodePng(1, 1, std::vector<std::uint8_t>(4));
+    wide[16] = 127; // the upper byte of the width
+    const TempDir dir;
+    dir.write("brick.dds", bytes("DDS |" + std::string(200, '\0')));
+    dir.write("empty.png", std::vector<std::uint8_t>());
+    struct Case
+    {
+        json image;
+        std::vector<std::uint8_t> data; // of a buffer view, if there is any
+        std::string reason;
+    };
+    const std::vector<Case> cases = {
+        {{{"uri", "missing%20one.png"}}, {}, "images[0].uri is missing%20one.png: there is no such file"},
+        {{{"uri", "brick.dds"}}, {}, "images[0] (brick.dds): not a PNG, JPEG or WebP image"},
+        {{{"uri", "empty.png"}}, {}, "images[0] (empty.png): not a PNG, JPEG or WebP image (it is empty)"},
+        {{{"uri", "https://example.com/a.png"}}, {}, "images[0].uri is https://example.com/a.png: only files"},
+        {{{"uri", "data:image/png;base64,AAAA"}}, {}, "images[0] (images[0]): not a PNG, JPEG or WebP image"},
+        {{{"uri", "data:image/png;base64,A*"}}, {}, "images[0].uri is not a valid data URI"},
+        {{{"name", "skin"}}, bytes("GIF89a text"), "images[0] (images[0]): not a PNG, JPEG or WebP image"},
+        {json::object(), cut, "images[0] (images[0]): the image does not decode"},
+        {json::object(), wide, "images[0] (images[0]): "},
+        {{{"name", "skin"}}, {}, "images[0] has neither a URI nor a buffer view"}};
+    for (const auto& [image, data, reason] : cases)
+    {
+        json material = baseColorTexture({{"index", 0}});
+        material["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 1};
+        material["emissiveTexture"] = {{"index", 0}};
+        material["emissiveFactor"] = {1, 2, 3};
+        GltfBuilder builder = texturedTriangle(material);
+        builder.document["images"][0] = image;
+        if (!data.empty())
+        {
+            builder.document["images"][0]["bufferView"] = builder.addView(data.data(), data.size());
+        }
+        const std::filesystem::path path = dir.write("scene.glb", builder.glb());
+        const Scene scene = loadScene(std::span(&path, 1));
+        EXPECT_TRUE(scene.images.empty()) << reason;
+        EXPECT_EQ(sceneFault(scene), "") << reason;
+        const Material& loaded = scene.materials.at(0);
+        EXPECT_FALSE(loaded.base_color_texture || loaded.emission_texture) << reason;
+        EXPECT_EQ(loaded.base_color, glm::vec4(0.5F, 0.25F, 1.0F, 1.0F)) << "white times the factor";
+        EXPECT_EQ(loaded.emission, glm::vec3(1, 2, 3));
+        ASSERT_EQ(scene.warnings.size(), 1U) << reason;
+        EXPECT_TRUE(contains(scene.warnings[0], "scene.glb: texture left out: " + reason)) << scene.warnings[0];
+        EXPECT_TRUE(contains(scene.warnings[0], "(materials[0].pbrMetallicRoughness.baseColorTexture and 1 more)"))
+            << scene.warnings[0];
+        EXPECT_EQ(scene.warnings[0].find_first_of("\n\r\t"), std::string::npos);
+        expectInputError([&] { static_cast<void>(loadScene(std::span(&path, 1), {.strict = true})); }, {reason});
+    }
+}
+
+TEST(GltfMaterials, RequiredFormatsOfImagesThatAreUnknownCostTheTexture)
+{
+    GltfBuilder builder = texturedTriangle(baseColorTexture({{"index", 0}}));
+    builder.document["extensionsRequired"] = {"KHR_texture_basisu"};
+    builder.document["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    const Scene scene = builder.load();
+    EXPECT_EQ(scene.triangleCount(), 1U);
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "texture left out")) << scene.warnings[0];
 }
 
 TEST(GltfMaterials, ExtensionsThatOnlyChangeShadingMayBeRequired)

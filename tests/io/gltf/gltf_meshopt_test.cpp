@@ -364,9 +364,12 @@ TEST(GltfMeshopt, ManyViewsOfTheSameBytesCannotUnpackToAnySize)
     const std::size_t count = equal.size() / 256;
     addPacked(builder, packVertices(equal.data(), count, 256), count, 256, "ATTRIBUTES", "NONE", kFloat3);
     builder.document["bufferViews"][1].erase("byteStride");
+    builder.document["accessors"][0]["count"] = 3;
     for (int i = 0; i < 300; ++i)
     {
-        builder.add("bufferViews", json(builder.document["bufferViews"][1]));
+        json accessor = builder.document["accessors"][0];
+        accessor["bufferView"] = builder.add("bufferViews", json(builder.document["bufferViews"][1]));
+        builder.addMeshNode({{"attributes", {{"POSITION", builder.add("accessors", accessor)}}}});
     }
     addBuffers(builder);
     expectInputError([&] { static_cast<void>(builder.load()); }, {"bufferViews[", "out of proportion"});

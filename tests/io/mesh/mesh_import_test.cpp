@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/mesh/mesh_import.h"
 
+#include "io/file/utf16.h"
 #include "io/gltf/gltf_builder.h"
 #include "io/image/image_io.h"
 #include "io/scene/load_scene.h"
@@ -210,13 +211,14 @@ TEST(MeshImport, WhatAnMtlFileNamesWronglyIsAWarning)
           std::pair(std::string("link.png"), "leaves"), std::pair(std::string("absent.png"), "no such file"),
           std::pair(std::string("."), "no such file"), std::pair(std::string("notes.png"), "not a PNG, JPEG or WebP")})
     {
-        dir.write("a.mtl", "newmtl m\nKd 0.5 0.5 0.5\nmap_Kd " + name + "\n");
+        dir.write("a.mtl", "newmtl m\nKd 0 0 0\nmap_Kd " + name + "\n");
         const Scene scene = loadIn(dir, "a.obj");
         EXPECT_EQ(scene.triangleCount(), 1U);
         EXPECT_TRUE(scene.images.empty()) << name;
         EXPECT_FALSE(scene.materials.at(0).base_color_texture) << name;
+        EXPECT_EQ(scene.materials.at(0).base_color, glm::vec4(1.0F)) << "black stands for the texture";
         ASSERT_EQ(scene.warnings.size(), 1U) << name;
-        EXPECT_TRUE(contains(scene.warnings[0], "texture")) << scene.warnings[0];
+        EXPECT_TRUE(contains(scene.warnings[0], "a.obj: texture left out: " + name)) << scene.warnings[0];
         EXPECT_TRUE(contains(scene.warnings[0], reason)) << scene.warnings[0];
     }
 }
@@ -266,8 +268,9 @@ TEST(MeshImport, BrokenFilesAreInputErrors)
     };
     const FileMesh mesh = bentSheet(2);
     const std::string ply = asPly(mesh, PlyEncoding::LittleEndian);
-    expectBroken("empty.obj", "", "not a valid OBJ file");
-    expectBroken("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "index out of range");
+    expectBroken("empty.obj", "", "not a valid OBJ file: it has no vertices");
+    expectBroken("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+                 "line 4 has a face with the vertex \"9\", but there are 3");
     expectBroken("empty.ply", "", "first line");
     expectBroken("text.ply", "hello", "first line");
     expectBroken("header.ply", ply.substr(0, 60), "header");
@@ -315,6 +318,83 @@ TEST(MeshImport, PlyStripsStartAnewAndUnknownElementsAreSkipped)
                  "9 0\n8 0 1 2 3 -1 3 4 5\n");
     EXPECT_EQ(scene.primitives.at(0).triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {2, 1, 3}, {3, 4, 5}}));
     EXPECT_EQ(scene.primitives[0].positions[5], glm::vec3(2, 1, 0));
+}
+
+TEST(MeshImport, PlyHeadersOfOldExportersAreTaken)
+{
+    // Blender wrote its comment without the keyword until 2008, and types by their sizes until 2007.
+    const std::string header = "ply \r\nformat ascii 1.0\r\nCreated by Blender3D 242 - www.blender.org, source file: "
+                               "a.blend\r\nelement vertex 3 \r\nproperty float32 x\r\nproperty float32 y\r\nproperty "
+                               "float32 z\r\nproperty float32 s\r\nproperty float32 t\r\nproperty uint8 red\r\n"
+                               "property uint8 green\r\nproperty uint8 blue\r\nelement face 1\r\nproperty list uint8 "
+                               "uint32 vertex_indices\r\nend_header\r\n";
+    const std::string data = "0 0 0 0 0 255 0 0\r\n1 0 0 1 0 255 0 0\r\n0 1 0 0 1 255 0 0\r\n3 0 1 2\r\n";
+    const TempDir dir;
+    const std::filesystem::path path = dir.write("old.ply", std::string_view(header + data));
+    const Scene scene = loadScene(std::span(&path, 1));
+    EXPECT_EQ(cornersOf(scene), (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(scene.primitives.at(0).colors, std::vector<glm::vec4>(3, {1, 0, 0, 1}));
+    ASSERT_EQ(scene.warnings.size(), 1U);
+    EXPECT_TRUE(contains(scene.warnings[0], "old.ply: lines of the header without a keyword of PLY left out (\"Created "
+                                            "by Blender3D 242"))
+        << scene.warnings[0];
+    expectInputError([&] { static_cast<void>(loadScene(std::span(&path, 1), {.strict = true})); },
+                     {"old.ply", "Created by Blender3D"});
+}
+
+/// text in UTF-16, with or without its mark.
+std::string inUtf16(const std::string& text, bool is_big_endian, bool has_mark)
+{
+    std::string wide = !has_mark ? "" : is_big_endian ? "\xFE\xFF" : "\xFF\xFE";
+    for (const char character : text)
+    {
+        wide += is_big_endian ? std::string{'\0', character} : std::string{character, '\0'};
+    }
+    return wide;
+}
+
+TEST(MeshImport, ObjAndMtlFilesMayBeUtf16)
+{
+    const std::string obj = std::string("mtllib a.mtl\n") + kTriangle + "usemtl m\nf 1 2 3\n";
+    const std::string mtl = "newmtl m\nKd 0.5 0.25 1\n";
+    const auto expectTriangle = [](const std::string& obj_file, const std::string& mtl_file)
+    {
+        const TempDir dir;
+        dir.write("a.obj", std::string_view(obj_file));
+        dir.write("a.mtl", std::string_view(mtl_file));
+        const Scene scene = loadIn(dir, "a.obj");
+        EXPECT_EQ(cornersOf(scene), (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+        EXPECT_EQ(scene.materials.at(0).base_color, glm::vec4(0.5F, 0.25F, 1.0F, 1.0F));
+        EXPECT_TRUE(scene.warnings.empty());
+    };
+    for (const bool is_big_endian : {false, true})
+    {
+        for (const bool has_mark : {false, true})
+        {
+            expectTriangle(inUtf16(obj, is_big_endian, has_mark), inUtf16(mtl, is_big_endian, has_mark));
+            expectTriangle(obj, inUtf16(mtl, is_big_endian, has_mark));
+        }
+    }
+    expectTriangle("\xEF\xBB\xBF" + obj, "\xEF\xBB\xBF" + mtl);
+}
+
+TEST(MeshImport, Utf16OfAllPlanesBecomesUtf8)
+{
+    const auto utf8 = [](std::vector<std::uint8_t> bytes)
+    {
+        const std::vector<std::uint8_t> text = asUtf8(bytes).value();
+        return std::string(text.begin(), text.end());
+    };
+    EXPECT_EQ(utf8({0xFE, 0xFF, 0, 'a', 0, 0xE4, 0x20, 0xAC, 0xD8, 0x3D, 0xDE, 0}),
+              "a\xC3\xA4\xE2\x82\xAC\xF0\x9F\x98\x80");
+    EXPECT_EQ(utf8({0xFF, 0xFE, 0x3D, 0xD8, 'a', 0, 0, 0xDE, 0x3D, 0xD8, 'b'}),
+              "\xEF\xBF\xBD"
+              "a"
+              "\xEF\xBF\xBD"
+              "\xEF\xBF\xBD"); // surrogates alone; half a character at the end
+    EXPECT_FALSE(asUtf8(std::vector<std::uint8_t>{'v', ' '}));
+    EXPECT_FALSE(asUtf8(std::vector<std::uint8_t>{}));
+    EXPECT_FALSE(asUtf8(std::vector<std::uint8_t>{0, 0}));
 }
 
 TEST(MeshImport, PlyPointsAreAWarning)

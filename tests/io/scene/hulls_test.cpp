@@ -34,7 +34,7 @@ Scene wrappedBall(float scale, bool turned = true)
 }
 
 // Expects that nothing is left out.
-void expectWhole(Scene scene)
+void expectAllKept(Scene scene)
 {
     const std::uint64_t triangle_count = scene.triangleCount();
     EXPECT_EQ(leaveOutHulls(scene).hull_count, 0U);
@@ -89,17 +89,17 @@ TEST(Hulls, AreFoundOneByOneInAPrimitive)
 
 TEST(Hulls, AreSingleSidedAndInsideOut)
 {
-    expectWhole(wrappedBall(test::kHullScale, false));
+    expectAllKept(wrappedBall(test::kHullScale, false));
     Scene double_sided = wrappedBall(test::kHullScale);
     double_sided.materials[1].double_sided = true;
-    expectWhole(std::move(double_sided));
+    expectAllKept(std::move(double_sided));
 }
 
 TEST(Hulls, MirroringTurnsNothingInsideOut)
 {
     Scene mirrored = wrappedBall(test::kHullScale, false);
     mirrored.instances[1].transform[0] *= -1.0F;
-    expectWhole(mirrored);
+    expectAllKept(mirrored);
     Scene turned = wrappedBall(test::kHullScale);
     for (Instance& instance : turned.instances)
     {
@@ -110,10 +110,10 @@ TEST(Hulls, MirroringTurnsNothingInsideOut)
 
 TEST(Hulls, LieCloseToWhatIsInThem)
 {
-    expectWhole(wrappedBall(1.5F));
+    expectAllKept(wrappedBall(1.5F));
     Scene empty;
     place(empty, addSurface(empty, ball(), kDark, true), glm::vec3(0.0F), 1.0F);
-    expectWhole(std::move(empty));
+    expectAllKept(std::move(empty));
 }
 
 TEST(Hulls, ARoomSeenFromInsideStays)
@@ -125,7 +125,7 @@ TEST(Hulls, ARoomSeenFromInsideStays)
         addSurface(room, test::boxScene({0.0F, 0.0F, 0.0F}, {2.0F, 3.0F, 0.6F}), glm::vec4(0.5F));
     place(room, cupboard, {0.05F, 0.0F, 0.05F}, 1.0F);
     place(room, cupboard, {7.0F, 0.0F, 7.3F}, 1.0F);
-    expectWhole(std::move(room));
+    expectAllKept(std::move(room));
 }
 
 TEST(Hulls, TheInnerSideOfAThickShellStays)
@@ -144,7 +144,7 @@ TEST(Hulls, TheInnerSideOfAThickShellStays)
     }
     place(scene, outer, {}, 1.0F);
     place(scene, addSurface(scene, ball(), kRed), {}, 1.0F);
-    expectWhole(std::move(scene));
+    expectAllKept(std::move(scene));
 }
 
 TEST(Hulls, HoldWhateverIsInThem)

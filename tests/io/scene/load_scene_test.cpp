@@ -2,6 +2,7 @@
 #include "io/scene/load_scene.h"
 
 #include "io/gltf/gltf_builder.h"
+#include "io/scene/animated_scene.h"
 #include "support/mesh_files.h"
 #include "support/toon_scene.h"
 
@@ -57,6 +58,26 @@ TEST(LoadScene, SeveralFormatsBecomeOneScene)
     EXPECT_EQ(scene.triangleCount(), 17U);
     ASSERT_EQ(scene.instances.size(), 3U);
     EXPECT_EQ(scene.primitives.at(scene.instances[2].primitive).material, 2U);
+}
+
+TEST(LoadScene, StrictRefusesWhatWouldBeLeftOut)
+{
+    const TempDir dir;
+    const std::filesystem::path whole = dir.write("whole.glb", triangleDocument().glb());
+    EXPECT_EQ(loadScene(std::span(&whole, 1), {.strict = true}).triangleCount(), 1U);
+    GltfBuilder builder = triangleDocument();
+    builder.document["meshes"][0]["primitives"].push_back(trianglePrimitive(builder));
+    builder.document["meshes"][0]["primitives"][1]["mode"] = kPoints;
+    const std::filesystem::path points = dir.write("points.glb", builder.glb());
+    EXPECT_EQ(loadScene(std::span(&points, 1)).warnings.size(), 1U);
+    expectInputError([&] { static_cast<void>(loadScene(std::span(&points, 1), {.strict = true})); },
+                     {"points.glb: points and lines left out", "strict loading refuses the file"});
+    const std::filesystem::path scene = dir.write("a.scene.json", R"({"objects": [{"file": "points.glb"}]})");
+    EXPECT_EQ(loadAnimatedScene(scene).warnings.size(), 1U);
+    AnimatedSceneOptions strict;
+    strict.load.strict = true;
+    expectInputError([&] { static_cast<void>(loadAnimatedScene(scene, strict)); },
+                     {"points.glb: points and lines left out"});
 }
 
 TEST(LoadScene, UpTurnsTheAxisToYWithoutMirroring)

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "io/file/utf16.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace zvo
+{
+
+namespace
+{
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::uint32_t kHighFirst = 0xD800; // high surrogates, then as many low ones
+constexpr std::uint32_t kLowFirst = 0xDC00;
+constexpr std::uint32_t kSurrogates = 0x400;
+constexpr std::uint32_t kSupplementary = 0x10000; // the first character that needs two surrogates
+constexpr std::uint32_t kReplacement = 0xFFFD;
+
+bool beginsWith(Bytes text, std::initializer_list<std::uint8_t> start)
+{
+    return text.size() >= start.size() && std::equal(start.begin(), start.end(), text.begin());
+}
+
+bool isAmong(std::uint32_t unit, std::uint32_t first)
+{
+    return unit >= first && unit < first + kSurrogates;
+}
+
+void appendUtf8(std::vector<std::uint8_t>& utf8, std::uint32_t character)
+{
+    const auto push = [&](std::uint32_t byte) { utf8.push_back(static_cast<std::uint8_t>(byte)); };
+    const auto pushTail = [&](std::uint32_t shift) { push(0x80U | ((character >> shift) & 0x3FU)); };
+    if (character < 0x80)
+    {
+        push(character);
+    }
+    else if (character < 0x800)
+    {
+        push(0xC0U | (character >> 6U));
+        pushTail(0);
+    }
+    else if (character < kSupplementary)
+    {
+        push(0xE0U | (character >> 12U));
+        pushTail(6);
+        pushTail(0);
+    }
+    else
+    {
+        push(0xF0U | (character >> 18U));
+        pushTail(12);
+        pushTail(6);
+        pushTail(0);
+    }
+}
+
+std::vector<std::uint8_t> decodeUtf16(Bytes text, bool is_big_endian)
+{
+    const std::size_t unit_count = text.size() / 2;
+    const auto unitAt = [&](std::size_t index)
+    {
+        const std::uint32_t first = text[2 * index];
+        const std::uint32_t second = text[2 * index + 1];
+        return is_big_endian ? first << 8U | second : second << 8U | first;
+    };
+    std::vector<std::uint8_t> utf8;
+    utf8.reserve(text.size());
+    for (std::size_t i = 0; i < unit_count; ++i)
+    {
+        const std::uint32_t unit = unitAt(i);
+        if (!isAmong(unit, kHighFirst) && !isAmong(unit, kLowFirst))
+        {
+            appendUtf8(utf8, unit);
+        }
+        else if (isAmong(unit, kHighFirst) && i + 1 < unit_count && isAmong(unitAt(i + 1), kLowFirst))
+        {
+            ++i;
+            appendUtf8(utf8, kSupplementary + (unit - kHighFirst) * kSurrogates + (unitAt(i) - kLowFirst));
+        }
+        else
+        {
+            appendUtf8(utf8, kReplacement);
+        }
+    }
+    return utf8;
+}
+
+} // namespace
+
+std::optional<std::vector<std::uint8_t>> asUtf8(Bytes text)
+{
+    if (beginsWith(text, {0xEF, 0xBB, 0xBF}))
+    {
+        return std::vector<std::uint8_t>(text.begin() + 3, text.end());
+    }
+    if (beginsWith(text, {0xFE, 0xFF}) || beginsWith(text, {0xFF, 0xFE}))
+    {
+        return decodeUtf16(text.subspan(2), text[0] == 0xFE);
+    }
+    if (text.size() >= 2 && (text[0] == 0) != (text[1] == 0))
+    {
+        return decodeUtf16(text, text[0] == 0);
+    }
+    return std::nullopt;
+}
+
+} // namespace zvo
