@@ -64,6 +64,8 @@ TEST(GltfMaterials, FactorsAndModesAreRead)
     EXPECT_EQ(material.emission, glm::vec3(0.5F, 0.25F, 1.0F));
     EXPECT_EQ(material.alpha_mode, AlphaMode::Mask);
     EXPECT_EQ(material.alpha_cutoff, 0.75F);
+    EXPECT_TRUE(material.double_sided);
+    EXPECT_FALSE(materialOf({{"name", "leaf"}}).double_sided);
     EXPECT_EQ(materialOf({{"alphaMode", "BLEND"}}).alpha_mode, AlphaMode::Blend);
     EXPECT_EQ(materialOf({{"alphaMode", "MASK"}}).alpha_cutoff, 0.5F);
 }
