@@ -74,7 +74,7 @@ AnimatedScene boxes(const glm::dvec3& offset)
     AnimatedScene animated;
     animated.fixed = test::boxScene(glm::vec3(2.0F), glm::vec3(6.0F));
     animated.objects.emplace_back();
-    animated.objects.back().scene = test::boxScene(glm::vec3(3.0F), glm::vec3(7.0F));
+    animated.objects.back().scene = std::make_shared<const Scene>(test::boxScene(glm::vec3(3.0F), glm::vec3(7.0F)));
     animated.objects.back().transform = glm::translate(glm::dmat4(1.0), offset);
     return animated;
 }
