@@ -4,7 +4,6 @@
 #include "core/base/input_error.h"
 #include "core/base/read_file.h"
 #include "core/scene/scene_size.h"
-#include "io/image/image_io.h"
 #include "io/image/srgb.h"
 #include "io/mesh/obj_assimp_files.h"
 
@@ -53,8 +52,8 @@ WrapMode toWrapMode(int mode)
 class ObjReader
 {
 public:
-    ObjReader(const std::filesystem::path& path, const aiScene& source, bool with_materials)
-        : m_path(path), m_source(source), m_with_materials(with_materials)
+    ObjReader(const std::filesystem::path& path, const aiScene& source, bool with_materials, ImageDecoding decoding)
+        : m_path(path), m_source(source), m_with_materials(with_materials), m_decoding(decoding)
     {
     }
 
@@ -273,7 +272,11 @@ private:
         }
         try
         {
-            m_scene.images.push_back(decodeImage(readFile(*file), name, name, m_image_bytes_left));
+            const std::vector<std::uint8_t> encoded = readFile(*file);
+            m_scene.images.push_back(
+                m_decoding == ImageDecoding::WhenLoaded
+                    ? decodeImage(encoded, name, name, m_image_bytes_left)
+                    : deferImage(encoded, {*file, 0, encoded.size()}, name, name, m_path, m_image_bytes_left));
             m_image_bytes_left -= m_scene.images.back().rgba.size();
         }
         catch (const Error& failure)
@@ -288,6 +291,7 @@ private:
     const std::filesystem::path& m_path;
     const aiScene& m_source;
     bool m_with_materials;
+    ImageDecoding m_decoding;
     std::uint64_t m_image_bytes_left = sceneBytesMax();
     Scene m_scene;
     std::map<std::optional<unsigned int>, std::uint32_t> m_materials;
@@ -296,7 +300,7 @@ private:
 
 } // namespace
 
-Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes)
+Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, ImageDecoding decoding)
 {
     const std::string name = path.stem().string() + ".obj";
     Assimp::Importer importer;
@@ -315,7 +319,7 @@ Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> b
         throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", importer.GetErrorString(), kExportAgain));
     }
     const std::optional<std::string> missing = files->missing();
-    ObjReader reader(path, *source, !missing);
+    ObjReader reader(path, *source, !missing, decoding);
     if (missing)
     {
         reader.warn(fmt::format("colours left out, as there is no material file {}", *missing));

@@ -45,7 +45,7 @@ struct AnimatedSceneOptions
 {
     std::optional<std::filesystem::path> scenes_folder; // where else the files of objects may lie
     std::string scenes_folder_name = "scenes_folder";   // as whoever can choose it knows it, for messages
-    LoadOptions load = {};                              // of a file that is no scene file
+    LoadOptions load = {};                              // of a file that is no scene file; images: of all files
 };
 
 /// Loads a scene file and the files that it names, or any other file as animatedSceneOf() does. The files of objects

@@ -113,8 +113,8 @@ SceneSize sizeOf(const Scene& scene)
 class ObjectLoader
 {
 public:
-    ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths)
-        : m_scene_file_path(scene_file_path)
+    ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths, ImageDecoding decoding)
+        : m_scene_file_path(scene_file_path), m_decoding(decoding)
     {
         for (const fs::path& path : paths)
         {
@@ -128,7 +128,7 @@ public:
         File& file = m_files.at(path);
         if (!file.is_loaded)
         {
-            file.scene = loadScene(std::span(&path, 1), {.every_animation = true});
+            file.scene = loadScene(std::span(&path, 1), {.every_animation = true, .images = m_decoding});
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
         }
@@ -157,6 +157,7 @@ private:
     };
 
     const fs::path& m_scene_file_path;
+    ImageDecoding m_decoding;
     std::map<fs::path, File> m_files;
     SceneSize m_size; // of all objects
 };
@@ -356,7 +357,7 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
     {
         animated.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
     }
-    ObjectLoader loader(path, animated.files);
+    ObjectLoader loader(path, animated.files, options.load.images);
     for (std::size_t i = 0; i < file.objects.size(); ++i)
     {
         const SceneFileObject& object = file.objects[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "io/image/image_io.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -26,6 +27,7 @@ struct LoadOptions
     UpAxis up = UpAxis::Y;
     float scale = 1.0F;           // world units of a unit of the file, above 0
     bool every_animation = false; // keeps all animations of a file, for keepAnimation(); otherwise only the first one
+    ImageDecoding images = ImageDecoding::WhenLoaded;
 };
 
 /// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content
