@@ -84,8 +84,10 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
     for (const DynamicObject& object : m_animated.objects)
     {
         m_info.moving_triangle_count += object.scene.triangleCount();
-        m_objects.push_back(m_dynamic->add(
-            uploadDynamicMesh(device, object.scene, options.attributes, dynamic.emission_scale), poseAt(object, 0.0)));
+        std::shared_ptr<const DynamicMesh> mesh =
+            uploadDynamicMesh(device, object.scene, options.attributes, dynamic.emission_scale);
+        std::ranges::for_each(mesh->uploaded.warnings, listener.warn);
+        m_objects.push_back(m_dynamic->add(std::move(mesh), poseAt(object, 0.0)));
     }
 }
 
