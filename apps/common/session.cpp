@@ -104,8 +104,10 @@ Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadO
     return scene;
 }
 
-AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in_motion)
+AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in_motion, ImageDecoding decoding)
 {
+    LoadOptions load = options.load;
+    load.images = decoding;
     const bool is_scene_file = std::any_of(options.scenes.begin(), options.scenes.end(), isSceneFile);
     if (!is_scene_file && options.scenes_folder)
     {
@@ -115,16 +117,16 @@ AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in
     if (is_scene_file)
     {
         checkSceneFileOptions(options);
-        animated = loadAnimatedScene(options.scenes.front(), {options.scenes_folder, "--scenes", options.load});
+        animated = loadAnimatedScene(options.scenes.front(), {options.scenes_folder, "--scenes", load});
     }
     else if (in_motion)
     {
-        animated = animatedSceneOf(loadScene(options.scenes, options.load), options.scenes.front().stem().string());
+        animated = animatedSceneOf(loadScene(options.scenes, load), options.scenes.front().stem().string());
         animated.files = options.scenes;
     }
     else
     {
-        animated.fixed = loadScene(options.scenes, options.load);
+        animated.fixed = loadScene(options.scenes, load);
         animated.files = options.scenes;
         tellWarnings(animated.fixed.warnings);
         tellWarnings(animated.fixed.rest_warnings);
@@ -140,6 +142,15 @@ AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in
         talk("warning: nothing moves in this scene, it is the same at every --time");
     }
     return animated;
+}
+
+GpuScene uploadWithWarnings(vk::HeadlessDevice& device, const Scene& scene, const VoxelOptions& options,
+                            const Grid& grid, Progress& progress)
+{
+    GpuScene uploaded = uploadScene(device, scene, options.hasAttributes(), std::nullopt,
+                                    {grid, options.coverage, [&](double done) { progress.within(done); }});
+    tellWarnings(uploaded.warnings);
+    return uploaded;
 }
 
 Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const Bounds& bounds)

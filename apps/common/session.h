@@ -2,10 +2,12 @@
 // Functions that several commands share.
 #pragma once
 
+#include "common/progress.h"
 #include "common/scene_options.h"
 #include "core/base/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/scene/scene.h"
+#include "core/upload/gpu_scene.h"
 #include "io/scene/animated_scene.h"
 #include "vk/headless.h"
 
@@ -26,9 +28,14 @@ vk::HeadlessOptions headlessOptions(const DeviceOptions& options);
 Scene loadWithWarnings(std::span<const std::filesystem::path> paths, const LoadOptions& options);
 
 /// Loads what options name: a scene file with everything that it names, or other files as one scene. in_motion: whether
-/// times were asked for; if not, other files stand at rest. Reports what was left out. Throws Error{Input}, and
-/// Error{Usage} for options that do not fit the files.
-AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in_motion);
+/// times were asked for; if not, other files stand at rest. decoding: of their images. Reports what was left out.
+/// Throws Error{Input}, and Error{Usage} for options that do not fit the files.
+AnimatedScene loadAnimatedSceneWithWarnings(const VoxelOptions& options, bool in_motion,
+                                            ImageDecoding decoding = ImageDecoding::WhenLoaded);
+
+/// Uploads a scene for its grid. Shows the progress of decoding images, and reports those that do not decode.
+GpuScene uploadWithWarnings(vk::HeadlessDevice& device, const Scene& scene, const VoxelOptions& options,
+                            const Grid& grid, Progress& progress);
 
 /// The grid that options or the animated scene ask for, or else the grid around bounds, those of the animated scene.
 Grid placeGrid(const VoxelOptions& options, const AnimatedScene& animated, const Bounds& bounds);

@@ -111,7 +111,8 @@ void buildFile(const BuildFileOptions& options)
 
     Progress progress(4);
     progress.begin("loading");
-    AnimatedScene animated = loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value());
+    AnimatedScene animated =
+        loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value(), ImageDecoding::WhenUploaded);
     checkPaths(options.output, animated.files);
     warnOfMergeRule(animated);
     const Grid grid = placeGrid(options.voxels, animated, boundsOverTime(animated));
@@ -120,7 +121,7 @@ void buildFile(const BuildFileOptions& options)
 
     progress.begin("copying to the device");
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
-    std::optional<GpuScene> gpu_scene = uploadScene(device, scene, options.voxels.hasAttributes());
+    std::optional<GpuScene> gpu_scene = uploadWithWarnings(device, scene, options.voxels, grid, progress);
     scene = {};
 
     progress.begin("building");

@@ -189,6 +189,8 @@ private:
         m_triangle_count = scene.triangleCount();
         StaticListener listener;
         listener.operation = [&](std::string_view operation) { m_progress.begin(operation); };
+        listener.decoded = [&](double done) { m_progress.within(done); };
+        listener.warn = [](const std::string& warning) { talk(fmt::format("warning: {}", warning)); };
         listener.built = [&](const BuildResult& built)
         {
             // Only once, not for each frame.
@@ -375,7 +377,9 @@ void render(const RenderOptions& options)
     {
         voxels.time.reset(); // only the camera moves, so the time is its own
     }
-    AnimatedScene animated = loadAnimatedSceneWithWarnings(voxels, options.frames || options.voxels.time);
+    AnimatedScene animated = loadAnimatedSceneWithWarnings(
+        voxels, options.frames || options.voxels.time,
+        options.rebuild ? ImageDecoding::WhenLoaded : ImageDecoding::WhenUploaded); // once for all frames
     const bool moves = !animated.objects.empty();
     const std::uint32_t compressions = options.structure == TreeStructure::Svdag ? 1 : 0;
     progress.expect(!moves            ? 3 + compressions + pictures.count()

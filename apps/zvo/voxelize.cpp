@@ -51,7 +51,8 @@ void voxelize(const VoxelizeOptions& options)
 
     Progress progress(4);
     progress.begin("loading");
-    AnimatedScene animated = loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value());
+    AnimatedScene animated =
+        loadAnimatedSceneWithWarnings(options.voxels, options.voxels.time.has_value(), ImageDecoding::WhenUploaded);
     checkPaths(options.output, animated.files);
     warnOfMergeRule(animated);
     const Grid grid = placeGrid(options.voxels, animated, boundsOverTime(animated));
@@ -60,7 +61,7 @@ void voxelize(const VoxelizeOptions& options)
 
     progress.begin("copying to the device");
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
-    const GpuScene gpu_scene = uploadScene(device, scene, options.voxels.hasAttributes());
+    const GpuScene gpu_scene = uploadWithWarnings(device, scene, options.voxels, grid, progress);
     scene = {};
 
     progress.begin("voxelizing");

@@ -57,10 +57,12 @@ struct Material
 };
 GPU_BUFFER(Material, 4);
 
+const uint kLeastLevelShift = 16u; // of TextureInfo::level_range
+
 struct TextureInfo
 {
     uint first_level; // in SceneView::levels
-    uint level_count;
+    uint level_range; // number of levels | the first one that is stored << kLeastLevelShift
     uint wrap_u;
     uint wrap_v;
 };
@@ -68,7 +70,7 @@ GPU_BUFFER(TextureInfo, 4);
 
 struct TextureLevel
 {
-    uint first_texel; // in SceneView::texels
+    uint first_texel; // in SceneView::texels; kAbsent where the level is not stored
     uint width;
     uint height;
 };
@@ -86,7 +88,7 @@ struct SceneView
     GPU_CONST_PTR(Material) materials;
     GPU_CONST_PTR(TextureInfo) textures;
     GPU_CONST_PTR(TextureLevel) levels;
-    GPU_CONST_PTR(uint64_t) texels;     // linear r | g << 16 | b << 32 as 16-bit fractions, 8-bit alpha << 48
+    GPU_CONST_PTR(uint) texels;         // r | g << 8 | b << 16 | alpha << 24, 8 bits each; colour as sRGB codes
     GPU_CONST_PTR(uint) srgb_to_linear; // [256] 8-bit sRGB to linear 16-bit fraction
     GPU_CONST_PTR(uint) linear_to_srgb; // [16384] linear 16-bit fraction to 8-bit sRGB, four a word
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the raster kernels load of a scene and of the lists of big triangles: by address, or, in their bound form
 // (lib/bound.glsl), from texels. Bindings 0 to 2 are those of lib/bricks.glsl and voxelize/sums.glsl, 13 and 14 those of
-// voxelize/rows.glsl, 15 is that of lib/attribute.glsl. A kernel has 14 texel buffers at most; Vulkan promises 16.
+// voxelize/rows.glsl, 15 and 16 those of lib/attribute.glsl. A kernel has 15 texel buffers at most; Vulkan promises 16.
 #ifdef BOUND
 
 TEXELS_1(3, draws);
@@ -13,7 +13,7 @@ TEXELS_2(8, colors);
 TEXELS_4(9, materials);
 TEXELS_4(10, textures);
 TEXELS_3(11, levels);
-TEXELS_2(12, texels);
+TEXELS_1(12, texels);
 
 #define SceneTexels uint // stands for an address that this form does not need
 #define SCENE_TEXELS 0u
@@ -81,15 +81,15 @@ TextureLevel loadLevel(uint i)
     return TextureLevel(words.x, words.y, words.z);
 }
 
-uvec2 loadTexel(SceneTexels texels, uint i)
+uint loadTexel(SceneTexels texels, uint i)
 {
-    return texelFetch(texels2_texels, int(i)).xy;
+    return texelFetch(texels1_texels, int(i)).x;
 }
 
 #else
 
 // For loadTexel(). To be read before a loop: in it, the address would be loaded each time.
-#define SceneTexels uint64_t_ConstPtr
+#define SceneTexels uint_ConstPtr
 #define SCENE_TEXELS params.scene.data[0].texels
 
 Draw loadDraw(uint number)
@@ -137,9 +137,9 @@ TextureLevel loadLevel(uint i)
     return params.scene.data[0].levels.data[i];
 }
 
-uvec2 loadTexel(SceneTexels texels, uint i)
+uint loadTexel(SceneTexels texels, uint i)
 {
-    return unpack32(texels.data[i]);
+    return texels.data[i];
 }
 
 #endif

@@ -9,6 +9,7 @@ struct Surface
     ivec3 uv_u; // of the three vertices, 16.16
     ivec3 uv_v;
     SceneTexels texels;
+    LinearTable linear_table; // of the texels' colours
     TextureInfo texture;
     TextureLevel level; // the level of detail that suits the triangle
     bool textured;
@@ -72,9 +73,10 @@ TextureLevel pickLevel(TextureInfo info, ivec3 uv_u, ivec3 uv_v, float double_ar
     float uv_area = float(abs(d1.x * d2.y - d2.x * d1.y));
     TextureLevel level = loadLevel(info.first_level);
     precise float texels = uv_area * (float(level.width * level.height) * (1.0 / float(kUvOne)));
-    float budget = double_area * 2.0;
-    uint l = 0u;
-    for (; l + 1u < info.level_count && texels > budget; ++l)
+    uint level_count = info.level_range & ((1u << kLeastLevelShift) - 1u);
+    uint l = info.level_range >> kLeastLevelShift; // no triangle of the scene asks for a level before it
+    float budget = double_area * 2.0 * float(1u << (2u * l));
+    for (; l + 1u < level_count && texels > budget; ++l)
         budget *= 4.0;
     return loadLevel(info.first_level + l);
 }
@@ -98,22 +100,28 @@ uvec3 texelPair(int64_t coordinate, uint size, uint wrap)
     return uvec3(first, second, (x >> 8) & 255);
 }
 
+// Linear colour as 16-bit fractions, and 8-bit alpha.
+uvec4 linearTexel(Surface surface, uint i)
+{
+    uint texel = loadTexel(surface.texels, i);
+    return uvec4(linearColor(surface.linear_table, texel), texel >> 24);
+}
+
 // Linear colour and alpha as 16-bit fractions, filtered bilinearly.
-uvec4 sampleTexture(SceneTexels texels, TextureInfo info, TextureLevel level, ivec3 uv_u, ivec3 uv_v,
-                    uvec3 weights)
+uvec4 sampleTexture(Surface surface, TextureInfo info, TextureLevel level, uvec3 weights)
 {
     i64vec3 w = i64vec3(weights);
-    i64vec3 by_u = w * i64vec3(uv_u);
-    i64vec3 by_v = w * i64vec3(uv_v);
+    i64vec3 by_u = w * i64vec3(surface.uv_u);
+    i64vec3 by_v = w * i64vec3(surface.uv_v);
     uvec3 x = texelPair((by_u.x + by_u.y + by_u.z) >> 16, level.width, info.wrap_u);
     uvec3 y = texelPair((by_v.x + by_v.y + by_v.z) >> 16, level.height, info.wrap_v);
     uvec2 wx = uvec2(256u - x.z, x.z);
     uvec2 wy = uvec2(256u - y.z, y.z);
     uvec2 row = level.first_texel + y.xy * level.width;
-    uvec4 sum = unpackFractions(loadTexel(texels, row.x + x.x)) * (wx.x * wy.x) +
-                unpackFractions(loadTexel(texels, row.x + x.y)) * (wx.y * wy.x) +
-                unpackFractions(loadTexel(texels, row.y + x.x)) * (wx.x * wy.y) +
-                unpackFractions(loadTexel(texels, row.y + x.y)) * (wx.y * wy.y);
+    uvec4 sum = linearTexel(surface, row.x + x.x) * (wx.x * wy.x) +
+                linearTexel(surface, row.x + x.y) * (wx.y * wy.x) +
+                linearTexel(surface, row.y + x.x) * (wx.x * wy.y) +
+                linearTexel(surface, row.y + x.y) * (wx.y * wy.y);
     return (uvec4(sum.rgb, sum.a * 257u) + 32768u) >> 16;
 }
 
@@ -122,7 +130,7 @@ uvec4 fragmentColor(Surface surface, uvec3 weights)
 {
     uvec4 color = uvec4(kFractionOne);
     if (kMaterialClass != kClassPlain && surface.textured)
-        color = sampleTexture(surface.texels, surface.texture, surface.level, surface.uv_u, surface.uv_v, weights);
+        color = sampleTexture(surface, surface.texture, surface.level, weights);
     color = uvec4(mul16(color.rgb, surface.factor.rgb), mul16(color.a, surface.factor.a));
     if (surface.colored)
     {
@@ -164,8 +172,7 @@ uvec3 fragmentEmission(Surface surface, uvec3 weights)
     uvec3 emission = surface.emission;
     if (kMaterialClass != kClassPlain && surface.emission_textured)
     {
-        uvec4 texel = sampleTexture(surface.texels, surface.emission_texture, surface.emission_level, surface.uv_u,
-                                    surface.uv_v, weights);
+        uvec4 texel = sampleTexture(surface, surface.emission_texture, surface.emission_level, weights);
         emission = mul16(emission, texel.rgb);
     }
     return emission;

@@ -12,6 +12,7 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
     surface.emission = unpackFractions(material.emission).rgb;
     bool has_uv = kMaterialClass != kClassPlain && draw.first_uv != kAbsent;
     surface.texels = SCENE_TEXELS;
+    surface.linear_table = LINEAR_TABLE(params.scene);
     surface.textured = has_uv && material.base_texture != kAbsent;
     surface.emission_textured = kEmits && has_uv && kMode != kModeCoverage && material.emission_texture != kAbsent;
     if (has_uv)

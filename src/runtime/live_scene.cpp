@@ -91,6 +91,7 @@ LiveScene::LiveScene(vk::HeadlessDevice& device, AnimatedScene animated, const G
         if (mesh == nullptr)
         {
             mesh = uploadDynamicMesh(device, *object.scene, options.attributes, dynamic.emission_scale);
+            std::ranges::for_each(mesh->uploaded.warnings, listener.warn);
         }
         m_objects.push_back(m_dynamic->add(mesh, poseAt(object, 0.0)));
     }

@@ -4,6 +4,7 @@
 #include "core/headless/compress.h"
 #include "core/upload/gpu_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace zvo
@@ -14,7 +15,9 @@ StaticPart makeStaticPart(vk::HeadlessDevice& device, Scene scene, const Grid& g
 {
     listener.operation("copying to the device");
     const std::uint64_t triangle_count = scene.triangleCount();
-    std::optional<GpuScene> uploaded = uploadScene(device, scene, options.attributes, emission_scale);
+    std::optional<GpuScene> uploaded =
+        uploadScene(device, scene, options.attributes, emission_scale, {grid, options.coverage, listener.decoded});
+    std::ranges::for_each(uploaded->warnings, listener.warn);
     scene = {};
     listener.operation("voxelizing");
     BuildResult built = buildOctree(device, *uploaded, grid, options);

@@ -19,12 +19,14 @@
 namespace zvo
 {
 
-/// Functions that are called while a static part is made: before each operation with its name, and with the octree
-/// before it is compressed.
+/// Functions that are called while a static part is made: before each operation with its name, while images are
+/// decoded, for each warning, and with the octree before it is compressed.
 struct StaticListener
 {
     std::function<void(std::string_view)> operation = [](std::string_view) {};
     std::function<void(const BuildResult&)> built = [](const BuildResult&) {};
+    std::function<void(double)> decoded = [](double) {};                      // the fraction of the images
+    std::function<void(const std::string&)> warn = [](const std::string&) {}; // GpuScene::warnings
 };
 
 /// Counts and sizes of a static part.

@@ -48,6 +48,8 @@ struct Grid
 
     /// The cube with bounds' minimum corner and the length of its longest edge. Throws Error{Usage} for empty bounds.
     static Grid withCorner(const Bounds& bounds, std::uint32_t depth);
+
+    bool operator==(const Grid&) const = default;
 };
 
 /// A cube of (1 << depth)^3 voxels of a grid, or the whole grid. The grid is divided into such cubes; `index` numbers

@@ -66,4 +66,20 @@ std::vector<std::uint8_t> readFile(const std::filesystem::path& path)
     return bytes;
 }
 
+std::vector<std::uint8_t> readFile(const std::filesystem::path& path, std::uint64_t first, std::uint64_t count)
+{
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+    if (!file || fseeko(file.get(), static_cast<off_t>(first), SEEK_SET) != 0)
+    {
+        throw readError(path, errno);
+    }
+    std::vector<std::uint8_t> bytes(count);
+    if (std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+    {
+        throw Error(ErrorCode::Input,
+                    fmt::format("cannot read {}: it has become shorter; load it again", path.string()));
+    }
+    return bytes;
+}
+
 } // namespace zvo

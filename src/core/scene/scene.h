@@ -6,7 +6,10 @@
 #include "zvo/types.h"
 
 #include <cstdint>
+#include <cstdlib>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,13 +17,23 @@
 namespace zvo
 {
 
-/// A decoded picture: width * height * 4 bytes, rows from the top, RGBA with straight alpha, colour sRGB encoded.
+/// Frees what malloc() has allocated.
+struct FreePixels
+{
+    void operator()(std::uint8_t* pixels) const { std::free(pixels); }
+};
+
+/// The bytes of a picture, as decoders leave them.
+using Pixels = std::unique_ptr<std::uint8_t[], FreePixels>;
+
+/// A picture: width * height * 4 bytes, rows from the top, RGBA with straight alpha, colour sRGB encoded.
 struct Image
 {
     std::string name;
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<std::uint8_t> rgba;
+    std::vector<std::uint8_t> rgba;      // the bytes; empty where decode makes them
+    std::function<Pixels()> decode = {}; // makes the bytes, anew in each call, in any thread; throws Error{Input}
 };
 
 /// An image, and how texture coordinates outside of it are treated.

@@ -2,6 +2,8 @@
 #include "core/upload/gpu_scene.h"
 
 #include "core/upload/draws.h"
+#include "core/upload/fixed_uv.h"
+#include "core/upload/texture_levels.h"
 #include "core/upload/texture_pool.h"
 
 #include <algorithm>
@@ -24,13 +26,6 @@ std::uint32_t toFraction(float value)
 gpu::uvec2 packFractions(const glm::vec4& v)
 {
     return {toFraction(v.r) | toFraction(v.g) << 16, toFraction(v.b) | toFraction(v.a) << 16};
-}
-
-int toFixedUv(float value)
-{
-    const float limit = gpu::kUvLimit;
-    const float clamped = std::isnan(value) ? 0.0F : std::clamp(value, -limit, limit);
-    return static_cast<int>(std::nearbyint(clamped * static_cast<float>(gpu::kUvOne)));
 }
 
 std::uint32_t wrapOf(WrapMode mode)
@@ -89,7 +84,7 @@ void addPrimitive(Staging& staging, const Primitive& primitive)
     staging.normals.insert(staging.normals.end(), primitive.normals.begin(), primitive.normals.end());
     for (const glm::vec2& uv : primitive.uvs)
     {
-        staging.uvs.emplace_back(toFixedUv(uv.x), toFixedUv(uv.y));
+        staging.uvs.push_back(toFixedUv(uv));
     }
     for (const glm::vec4& color : primitive.colors)
     {
@@ -115,24 +110,22 @@ std::vector<bool> neededTextures(const Scene& scene, bool attributes)
     return needed;
 }
 
-void addTextures(Staging& staging, const Scene& scene, const std::vector<bool>& needed)
+void addTextures(Staging& staging, const Scene& scene, const std::vector<bool>& needed, const TextureOptions& options)
 {
-    struct ImageOffset
-    {
-        std::uint32_t first_level = gpu::kAbsent;
-        std::uint32_t level_count = 0;
-    };
-    std::vector<ImageOffset> images(scene.images.size());
+    const std::vector<std::uint32_t> least_levels = options.grid
+                                                        ? leastLevels(scene, needed, *options.grid, options.coverage)
+                                                        : std::vector<std::uint32_t>(scene.images.size(), 0);
+    std::vector<TexturePool::Place> places(scene.images.size());
     for (std::size_t i = 0; i < scene.textures.size(); ++i)
     {
         const Texture& texture = scene.textures[i];
-        ImageOffset& image = images[texture.image];
-        if (needed[i] && image.first_level == gpu::kAbsent)
+        TexturePool::Place& place = places[texture.image];
+        if (needed[i] && place.first_level == gpu::kAbsent)
         {
-            image.first_level = staging.pool.add(scene.images[texture.image], image.level_count);
+            place = staging.pool.add(scene.images[texture.image], least_levels[texture.image]);
         }
         staging.textures.push_back(
-            {image.first_level, image.level_count, wrapOf(texture.wrap_u), wrapOf(texture.wrap_v)});
+            {place.first_level, place.level_range, wrapOf(texture.wrap_u), wrapOf(texture.wrap_v)});
     }
 }
 
@@ -222,15 +215,17 @@ float brightestEmission(const Scene& scene)
     return brightest;
 }
 
-GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, std::optional<float> emission_scale)
+GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, std::optional<float> emission_scale,
+                     const TextureOptions& texture_options)
 {
     GpuScene result;
     result.has_attributes = attributes;
+    result.texture_grid = texture_options.grid;
     result.emission_scale = emission_scale ? *emission_scale : brightestEmission(scene);
 
     Staging staging;
     const std::vector<bool> needed = neededTextures(scene, attributes);
-    addTextures(staging, scene, needed);
+    addTextures(staging, scene, needed, texture_options);
     for (const Material& material : scene.materials)
     {
         addMaterial(staging, material, needed, result.emission_scale);
@@ -250,17 +245,16 @@ GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, 
         result.surface_area += triangleArea(primitive, glm::dmat3(instance.transform));
     }
 
-    const std::vector<std::uint64_t> texels = staging.pool.linearTexels();
-    staging.pool.texels = {};
     const auto& to_linear = srgbToLinearTable();
     const std::vector<std::uint32_t> to_srgb = packBytes(linearToSrgbTable());
-    device.device().memory().require(bytesOf(staging.draws, staging.triangles, staging.positions, staging.normals,
-                                             staging.uvs, staging.colors, staging.materials, staging.textures,
-                                             staging.pool.levels, texels, to_srgb, staging.whole_chunks[0],
-                                             staging.whole_chunks[1], staging.whole_chunks[2], staging.single_chunks[0],
-                                             staging.single_chunks[1], staging.single_chunks[2]) +
-                                         sizeof(to_linear) + sizeof(gpu::SceneView),
-                                     "the scene");
+    device.device().memory().require(
+        bytesOf(staging.draws, staging.triangles, staging.positions, staging.normals, staging.uvs, staging.colors,
+                staging.materials, staging.textures, staging.pool.levels(), to_srgb, staging.whole_chunks[0],
+                staging.whole_chunks[1], staging.whole_chunks[2], staging.single_chunks[0], staging.single_chunks[1],
+                staging.single_chunks[2]) +
+            staging.pool.texelCount() * sizeof(gpu::uint) + sizeof(to_linear) + sizeof(gpu::SceneView),
+        "the scene");
+    staging.pool.checkSize(device.device());
     static_assert(gpu::kClassCount == 3);
     result.draws = upload(device, "scene/draws", staging.draws);
     result.triangles = upload(device, "scene/triangles", staging.triangles);
@@ -270,8 +264,8 @@ GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes, 
     result.colors = upload(device, "scene/colors", staging.colors);
     result.materials = upload(device, "scene/materials", staging.materials);
     result.textures = upload(device, "scene/textures", staging.textures);
-    result.levels = upload(device, "scene/texture_levels", staging.pool.levels);
-    result.texels = upload(device, "scene/texels", texels);
+    result.levels = upload(device, "scene/texture_levels", staging.pool.levels());
+    result.texels = staging.pool.upload(device, texture_options.progress, result.warnings);
     result.srgb_to_linear = device.makeBuffer("scene/srgb_to_linear", std::span<const gpu::uint>(to_linear));
     result.linear_to_srgb = upload(device, "scene/linear_to_srgb", to_srgb);
     for (std::size_t i = 0; i < result.chunks.size(); ++i)

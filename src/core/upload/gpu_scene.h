@@ -2,17 +2,22 @@
 #pragma once
 
 #include "core/base/divide_up.h"
+#include "core/base/grid.h"
 #include "core/scene/scene.h"
 #include "shared/scene.h"
 #include "vk/device.h"
 #include "vk/frame_graph.h"
 #include "vk/uploader.h"
 #include "voxelize/voxelize.h"
+#include "zvo/types.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace zvo
 {
@@ -53,17 +58,19 @@ struct GpuScene
     vk::BufferOf<gpu::Material> materials;   // [materials]
     vk::BufferOf<gpu::TextureInfo> textures; // [textures]
     vk::BufferOf<gpu::TextureLevel> levels;  // [levels of all images]
-    vk::BufferOf<std::uint64_t> texels;      // [texels of all levels]
+    vk::BufferOf<gpu::uint> texels;          // [texels of all levels]
     vk::BufferOf<gpu::uint> srgb_to_linear;  // [256]
     vk::BufferOf<gpu::uint> linear_to_srgb;  // [16384]
     vk::BufferOf<gpu::SceneView> view;       // [1]
 
     std::array<TriangleChunks, gpu::kClassCount> chunks; // of the draws of each MaterialClass
 
-    bool has_attributes = false;      // the textures for colour and emission were uploaded
-    std::uint64_t triangle_count = 0; // those of a primitive count once for each instance
-    double surface_area = 0;          // world units squared
-    float emission_scale = 0;         // the emission that the fraction 1 stands for; 0: nothing emits light
+    std::vector<std::string> warnings; // of images that do not decode, one line each: their textures are white
+    std::optional<Grid> texture_grid;  // the one for whose voxels the textures have their levels; nothing: any
+    bool has_attributes = false;       // the textures for colour and emission were uploaded
+    std::uint64_t triangle_count = 0;  // those of a primitive count once for each instance
+    double surface_area = 0;           // world units squared
+    float emission_scale = 0;          // the emission that the fraction 1 stands for; 0: nothing emits light
 
     [[nodiscard]] const TriangleChunks& chunksOf(MaterialClass material_class) const
     {
@@ -74,13 +81,24 @@ struct GpuScene
 /// The largest emission of any material of scene; 0 if nothing emits light.
 float brightestEmission(const Scene& scene);
 
+/// How uploadScene() stores textures.
+struct TextureOptions
+{
+    /// The grid on which the scene is voxelized, at rest: levels that none of its triangles samples there are not
+    /// stored. By default all levels are.
+    std::optional<Grid> grid = std::nullopt;
+    Coverage coverage = Coverage::Conservative; // on that grid
+    std::function<void(double)> progress = {};  // is called while images are decoded, with the fraction that is done
+};
+
 /// Uploads scene through `device`, whose uploads take effect as vk/uploader.h says. attributes: false uploads only the
 /// textures that alpha needs. emission_scale: by default the scene's own brightestEmission(). Scenes that are voxelized
 /// into one octree need the same scale, the largest brightestEmission() of them all; emission beyond the scale is cut
-/// off. Throws Error{Memory} when the device's budget does not suffice, and Error{Input} for more than 2^32 - 1 of
-/// anything that has a 32-bit number.
+/// off. Images that the scene leaves encoded are decoded here; one that does not decode becomes white
+/// (GpuScene::warnings). Throws, before it decodes any, Error{Memory} when the device's budget does not suffice, and
+/// Error{Input} for more than 2^32 - 1 of anything that has a 32-bit number.
 GpuScene uploadScene(vk::Uploader& device, const Scene& scene, bool attributes,
-                     std::optional<float> emission_scale = std::nullopt);
+                     std::optional<float> emission_scale = std::nullopt, const TextureOptions& textures = {});
 
 /// The table of the addresses of scene's buffers.
 gpu::SceneView sceneView(const GpuScene& scene);

@@ -58,6 +58,7 @@ template <typename T> gpu::Ptr<T> accumulation(vk::AnyPass& pass, vk::BufferOf<T
 
 gpu::RasterParams rasterParams(vk::AnyPass& pass, const RasterWalk& walk, MaterialClass material_class)
 {
+    assert(walk.job.scene.uploaded().texture_grid.value_or(walk.job.tile.grid) == walk.job.tile.grid);
     const bool covers = walk.mode == RasterMode::Coverage; // lists and table are made then, and only read afterwards
     VoxelizeBuffers::RowWork& rows = walk.job.buffers.rowsOf(material_class);
     gpu::RasterParams params{};

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -313,6 +314,19 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
         }
         throw error(fmt::format("{} is not a valid data URI; {}", where, kExportAgain));
     }
+    const std::filesystem::path file = fileOf(uri, where);
+    try
+    {
+        return readFile(file);
+    }
+    catch (const Error& failure)
+    {
+        throw error(fmt::format("{}: {}", where, failure.what()));
+    }
+}
+
+std::filesystem::path GltfDocument::fileOf(const std::string& uri, const std::string& where) const
+{
     if (isRemoteUri(uri))
     {
         throw error(fmt::format("{} is {}: only files beside the document and data URIs are read; download it and name "
@@ -344,14 +358,21 @@ std::vector<std::uint8_t> GltfDocument::readUri(const std::string& uri, const st
     {
         throw error(fmt::format("{} is {}, which is not a file; name one", where, uri));
     }
-    try
+    return file;
+}
+
+std::optional<std::uint64_t> GltfDocument::offsetInFile(std::span<const std::uint8_t> bytes) const
+{
+    const std::vector<std::uint8_t>& content = storage.front();
+    const std::less_equal<const std::uint8_t*> precedes;
+    std::error_code unknown;
+    if (!precedes(content.data(), bytes.data()) ||
+        !precedes(bytes.data() + bytes.size(), content.data() + content.size()) ||
+        !std::filesystem::is_regular_file(path, unknown))
     {
-        return readFile(file);
+        return std::nullopt;
     }
-    catch (const Error& failure)
-    {
-        throw error(fmt::format("{}: {}", where, failure.what()));
-    }
+    return static_cast<std::uint64_t>(bytes.data() - content.data());
 }
 
 std::string GltfDocument::reason(const Error& error) const

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -104,6 +105,12 @@ struct GltfDocument
     /// The bytes that a URI names: its own data, or a file in the document's folder or below. where: the property with
     /// the URI, for messages. Throws Error{Input}.
     [[nodiscard]] std::vector<std::uint8_t> readUri(const std::string& uri, const std::string& where) const;
+
+    /// The file that a URI names, which lies in the document's folder or below. Throws Error{Input}.
+    [[nodiscard]] std::filesystem::path fileOf(const std::string& uri, const std::string& where) const;
+
+    /// The offset in the document's own file at which bytes stand; nothing where they are none of its bytes.
+    [[nodiscard]] std::optional<std::uint64_t> offsetInFile(std::span<const std::uint8_t> bytes) const;
 
     /// Counts bytes that are made of fewer bytes in the file, on the way to the scene: what decoders allocate, unpacked
     /// views, zeros that the file leaves out. checkGltfSize() bounds the scene by the counts that accessors announce;

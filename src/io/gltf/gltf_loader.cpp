@@ -27,7 +27,10 @@ namespace
 class SceneLoader
 {
 public:
-    explicit SceneLoader(const GltfDocument& document) : m_document(document) {}
+    SceneLoader(const GltfDocument& document, ImageDecoding decoding)
+        : m_document(document), m_materials(document, m_scene, m_warnings, decoding)
+    {
+    }
 
     Scene load()
     {
@@ -182,7 +185,7 @@ private:
     Scene m_scene;
     GltfWarnings& m_warnings = m_document.warnings;
     GltfWarnings m_rest_warnings;
-    GltfMaterials m_materials{m_document, m_scene, m_warnings};
+    GltfMaterials m_materials;
     std::map<int, std::vector<std::uint32_t>> m_mesh_primitives;
     std::vector<std::size_t> m_joint_counts; // [primitives of the scene]
 };
@@ -194,10 +197,10 @@ Scene loadGltf(const std::filesystem::path& path)
     return loadGltf(path, readFile(path));
 }
 
-Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content)
+Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content, ImageDecoding decoding)
 {
     const GltfDocument document = openGltf(path, std::move(content));
-    return SceneLoader(document).load();
+    return SceneLoader(document, decoding).load();
 }
 
 } // namespace zvo

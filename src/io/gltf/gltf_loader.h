@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "io/image/image_io.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,6 +20,7 @@ namespace zvo
 Scene loadGltf(const std::filesystem::path& path);
 
 /// The same for content in memory. Other files are looked for beside path.
-Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content);
+Scene loadGltf(const std::filesystem::path& path, std::vector<std::uint8_t> content,
+               ImageDecoding decoding = ImageDecoding::WhenLoaded);
 
 } // namespace zvo

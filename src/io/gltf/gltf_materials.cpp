@@ -2,12 +2,15 @@
 #include "io/gltf/gltf_materials.h"
 
 #include "core/scene/scene_size.h"
-#include "io/image/image_io.h"
+#include "io/gltf/gltf_uri.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace zvo
@@ -111,6 +114,21 @@ int imageOf(const tinygltf::Texture& texture)
     return has_webp ? extension->second.Get("source").GetNumberAsInt() : texture.source;
 }
 
+/// Where the bytes of an image can be read again; otherwise, a copy of them.
+EncodedImage encodedImage(const GltfDocument& document, const GltfImageSource& source,
+                          std::span<const std::uint8_t> encoded)
+{
+    if (source.buffer_view < 0 && !isDataUri(source.uri))
+    {
+        return {document.fileOf(source.uri, "uri"), 0, encoded.size()};
+    }
+    if (const std::optional<std::uint64_t> offset = document.offsetInFile(encoded))
+    {
+        return {document.path, *offset, encoded.size()};
+    }
+    return {.file = {}, .bytes = std::make_shared<std::vector<std::uint8_t>>(encoded.begin(), encoded.end())};
+}
+
 glm::dvec2 toVec2(const tinygltf::Value& value, const std::string& name, double missing)
 {
     if (!value.Has(name))
@@ -143,8 +161,9 @@ GltfUvSource uvSource(const tinygltf::TextureInfo& info)
 
 } // namespace
 
-GltfMaterials::GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings)
-    : m_document(document), m_scene(scene), m_warnings(warnings), m_image_bytes_left(sceneBytesMax())
+GltfMaterials::GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings, ImageDecoding decoding)
+    : m_document(document), m_scene(scene), m_warnings(warnings), m_decoding(decoding),
+      m_image_bytes_left(sceneBytesMax())
 {
 }
 
@@ -306,8 +325,12 @@ std::uint32_t GltfMaterials::image(int index)
     const std::string file = has_file ? source.uri : property;
     try
     {
-        m_scene.images.push_back(decodeImage(encoded, source.name.empty() ? file : source.name,
-                                             property + " (" + file + ")", m_image_bytes_left));
+        const std::string name = source.name.empty() ? file : source.name;
+        const std::string where = property + " (" + file + ")";
+        m_scene.images.push_back(m_decoding == ImageDecoding::WhenLoaded
+                                     ? decodeImage(encoded, name, where, m_image_bytes_left)
+                                     : deferImage(encoded, encodedImage(m_document, source, encoded), name, where,
+                                                  m_document.path, m_image_bytes_left));
         m_image_bytes_left -= m_scene.images.back().rgba.size();
     }
     catch (const Error& failure)

@@ -3,6 +3,7 @@
 
 #include "core/scene/scene.h"
 #include "io/gltf/gltf_document.h"
+#include "io/image/image_io.h"
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -32,12 +33,12 @@ struct GltfMaterial
     std::optional<GltfUvSource> uvs; // where it has a texture
 };
 
-/// Puts a document's materials, with their textures and decoded images, into a scene when they are first asked for. All
+/// Puts a document's materials, with their textures and images, into a scene when they are first asked for. All
 /// references must outlive it.
 class GltfMaterials
 {
 public:
-    GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings);
+    GltfMaterials(const GltfDocument& document, Scene& scene, GltfWarnings& warnings, ImageDecoding decoding);
 
     /// The material with that index in the document; -1: the default material. Textures whose image cannot be used are
     /// left out with a warning. Throws Error{Input}.
@@ -52,11 +53,12 @@ private:
     const GltfDocument& m_document;
     Scene& m_scene;
     GltfWarnings& m_warnings;
+    ImageDecoding m_decoding;
     std::map<int, GltfMaterial> m_materials;
     std::map<int, std::uint32_t> m_textures;      // indices into Scene::textures
     std::map<int, std::uint32_t> m_images;        // indices into Scene::images
     std::map<int, std::string> m_unusable_images; // why
-    std::uint64_t m_image_bytes_left;             // of images that are not decoded yet
+    std::uint64_t m_image_bytes_left;             // of images that are decoded when they are loaded
 };
 
 } // namespace zvo

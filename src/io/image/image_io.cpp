@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/image/image_io.h"
 
+#include "core/base/input_error.h"
+#include "core/base/read_file.h"
 #include "io/image/image_check.h"
 #include "zvo/error.h"
 
@@ -9,7 +11,8 @@
 #include <climits>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <memory>
+#include <string_view>
+#include <utility>
 #include <webp/decode.h>
 
 namespace
@@ -57,11 +60,6 @@ namespace
 constexpr int kChannels = 4;
 constexpr std::size_t kDecoderBytesMin = std::size_t{1} << 16U; // for its tables
 
-struct FreePixels
-{
-    void operator()(stbi_uc* pixels) const { stbi_image_free(pixels); }
-};
-
 Error imageError(const std::string& where, const std::string& what)
 {
     return {ErrorCode::Input, fmt::format("{}: {}", where, what)};
@@ -89,8 +87,18 @@ bool isWebp(std::span<const std::uint8_t> encoded)
     return text.starts_with("RIFF") && text.substr(std::min<std::size_t>(text.size(), 8)).starts_with("WEBP");
 }
 
-Image decodeWebp(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
-                 std::uint64_t bytes_max)
+/// What an encoded image announces.
+struct ImageHeader
+{
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::size_t decoder_bytes_max = 0; // of one allocation of the decoder
+
+    [[nodiscard]] std::size_t rgbaBytes() const { return std::size_t{width} * height * kChannels; }
+    bool operator==(const ImageHeader&) const = default;
+};
+
+ImageHeader readWebpHeader(std::span<const std::uint8_t> encoded, const std::string& where, std::uint64_t bytes_max)
 {
     WebPBitstreamFeatures features;
     if (WebPGetFeatures(encoded.data(), encoded.size(), &features) != VP8_STATUS_OK)
@@ -102,23 +110,11 @@ Image decodeWebp(std::span<const std::uint8_t> encoded, const std::string& name,
         throw imageError(where, "the WebP image is an animation; save one picture of it");
     }
     checkSize(features.width, features.height, bytes_max, where);
-    Image image{.name = name,
-                .width = static_cast<std::uint32_t>(features.width),
-                .height = static_cast<std::uint32_t>(features.height),
-                .rgba = {}};
-    image.rgba.resize(std::size_t{image.width} * image.height * kChannels);
-    if (WebPDecodeRGBAInto(encoded.data(), encoded.size(), image.rgba.data(), image.rgba.size(),
-                           features.width * kChannels) == nullptr)
-    {
-        throw imageError(where, "the WebP image does not decode; save it again");
-    }
-    return image;
+    return {static_cast<std::uint32_t>(features.width), static_cast<std::uint32_t>(features.height)};
 }
 
-} // namespace
-
-Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
-                  std::uint64_t bytes_max)
+/// Finds all that is wrong with an image before it is decoded.
+ImageHeader readHeader(std::span<const std::uint8_t> encoded, const std::string& where, std::uint64_t bytes_max)
 {
     const auto fail = [&](const std::string& what) { return imageError(where, what); };
     if (encoded.empty())
@@ -131,9 +127,8 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
     }
     if (isWebp(encoded))
     {
-        return decodeWebp(encoded, name, where, bytes_max);
+        return readWebpHeader(encoded, where, bytes_max);
     }
-    const auto encoded_bytes = static_cast<int>(encoded.size());
     int width = 0;
     int height = 0;
     int channels = 0;
@@ -142,32 +137,102 @@ Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name
     {
         throw fail(fmt::format("the image does not decode ({}); save it again", fault));
     }
-    if (stbi_info_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels) == 0)
+    if (stbi_info_from_memory(encoded.data(), static_cast<int>(encoded.size()), &width, &height, &channels) == 0)
     {
         throw fail("not a PNG, JPEG or WebP image, or its header is broken; save it as one of them");
     }
     checkSize(width, height, bytes_max, where);
-    const ImageCost cost =
-        estimateImageCost(encoded, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    ImageHeader header{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+    const ImageCost cost = estimateImageCost(encoded, header.width, header.height);
     if (!cost.plausible)
     {
         throw fail(fmt::format("the image announces {} x {} pixels, more than its {} bytes can hold; save it again",
                                width, height, encoded.size()));
     }
-    const std::size_t rgba_bytes = std::size_t{static_cast<std::uint32_t>(width)} * height * kChannels;
     // The factor 2 allows the decoder to double a buffer that is too small.
-    t_decoder_bytes_max = kDecoderBytesMin + 2 * (encoded.size() + std::max<std::size_t>(cost.raw_bytes, rgba_bytes));
-    const std::unique_ptr<stbi_uc, FreePixels> pixels(
-        stbi_load_from_memory(encoded.data(), encoded_bytes, &width, &height, &channels, kChannels));
+    header.decoder_bytes_max =
+        kDecoderBytesMin + 2 * (encoded.size() + std::max<std::size_t>(cost.raw_bytes, header.rgbaBytes()));
+    return header;
+}
+
+Pixels decodePixels(std::span<const std::uint8_t> encoded, const ImageHeader& header, const std::string& where)
+{
+    if (isWebp(encoded))
+    {
+        Pixels pixels(static_cast<std::uint8_t*>(std::malloc(header.rgbaBytes())));
+        if (!pixels || WebPDecodeRGBAInto(encoded.data(), encoded.size(), pixels.get(), header.rgbaBytes(),
+                                          static_cast<int>(header.width) * kChannels) == nullptr)
+        {
+            throw imageError(where, "the WebP image does not decode; save it again");
+        }
+        return pixels;
+    }
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    t_decoder_bytes_max = header.decoder_bytes_max;
+    Pixels pixels(stbi_load_from_memory(encoded.data(), static_cast<int>(encoded.size()), &width, &height, &channels,
+                                        kChannels)); // from decoderAllocate()
     if (!pixels)
     {
-        throw fail("the image does not decode; save it again");
+        throw imageError(where, "the image does not decode; save it again");
     }
+    return pixels;
+}
+
+std::vector<std::uint8_t> readAgain(const EncodedImage& source, const std::string& where)
+{
+    try
+    {
+        return readFile(source.file, source.first_byte, source.byte_count);
+    }
+    catch (const Error& failure)
+    {
+        throw imageError(where, failure.what());
+    }
+}
+
+} // namespace
+
+Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
+                  std::uint64_t bytes_max)
+{
+    const ImageHeader header = readHeader(encoded, where, bytes_max);
+    const Pixels pixels = decodePixels(encoded, header, where);
     Image image;
     image.name = name;
-    image.width = static_cast<std::uint32_t>(width);
-    image.height = static_cast<std::uint32_t>(height);
-    image.rgba.assign(pixels.get(), pixels.get() + std::size_t{image.width} * image.height * kChannels);
+    image.width = header.width;
+    image.height = header.height;
+    image.rgba.assign(pixels.get(), pixels.get() + header.rgbaBytes());
+    return image;
+}
+
+Image deferImage(std::span<const std::uint8_t> encoded, EncodedImage source, const std::string& name,
+                 const std::string& where, const std::filesystem::path& path, std::uint64_t bytes_max)
+{
+    const ImageHeader header = readHeader(encoded, where, bytes_max);
+    Image image;
+    image.name = name;
+    image.width = header.width;
+    image.height = header.height;
+    image.decode = [source = std::move(source), header, where, path, bytes_max]
+    {
+        try
+        {
+            const std::vector<std::uint8_t> read =
+                source.bytes ? std::vector<std::uint8_t>() : readAgain(source, where);
+            const std::span<const std::uint8_t> bytes = source.bytes ? *source.bytes : read;
+            if (readHeader(bytes, where, bytes_max) != header)
+            {
+                throw imageError(where, "the image has changed since its size was read; load it again");
+            }
+            return decodePixels(bytes, header, where);
+        }
+        catch (const Error& failure)
+        {
+            throw inputError(path, failure.what());
+        }
+    };
     return image;
 }
 

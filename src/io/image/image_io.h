@@ -4,6 +4,8 @@
 #include "core/scene/scene.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +21,27 @@ inline constexpr std::uint32_t kImageEdgeMax = 16384;
 /// an image of more than bytes_max decoded bytes.
 Image decodeImage(std::span<const std::uint8_t> encoded, const std::string& name, const std::string& where,
                   std::uint64_t bytes_max = UINT64_MAX);
+
+/// When the pictures of a file are decoded.
+enum class ImageDecoding
+{
+    WhenLoaded,
+    WhenUploaded // one after the other, when it is known which of their levels are needed; files are read again then
+};
+
+/// Where an encoded image stands.
+struct EncodedImage
+{
+    std::filesystem::path file; // byte_count bytes, from first_byte on
+    std::uint64_t first_byte = 0;
+    std::uint64_t byte_count = 0;
+    std::shared_ptr<const std::vector<std::uint8_t>> bytes = {}; // in place of the file
+};
+
+/// An image that decodes what decodeImage() would, when it is asked to: Image::decode, whose messages begin with path,
+/// that of the document. encoded: the bytes that source stands for. Throws as decodeImage() before it decodes.
+Image deferImage(std::span<const std::uint8_t> encoded, EncodedImage source, const std::string& name,
+                 const std::string& where, const std::filesystem::path& path, std::uint64_t bytes_max);
 
 /// A PNG file of width * height pixels from rgba, 4 bytes each, rows from the top. Equal pictures give equal bytes.
 std::vector<std::uint8_t> encodePng(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);

@@ -13,11 +13,12 @@
 namespace zvo
 {
 
-Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshFormat format)
+Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshFormat format,
+                 ImageDecoding decoding)
 {
     if (format == MeshFormat::Obj)
     {
-        return readObj(path, bytes);
+        return readObj(path, bytes, decoding);
     }
     std::vector<std::string> notes;
     Scene scene;

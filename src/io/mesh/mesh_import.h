@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "io/image/image_io.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +24,7 @@ enum class MeshFormat
 /// the file's folder or below; a texture that is missing or not an image is left out with a warning. bytes: the content
 /// of path. Throws Error{Input}, one line with the path, for a file that is broken or names a material file outside of
 /// its folder.
-Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshFormat format);
+Scene importMesh(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, MeshFormat format,
+                 ImageDecoding decoding = ImageDecoding::WhenLoaded);
 
 } // namespace zvo

@@ -6,7 +6,6 @@
 #include "core/scene/scene_size.h"
 #include "io/file/text_cursor.h"
 #include "io/file/utf16.h"
-#include "io/image/image_io.h"
 #include "io/image/srgb.h"
 #include "io/mesh/obj_assimp_files.h"
 #include "io/mesh/polygon_triangulator.h"
@@ -121,8 +120,8 @@ std::string findObjFault(std::string_view text)
 class ObjReader
 {
 public:
-    ObjReader(const std::filesystem::path& path, const aiScene& source, bool with_materials)
-        : m_path(path), m_source(source), m_with_materials(with_materials)
+    ObjReader(const std::filesystem::path& path, const aiScene& source, bool with_materials, ImageDecoding decoding)
+        : m_path(path), m_source(source), m_with_materials(with_materials), m_decoding(decoding)
     {
     }
 
@@ -362,7 +361,11 @@ private:
         }
         try
         {
-            m_scene.images.push_back(decodeImage(readFile(*file), name, name, m_image_bytes_left));
+            const std::vector<std::uint8_t> encoded = readFile(*file);
+            m_scene.images.push_back(
+                m_decoding == ImageDecoding::WhenLoaded
+                    ? decodeImage(encoded, name, name, m_image_bytes_left)
+                    : deferImage(encoded, {*file, 0, encoded.size()}, name, name, m_path, m_image_bytes_left));
             m_image_bytes_left -= m_scene.images.back().rgba.size();
         }
         catch (const Error& failure)
@@ -377,6 +380,7 @@ private:
     const std::filesystem::path& m_path;
     const aiScene& m_source;
     bool m_with_materials;
+    ImageDecoding m_decoding;
     std::uint64_t m_image_bytes_left = sceneBytesMax();
     PolygonTriangulator m_triangulator;
     std::vector<glm::vec3> m_corners; // of the current face
@@ -387,7 +391,7 @@ private:
 
 } // namespace
 
-Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> content)
+Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> content, ImageDecoding decoding)
 {
     const std::optional<std::vector<std::uint8_t>> utf8 = asUtf8(content);
     const std::span<const std::uint8_t> bytes = utf8 ? *utf8 : content;
@@ -409,7 +413,7 @@ Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> c
         throw inputError(path, fmt::format("not a valid OBJ file: {}; {}", findObjFault(text), kExportAgain));
     }
     const std::optional<std::string> missing = files->missing();
-    ObjReader reader(path, *source, !missing);
+    ObjReader reader(path, *source, !missing, decoding);
     if (missing)
     {
         reader.warn(fmt::format("colours left out, as there is no material file {}", *missing));

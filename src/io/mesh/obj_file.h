@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "io/image/image_io.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +13,6 @@ namespace zvo
 
 /// The triangles of an OBJ file with the colours and textures of its material files, read by assimp as importMesh()
 /// describes. bytes: the content of path. Throws Error{Input}.
-Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+Scene readObj(const std::filesystem::path& path, std::span<const std::uint8_t> bytes, ImageDecoding decoding);
 
 } // namespace zvo

@@ -46,7 +46,7 @@ struct AnimatedSceneOptions
 {
     std::optional<std::filesystem::path> scenes_folder; // where else the files of objects may lie
     std::string scenes_folder_name = "scenes_folder";   // as whoever can choose it knows it, for messages
-    LoadOptions load = {}; // of a file that is no scene file; of the files of objects, `strict` and what is left out
+    LoadOptions load = {}; // of a file that is no scene file; of the files of objects all but `up` and `scale`
 };
 
 /// Loads a scene file and the files that it names, or any other file as animatedSceneOf() does. The files of objects

@@ -73,7 +73,7 @@ fs::path resolve(const fs::path& scene_file_path, const SceneFileObject& object,
                                   fmt::join(names, " or "), folders.size() > 1 ? "another " : "", other_folder));
 }
 
-void moveBehind(std::vector<std::string>& into, std::vector<std::string>& from)
+template <typename Item> void moveBehind(std::vector<Item>& into, std::vector<Item>& from)
 {
     into.insert(into.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
     from.clear();
@@ -117,7 +117,7 @@ class ObjectLoader
 public:
     ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths, const LoadOptions& options)
         : m_scene_file_path(scene_file_path), m_keep_hulls(options.keep_hulls), m_strict(options.strict),
-          m_skipped(options.skip_materials)
+          m_images(options.images), m_skipped(options.skip_materials)
     {
         for (const fs::path& path : paths)
         {
@@ -131,8 +131,9 @@ public:
         File& file = m_files.at(path);
         if (!file.is_loaded)
         {
-            file.scene = loadScene(std::span(&path, 1),
-                                   {.every_animation = true, .keep_hulls = m_keep_hulls, .strict = m_strict});
+            file.scene = loadScene(
+                std::span(&path, 1),
+                {.every_animation = true, .keep_hulls = m_keep_hulls, .strict = m_strict, .images = m_images});
             m_skipped.leaveOut(file.scene);
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
@@ -166,6 +167,7 @@ private:
     const fs::path& m_scene_file_path;
     bool m_keep_hulls;
     bool m_strict;
+    ImageDecoding m_images;
     SkippedMaterials m_skipped;
     std::map<fs::path, File> m_files;
     SceneSize m_size; // of all objects
@@ -235,8 +237,15 @@ bool isDeformedAtAll(const Scene& scene)
                        { return isDeformed(scene.primitives[instance.primitive], instance); });
 }
 
+/// What objects share that are the same parts of the same file.
+struct SharedParts
+{
+    std::uint32_t first_fixed = kNone;   // primitive of AnimatedScene::fixed; kNone: not there yet
+    std::shared_ptr<const Scene> moving; // DynamicObject::scene; null: not there yet
+};
+
 /// Adds the static part, cameras included.
-void addFixed(AnimatedScene& animated, Scene&& scene, const glm::dmat4& to_world)
+void addFixed(AnimatedScene& animated, Scene&& scene, const glm::dmat4& to_world, SharedParts& shared)
 {
     if (isDeformedAtAll(scene))
     {
@@ -252,11 +261,24 @@ void addFixed(AnimatedScene& animated, Scene&& scene, const glm::dmat4& to_world
     {
         placeCamera(to_world, camera);
     }
-    animated.fixed.append(std::move(scene));
+    Scene& fixed = animated.fixed;
+    if (shared.first_fixed == kNone)
+    {
+        shared.first_fixed = static_cast<std::uint32_t>(fixed.primitives.size());
+        fixed.append(std::move(scene));
+        return;
+    }
+    for (Instance& instance : scene.instances)
+    {
+        instance.primitive += shared.first_fixed;
+    }
+    fixed.instances.insert(fixed.instances.end(), scene.instances.begin(), scene.instances.end());
+    moveBehind(fixed.cameras, scene.cameras);
 }
 
 /// Adds a dynamic object, which has no scene yet, with the instances of scene that move; the others become static.
-void addParts(AnimatedScene& animated, DynamicObject moving, Scene&& scene, const std::vector<bool>& moves)
+void addParts(AnimatedScene& animated, DynamicObject moving, Scene&& scene, const std::vector<bool>& moves,
+              SharedParts& shared)
 {
     moveBehind(animated.warnings, scene.warnings);
     if (!std::holds_alternative<std::monostate>(moving.motion))
@@ -265,22 +287,26 @@ void addParts(AnimatedScene& animated, DynamicObject moving, Scene&& scene, cons
     }
     if (std::find(moves.begin(), moves.end(), true) == moves.end())
     {
-        addFixed(animated, std::move(scene), moving.transform);
+        addFixed(animated, std::move(scene), moving.transform, shared);
         return;
     }
     std::vector<bool> stays = moves;
     stays.flip();
-    addFixed(animated, partOf(scene, stays), moving.transform);
+    addFixed(animated, partOf(scene, stays), moving.transform, shared);
     Scene part = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
     part.cameras.clear();
     part.rest_warnings.clear();
     const std::vector<bool> is_animated = animatedInstances(part);
     moving.deforms = std::find(is_animated.begin(), is_animated.end(), true) != is_animated.end();
-    moving.scene = std::make_shared<const Scene>(std::move(part));
+    if (shared.moving == nullptr)
+    {
+        shared.moving = std::make_shared<const Scene>(std::move(part));
+    }
+    moving.scene = shared.moving;
     animated.objects.push_back(std::move(moving));
 }
 
-void addObject(AnimatedScene& animated, const SceneFileObject& object, Scene&& scene)
+void addObject(AnimatedScene& animated, const SceneFileObject& object, Scene&& scene, SharedParts& shared)
 {
     const std::vector<bool> moves =
         object.is_dynamic ? std::vector<bool>(scene.instances.size(), *object.is_dynamic) : animatedInstances(scene);
@@ -288,31 +314,8 @@ void addObject(AnimatedScene& animated, const SceneFileObject& object, Scene&& s
     moving.name = object.name;
     moving.transform = object.transform;
     moving.motion = object.motion;
-    addParts(animated, std::move(moving), std::move(scene), moves);
+    addParts(animated, std::move(moving), std::move(scene), moves, shared);
 }
-
-// Lets objects that are the same parts of the same file share them.
-class SharedParts
-{
-public:
-    /// Adds object, of a file. Where it moves, its scene is that of an earlier object with the same parts, if any.
-    void add(AnimatedScene& animated, const SceneFileObject& object, const fs::path& file, Scene&& scene)
-    {
-        const std::size_t object_count = animated.objects.size();
-        addObject(animated, object, std::move(scene));
-        if (animated.objects.size() != object_count)
-        {
-            std::shared_ptr<const Scene>& part = m_parts[{file, object.animation, object.is_dynamic}];
-            std::shared_ptr<const Scene>& own = animated.objects.back().scene;
-            part = part == nullptr ? own : part;
-            own = part;
-        }
-    }
-
-private:
-    using Key = std::tuple<fs::path, decltype(SceneFileObject::animation), decltype(SceneFileObject::is_dynamic)>;
-    std::map<Key, std::shared_ptr<const Scene>> m_parts;
-};
 
 void checkCamera(const fs::path& scene_file_path, const AnimatedScene& animated)
 {
@@ -361,7 +364,8 @@ AnimatedScene animatedSceneOf(Scene scene, const std::string& name)
     const std::vector<bool> moves = animatedInstances(scene);
     DynamicObject moving;
     moving.name = name;
-    addParts(animated, std::move(moving), std::move(scene), moves);
+    SharedParts unshared;
+    addParts(animated, std::move(moving), std::move(scene), moves, unshared);
     return animated;
 }
 
@@ -391,14 +395,15 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
         animated.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
     }
     ObjectLoader loader(path, animated.files, options.load);
-    SharedParts parts;
+    using Key = std::tuple<fs::path, decltype(SceneFileObject::animation), decltype(SceneFileObject::is_dynamic)>;
+    std::map<Key, SharedParts> parts;
     for (std::size_t i = 0; i < file.objects.size(); ++i)
     {
         const SceneFileObject& object = file.objects[i];
         Scene scene = loader.load(animated.files[i]);
         checkTransform(path, object, scene);
         chooseAnimation(path, object, scene);
-        parts.add(animated, object, animated.files[i], std::move(scene));
+        addObject(animated, object, std::move(scene), parts[{animated.files[i], object.animation, object.is_dynamic}]);
     }
     for (std::string& warning : loader.skipped().warnings())
     {

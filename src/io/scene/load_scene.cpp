@@ -75,7 +75,7 @@ std::optional<FileFormat> formatOf(std::span<const std::uint8_t> bytes, const st
     return hasObjVertices(content) ? std::optional(FileFormat::Obj) : std::nullopt;
 }
 
-Scene loadFile(const std::filesystem::path& path)
+Scene loadFile(const std::filesystem::path& path, ImageDecoding decoding)
 {
     if (isSceneFile(path))
     {
@@ -96,13 +96,13 @@ Scene loadFile(const std::filesystem::path& path)
     switch (*format)
     {
     case FileFormat::Obj:
-        return importMesh(path, bytes, MeshFormat::Obj);
+        return importMesh(path, bytes, MeshFormat::Obj, decoding);
     case FileFormat::Ply:
         return importMesh(path, bytes, MeshFormat::Ply);
     case FileFormat::Stl:
         return importMesh(path, bytes, MeshFormat::Stl);
     default:
-        return loadGltf(path, std::move(bytes));
+        return loadGltf(path, std::move(bytes), decoding);
     }
 }
 
@@ -178,7 +178,7 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
     SkippedMaterials skipped(options.skip_materials);
     for (const std::filesystem::path& path : paths)
     {
-        Scene loaded = loadFile(path);
+        Scene loaded = loadFile(path, options.strict ? ImageDecoding::WhenLoaded : options.images);
         skipped.leaveOut(loaded);
         if (!options.keep_hulls)
         {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene.h"
+#include "io/image/image_io.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -30,7 +31,8 @@ struct LoadOptions
     bool every_animation = false; // keeps all animations of a file, for keepAnimation(); otherwise only the first one
     bool keep_hulls = false;      // of toon shading (io/scene/hulls.h); otherwise they are left out, with a warning
     bool strict = false;          // refuses files that Scene::warnings would have a line about
-    std::vector<std::string> skip_materials = {}; // patterns of names of materials to leave out (SkippedMaterials)
+    ImageDecoding images = ImageDecoding::WhenLoaded; // strict loading decodes them at once
+    std::vector<std::string> skip_materials = {};     // patterns of names of materials to leave out (SkippedMaterials)
 };
 
 /// Loads several files as one scene, in the order of the paths: glTF 2.0, OBJ, PLY and STL, told apart by their content

@@ -155,6 +155,9 @@ TEST_F(AnimatedSceneTest, ObjectsShareWhatIsTheSameInTheirFile)
     EXPECT_NE(animated.objects[0].scene, animated.objects[2].scene) << "all of it moves";
     EXPECT_EQ(animated.objects[1].scene, animated.objects[3].scene);
     EXPECT_EQ(animated.objects[2].scene, animated.objects[4].scene);
+    // The fixed parts of objects 1 and 3 are the same, that of object 0 is another one; 2 and 4 have none.
+    EXPECT_EQ(animated.fixed.triangleCount(), 6U);
+    EXPECT_EQ(animated.fixed.primitives.size(), 4U);
     EXPECT_EQ(corners(posedScene(*animated.objects[3].scene, poseAt(animated.objects[3], 1.0))).at(0),
               glm::vec3(0, 4, 0));
 }
