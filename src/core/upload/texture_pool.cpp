@@ -284,7 +284,7 @@ vk::BufferOf<gpu::uint> TexturePool::upload(vk::Uploader& device, const std::fun
         }
         catch (const Error& failure)
         {
-            warnings.push_back(std::string(failure.what()) + "; the texture is white");
+            warnings.push_back(std::string("texture left out: ") + failure.what());
         }
         decoding.pop_front();
         const std::span levels(&m_levels[entry.first_level], levelCount(entry.image->width, entry.image->height));

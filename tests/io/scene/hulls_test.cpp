@@ -147,9 +147,8 @@ TEST(Hulls, TheInnerSideOfAThickShellStays)
     expectAllKept(std::move(scene));
 }
 
-TEST(Hulls, HoldWhateverIsInThem)
+TEST(Hulls, AreFoundAmongThousandsOfInstances)
 {
-    // The hull of a ball lies around a box with flat sides, in a scene of thousands of instances.
     Scene scene = test::toonScene(64);
     const LeftOutHulls left_out = leaveOutHulls(scene);
     EXPECT_EQ(left_out.hull_count, 2U);
