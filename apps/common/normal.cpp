@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/normal.h"
 
+#include "shared/octree.h"
+
 #include <cmath>
 
 namespace zvo::cli
@@ -8,6 +10,10 @@ namespace zvo::cli
 
 glm::vec3 decodeNormal(std::uint32_t code)
 {
+    if (code == gpu::kNoNormal)
+    {
+        return glm::vec3(0.0F);
+    }
     constexpr double kOne = 32767.0; // 1 as a snorm16
     const double x = static_cast<std::int16_t>(code) / kOne;
     const double y = static_cast<std::int16_t>(code >> 16) / kOne;

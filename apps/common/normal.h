@@ -7,7 +7,7 @@
 namespace zvo::cli
 {
 
-/// The unit vector of an octahedral code (gpu::Attribute::normal).
+/// The unit vector of an octahedral code (gpu::Attribute::normal); 0 for gpu::kNoNormal.
 glm::vec3 decodeNormal(std::uint32_t code);
 
 } // namespace zvo::cli

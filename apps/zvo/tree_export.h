@@ -11,7 +11,8 @@ namespace zvo::cli
 void writeMorton(const TreeData& tree, Output& output);
 
 /// A binary little-endian PLY file: the voxels' centres in world space in Morton order, and, where the tree has
-/// attributes, unit normals and sRGB colours. After: G. Turk, The PLY Polygon File Format, 1994.
+/// attributes, unit normals (0 where there is none) and sRGB colours. After: G. Turk, The PLY Polygon File Format,
+/// 1994.
 void writePly(const TreeData& tree, Output& output);
 
 } // namespace zvo::cli

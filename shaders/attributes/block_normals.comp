@@ -4,7 +4,8 @@
 // eight steps (the form of BC5). An octahedral map is torn below its equator, where a block would need its whole scale.
 // So each block has its own frame: one of six poles, and coordinates along the axes or along the diagonals, whichever
 // gives the smallest sum of squared distances on the octahedron. A scale goes from the least to the greatest
-// coordinate, or is the least squares for the voxels' steps on that one. All in integers, with 1 as 4095.
+// coordinate, or is the least squares for the voxels' steps on that one. All in integers, with 1 as 4095. A block of
+// which more than half of the voxels have no normal has none.
 #extension GL_GOOGLE_include_directive : require
 #include "attributes/attributes.h"
 #include "attributes/scales.glsl"
@@ -20,10 +21,31 @@ const uint kFrames = 12u;
 
 ivec3 normals[kBlockVoxels]; // the absolute values of their components add up to kOne
 
-ivec3 loadNormal(uint index)
+ivec3 shortened(uint code)
 {
-    ivec2 p = max(normalCoordinates(params.attributes.data[index].normal), ivec2(-kNormalOne));
+    ivec2 p = max(normalCoordinates(code), ivec2(-kNormalOne));
     return unfoldNormal(sign(p) * ((abs(p) * kOne + kNormalOne / 2) / kNormalOne), kOne);
+}
+
+// Loads the normals of a block. For one that is missing stands in the last one before it, else the first one of all.
+// Returns how many are missing.
+uint loadNormals(uint first)
+{
+    uint codes[kBlockVoxels];
+    uint code = kNoNormal;
+    uint missing = 0u;
+    for (uint i = 0u; i < kBlockVoxels; ++i)
+    {
+        codes[i] = params.attributes.data[min(first + i, params.count - 1u)].normal;
+        code = code == kNoNormal ? codes[i] : code;
+        missing += codes[i] == kNoNormal ? 1u : 0u;
+    }
+    for (uint i = 0u; i < kBlockVoxels; ++i)
+    {
+        code = codes[i] == kNoNormal ? code : codes[i];
+        normals[i] = shortened(code);
+    }
+    return missing;
 }
 
 // Rotates v from the axes of the grid to a frame whose pole is z.
@@ -64,9 +86,7 @@ void main()
     uint block = threadIndex();
     if (block > (params.count - 1u) / kBlockVoxels)
         return;
-    uint first = block * kBlockVoxels;
-    for (uint i = 0u; i < kBlockVoxels; ++i)
-        normals[i] = loadNormal(min(first + i, params.count - 1u));
+    uint missing = loadNormals(block * kBlockVoxels);
     uvec4 best = uvec4(0u);
     uint best_error = ~0u;
     for (uint i = 0u; i < kFrames; ++i)
@@ -84,6 +104,8 @@ void main()
                          scales.planes);
         }
     }
+    if (2u * missing > kBlockVoxels)
+        best = uvec4(kFrameNone << kFrameShift, uvec3(0u));
     uint word = block * kBlockWords + kBlockNormals;
     params.words.data[word] = best.x;
     params.words.data[word + 1u] = best.y;

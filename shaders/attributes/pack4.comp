@@ -51,6 +51,7 @@ void main()
     Attribute look = params.attributes.data[index];
     ivec2 p = max(normalCoordinates(look.normal), ivec2(-kNormalOne));
     ivec2 normal = nearestNormal4(p, unfoldNormal(p, kNormalOne));
+    uint code = (uint(normal.x) & 255u) | (uint(normal.y) & 255u) << 8;
     params.words.data[index] = packColor565(nearestColor565(splitColor(look.color))) |
-                               ((uint(normal.x) & 255u) << kNormalShift4) | (uint(normal.y) << (kNormalShift4 + 8u));
+                               (look.normal == kNoNormal ? kNoNormal4 : code) << kNormalShift4;
 }

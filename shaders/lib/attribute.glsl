@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packing of attributes in integers, so that every device packs the same bytes.
 #include "lib/normal_code.glsl"
-#include "shared/octree.h"
 #include "shared/scene.h"
 
 // COLOR_BINDING (optional): the first of two bindings for the tables of colours in a kernel's bound form

@@ -22,7 +22,8 @@ Attribute unpackAttribute4(uint word)
 {
     uvec3 color = unpackColor565(word);
     ivec2 normal = widenNormal4(ivec2(int(word << 8) >> 24, int(word) >> 24));
-    return Attribute(color.r | (color.g << 8) | (color.b << 16), normalCode(normal));
+    bool has_normal = word >> kNormalShift4 != kNoNormal4;
+    return Attribute(color.r | (color.g << 8) | (color.b << 16), has_normal ? normalCode(normal) : kNoNormal);
 }
 
 // Converts coordinates of a block, in which 1 is `one`, to a vector with the pole as z.
@@ -65,6 +66,8 @@ uint unpackBlockNormal(uint ends, uvec3 planes, uint voxel)
     const int sum_one = kNormalEnd * int(kNormalIndexMax);
     ivec2 p = sign(sum) * ((abs(sum) * kNormalOne + sum_one / 2) / sum_one);
     uint frame = ends >> kFrameShift;
+    if ((frame & kFrameAxis) == kFrameNone)
+        return kNoNormal;
     ivec3 v = unturned(blockVector(p, frame, kNormalOne), frame);
     return normalCode(foldNormal(abs(v.xy), v, kNormalOne));
 }

@@ -142,5 +142,5 @@ Attribute averageChildren(SceneView_ConstPtr scene, Node node, AVERAGE_CHILDREN 
     }
     uint divisor = max(count, 1u); // lanes without a node look up a color like all others
     uvec3 color = divideSmall(sums.color + divisor / 2u, divisor);
-    return Attribute(packColor(scene, color, sums.flags), encodeNormal(sums.normal));
+    return Attribute(packColor(scene, color, sums.flags), encodeNormalSum(sums.normal, divisor * uint(kNormalOne)));
 }

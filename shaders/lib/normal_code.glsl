@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Octahedral codes of normals, in integers, so that every device packs the same bytes.
 #include "lib/divide.glsl"
+#include "shared/octree.h"
 
 const int kNormalOne = 32767;             // 1 as a snorm16
 const uint kNormalSumBits = 15u;          // components are shortened to this many bits before they are divided
+const uint kNoNormalRatio = 4u;           // a mean of unit vectors that is shorter than 1 / 4 has no direction
 const uint kNormalMask = (1u << 16) - 1u; // of a coordinate in a code
 
 // Octahedral coordinates of a vector from its signs and the absolute values of x and y, where those of all three add up
@@ -22,15 +24,32 @@ uint normalCode(ivec2 p)
     return (uint(p.x) & kNormalMask) | (uint(p.y) << 16);
 }
 
+// By how many bits components of this size are shortened.
+int normalShift(uvec3 size)
+{
+    return max(findMSB(size.x | size.y | size.z) + 1 - int(kNormalSumBits), 0);
+}
+
 // Octahedral code of the direction of v (Cigolle et al., A Survey of Efficient Representations for Independent Unit
 // Vectors, 2014). The zero vector becomes +z.
 uint encodeNormal(ivec3 v)
 {
     uvec3 size = uvec3(abs(v));
-    int shift = max(findMSB(size.x | size.y | size.z) + 1 - int(kNormalSumBits), 0);
-    size >>= shift;
+    size >>= normalShift(size);
     uint sum = max(size.x + size.y + size.z, 1u);
     return normalCode(foldNormal(ivec2(divideSmall(size.xy * uint(kNormalOne) + sum / 2u, sum)), v, kNormalOne));
+}
+
+// The code of a sum of vectors whose lengths add up to `whole`, which is below 2^31: kNoNormal if the sum is shorter than
+// whole / kNoNormalRatio.
+uint encodeNormalSum(ivec3 sum, uint whole)
+{
+    uvec3 size = uvec3(abs(sum));
+    int shift = normalShift(size);
+    size >>= shift;
+    uint least = min(whole / kNoNormalRatio >> shift, kNormalMask); // sizes below 2^15 make no longer vector
+    bool is_short = size.x * size.x + size.y * size.y + size.z * size.z < least * least;
+    return is_short ? kNoNormal : encodeNormal(sum);
 }
 
 // Vector of octahedral coordinates in which 1 is `one`; the components' absolute values add up to that.
@@ -47,8 +66,9 @@ ivec2 normalCoordinates(uint code)
     return ivec2(int(code << 16) >> 16, int(code) >> 16);
 }
 
-// Vector in the direction of an octahedral code; the components' absolute values add up to kNormalOne.
+// Vector in the direction of an octahedral code; the components' absolute values add up to kNormalOne. Zero for
+// kNoNormal.
 ivec3 decodeNormal(uint code)
 {
-    return unfoldNormal(normalCoordinates(code), kNormalOne);
+    return code == kNoNormal ? ivec3(0) : unfoldNormal(normalCoordinates(code), kNormalOne);
 }

@@ -5,6 +5,7 @@
 //   format 4: a word, from the lowest bit on
 //
 //     | red 5 | green 6 | blue 5 | x 8 | y 8 |       colour as fractions of 31 and 63, octahedral normal as two snorm8
+//                                                    or kNoNormal4
 //
 //   format of blocks: 6 words for 16 voxels that follow each other in Morton order; the last block is filled up with
 //   copies of the last voxel. Nodes have format 4.
@@ -17,7 +18,8 @@
 //
 //   A block has octahedral coordinates of its own. Their pole is the axis 0 (x), 1 (y) or 2 (z), or its negative end; x
 //   and y of the coordinates are the two axes that follow, cyclically. The ends of a scale are 0 to 126 for -63 to 63,
-//   which are -1 to 1. Diagonal: what is stored are (x + y) / 2 and (x - y) / 2.
+//   which are -1 to 1. Diagonal: what is stored are (x + y) / 2 and (x - y) / 2. With the axis 3 none of the voxels has
+//   a normal.
 //
 // Flags are in the format of 8 bytes alone: a voxel emits if its bit in the emission table is set.
 #ifndef ZVO_SHADERS_SHARED_ATTRIBUTE_FORMATS_H
@@ -36,8 +38,9 @@ const uint kFormatBlocks = 3u;
 const uint kRedBits = 5u; // of a packed colour, red in the lowest
 const uint kGreenBits = 6u;
 const uint kBlueBits = 5u;
-const uint kNormalShift4 = 16u; // of x in format 4
-const int kNormalOne4 = 127;    // 1 as a snorm8
+const uint kNormalShift4 = 16u;  // of x in format 4
+const int kNormalOne4 = 127;     // 1 as a snorm8
+const uint kNoNormal4 = 0x8080u; // kNoNormal
 
 const uint kBlockVoxels = 16u;
 const uint kBlockWords = 6u;
@@ -52,6 +55,7 @@ const uint kEndMax = 126u;
 const uint kFrameShift = 28u; // of a frame in its word
 const uint kFrameAxis = 3u;   // mask
 const uint kFrameAxes = 3u;
+const uint kFrameNone = 3u; // as an axis: no normals
 const uint kFrameNegative = 4u;
 const uint kFrameDiagonal = 8u;
 

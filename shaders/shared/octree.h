@@ -34,9 +34,13 @@ GPU_BUFFER(Node, 16);
 struct Attribute
 {
     uint color;  // sRGB red | green << 8 | blue << 16 | flags << 24
-    uint normal; // octahedral, snorm16 x | snorm16 y << 16
+    uint normal; // octahedral, snorm16 x | snorm16 y << 16; or kNoNormal
 };
 GPU_BUFFER(Attribute, 8);
+
+/// The normal of a voxel or node whose surfaces face all ways, such as both sides of a shell that is thinner than a
+/// voxel. It is shaded with the normal of the face that the ray comes in through. No direction has this code.
+const uint kNoNormal = 0x80008000u;
 
 const uint kAttributeEmissive = 1u; // flag: the voxel has an entry in the emission table
 

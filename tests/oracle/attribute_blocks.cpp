@@ -394,15 +394,35 @@ void packNormals(const std::array<Vector, kVoxels>& normals, Block& block)
 Block packBlock(std::span<const gpu::Attribute> attributes)
 {
     std::array<Color, kVoxels> colors{};
-    std::array<Vector, kVoxels> normals{};
+    std::array<std::uint32_t, kVoxels> codes{};
     for (std::size_t i = 0; i < kVoxels; ++i)
     {
         const gpu::Attribute& attribute = attributes[std::min(i, attributes.size() - 1)];
         colors[i] = {attribute.color & 255, attribute.color >> 8 & 255, attribute.color >> 16 & 255};
-        normals[i] = normalOf(attribute.normal);
+        codes[i] = attribute.normal;
     }
     Block block{};
     packColors(colors, block);
+    if (std::ranges::count(codes, gpu::kNoNormal) > 8)
+    {
+        block[2] = 3U << 28;
+        return block;
+    }
+    // For a normal that is missing stands in the last one before it, else the first one of all.
+    std::array<Vector, kVoxels> normals{};
+    for (std::size_t i = 0; i < kVoxels; ++i)
+    {
+        std::size_t from = i;
+        while (from != 0 && codes[from] == gpu::kNoNormal)
+        {
+            --from;
+        }
+        while (codes[from] == gpu::kNoNormal)
+        {
+            ++from;
+        }
+        normals[i] = normalOf(codes[from]);
+    }
     packNormals(normals, block);
     return block;
 }
@@ -423,11 +443,16 @@ gpu::Attribute unpackBlock(const Block& block, std::uint32_t voxel)
         const double p = (end(first_bit) * (7 - step) + end(first_bit + 7) * step) / (7.0 * 63.0);
         return static_cast<std::int64_t>(std::lround(p * 32767));
     };
+    const auto color_code = static_cast<std::uint32_t>(c[0] | c[1] << 8 | c[2] << 16);
     const Frame frame = {block[2] >> 28 & 3, (block[2] >> 30 & 1) != 0, block[2] >> 31 != 0};
+    if (frame.axis == 3)
+    {
+        return {color_code, gpu::kNoNormal};
+    }
     const Vector v = vectorOf({coordinate(0, 0), coordinate(14, 16)}, frame, 32767);
     const Point p = pointOf(v, {2, false, false}, 32767);
-    return {static_cast<std::uint32_t>(c[0] | c[1] << 8 | c[2] << 16),
-            static_cast<std::uint16_t>(p[0]) | static_cast<std::uint32_t>(static_cast<std::uint16_t>(p[1])) << 16};
+    return {color_code, static_cast<std::uint16_t>(p[0]) | static_cast<std::uint32_t>(static_cast<std::uint16_t>(p[1]))
+                                                               << 16};
 }
 
 } // namespace zvo::oracle

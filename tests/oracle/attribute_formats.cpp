@@ -56,6 +56,10 @@ std::int64_t snorm16(std::uint32_t bits)
 
 std::uint32_t packNormal8(std::uint32_t normal)
 {
+    if (normal == gpu::kNoNormal)
+    {
+        return 0x8080;
+    }
     const std::int64_t x = snorm16(normal);
     const std::int64_t y = snorm16(normal >> 16);
     const Vector v = onOctahedron(x, y, 32767);
@@ -92,8 +96,9 @@ gpu::Attribute unpackAttribute4(std::uint32_t word)
     { return static_cast<std::uint32_t>(rescaled(bitsOf(word, first, bits), (1 << bits) - 1, 255)); };
     const auto coordinate = [&](int first)
     { return static_cast<std::uint16_t>(rescaled(static_cast<std::int8_t>(bitsOf(word, first, 8)), 127, 32767)); };
+    const std::uint32_t normal = coordinate(16) | static_cast<std::uint32_t>(coordinate(24)) << 16;
     return {channel(0, 5) | channel(5, 6) << 8 | channel(11, 5) << 16,
-            coordinate(16) | static_cast<std::uint32_t>(coordinate(24)) << 16};
+            bitsOf(word, 16, 16) == 0x8080 ? gpu::kNoNormal : normal};
 }
 
 } // namespace zvo::oracle

@@ -16,9 +16,14 @@ namespace zvo::test
 namespace
 {
 
-// Decodes an octahedral direction, whose absolute values add up to 32767. The lower half is folded outwards.
+// Decodes an octahedral direction, whose absolute values add up to 32767. The lower half is folded outwards. Zero for a
+// code without direction.
 glm::ivec3 unfolded(std::uint32_t code)
 {
+    if (code == gpu::kNoNormal)
+    {
+        return glm::ivec3(0);
+    }
     const int x = static_cast<std::int16_t>(code & 0xFFFFU);
     const int y = static_cast<std::int16_t>(code >> 16);
     const int z = 32767 - std::abs(x) - std::abs(y);
@@ -39,6 +44,21 @@ std::uint32_t normalCode(const glm::ivec3& n)
     return (static_cast<std::uint32_t>(p.x) & 0xFFFFU) | static_cast<std::uint32_t>(p.y) << 16;
 }
 
+// The code of the mean of `count` directions: none if it is shorter than a quarter of them.
+std::uint32_t meanNormalCode(const glm::ivec3& sum, std::uint32_t count)
+{
+    const glm::ivec3 size = glm::abs(sum);
+    const int bits = std::bit_width(static_cast<unsigned>(size.x | size.y | size.z));
+    const std::int64_t cut = std::int64_t{1} << std::max(bits - 15, 0);
+    std::int64_t squares = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        squares += (size[axis] / cut) * (size[axis] / cut);
+    }
+    const std::int64_t least = std::int64_t{32767} * count / 4 / cut;
+    return squares < least * least ? gpu::kNoNormal : normalCode(sum);
+}
+
 // Mean attributes of a node's children.
 class Mean
 {
@@ -56,7 +76,7 @@ public:
 
     [[nodiscard]] gpu::Attribute attribute() const
     {
-        gpu::Attribute mean{m_flags, normalCode(m_normal)};
+        gpu::Attribute mean{m_flags, meanNormalCode(m_normal, std::max(m_count, 1U))};
         for (std::uint32_t channel = 0; channel < 3 && m_count != 0; ++channel)
         {
             const std::uint32_t linear = (m_color[channel] + m_count / 2) / m_count;

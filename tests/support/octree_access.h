@@ -31,9 +31,13 @@ inline oracle::OctreeContents contentsOf(vk::HeadlessDevice& device, const Devic
     return oracle::checkOctree(device.download(octree.nodes), levelsOf(octree), octree.grid.depth);
 }
 
-/// Unpacks an octahedral normal in floating point (Cigolle et al. 2014).
+/// Unpacks an octahedral normal in floating point (Cigolle et al. 2014); 0 where there is none.
 inline glm::dvec3 normalOf(const gpu::Attribute& attribute)
 {
+    if (attribute.normal == gpu::kNoNormal)
+    {
+        return glm::dvec3(0.0);
+    }
     const double x = static_cast<std::int16_t>(attribute.normal & 0xFFFF) / 32767.0;
     const double y = static_cast<std::int16_t>(attribute.normal >> 16) / 32767.0;
     glm::dvec3 n(x, y, 1 - std::abs(x) - std::abs(y));

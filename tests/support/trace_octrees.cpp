@@ -106,7 +106,7 @@ void addAttributes(vk::HeadlessDevice& device, DeviceTree& octree)
     {
         const bool emissive = random() % 7 == 0;
         attributes[i] = {static_cast<gpu::uint>(random() & 0xFFFFFF) | (emissive ? gpu::kAttributeEmissive << 24 : 0),
-                         static_cast<gpu::uint>(random())};
+                         random() % 8 == 0 ? gpu::kNoNormal : static_cast<gpu::uint>(random())};
         if (i % 32 == 0)
         {
             words[i / 32].y = static_cast<gpu::uint>(emission.size());

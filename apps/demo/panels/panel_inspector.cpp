@@ -59,7 +59,9 @@ void inspectorPanel(const std::optional<InspectedPixel>& pixel, const Grid& grid
     tell(fmt::format("colour {}, {}, {}{}", channel(0), channel(8), channel(16),
                      (channel(24) & gpu::kAttributeEmissive) != 0 ? ", emits light" : ""));
     const glm::vec3 normal = cli::decodeNormal(report.look.normal);
-    tell(fmt::format("normal {:.2f}, {:.2f}, {:.2f}", normal.x, normal.y, normal.z));
+    tell(report.look.normal == gpu::kNoNormal
+             ? std::string("no normal")
+             : fmt::format("normal {:.2f}, {:.2f}, {:.2f}", normal.x, normal.y, normal.z));
 }
 
 } // namespace zvo::demo

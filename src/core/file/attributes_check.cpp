@@ -20,13 +20,14 @@ constexpr std::uint32_t kFlagShift = 24; // of Attribute::color
 constexpr std::uint32_t kByteMask = 0xffU;
 constexpr std::uint32_t kBelowMinusOne = 0x80U; // as a snorm8
 
-// Normals have no snorm8 below -1.
+// Normals have no snorm8 below -1, or are missing.
 Fault checkWords4(std::span<const gpu::uint> words, const char* whose)
 {
     for (std::size_t i = 0; i < words.size(); ++i)
     {
         const std::uint32_t normal = words[i] >> gpu::kNormalShift4;
-        if ((normal & kByteMask) == kBelowMinusOne || normal >> 8 == kBelowMinusOne)
+        const bool is_outside = (normal & kByteMask) == kBelowMinusOne || normal >> 8 == kBelowMinusOne;
+        if (is_outside && normal != gpu::kNoNormal4)
         {
             return fmt::format("attribute {} of the {} has a normal outside of the unit square", i, whose);
         }
@@ -34,7 +35,7 @@ Fault checkWords4(std::span<const gpu::uint> words, const char* whose)
     return std::nullopt;
 }
 
-// Scales end within the unit square, and frames have one of three axes.
+// Scales end within the unit square.
 Fault checkBlocks(std::span<const gpu::uint> words)
 {
     for (std::size_t block = 0; block < words.size() / gpu::kBlockWords; ++block)
@@ -46,10 +47,6 @@ Fault checkBlocks(std::span<const gpu::uint> words)
             {
                 return fmt::format("block {} of the voxels has a scale outside of the unit square", block);
             }
-        }
-        if ((ends >> gpu::kFrameShift & gpu::kFrameAxis) >= gpu::kFrameAxes)
-        {
-            return fmt::format("block {} of the voxels has an axis that there is not", block);
         }
     }
     return std::nullopt;

@@ -49,7 +49,8 @@ std::uint32_t widenNormal(std::uint32_t byte)
 gpu::Attribute unpackAttribute4(std::uint32_t word)
 {
     const std::uint32_t normal = word >> gpu::kNormalShift4;
-    return {unpackColor565(word), widenNormal(normal) | widenNormal(normal >> 8) << 16};
+    return {unpackColor565(word),
+            normal == gpu::kNoNormal4 ? gpu::kNoNormal : widenNormal(normal) | widenNormal(normal >> 8) << 16};
 }
 
 // Octahedral coordinates and vectors, in which 1 is kOne16.
@@ -97,13 +98,17 @@ int unpackCoordinate(std::uint32_t ends, std::uint32_t index)
 
 std::uint32_t unpackBlockNormal(glm::ivec2 p, std::uint32_t frame)
 {
+    const std::uint32_t axis = frame & gpu::kFrameAxis;
+    if (axis == gpu::kFrameNone)
+    {
+        return gpu::kNoNormal;
+    }
     if ((frame & gpu::kFrameDiagonal) != 0)
     {
         p = glm::clamp(glm::ivec2(p.x + p.y, p.x - p.y), -kOne16, kOne16);
     }
     glm::ivec3 v = unfoldNormal(p);
     v.z = (frame & gpu::kFrameNegative) != 0 ? -v.z : v.z;
-    const std::uint32_t axis = frame & gpu::kFrameAxis;
     return foldNormal(axis == 0 ? glm::ivec3(v.z, v.x, v.y) : axis == 1 ? glm::ivec3(v.y, v.z, v.x) : v);
 }
 

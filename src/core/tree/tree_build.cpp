@@ -114,7 +114,8 @@ void addColors(TreeData& octree, std::span<const std::uint32_t> colors)
                          normal -= step * (i != 13 && hasVoxel(octree, cell + step) ? 1 : 0);
                      }
                      const std::uint32_t color = colors[octree.voxel_attributes.size()] & kColorMask;
-                     octree.voxel_attributes.push_back({color, octahedralCode(normal)});
+                     const bool is_thin = normal == glm::ivec3(0); // as many neighbours on each side
+                     octree.voxel_attributes.push_back({color, is_thin ? gpu::kNoNormal : octahedralCode(normal)});
                  });
 }
 

@@ -170,13 +170,6 @@ const std::vector<TreeFault>& treeFaults()
              t.packed.voxels[6 * 3 + 2] |= 127U << 21;
          },
          "block 3 of the voxels has a scale outside"},
-        {"BlockAxis", kOctree,
-         [](auto& t)
-         {
-             t = packedTree(t, AttributeFormat::Blocks);
-             t.packed.voxels[6 * 2 + 2] |= 3U << 28;
-         },
-         "block 2 of the voxels has an axis"},
         {"BlockNodes", kOctree,
          [](auto& t)
          {

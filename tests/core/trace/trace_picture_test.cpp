@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Options that change how pictures are made do not change what they show.
 #include "core/base/kernels.h"
+#include "core/base/morton.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_passes.h"
 #include "oracle/trace.h"
@@ -296,6 +297,38 @@ TEST(TracePicture, ViewsShowWhatTheyAreNamedAfter)
     const auto depth = static_cast<gpu::uint>(255.0 * (1.0 - 0.9 * (20.0 - 8.0) / (24.0 - 8.0)) + 0.5);
     EXPECT_EQ(pixel(front, View::Depth), depth * (1U + (1U << 8) + (1U << 16)));
     EXPECT_NE(pixel(front, View::Iterations), 0U);
+}
+
+// A ball of which the lower half is voxels without normals, as of both sides of a thin shell. There the normals are the
+// faces', as everywhere without attributes.
+TEST(TracePicture, VoxelsWithoutNormalsAreShadedByTheFacesThatRaysEnter)
+{
+    const auto is_in = [](const glm::uvec3& voxel) { return glm::length(glm::dvec3(voxel) - 15.5) < 14.0; };
+    const test::Codes codes = test::codesWhere(5, is_in);
+    DeviceTree octree = test::octreeOf(device(), codes, 5);
+    const TraceCamera camera = traceCamera(ViewCamera::lookAt({60, 40, 50}, {16, 16, 16}, 0.6), octree.grid, 128);
+    TraceOptions options;
+    options.view = View::Normal;
+    const Picture faces = take(octree, camera, 128, 128, options);
+    std::vector<gpu::Attribute> attributes;
+    for (const std::uint64_t code : codes)
+    {
+        const bool has_normal = cellOfCode(code).y >= 16;
+        attributes.push_back({0x808080U, has_normal ? 0U : gpu::kNoNormal}); // normal +z
+    }
+    octree.voxel_attributes = device().makeBuffer("attributes", std::span<const gpu::Attribute>(attributes));
+    const Picture normals = take(octree, camera, 128, 128, options);
+    constexpr gpu::uint kFront = 128U | 128U << 8 | 255U << 16;
+    std::size_t of_faces = 0;
+    std::size_t of_attributes = 0;
+    for (std::size_t i = 0; i < faces.image.size(); ++i)
+    {
+        of_faces += normals.image[i] == faces.image[i] && (faces.image[i] & 0xFFFFFF) != kFront ? 1 : 0;
+        of_attributes += normals.image[i] != faces.image[i] ? 1 : 0;
+        ASSERT_TRUE(normals.image[i] == faces.image[i] || (normals.image[i] & 0xFFFFFF) == kFront) << i;
+    }
+    EXPECT_GT(of_faces, 1000U);
+    EXPECT_GT(of_attributes, 1000U);
 }
 
 TEST(TracePicture, AWallShadesWhatIsBehindIt)
