@@ -40,11 +40,12 @@ struct Draw
     uint first_uv;     // in SceneView::uvs, or kAbsent
     uint first_color;  // in SceneView::colors, or kAbsent
     uint material;
-    uint mirrored; // 1: the transform turns the winding around
+    uint mirrored;          // 1: the transform turns the winding around
+    uint first_emission_uv; // in SceneView::uvs, or kAbsent: first_uv where emission has the same coordinates
 };
 GPU_BUFFER(Draw, 4);
 
-const uint kDrawWords = 29u; // 32-bit words of a Draw
+const uint kDrawWords = 30u; // 32-bit words of a Draw
 
 struct Material
 {

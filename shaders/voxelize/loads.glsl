@@ -23,7 +23,7 @@ TEXELS_1(12, texels);
 #define DRAW_OF_WORDS(WORD)                                                                                            \
     Draw(mat4x3(DRAW_VECTOR(WORD, 0), DRAW_VECTOR(WORD, 3), DRAW_VECTOR(WORD, 6), DRAW_VECTOR(WORD, 9)),               \
          mat3(DRAW_VECTOR(WORD, 12), DRAW_VECTOR(WORD, 15), DRAW_VECTOR(WORD, 18)), WORD(21), WORD(22), WORD(23),      \
-         WORD(24), WORD(25), WORD(26), WORD(27), WORD(28))
+         WORD(24), WORD(25), WORD(26), WORD(27), WORD(28), WORD(29))
 
 uint drawWord(uint number, uint word)
 {

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: MIT
 // The attributes of a fragment, in integers (docs/voxelization.md).
 
+// Texture coordinates of the three vertices of a triangle, 16.16.
+struct TriangleUvs
+{
+    ivec3 u;
+    ivec3 v;
+};
+
 // Per triangle, fetched once before the walk.
 struct Surface
 {
     uint alpha_mode;
     uint alpha_cutoff;
-    ivec3 uv_u; // of the three vertices, 16.16
-    ivec3 uv_v;
     SceneTexels texels;
     LinearTable linear_table; // of the texels' colours
+    TriangleUvs uvs;
     TextureInfo texture;
     TextureLevel level; // the level of detail that suits the triangle
     bool textured;
+    TriangleUvs emission_uvs;
     TextureInfo emission_texture;
     TextureLevel emission_level;
     bool emission_textured;
@@ -66,10 +73,10 @@ uvec3 fixedWeights(EDGE_IVEC3 corners, bool has_area)
 }
 
 // The smallest level whose texels are about as large as voxels. double_area: of the triangle, in lattice units squared.
-TextureLevel pickLevel(TextureInfo info, ivec3 uv_u, ivec3 uv_v, float double_area)
+TextureLevel pickLevel(TextureInfo info, TriangleUvs uvs, float double_area)
 {
-    i64vec2 d1 = i64vec2(uv_u.y - uv_u.x, uv_v.y - uv_v.x);
-    i64vec2 d2 = i64vec2(uv_u.z - uv_u.x, uv_v.z - uv_v.x);
+    i64vec2 d1 = i64vec2(uvs.u.y - uvs.u.x, uvs.v.y - uvs.v.x);
+    i64vec2 d2 = i64vec2(uvs.u.z - uvs.u.x, uvs.v.z - uvs.v.x);
     float uv_area = float(abs(d1.x * d2.y - d2.x * d1.y));
     TextureLevel level = loadLevel(info.first_level);
     precise float texels = uv_area * (float(level.width * level.height) * (1.0 / float(kUvOne)));
@@ -108,11 +115,11 @@ uvec4 linearTexel(Surface surface, uint i)
 }
 
 // Linear colour and alpha as 16-bit fractions, filtered bilinearly.
-uvec4 sampleTexture(Surface surface, TextureInfo info, TextureLevel level, uvec3 weights)
+uvec4 sampleTexture(Surface surface, TriangleUvs uvs, TextureInfo info, TextureLevel level, uvec3 weights)
 {
     i64vec3 w = i64vec3(weights);
-    i64vec3 by_u = w * i64vec3(surface.uv_u);
-    i64vec3 by_v = w * i64vec3(surface.uv_v);
+    i64vec3 by_u = w * i64vec3(uvs.u);
+    i64vec3 by_v = w * i64vec3(uvs.v);
     uvec3 x = texelPair((by_u.x + by_u.y + by_u.z) >> 16, level.width, info.wrap_u);
     uvec3 y = texelPair((by_v.x + by_v.y + by_v.z) >> 16, level.height, info.wrap_v);
     uvec2 wx = uvec2(256u - x.z, x.z);
@@ -130,7 +137,7 @@ uvec4 fragmentColor(Surface surface, uvec3 weights)
 {
     uvec4 color = uvec4(kFractionOne);
     if (kMaterialClass != kClassPlain && surface.textured)
-        color = sampleTexture(surface, surface.texture, surface.level, weights);
+        color = sampleTexture(surface, surface.uvs, surface.texture, surface.level, weights);
     color = uvec4(mul16(color.rgb, surface.factor.rgb), mul16(color.a, surface.factor.a));
     if (surface.colored)
     {
@@ -172,7 +179,8 @@ uvec3 fragmentEmission(Surface surface, uvec3 weights)
     uvec3 emission = surface.emission;
     if (kMaterialClass != kClassPlain && surface.emission_textured)
     {
-        uvec4 texel = sampleTexture(surface, surface.emission_texture, surface.emission_level, weights);
+        uvec4 texel = sampleTexture(surface, surface.emission_uvs, surface.emission_texture, surface.emission_level,
+                                    weights);
         emission = mul16(emission, texel.rgb);
     }
     return emission;

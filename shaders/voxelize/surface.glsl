@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Loads the data of a triangle that its fragments need.
 
+TriangleUvs loadUvs(uint first, uvec3 vertices)
+{
+    ivec2 uv0 = loadUv(first + vertices.x);
+    ivec2 uv1 = loadUv(first + vertices.y);
+    ivec2 uv2 = loadUv(first + vertices.z);
+    return TriangleUvs(ivec3(uv0.x, uv1.x, uv2.x), ivec3(uv0.y, uv1.y, uv2.y));
+}
+
 // vertices: indices within the draw. normal: of the lattice points, by winding; corner_area: |n_w|.
 Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
 {
@@ -10,28 +18,23 @@ Surface loadSurface(Draw draw, uvec3 vertices, vec3 normal, float corner_area)
     surface.alpha_cutoff = material.alpha_cutoff;
     surface.factor = unpackFractions(material.base_color);
     surface.emission = unpackFractions(material.emission).rgb;
-    bool has_uv = kMaterialClass != kClassPlain && draw.first_uv != kAbsent;
     surface.texels = SCENE_TEXELS;
     surface.linear_table = LINEAR_TABLE(params.scene);
-    surface.textured = has_uv && material.base_texture != kAbsent;
-    surface.emission_textured = kEmits && has_uv && kMode != kModeCoverage && material.emission_texture != kAbsent;
-    if (has_uv)
-    {
-        ivec2 uv0 = loadUv(draw.first_uv + vertices.x);
-        ivec2 uv1 = loadUv(draw.first_uv + vertices.y);
-        ivec2 uv2 = loadUv(draw.first_uv + vertices.z);
-        surface.uv_u = ivec3(uv0.x, uv1.x, uv2.x);
-        surface.uv_v = ivec3(uv0.y, uv1.y, uv2.y);
-    }
+    const bool may_have_textures = kMaterialClass != kClassPlain;
+    surface.textured = may_have_textures && draw.first_uv != kAbsent && material.base_texture != kAbsent;
+    surface.emission_textured = kEmits && may_have_textures && kMode != kModeCoverage &&
+                                draw.first_emission_uv != kAbsent && material.emission_texture != kAbsent;
     if (surface.textured)
     {
+        surface.uvs = loadUvs(draw.first_uv, vertices);
         surface.texture = loadTexture(material.base_texture);
-        surface.level = pickLevel(surface.texture, surface.uv_u, surface.uv_v, corner_area);
+        surface.level = pickLevel(surface.texture, surface.uvs, corner_area);
     }
     if (surface.emission_textured)
     {
+        surface.emission_uvs = loadUvs(draw.first_emission_uv, vertices);
         surface.emission_texture = loadTexture(material.emission_texture);
-        surface.emission_level = pickLevel(surface.emission_texture, surface.uv_u, surface.uv_v, corner_area);
+        surface.emission_level = pickLevel(surface.emission_texture, surface.emission_uvs, corner_area);
     }
     surface.colored = draw.first_color != kAbsent;
     if (surface.colored)

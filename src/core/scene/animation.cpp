@@ -237,6 +237,7 @@ Primitive surfaceOf(const Primitive& primitive)
 {
     Primitive surface;
     surface.uvs = primitive.uvs;
+    surface.emission_uvs = primitive.emission_uvs;
     surface.colors = primitive.colors;
     surface.triangles = primitive.triangles;
     surface.material = primitive.material;
@@ -253,7 +254,7 @@ void checkPosedSize(const Scene& scene)
         if (isDeformed(primitive, instance))
         {
             bytes += static_cast<double>(primitive.positions.size()) * 2 * sizeof(glm::vec3) +
-                     static_cast<double>(primitive.uvs.size()) * sizeof(glm::vec2) +
+                     static_cast<double>(primitive.uvs.size() + primitive.emission_uvs.size()) * sizeof(glm::vec2) +
                      static_cast<double>(primitive.colors.size()) * sizeof(glm::vec4) +
                      static_cast<double>(primitive.triangles.size()) * sizeof(glm::uvec3);
         }

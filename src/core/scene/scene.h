@@ -63,9 +63,10 @@ struct Primitive
     std::vector<glm::vec3> normals; // unit length, or 0 where a vertex has none; empty: flat shading from the triangles
                                     // (of posed scenes, see DeformedVertices)
     std::vector<glm::vec2> uvs;     // texture coordinates, v = 0 at the top row
-    std::vector<glm::vec4> colors;  // linear, multiplies the base colour
-    std::vector<glm::uvec3> triangles; // vertex indices, all < positions.size()
-    std::uint32_t material = 0;        // index into Scene::materials
+    std::vector<glm::vec2> emission_uvs; // of the emission's texture; empty: uvs
+    std::vector<glm::vec4> colors;       // linear, multiplies the base colour
+    std::vector<glm::uvec3> triangles;   // vertex indices, all < positions.size()
+    std::uint32_t material = 0;          // index into Scene::materials
 
     // What can deform the primitive. At rest its vertices are those above.
     std::vector<glm::u16vec4> joints; // indices into Skin::joints of any skin that an instance of the primitive names

@@ -38,6 +38,7 @@ gpu::Draw makeDraw(const Primitive& primitive, const PrimitiveOffsets& primitive
     draw.first_vertex = primitive_offsets.first_vertex;
     draw.first_normal = primitive_offsets.first_normal;
     draw.first_uv = primitive_offsets.first_uv;
+    draw.first_emission_uv = primitive_offsets.first_emission_uv;
     draw.first_color = primitive_offsets.first_color;
     draw.material = primitive.material;
     setTransform(draw, transform);
@@ -67,7 +68,7 @@ std::vector<PrimitiveOffsets> primitiveOffsets(const Scene& scene)
     for (const Primitive& primitive : scene.primitives)
     {
         assert(isWhole(primitive.normals, primitive) && isWhole(primitive.uvs, primitive) &&
-               isWhole(primitive.colors, primitive));
+               isWhole(primitive.emission_uvs, primitive) && isWhole(primitive.colors, primitive));
         const auto offsetOf = [](std::uint64_t first, std::size_t count, const char* what)
         { return count == 0 ? gpu::kAbsent : checkedCount(first, what); };
         PrimitiveOffsets primitive_offsets{};
@@ -75,12 +76,16 @@ std::vector<PrimitiveOffsets> primitiveOffsets(const Scene& scene)
         primitive_offsets.first_vertex = checkedCount(vertex_count, "vertices");
         primitive_offsets.first_normal = offsetOf(normal_count, primitive.normals.size(), "normals");
         primitive_offsets.first_uv = offsetOf(uv_count, primitive.uvs.size(), "texture coordinates");
+        primitive_offsets.first_emission_uv =
+            primitive.emission_uvs.empty()
+                ? primitive_offsets.first_uv
+                : offsetOf(uv_count + primitive.uvs.size(), primitive.emission_uvs.size(), "texture coordinates");
         primitive_offsets.first_color = offsetOf(color_count, primitive.colors.size(), "colours");
         offsets.push_back(primitive_offsets);
         triangle_count += primitive.triangles.size();
         vertex_count += primitive.positions.size();
         normal_count += primitive.normals.size();
-        uv_count += primitive.uvs.size();
+        uv_count += primitive.uvs.size() + primitive.emission_uvs.size();
         color_count += primitive.colors.size();
     }
     checkedCount(triangle_count, "triangles"); // the last ones have numbers, too

@@ -24,6 +24,7 @@ struct PrimitiveOffsets
     std::uint32_t first_vertex;
     std::uint32_t first_normal; // gpu::kAbsent where the primitive has none; likewise below
     std::uint32_t first_uv;
+    std::uint32_t first_emission_uv; // first_uv where the primitive has no other coordinates for emission
     std::uint32_t first_color;
 };
 

@@ -82,9 +82,9 @@ void addPrimitive(Staging& staging, const Primitive& primitive)
     staging.triangles.insert(staging.triangles.end(), primitive.triangles.begin(), primitive.triangles.end());
     staging.positions.insert(staging.positions.end(), primitive.positions.begin(), primitive.positions.end());
     staging.normals.insert(staging.normals.end(), primitive.normals.begin(), primitive.normals.end());
-    for (const glm::vec2& uv : primitive.uvs)
+    for (const auto* uvs : {&primitive.uvs, &primitive.emission_uvs})
     {
-        staging.uvs.push_back(toFixedUv(uv));
+        std::ranges::transform(*uvs, std::back_inserter(staging.uvs), toFixedUv);
     }
     for (const glm::vec4& color : primitive.colors)
     {

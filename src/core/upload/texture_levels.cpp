@@ -72,6 +72,13 @@ std::int64_t uvArea(const std::array<glm::i64vec2, 3>& uvs)
     return std::abs(d1.x * d2.y - d2.x * d1.y);
 }
 
+// An image of a primitive, and the coordinates by which it is sampled.
+struct SampledImage
+{
+    std::uint32_t image; // index into Scene::images
+    const std::vector<glm::vec2>* uvs;
+};
+
 // The level that a triangle samples, or the one before it where rounding decides; at most `most`.
 std::uint32_t levelOf(const Image& image, std::int64_t uv_area, std::int64_t double_area, std::uint32_t most)
 {
@@ -111,15 +118,17 @@ std::vector<std::uint32_t> leastLevels(const Scene& scene, const std::vector<boo
     {
         const Primitive& primitive = scene.primitives[instance.primitive];
         const Material& material = scene.materials[primitive.material];
-        std::vector<std::uint32_t> images; // whose least level the instance may lower
-        for (const std::optional<std::uint32_t>& texture : {material.base_color_texture, material.emission_texture})
+        std::vector<SampledImage> images; // whose least level the instance may lower
+        const auto addImage = [&](std::optional<std::uint32_t> texture, const std::vector<glm::vec2>& uvs)
         {
-            if (texture && needed[*texture] && least[scene.textures[*texture].image] != 0)
+            if (texture && needed[*texture] && !uvs.empty() && least[scene.textures[*texture].image] != 0)
             {
-                images.push_back(scene.textures[*texture].image);
+                images.push_back({scene.textures[*texture].image, &uvs});
             }
-        }
-        if (images.empty() || primitive.uvs.empty())
+        };
+        addImage(material.base_color_texture, primitive.uvs);
+        addImage(material.emission_texture, primitive.emission_uvs.empty() ? primitive.uvs : primitive.emission_uvs);
+        if (images.empty())
         {
             continue;
         }
@@ -136,10 +145,10 @@ std::vector<std::uint32_t> leastLevels(const Scene& scene, const std::vector<boo
             {
                 continue;
             }
-            const std::int64_t uv_area =
-                uvArea({toFixedUv(primitive.uvs[t.x]), toFixedUv(primitive.uvs[t.y]), toFixedUv(primitive.uvs[t.z])});
-            for (const std::uint32_t image : images)
+            for (const auto& [image, uvs] : images)
             {
+                const std::int64_t uv_area =
+                    uvArea({toFixedUv((*uvs)[t.x]), toFixedUv((*uvs)[t.y]), toFixedUv((*uvs)[t.z])});
                 least[image] = levelOf(scene.images[image], uv_area, area, least[image]);
             }
         }

@@ -74,7 +74,7 @@ public:
     {
     }
 
-    std::optional<Primitive> load(const std::optional<GltfUvSource>& uvs)
+    std::optional<Primitive> load(const GltfMaterial& material)
     {
         if (m_source.mode < TINYGLTF_MODE_TRIANGLES)
         {
@@ -97,7 +97,13 @@ public:
         m_vertex_count = primitive.positions.size();
         primitive.triangles = readTriangles();
         primitive.normals = readNormals();
-        primitive.uvs = readUvs(uvs);
+        primitive.material = material.index;
+        primitive.uvs = readUvs(material.uvs);
+        if (material.emission_uvs)
+        {
+            primitive.emission_uvs = readUvs(material.emission_uvs);
+            primitive.emission_uvs.resize(m_vertex_count); // viewers take missing coordinates for zeros
+        }
         primitive.colors = readColors();
         readJoints(primitive);
         for (std::size_t i = 0; i < m_source.targets.size(); ++i)
@@ -378,11 +384,11 @@ private:
 } // namespace
 
 std::optional<Primitive> loadGltfPrimitive(const GltfDocument& document, int mesh, int primitive,
-                                           const std::optional<GltfUvSource>& uvs, GltfWarnings& warnings)
+                                           const GltfMaterial& material, GltfWarnings& warnings)
 {
     const tinygltf::Primitive& source = document.model.meshes[mesh].primitives[primitive];
     const std::string where = fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
-    return PrimitiveLoader(document, source, where, warnings).load(uvs);
+    return PrimitiveLoader(document, source, where, warnings).load(material);
 }
 
 } // namespace zvo

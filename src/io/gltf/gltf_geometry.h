@@ -10,10 +10,11 @@
 namespace zvo
 {
 
-/// The triangles of meshes[mesh].primitives[primitive], without its material: lists as they are; strips and fans
-/// unrolled with their winding, less the triangles that use a vertex twice, which only join parts. Nothing, with a
-/// warning, for points, lines and what has no positions. Throws Error{Input} for contents that break the specification.
+/// The triangles of meshes[mesh].primitives[primitive] with the coordinates that its material needs: lists as they are;
+/// strips and fans unrolled with their winding, less the triangles that use a vertex twice, which only join parts.
+/// Nothing, with a warning, for points, lines and what has no positions. Throws Error{Input} for contents that break
+/// the specification.
 std::optional<Primitive> loadGltfPrimitive(const GltfDocument& document, int mesh, int primitive,
-                                           const std::optional<GltfUvSource>& uvs, GltfWarnings& warnings);
+                                           const GltfMaterial& material, GltfWarnings& warnings);
 
 } // namespace zvo

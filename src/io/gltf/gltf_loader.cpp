@@ -129,10 +129,9 @@ private:
         {
             const bool has_triangles = sources[i].mode >= TINYGLTF_MODE_TRIANGLES;
             const GltfMaterial material = has_triangles ? m_materials.get(sources[i].material) : GltfMaterial{};
-            std::optional<Primitive> primitive = loadGltfPrimitive(m_document, mesh, i, material.uvs, m_warnings);
+            std::optional<Primitive> primitive = loadGltfPrimitive(m_document, mesh, i, material, m_warnings);
             if (primitive)
             {
-                primitive->material = material.index;
                 m_joint_counts.push_back(jointCount(*primitive));
                 added.push_back(static_cast<std::uint32_t>(m_scene.primitives.size()));
                 m_scene.primitives.push_back(*std::move(primitive));

@@ -219,15 +219,14 @@ GltfMaterial GltfMaterials::load(int index)
     if (source.emissiveTexture.index >= 0 && material.emission != glm::vec3(0.0F))
     {
         const GltfUvSource uvs = uvSource(source.emissiveTexture);
-        if (loaded.uvs.value_or(uvs) == uvs)
+        material.emission_texture = texture(source.emissiveTexture.index, where + ".emissiveTexture");
+        if (material.emission_texture && !loaded.uvs)
         {
-            material.emission_texture = texture(source.emissiveTexture.index, where + ".emissiveTexture");
-            loaded.uvs = material.emission_texture ? std::optional(uvs) : loaded.uvs;
+            loaded.uvs = uvs;
         }
-        else
+        else if (material.emission_texture && *loaded.uvs != uvs)
         {
-            material.emission = glm::vec3(0.0F);
-            m_warnings.add("emission left out, as its texture has other coordinates than the base colour's", where);
+            loaded.emission_uvs = uvs;
         }
     }
     loaded.index = static_cast<std::uint32_t>(m_scene.materials.size());

@@ -29,8 +29,9 @@ struct GltfUvSource
 /// A material that was put into the scene.
 struct GltfMaterial
 {
-    std::uint32_t index = 0;         // into Scene::materials
-    std::optional<GltfUvSource> uvs; // where it has a texture
+    std::uint32_t index = 0;                  // into Scene::materials
+    std::optional<GltfUvSource> uvs;          // where it has a texture
+    std::optional<GltfUvSource> emission_uvs; // where its emission has a texture with other coordinates
 };
 
 /// Puts a document's materials, with their textures and images, into a scene when they are first asked for. All

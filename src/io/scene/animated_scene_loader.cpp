@@ -93,6 +93,7 @@ SceneSize sizeOf(const Scene& scene)
         take(primitive.positions);
         take(primitive.normals);
         take(primitive.uvs);
+        take(primitive.emission_uvs);
         take(primitive.colors);
         take(primitive.triangles);
         take(primitive.joints);
@@ -116,8 +117,11 @@ class ObjectLoader
 {
 public:
     ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths, const LoadOptions& options)
-        : m_scene_file_path(scene_file_path), m_keep_hulls(options.keep_hulls), m_strict(options.strict),
-          m_images(options.images), m_skipped(options.skip_materials)
+        : m_scene_file_path(scene_file_path), m_options{.every_animation = true,
+                                                        .keep_hulls = options.keep_hulls,
+                                                        .strict = options.strict,
+                                                        .images = options.images},
+          m_skipped(options.skip_materials)
     {
         for (const fs::path& path : paths)
         {
@@ -131,9 +135,7 @@ public:
         File& file = m_files.at(path);
         if (!file.is_loaded)
         {
-            file.scene = loadScene(
-                std::span(&path, 1),
-                {.every_animation = true, .keep_hulls = m_keep_hulls, .strict = m_strict, .images = m_images});
+            file.scene = loadScene(std::span(&path, 1), m_options);
             m_skipped.leaveOut(file.scene);
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
@@ -165,9 +167,7 @@ private:
     };
 
     const fs::path& m_scene_file_path;
-    bool m_keep_hulls;
-    bool m_strict;
-    ImageDecoding m_images;
+    LoadOptions m_options; // of each file
     SkippedMaterials m_skipped;
     std::map<fs::path, File> m_files;
     SceneSize m_size; // of all objects

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours, normals and emission of voxels and inner nodes.
+#include "core/base/morton.h"
 #include "core/headless/pipeline.h"
 #include "core/upload/texture_pool.h"
 #include "io/gltf/gltf_loader.h"
@@ -14,7 +15,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
+#include <iterator>
+#include <map>
 #include <random>
+#include <utility>
 
 namespace zvo
 {
@@ -177,6 +182,82 @@ TEST(VoxelNormals, OfASpherePointAwayFromItsCenter)
     }
 }
 
+// Triangles in one voxel each: at (x, 0, z), x of them face up and z down.
+TEST(VoxelNormals, AreMissingWhereTheMeanOfUnitNormalsIsShorterThanAQuarter)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 4};
+    std::vector<glm::vec3> corners;
+    std::map<std::uint64_t, glm::ivec2> counts;
+    for (int up = 0; up < 16; ++up)
+    {
+        for (int down = up == 0 ? 1 : 0; down < 16; ++down)
+        {
+            counts[codeOfCell({up, 0, down})] = {up, down};
+            const auto at = [&](float x, float z)
+            { return glm::vec3(static_cast<float>(up) + x, 0.5F, static_cast<float>(down) + z); };
+            for (int i = 0; i < up; ++i)
+            {
+                corners.insert(corners.end(), {at(0.2F, 0.2F), at(0.2F, 0.8F), at(0.8F, 0.8F)});
+            }
+            for (int i = 0; i < down; ++i)
+            {
+                corners.insert(corners.end(), {at(0.2F, 0.2F), at(0.8F, 0.8F), at(0.2F, 0.8F)});
+            }
+        }
+    }
+    const Built built = build(test::triangleSoup(corners), grid, Coverage::Conservative);
+    ASSERT_EQ(built.voxels.size(), counts.size());
+    auto voxel = built.voxels.begin();
+    for (const auto& [code, count] : counts)
+    {
+        const bool is_missing = 4 * std::abs(count.x - count.y) < count.x + count.y;
+        EXPECT_EQ(voxel->normal == gpu::kNoNormal, is_missing) << count.x << " up, " << count.y << " down";
+        if (!is_missing)
+        {
+            EXPECT_LT(degreesBetween(test::normalOf(*voxel), {0, count.x > count.y ? 1 : -1, 0}), 0.01);
+        }
+        ++voxel;
+    }
+}
+
+// Checks a normal against the sum of vectors whose lengths add up to `whole`, in floating point: where rounding may
+// decide, either answer is right. Returns whether the normal is missing.
+bool expectNormalOfSum(const gpu::Attribute& attribute, const glm::dvec3& sum, double whole)
+{
+    const bool is_missing = attribute.normal == gpu::kNoNormal;
+    const double mean = glm::length(sum) / whole;
+    if (std::abs(mean - 0.25) > 0.001)
+    {
+        EXPECT_EQ(is_missing, mean < 0.25) << mean;
+    }
+    if (!is_missing)
+    {
+        EXPECT_LT(degreesBetween(test::normalOf(attribute), sum), 0.02);
+    }
+    return is_missing;
+}
+
+TEST(VoxelNormals, PointWhereTheSumsOfTheFragmentsDo)
+{
+    const Scene scene = test::randomTriangles(22, 3000, 64.0F);
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
+    BuildOptions options = {Coverage::Conservative, true, {}};
+    options.keep_sums = true;
+    const DeviceTree octree = buildOctree(device(), uploadScene(device(), scene, true), grid, options).octree;
+    const auto voxels = device().download(octree.voxel_attributes);
+    const auto sums = device().download(octree.sums.sums);
+    ASSERT_EQ(octree.sums.sum_shift, 0U);
+    ASSERT_EQ(voxels.size(), sums.size());
+    std::size_t missing = 0;
+    for (std::size_t i = 0; i < voxels.size(); ++i)
+    {
+        const glm::dvec3 biased(sums[i].normal_x, sums[i].normal_y, sums[i].normal_z);
+        missing += expectNormalOfSum(voxels[i], biased - 32768.0 * sums[i].fragments, 32767.0 * sums[i].fragments);
+    }
+    EXPECT_GT(missing, voxels.size() / 100);
+    EXPECT_LT(missing, voxels.size() / 2);
+}
+
 TEST(NodeAttributes, AreTheMeansOfTheirChildren)
 {
     const Scene scene = test::randomTriangles(21, 300, 64.0F);
@@ -190,6 +271,7 @@ TEST(NodeAttributes, AreTheMeansOfTheirChildren)
     }
     const Built built = build(colored, grid);
     const std::vector<gpu::Node> nodes = device().download(built.octree.nodes);
+    std::size_t missing = 0;
     for (std::size_t level = 0; level < built.octree.levels.size(); ++level)
     {
         const bool is_leaf = level + 1 == built.octree.levels.size();
@@ -199,8 +281,12 @@ TEST(NodeAttributes, AreTheMeansOfTheirChildren)
         {
             const int child_count = std::popcount(nodes[i].mask_lo) + std::popcount(nodes[i].mask_hi);
             double sums[3] = {};
+            glm::dvec3 normal_sum(0.0);
             for (int c = 0; c < child_count; ++c)
             {
+                const glm::dvec3 normal = test::normalOf(children[nodes[i].base_lo + static_cast<unsigned>(c)]);
+                const glm::dvec3 size = glm::abs(normal);
+                normal_sum += normal / std::max(size.x + size.y + size.z, 1.0);
                 for (int k = 0; k < 3; ++k)
                 {
                     sums[k] +=
@@ -212,8 +298,11 @@ TEST(NodeAttributes, AreTheMeansOfTheirChildren)
                 const auto mean = static_cast<std::size_t>(std::floor(sums[k] / child_count + 0.5));
                 EXPECT_EQ(channel(built.nodes[i].color, k), linearToSrgbTable()[mean]) << "node " << i;
             }
+            missing += expectNormalOfSum(built.nodes[i], normal_sum, child_count);
         }
     }
+    EXPECT_GT(missing, 0U);
+    EXPECT_LT(missing, built.nodes.size());
 }
 
 TEST(Emission, IsTheMeanOverAllFragmentsOfAVoxel)
@@ -263,6 +352,51 @@ TEST(Emission, IsTheMeanOverAllFragmentsOfAVoxel)
     }
     EXPECT_EQ(rank, 256U);
     EXPECT_EQ(emission.size(), rank);
+}
+
+// One set of coordinates for the colour's texture and one for the emission's give the colours and the emission of
+// scenes that have only one of the textures, with its set.
+TEST(Emission, MayHaveItsOwnTextureCoordinates)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
+    std::mt19937 random(17);
+    const auto uniform = [&](float high) { return std::uniform_real_distribution<float>(0.0F, high)(random); };
+    Scene both = test::randomTriangles(33, 400, 64.0F);
+    for (std::size_t i = 0; i < both.primitives[0].positions.size(); ++i)
+    {
+        both.primitives[0].uvs.emplace_back(uniform(3.0F), uniform(3.0F));
+        both.primitives[0].emission_uvs.emplace_back(uniform(40.0F), uniform(2.0F)); // another level of detail
+    }
+    for (std::uint32_t i = 0; i < 2; ++i)
+    {
+        Image image{.name = "random", .width = 64, .height = 32, .rgba = {}};
+        std::generate_n(std::back_inserter(image.rgba), 64 * 32 * 4,
+                        [&] { return static_cast<std::uint8_t>(random() | 1U); });
+        both.images.push_back(std::move(image));
+        both.textures.push_back({.image = i});
+    }
+    both.materials[0].emission = glm::vec3(3.0F);
+    both.materials[0].base_color_texture = 0;
+    both.materials[0].emission_texture = 1;
+    const auto with = [&](const Scene& scene, const TextureOptions& options)
+    {
+        const GpuScene uploaded = uploadScene(device(), scene, true, std::nullopt, options);
+        return buildOctree(device(), uploaded, grid, {Coverage::Conservative, true, {}}).octree;
+    };
+    const DeviceTree octree = with(both, {});
+    EXPECT_EQ(octreeSha256(device(), with(both, {.grid = grid, .coverage = Coverage::Conservative})),
+              octreeSha256(device(), octree));
+
+    Scene lamp = both;
+    lamp.materials[0].base_color_texture = std::nullopt;
+    lamp.primitives[0].uvs = std::exchange(lamp.primitives[0].emission_uvs, {});
+    EXPECT_EQ(device().download(with(lamp, {}).emission), device().download(octree.emission));
+    Scene plain = both;
+    plain.materials[0].emission_texture = std::nullopt; // emits everywhere, as `both` does
+    plain.primitives[0].emission_uvs.clear();
+    const auto colors = device().download(with(plain, {}).voxel_attributes);
+    const auto expected = device().download(octree.voxel_attributes);
+    EXPECT_TRUE(std::ranges::equal(colors, expected, {}, &gpu::Attribute::color, &gpu::Attribute::color));
 }
 
 TEST(Attributes, SurviveMoreFragmentsInAVoxelThanTheSumsHold)

@@ -139,16 +139,28 @@ TEST(GltfMaterials, MissingCoordinatesAreAWarning)
     EXPECT_TRUE(contains(scene.warnings[0], "TEXCOORD_2")) << scene.warnings[0];
 }
 
-TEST(GltfMaterials, EmissionWithOtherCoordinatesIsLeftOutWithAWarning)
+TEST(GltfMaterials, EmissionMayHaveOtherCoordinatesThanTheBaseColor)
 {
     json material = baseColorTexture({{"index", 0}});
     material["emissiveTexture"] = {{"index", 0}, {"texCoord", 1}};
     material["emissiveFactor"] = {1, 1, 1};
     const Scene scene = texturedTriangle(material).load();
-    EXPECT_EQ(scene.materials[0].emission, glm::vec3(0.0F));
-    EXPECT_FALSE(scene.materials[0].emission_texture.has_value());
-    ASSERT_EQ(scene.warnings.size(), 1U);
-    EXPECT_TRUE(contains(scene.warnings[0], "emission left out")) << scene.warnings[0];
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(1.0F));
+    EXPECT_EQ(scene.materials[0].emission_texture, 0U);
+    EXPECT_EQ(scene.primitives[0].uvs, (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
+    EXPECT_EQ(scene.primitives[0].emission_uvs, (std::vector<glm::vec2>{{5, 5}, {6, 5}, {5, 6}}));
+
+    material["emissiveTexture"]["texCoord"] = 0;
+    EXPECT_TRUE(texturedTriangle(material).load().primitives[0].emission_uvs.empty());
+    material["emissiveTexture"]["extensions"] = {{"KHR_texture_transform", {{"scale", {2, 3}}}}};
+    EXPECT_EQ(texturedTriangle(material).load().primitives[0].emission_uvs,
+              (std::vector<glm::vec2>{{0, 0}, {2, 0}, {0, 3}}));
+    material["emissiveTexture"]["texCoord"] = 2;
+    const Scene missing = texturedTriangle(material).load();
+    EXPECT_EQ(missing.primitives[0].emission_uvs, std::vector<glm::vec2>(3, glm::vec2(0.0F)));
+    ASSERT_EQ(missing.warnings.size(), 1U);
+    EXPECT_TRUE(contains(missing.warnings[0], "TEXCOORD_2")) << missing.warnings[0];
 }
 
 TEST(GltfMaterials, TextureTransformMovesTheCoordinates)
