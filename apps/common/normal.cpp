@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/normal.h"
 
-#include "shared/octree.h"
+#include "core/tree/attribute_format.h"
 
 #include <cmath>
 

@@ -21,7 +21,8 @@ const uint kFrames = 12u;
 
 ivec3 normals[kBlockVoxels]; // the absolute values of their components add up to kOne
 
-ivec3 shortened(uint code)
+// The vector of a code, whose components' absolute values add up to kOne.
+ivec3 vectorOf(uint code)
 {
     ivec2 p = max(normalCoordinates(code), ivec2(-kNormalOne));
     return unfoldNormal(sign(p) * ((abs(p) * kOne + kNormalOne / 2) / kNormalOne), kOne);
@@ -43,7 +44,7 @@ uint loadNormals(uint first)
     for (uint i = 0u; i < kBlockVoxels; ++i)
     {
         code = codes[i] == kNoNormal ? code : codes[i];
-        normals[i] = shortened(code);
+        normals[i] = vectorOf(code);
     }
     return missing;
 }

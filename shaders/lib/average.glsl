@@ -142,5 +142,8 @@ Attribute averageChildren(SceneView_ConstPtr scene, Node node, AVERAGE_CHILDREN 
     }
     uint divisor = max(count, 1u); // lanes without a node look up a color like all others
     uvec3 color = divideSmall(sums.color + divisor / 2u, divisor);
-    return Attribute(packColor(scene, color, sums.flags), encodeNormalSum(sums.normal, divisor * uint(kNormalOne)));
+    // The absolute values of the components of each normal add up to kNormalOne. So the mean is measured by theirs.
+    uvec3 size = uvec3(abs(sums.normal));
+    bool is_short = (size.x + size.y + size.z) * kNoNormalRatio < divisor * uint(kNormalOne);
+    return Attribute(packColor(scene, color, sums.flags), is_short ? kNoNormal : encodeNormal(sums.normal));
 }

@@ -40,14 +40,14 @@ uint encodeNormal(ivec3 v)
     return normalCode(foldNormal(ivec2(divideSmall(size.xy * uint(kNormalOne) + sum / 2u, sum)), v, kNormalOne));
 }
 
-// The code of a sum of vectors whose lengths add up to `whole`, which is below 2^31: kNoNormal if the sum is shorter than
-// whole / kNoNormalRatio.
-uint encodeNormalSum(ivec3 sum, uint whole)
+// The code of the mean of `count` vectors that have the length `one` at most: kNoNormal if the mean is shorter than
+// one / kNoNormalRatio. count * one < 2^31; sum: that of the vectors.
+uint encodeMeanNormal(ivec3 sum, uint count, uint one)
 {
     uvec3 size = uvec3(abs(sum));
     int shift = normalShift(size);
     size >>= shift;
-    uint least = min(whole / kNoNormalRatio >> shift, kNormalMask); // sizes below 2^15 make no longer vector
+    uint least = min(count * one / kNoNormalRatio >> shift, kNormalMask); // components below 2^15 make no longer vector
     bool is_short = size.x * size.x + size.y * size.y + size.z * size.z < least * least;
     return is_short ? kNoNormal : encodeNormal(sum);
 }

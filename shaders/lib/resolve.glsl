@@ -14,8 +14,8 @@ Attribute resolveSums(SceneView_ConstPtr scene, VoxelSums sums, uint sum_shift, 
     uint count = max(sums.fragments, 1u);
     uvec3 sum = uvec3(sums.red, sums.green, sums.blue);
     uvec3 color = min(divideSmall(sum + count / 2u, count) << sum_shift, uvec3(kFractionOne));
-    uint lengths = count * (uint(kNormalOne) >> sum_shift);
-    return Attribute(packColor(scene, color, flags), encodeNormalSum(normalSum(sums, sum_shift), lengths));
+    uint normal = encodeMeanNormal(normalSum(sums, sum_shift), count, uint(kNormalOne) >> sum_shift);
+    return Attribute(packColor(scene, color, flags), normal);
 }
 
 // Writes the mean of sums as the attribute of a voxel: one store, not two. The includer's parameters have attributes.

@@ -44,19 +44,11 @@ std::uint32_t normalCode(const glm::ivec3& n)
     return (static_cast<std::uint32_t>(p.x) & 0xFFFFU) | static_cast<std::uint32_t>(p.y) << 16;
 }
 
-// The code of the mean of `count` directions: none if it is shorter than a quarter of them.
+// The code of the mean of `count` directions: none if its absolute values add up to less than a quarter of theirs.
 std::uint32_t meanNormalCode(const glm::ivec3& sum, std::uint32_t count)
 {
-    const glm::ivec3 size = glm::abs(sum);
-    const int bits = std::bit_width(static_cast<unsigned>(size.x | size.y | size.z));
-    const std::int64_t cut = std::int64_t{1} << std::max(bits - 15, 0);
-    std::int64_t squares = 0;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        squares += (size[axis] / cut) * (size[axis] / cut);
-    }
-    const std::int64_t least = std::int64_t{32767} * count / 4 / cut;
-    return squares < least * least ? gpu::kNoNormal : normalCode(sum);
+    const std::int64_t size = std::int64_t{std::abs(sum.x)} + std::abs(sum.y) + std::abs(sum.z);
+    return size * 4 < std::int64_t{32767} * count ? gpu::kNoNormal : normalCode(sum);
 }
 
 // Mean attributes of a node's children.

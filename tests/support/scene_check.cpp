@@ -85,8 +85,9 @@ void checkPrimitive(const Scene& scene, const Primitive& primitive)
 {
     const std::size_t vertex_count = primitive.positions.size();
     const auto fits = [&](std::size_t count) { return count == 0 || count == vertex_count; };
-    require(fits(primitive.normals.size()) && fits(primitive.uvs.size()) && fits(primitive.colors.size()) &&
-                fits(primitive.joints.size()) && primitive.joints.size() == primitive.weights.size(),
+    require(fits(primitive.normals.size()) && fits(primitive.uvs.size()) && fits(primitive.emission_uvs.size()) &&
+                fits(primitive.colors.size()) && fits(primitive.joints.size()) &&
+                primitive.joints.size() == primitive.weights.size(),
             "vertex arrays of different lengths");
     require(primitive.material < scene.materials.size(), "a material that is not there");
     for (const glm::uvec3& triangle : primitive.triangles)

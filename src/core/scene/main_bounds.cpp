@@ -112,7 +112,7 @@ private:
     std::array<int, kBins + 1> m_begins{}; // triangles that begin in a bin, less those that end before it
 };
 
-// Calls visit(low, high, area) for each finite triangle whose box has its middle within bounds.
+// Calls visit(low, high, area) for each finite triangle whose own box has its middle within box.
 template <typename Visit> void visitTriangles(const Scene& scene, const Box& box, const Visit& visit)
 {
     for (const Instance& instance : scene.instances)

@@ -90,6 +90,7 @@ std::vector<PrimitiveOffsets> primitiveOffsets(const Scene& scene)
     }
     checkedCount(triangle_count, "triangles"); // the last ones have numbers, too
     checkedCount(vertex_count, "vertices");
+    checkedCount(uv_count, "texture coordinates");
     return offsets;
 }
 

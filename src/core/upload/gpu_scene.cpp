@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -95,9 +96,19 @@ void addPrimitive(Staging& staging, const Primitive& primitive)
 // Textures that nothing needs get no texels: their materials do without them.
 std::vector<bool> neededTextures(const Scene& scene, bool attributes)
 {
-    std::vector<bool> needed(scene.textures.size(), false);
-    for (const Material& material : scene.materials)
+    std::vector<bool> is_shown(scene.materials.size(), false); // on an instance
+    for (const Instance& instance : scene.instances)
     {
+        is_shown[scene.primitives[instance.primitive].material] = true;
+    }
+    std::vector<bool> needed(scene.textures.size(), false);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    {
+        if (!is_shown[i])
+        {
+            continue;
+        }
+        const Material& material = scene.materials[i];
         if (material.base_color_texture && (attributes || material.alpha_mode != AlphaMode::Opaque))
         {
             needed[*material.base_color_texture] = true;

@@ -53,7 +53,7 @@ struct GpuScene
     vk::BufferOf<gpu::uvec3> triangles;      // [triangles of all primitives]
     vk::BufferOf<gpu::vec3> positions;       // [vertices]
     vk::BufferOf<gpu::vec3> normals;         // [vertices of primitives that have them]
-    vk::BufferOf<gpu::ivec2> uvs;            // likewise
+    vk::BufferOf<gpu::ivec2> uvs;            // likewise; of a primitive those of its emission come last
     vk::BufferOf<gpu::uvec2> colors;         // likewise
     vk::BufferOf<gpu::Material> materials;   // [materials]
     vk::BufferOf<gpu::TextureInfo> textures; // [textures]

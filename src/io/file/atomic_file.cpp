@@ -253,7 +253,6 @@ void AtomicFile::commit()
     {
         throw writeError(m_target, errno);
     }
-    close();
     const bool replace = m_overwrite == Overwrite::Allow;
     const int code = replace ? (::rename(m_temporary.c_str(), m_target.c_str()) == 0 ? 0 : errno)
                              : renameIfAbsent(m_temporary.c_str(), m_target.c_str());
@@ -261,6 +260,7 @@ void AtomicFile::commit()
     {
         throw code == EEXIST && !replace ? existsError(m_target) : writeError(m_target, code);
     }
+    close(); // until here its lock keeps others from taking it for abandoned
     dropPendingFile(m_pending_slot);
     m_temporary.clear();
     syncDirectory(m_target.parent_path());

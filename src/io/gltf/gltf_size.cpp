@@ -46,7 +46,8 @@ SceneSize measureMesh(const tinygltf::Model& model, const tinygltf::Mesh& mesh)
         size.vertex_count = std::max(size.vertex_count, vertex_count);
         size.triangle_count += triangle_count;
         size.bytes += vertex_count * sizeof(glm::vec3) + triangle_count * sizeof(glm::uvec3) +
-                      attribute_bytes("NORMAL", sizeof(glm::vec3)) + attribute_bytes("TEXCOORD_0", sizeof(glm::vec2)) +
+                      attribute_bytes("NORMAL", sizeof(glm::vec3)) +
+                      2 * vertex_count * sizeof(glm::vec2) + // coordinates of the base colour and of the emission
                       attribute_bytes("COLOR_0", sizeof(glm::vec4)) +
                       attribute_bytes("JOINTS_0", sizeof(glm::u16vec4)) +
                       attribute_bytes("WEIGHTS_0", sizeof(glm::vec4));

@@ -11,6 +11,7 @@
 #include <climits>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <new>
 #include <string_view>
 #include <utility>
 #include <webp/decode.h>
@@ -20,16 +21,21 @@ namespace
 
 /// The most bytes of one allocation of the decoder. It stops small files that unpack without end.
 thread_local std::size_t t_decoder_bytes_max = 0;
+thread_local bool t_decoder_lacks_memory = false; // that it was allowed to have
 
 /// The memory is zero, so that pixels missing in a file are the same on every run.
 void* decoderAllocate(std::size_t bytes)
 {
-    return bytes <= t_decoder_bytes_max ? std::calloc(bytes, 1) : nullptr;
+    void* const made = bytes <= t_decoder_bytes_max ? std::calloc(bytes, 1) : nullptr;
+    t_decoder_lacks_memory = t_decoder_lacks_memory || (made == nullptr && bytes <= t_decoder_bytes_max);
+    return made;
 }
 
 void* decoderReallocate(void* old, std::size_t bytes)
 {
-    return bytes <= t_decoder_bytes_max ? std::realloc(old, bytes) : nullptr;
+    void* const made = bytes <= t_decoder_bytes_max ? std::realloc(old, bytes) : nullptr;
+    t_decoder_lacks_memory = t_decoder_lacks_memory || (made == nullptr && bytes <= t_decoder_bytes_max);
+    return made;
 }
 
 } // namespace
@@ -160,8 +166,12 @@ Pixels decodePixels(std::span<const std::uint8_t> encoded, const ImageHeader& he
     if (isWebp(encoded))
     {
         Pixels pixels(static_cast<std::uint8_t*>(std::malloc(header.rgbaBytes())));
-        if (!pixels || WebPDecodeRGBAInto(encoded.data(), encoded.size(), pixels.get(), header.rgbaBytes(),
-                                          static_cast<int>(header.width) * kChannels) == nullptr)
+        if (!pixels)
+        {
+            throw std::bad_alloc();
+        }
+        if (WebPDecodeRGBAInto(encoded.data(), encoded.size(), pixels.get(), header.rgbaBytes(),
+                               static_cast<int>(header.width) * kChannels) == nullptr)
         {
             throw imageError(where, "the WebP image does not decode; save it again");
         }
@@ -171,8 +181,13 @@ Pixels decodePixels(std::span<const std::uint8_t> encoded, const ImageHeader& he
     int height = 0;
     int channels = 0;
     t_decoder_bytes_max = header.decoder_bytes_max;
+    t_decoder_lacks_memory = false;
     Pixels pixels(stbi_load_from_memory(encoded.data(), static_cast<int>(encoded.size()), &width, &height, &channels,
                                         kChannels)); // from decoderAllocate()
+    if (t_decoder_lacks_memory)
+    {
+        throw std::bad_alloc();
+    }
     if (!pixels)
     {
         throw imageError(where, "the image does not decode; save it again");

@@ -189,7 +189,8 @@ private:
         std::size_t count = 0;
         for (unsigned int i = 0; mesh.mFaces != nullptr && i < mesh.mNumFaces; ++i)
         {
-            count += std::max(mesh.mFaces[i].mNumIndices, 2U) - 2;
+            const unsigned int corners = mesh.mFaces[i].mNumIndices;
+            count += corners <= 4 ? std::max(corners, 2U) - 2 : 2 * std::size_t{corners}; // PolygonTriangulator
         }
         return count;
     }

@@ -233,7 +233,7 @@ private:
         const std::size_t first = m_polygon_vertices.size();
         for (std::uint64_t i = 0; i < count; ++i)
         {
-            m_bytes_left.take(count > 3 ? sizeof(std::uint32_t) + sizeof(glm::uvec3) : 0);
+            m_bytes_left.take(count > 3 ? sizeof(std::uint32_t) + 2 * sizeof(glm::uvec3) : 0); // PolygonTriangulator
             m_polygon_vertices.push_back(vertexIndex(number(property.type)));
         }
         if (count > 3)

@@ -135,8 +135,7 @@ public:
         File& file = m_files.at(path);
         if (!file.is_loaded)
         {
-            file.scene = loadScene(std::span(&path, 1), m_options);
-            m_skipped.leaveOut(file.scene);
+            file.scene = loadScene(std::span(&path, 1), m_options, m_skipped);
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/hulls.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -86,12 +87,17 @@ std::vector<std::uint32_t> weldVertices(const std::vector<glm::vec3>& positions)
 {
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0U);
-    const auto key = [&](std::uint32_t i) { return std::array{positions[i].x, positions[i].y, positions[i].z}; };
+    // By bits, which have an order even where positions have none. 0.0 is added, as -0.0 is the same place.
+    const auto key = [&](std::uint32_t i)
+    {
+        const glm::uvec3 bits = glm::floatBitsToUint(positions[i] + 0.0F);
+        return std::array{bits.x, bits.y, bits.z};
+    };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     std::vector<std::uint32_t> welded(positions.size());
     for (std::size_t i = 0; i < order.size(); ++i)
     {
-        const bool same = i != 0 && positions[order[i]] == positions[order[i - 1]];
+        const bool same = i != 0 && key(order[i]) == key(order[i - 1]);
         welded[order[i]] = same ? welded[order[i - 1]] : order[i];
     }
     return welded;

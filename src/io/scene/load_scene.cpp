@@ -9,7 +9,6 @@
 #include "io/mesh/mesh_import.h"
 #include "io/mesh/stl_file.h"
 #include "io/scene/hulls.h"
-#include "io/scene/scene_part.h"
 
 #include <algorithm>
 #include <cctype>
@@ -174,8 +173,18 @@ glm::mat3 rotationToY(UpAxis up)
 
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options)
 {
-    Scene scene;
     SkippedMaterials skipped(options.skip_materials);
+    Scene scene = loadScene(paths, options, skipped);
+    for (std::string& warning : skipped.warnings())
+    {
+        scene.warnings.push_back(std::move(warning));
+    }
+    return scene;
+}
+
+Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options, SkippedMaterials& skipped)
+{
+    Scene scene;
     for (const std::filesystem::path& path : paths)
     {
         Scene loaded = loadFile(path, options.strict ? ImageDecoding::WhenLoaded : options.images);
@@ -193,10 +202,6 @@ Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions&
             keepAnimation(loaded);
         }
         scene.append(std::move(loaded));
-    }
-    for (std::string& warning : skipped.warnings())
-    {
-        scene.warnings.push_back(std::move(warning));
     }
     applyLoadOptions(scene, options);
     return scene;

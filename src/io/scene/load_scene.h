@@ -3,6 +3,7 @@
 
 #include "core/scene/scene.h"
 #include "io/image/image_io.h"
+#include "io/scene/scene_part.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -40,6 +41,10 @@ struct LoadOptions
 /// Error{Input}, one line with the path, also for Scene::warnings of files with LoadOptions::strict, and what
 /// applyLoadOptions() throws.
 Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options = {});
+
+/// The same, for files that are loaded one by one: skipped takes the place of LoadOptions::skip_materials, and its
+/// warnings are left to the caller.
+Scene loadScene(std::span<const std::filesystem::path> paths, const LoadOptions& options, SkippedMaterials& skipped);
 
 /// Whether a path names a scene file, NAME.scene.json (io/scene/scene_file.h). loadScene() refuses scene files.
 bool isSceneFile(const std::filesystem::path& path);

@@ -52,6 +52,7 @@ struct Loss
     double mean_degrees = 0;
     double percentile_degrees = 0; // not exceeded by 99 of 100
     double max_degrees = 0;
+    double changed_share = 0; // that has a normal before or after alone; these have no angle
 };
 
 Loss lossOf(const std::vector<gpu::Attribute>& attributes, AttributeFormat format, const std::vector<gpu::uint>& words)
@@ -64,7 +65,10 @@ Loss lossOf(const std::vector<gpu::Attribute>& attributes, AttributeFormat forma
     {
         const gpu::Attribute unpacked = unpackAttribute(format, words, i);
         squares += squaredDifference(unpacked.color, attributes[i].color);
-        if (unpacked.normal == gpu::kNoNormal || attributes[i].normal == gpu::kNoNormal)
+        const bool is_missing = unpacked.normal == gpu::kNoNormal;
+        const bool was_missing = attributes[i].normal == gpu::kNoNormal;
+        loss.changed_share += is_missing != was_missing ? 1.0 / static_cast<double>(attributes.size()) : 0.0;
+        if (is_missing || was_missing)
         {
             continue;
         }
@@ -184,11 +188,13 @@ TEST_P(AttributeQuality, IsKept)
     const std::vector<Quality> qualities = measure(*path, 8);
     const Quality& words = qualities[0];
     EXPECT_GT(words.voxels.color_db, 41);
+    EXPECT_EQ(words.voxels.changed_share, 0.0);
     EXPECT_LT(words.voxels.mean_degrees, 0.32);
     EXPECT_LT(words.voxels.max_degrees, 0.66);
     EXPECT_GT(words.picture_db, 41);
     const Quality& blocks = qualities[1];
     EXPECT_GT(blocks.voxels.color_db, GetParam().color_db);
+    EXPECT_LT(blocks.voxels.changed_share, 0.075);
     EXPECT_LT(blocks.voxels.mean_degrees, GetParam().mean_degrees);
     EXPECT_LT(blocks.voxels.percentile_degrees, GetParam().percentile_degrees);
     EXPECT_LT(blocks.voxels.max_degrees, GetParam().max_degrees);

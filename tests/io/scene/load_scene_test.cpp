@@ -219,6 +219,23 @@ TEST(LoadScene, MaterialsAreSkippedByTheirNames)
     EXPECT_EQ(whole.warnings, std::vector<std::string>{"--skip-material: no material has a name like \"Outline\""});
 }
 
+TEST(LoadScene, MaterialsAreSkippedBeforeHullsAreFoundAndWarningsRefused)
+{
+    const TempDir dir;
+    const std::filesystem::path file = dir.write("toon.glb", toonGlb(false));
+    const std::string objects = R"({"objects": [{"name": "a", "file": "toon.glb", "static": true}]})";
+    const std::filesystem::path scene_file =
+        dir.write("toon.scene.json", std::vector<std::uint8_t>(objects.begin(), objects.end()));
+    AnimatedSceneOptions options;
+    options.load = {.strict = true, .skip_materials = {"outline"}};
+    for (const std::filesystem::path& path : {file, scene_file})
+    {
+        const AnimatedScene animated = loadAnimatedScene(path, options);
+        EXPECT_EQ(animated.fixed.instances.size(), 2U) << path;
+        EXPECT_TRUE(animated.warnings.empty()) << path;
+    }
+}
+
 } // namespace
 
 } // namespace zvo::test

@@ -350,6 +350,7 @@ TEST(TreeBuild, NormalsLookOutwards)
     EXPECT_EQ(at({3, 3, 7}).normal, octahedralCode({0, 0, 1}));
     EXPECT_EQ(at({3, 3, 0}).normal, octahedralCode({0, 0, -1}));
     EXPECT_EQ(at({7, 7, 7}).normal, octahedralCode({1, 1, 1}));
+    EXPECT_EQ(at({3, 3, 3}).normal, gpu::kNoNormal);
     EXPECT_EQ(at({7, 7, 7}).color, 0x123456U);
     EXPECT_EQ(octahedralCode({1, 0, 0}), 32767U);
     EXPECT_EQ(octahedralCode({0, -1, 0}), 0x8001U << 16);
