@@ -15,6 +15,20 @@ set(ZVO_SPIRV_PASSES --merge-return --inline-entry-points-exhaustive --eliminate
 set(ZVO_SPIRV_PASSES_VOXELIZE ${ZVO_SPIRV_PASSES} --eliminate-local-single-block --eliminate-local-single-store
                               --eliminate-dead-code-aggressive)
 
+# zvo_choose_files(LIST ONLY WITHOUT): sorts a list of relative paths, and keeps those in the folder ONLY, or those
+# outside of the folder WITHOUT.
+function(zvo_choose_files list_name only without)
+    set(paths ${${list_name}})
+    list(SORT paths)
+    if(only)
+        list(FILTER paths INCLUDE REGEX "^${only}/")
+    endif()
+    if(without)
+        list(FILTER paths EXCLUDE REGEX "^${without}/")
+    endif()
+    set(${list_name} ${paths} PARENT_SCOPE)
+endfunction()
+
 # zvo_compile_kernel(SOURCE OUTPUT SYMBOL INCLUDE DEFINES PASSES DEPENDS): makes OUTPUT.spv and OUTPUT.cpp, which defines
 # the words as zvo::kernels::SYMBOL.
 function(zvo_compile_kernel source output symbol include defines passes depends)
@@ -37,11 +51,12 @@ function(zvo_compile_kernel source output symbol include defines passes depends)
         VERBATIM)
 endfunction()
 
-# zvo_embed_kernels(TARGET ROOT FUNCTION [INCLUDE dir] [DEPENDS target] [AS_COMPILED]): adds a generated source to
-# TARGET that defines `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels below ROOT. They include
-# what is below dir, by default zvo's own shaders, after target was made. AS_COMPILED: they are not simplified.
+# zvo_embed_kernels(TARGET ROOT FUNCTION [ONLY folder | WITHOUT folder] [INCLUDE dir] [DEPENDS target] [AS_COMPILED]):
+# adds a generated source to TARGET that defines `std::span<const zvo::vk::EmbeddedKernel> zvo::FUNCTION()`, all kernels
+# below ROOT, those in a folder of it, or those in the others. They include what is below dir, by default zvo's own
+# shaders, after target was made. AS_COMPILED: they are not simplified.
 function(zvo_embed_kernels target root function_name)
-    cmake_parse_arguments(arg "AS_COMPILED" "INCLUDE;DEPENDS" "" ${ARGN})
+    cmake_parse_arguments(arg "AS_COMPILED" "ONLY;WITHOUT;INCLUDE;DEPENDS" "" ${ARGN})
     if(NOT arg_INCLUDE)
         set(arg_INCLUDE ${PROJECT_SOURCE_DIR}/shaders)
     endif()
@@ -50,7 +65,7 @@ function(zvo_embed_kernels target root function_name)
         set(passes "")
     endif()
     file(GLOB_RECURSE kernels CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.comp)
-    list(SORT kernels)
+    zvo_choose_files(kernels "${arg_ONLY}" "${arg_WITHOUT}")
     set(out_dir ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target})
     set(embedded "")
     set(declarations "")
@@ -102,11 +117,14 @@ std::span<const vk::EmbeddedKernel> @function_name@()
     target_sources(${target} PRIVATE ${embedded} ${out_dir}/registry.cpp)
 endfunction()
 
-# zvo_list_kernels(TARGET ROOT FUNCTION): adds a generated source to TARGET that defines
-# `std::vector<zvo::vk::KernelDeclaration> zvo::FUNCTION()`, what all headers below ROOT declare of kernels.
+# zvo_list_kernels(TARGET ROOT FUNCTION [ONLY folder | WITHOUT folder]): adds a generated source to TARGET that defines
+# `std::vector<zvo::vk::KernelDeclaration> zvo::FUNCTION()`, what all headers below ROOT declare of kernels, those in a
+# folder of it, or those in the others.
 function(zvo_list_kernels target root function_name)
-    file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${root}/*.h)
-    list(SORT headers)
+    cmake_parse_arguments(arg "" "ONLY;WITHOUT" "" ${ARGN})
+    file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${root} ${root}/*.h)
+    zvo_choose_files(headers "${arg_ONLY}" "${arg_WITHOUT}")
+    list(TRANSFORM headers PREPEND ${root}/)
     list(JOIN headers "," joined)
     set(output ${CMAKE_CURRENT_BINARY_DIR}/kernels/${target}_declarations.cpp)
     add_custom_command(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Part of the build: tells where what headers declare of kernels differs from the modules that were made of them.
-#include "core/base/kernels.h"
+// KERNELS and DECLARATIONS: the functions that list both.
+#include "vk/kernel.h"
 #include "vk/kernel_declaration.h"
 
 #include <cstdio>
@@ -8,14 +9,15 @@
 
 namespace zvo
 {
-std::vector<vk::KernelDeclaration> zvoKernelDeclarations();
+std::span<const vk::EmbeddedKernel> KERNELS();
+std::vector<vk::KernelDeclaration> DECLARATIONS();
 } // namespace zvo
 
 int main()
 {
     try
     {
-        const std::vector<std::string> found = zvo::vk::differences(zvo::zvoKernelDeclarations(), zvo::zvoKernels());
+        const std::vector<std::string> found = zvo::vk::differences(zvo::DECLARATIONS(), zvo::KERNELS());
         for (const std::string& line : found)
         {
             std::fprintf(stderr, "error: kernel %s\n", line.c_str());
