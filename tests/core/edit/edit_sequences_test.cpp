@@ -126,13 +126,13 @@ void play(bool objects, int cases)
 
 TEST(EditSequences, ShowWhatAModelHas)
 {
-    play(false, 100);
+    play(false, 50);
 }
 
 // Dynamic objects are anywhere, and a brush may come after any slice of an update.
 TEST(EditSequences, WithDynamicObjectsShowWhatAModelHas)
 {
-    play(true, 75);
+    play(true, 40);
 }
 
 } // namespace
