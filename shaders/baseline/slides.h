@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the kernels of the slides' algorithms share with the host (src/baseline/slides_builder.h).
+// What the kernels of the slides' algorithms share with the host (src/baseline/slides_builder.h, slides_trace.h).
 //
 // A node has 8 children, in Morton order. It takes 9 words, or 17 with prefix sums:
 //
@@ -17,6 +17,7 @@
 
 #include "shared/octree.h"
 #include "shared/scene.h"
+#include "shared/trace.h"
 #include "voxelize/voxelize.h"
 
 GPU_NAMESPACE_BEGIN
@@ -44,6 +45,10 @@ const int kSlidesLatticeLimit = 1 << 24; // triangles with vertices beyond are d
 
 const uint kSlidesProbesMax = 256u; // slots that an insert looks at before the table counts as full
 const uint kSlidesFreeSlot = ~0u;
+
+const uint kSlidesStatesMax = 14u;        // states of nodes that a ray keeps
+const uint kSlidesChildrenMax = 40u;      // or children of nodes: 3 a level, and the root's
+const uint kSlidesIterationsMax = 40000u; // of a ray
 
 /// What the passes count for the host.
 struct SlidesCounters
@@ -206,6 +211,32 @@ GPU_KERNEL_BEGIN(baseline, slides_class_nodes, SlidesClassNodes, SlidesClassPara
     GPU_CONSTANT(uint, node_words, kSlidesSumNodeWords)
 GPU_KERNEL_END
 GPU_KERNEL(baseline, slides_class_children, SlidesClassChildren, SlidesClassParams)
+
+/// Counts of a trace for the host.
+struct SlidesTraceStatus
+{
+    uint capped_rays; // that used up their iterations, and count as misses
+};
+GPU_BUFFER(SlidesTraceStatus, 4);
+
+struct SlidesTraceParams // push constants of baseline/slides_trace: a workgroup for each tile of 8x8 pixels
+{
+    GPU_CONST_PTR(uint) nodes;
+    GPU_PTR(Hit) hits; // [width * height] row by row
+    GPU_PTR(SlidesTraceStatus) status;
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint root;
+    uint depth; // of the grid
+};
+GPU_KERNEL_BEGIN(baseline, slides_trace, SlidesTrace, SlidesTraceParams)
+    GPU_CONSTANT(uint, node_words, kSlidesSumNodeWords)
+    GPU_CONSTANT(bool, push_children, false)
+    GPU_CONSTANT(bool, stop_at_far_side, true)
+    GPU_CONSTANT(bool, skip_behind, true)
+    GPU_CONSTANT(bool, orthographic, false)
+GPU_KERNEL_END
 
 GPU_NAMESPACE_END
 

@@ -1,0 +1,340 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// The first voxel along the ray of each pixel, after HERO (M. Agate, R. Grimsdale, P. Lister, The HERO Algorithm for
+// Ray-Tracing Octrees, 1991) as the slides have it. A node is known by the times at which the ray crosses its lower
+// planes; those of its upper ones are a span later, which halves with each level. Directions are mirrored to be positive:
+// a child's bits tell by which of the node's middle planes the ray has passed, and the child's place in memory is these
+// bits XOR those of the mirrored axes. So children come in the order in which the ray meets them.
+//
+// Two forms find the same hits. One goes down to the next child at once and keeps the state of the node, from which it
+// resumes; the other (kPushChildren) puts all children that the ray meets on the stack, the nearest on top.
+//
+//   kStopAtFarSide   the slides' first tip: a node is done as soon as the ray reaches its far side. Without it, states are
+//                    kept although no child is left, and the children behind the far side are looked at.
+//   kSkipBehind      the second: what ends behind the ray's origin is not entered. Without it, only voxels are tested.
+#extension GL_GOOGLE_include_directive : require
+#include "baseline/slides.h"
+#include "trace/trace.h"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/morton.glsl"
+#include "lib/ray.glsl"
+
+layout(constant_id = 0) const uint kNodeWords = kSlidesSumNodeWords;
+layout(constant_id = 1) const bool kPushChildren = false;
+layout(constant_id = 2) const bool kStopAtFarSide = true;
+layout(constant_id = 3) const bool kSkipBehind = true;
+layout(constant_id = 4) const bool kOrthographic = false;
+
+const bool kHasSums = kNodeWords == kSlidesSumNodeWords;
+
+layout(local_size_x = kTilePixels) in;
+layout(push_constant, scalar) uniform Push
+{
+    SlidesTraceParams params;
+};
+
+// Of a node that is being visited; the bits of the child that the ray is in, or one of these.
+const uint kNotBegun = 8u;
+const uint kDone = 9u;
+
+struct State
+{
+    uint node;
+    vec3 begin; // times of the lower planes
+    uint level; // 0: the root
+    uint child;
+    uint voxels; // before the node
+};
+
+const uint kOctantShift = 8u; // in a word of g_places, behind the level or the level and the child
+
+const uint kStackSize = kPushChildren ? kSlidesChildrenMax : kSlidesStatesMax;
+uint g_nodes[kStackSize];
+vec3 g_begins[kStackSize];
+uint g_places[kStackSize]; // level | child << kOctantShift; of pushed children: their octants
+uint g_voxels[kStackSize];
+uint g_size;
+
+void push(State state, uint place)
+{
+    g_nodes[g_size] = state.node;
+    g_begins[g_size] = state.begin;
+    g_places[g_size] = state.level | (place << kOctantShift);
+    g_voxels[g_size] = state.voxels;
+    ++g_size;
+}
+
+// Takes the state on top, where there is one. place: as it was pushed.
+State pop(out uint place)
+{
+    g_size -= g_size != 0u ? 1u : 0u;
+    place = g_places[g_size] >> kOctantShift;
+    return State(g_nodes[g_size], g_begins[g_size], g_places[g_size] & ((1u << kOctantShift) - 1u), kNotBegun,
+                 g_voxels[g_size]);
+}
+
+float powerOfTwo(int exponent)
+{
+    return ldexp(1.0, exponent);
+}
+
+float least(vec3 v)
+{
+    return min(v.x, min(v.y, v.z));
+}
+
+float greatest(vec3 v)
+{
+    return max(v.x, max(v.y, v.z));
+}
+
+bvec3 bitsOf(uint child)
+{
+    return bvec3((child & 1u) != 0u, (child & 2u) != 0u, (child & 4u) != 0u);
+}
+
+uint bitsFrom(bvec3 bits)
+{
+    return (bits.x ? 1u : 0u) | (bits.y ? 2u : 0u) | (bits.z ? 4u : 0u);
+}
+
+// The times at which the ray crosses a node's planes.
+struct Planes
+{
+    vec3 begin;
+    vec3 middle;
+    vec3 end;
+};
+
+Planes planesOf(State state, vec3 span)
+{
+    vec3 end = state.begin + span * powerOfTwo(-int(state.level));
+    return Planes(state.begin, 0.5 * (state.begin + end), end);
+}
+
+// The child by whose lower planes the ray has passed when it enters the node.
+uint firstChild(Planes planes)
+{
+    return bitsFrom(lessThan(planes.middle, vec3(greatest(planes.begin))));
+}
+
+vec3 beginOf(Planes planes, uint child)
+{
+    return mix(planes.begin, planes.middle, bitsOf(child));
+}
+
+vec3 endOf(Planes planes, uint child)
+{
+    return mix(planes.middle, planes.end, bitsOf(child));
+}
+
+// The bit of the plane by which the ray leaves a child.
+uint leavingBit(vec3 end)
+{
+    return end.x < end.y ? (end.x < end.z ? 1u : 4u) : (end.y < end.z ? 2u : 4u);
+}
+
+uint nodeWord(uint node, uint word)
+{
+    return params.nodes.data[node * kNodeWords + word];
+}
+
+uint voxelsBefore(State state, uint octant)
+{
+    return kHasSums ? state.voxels + nodeWord(state.node, 9u + octant) : 0u;
+}
+
+State childState(State state, Planes planes, uint child, uint octant)
+{
+    return State(nodeWord(state.node, 1u + octant), beginOf(planes, child), state.level + 1u, kNotBegun,
+                 voxelsBefore(state, octant));
+}
+
+struct Found
+{
+    bool hit;
+    vec3 begin; // of the voxel
+    uint64_t code;
+    uint voxel;
+    bool capped;
+};
+
+// The path to the current node: its Morton code at its level.
+struct Path
+{
+    uint64_t code;
+    uint level;
+};
+
+Path ancestorOf(Path path, uint level)
+{
+    return Path(path.code >> (3u * (path.level - level)), level);
+}
+
+Found noneFound()
+{
+    return Found(false, vec3(0.0), 0ul, 0u, false);
+}
+
+void hitVoxel(State state, Planes planes, Path path, uint child, uint octant, inout Found found)
+{
+    found.hit = true;
+    found.begin = beginOf(planes, child);
+    found.code = path.code << 3 | octant;
+    found.voxel = voxelsBefore(state, octant);
+}
+
+// Goes down to the next child, and keeps the state of the node.
+Found descend(vec3 begin, vec3 span, uint ray_bits)
+{
+    Found found = noneFound();
+    State state = State(params.root, begin, 0u, kNotBegun, 0u);
+    Path path = Path(0ul, 0u);
+    g_size = 0u;
+    uint iterations = 0u;
+    bool go = true;
+    for (; go;)
+    {
+        ++iterations;
+        Planes planes = planesOf(state, span);
+        bool done = state.child == kDone;
+        uint child = state.child == kNotBegun ? firstChild(planes) : state.child & 7u;
+        vec3 end = endOf(planes, child);
+        uint leaving = leavingBit(end);
+        bool last = (child & leaving) != 0u;
+        uint octant = child ^ ray_bits;
+        bool exists = !done && ((nodeWord(state.node, 0u) >> octant) & 1u) != 0u;
+        bool is_voxel = state.level + 1u == params.depth;
+        bool ahead = least(end) > 0.0;
+        bool enters = exists && (ahead || !(kSkipBehind || is_voxel));
+        state.child = last ? kDone : child | leaving;
+        if (enters && is_voxel)
+            hitVoxel(state, planes, path, child, octant, found);
+        else if (enters)
+        {
+            State below = childState(state, planes, child, octant);
+            if (!last || !kStopAtFarSide)
+                push(state, state.child);
+            path = Path(path.code << 3 | octant, path.level + 1u);
+            state = below;
+        }
+        bool pops = !enters && (done || last);
+        go = !found.hit && !(pops && g_size == 0u) && iterations < kSlidesIterationsMax;
+        if (pops)
+        {
+            uint resumed;
+            state = pop(resumed);
+            state.child = resumed;
+            path = ancestorOf(path, min(state.level, path.level));
+        }
+    }
+    found.capped = !found.hit && iterations == kSlidesIterationsMax;
+    return found;
+}
+
+// Puts all children that the ray meets on the stack.
+Found pushChildren(vec3 begin, vec3 span, uint ray_bits)
+{
+    Found found = noneFound();
+    State state = State(params.root, begin, 0u, kNotBegun, 0u);
+    Path path = Path(0ul, 0u);
+    g_size = 0u;
+    uint iterations = 0u;
+    bool go = true;
+    for (; go;)
+    {
+        ++iterations;
+        Planes planes = planesOf(state, span);
+        uint mask = nodeWord(state.node, 0u);
+        bool is_voxel = state.level + 1u == params.depth;
+        uint child = firstChild(planes);
+        uint met = 0u; // children to be entered, 3 bits each, the nearest in the lowest ones
+        uint count = 0u;
+        bool over = false;
+        for (uint i = 0u; i < 4u && !(over && kStopAtFarSide); ++i)
+        {
+            vec3 end = endOf(planes, child);
+            bool ahead = least(end) > 0.0 || !(kSkipBehind || is_voxel);
+            if (!over && ahead && ((mask >> (child ^ ray_bits)) & 1u) != 0u)
+            {
+                met |= child << (3u * count);
+                ++count;
+            }
+            uint leaving = leavingBit(end);
+            over = over || (child & leaving) != 0u;
+            child |= over ? leavingBit(mix(planes.middle, vec3(kTraceTimeMax), bitsOf(child))) : leaving;
+        }
+        if (is_voxel && count != 0u)
+            hitVoxel(state, planes, path, met & 7u, (met & 7u) ^ ray_bits, found);
+        for (; !is_voxel && count != 0u;)
+        {
+            --count;
+            uint farthest = (met >> (3u * count)) & 7u;
+            uint octant = farthest ^ ray_bits;
+            push(childState(state, planes, farthest, octant), octant);
+        }
+        go = !found.hit && g_size != 0u && iterations < kSlidesIterationsMax;
+        uint octant;
+        state = pop(octant);
+        Path parent = ancestorOf(path, min(state.level - 1u, path.level));
+        path = Path(parent.code << 3 | octant, state.level);
+    }
+    found.capped = !found.hit && iterations == kSlidesIterationsMax;
+    return found;
+}
+
+// origin, inverse: of a ray in unit space.
+Found traverse(vec3 origin, vec3 inverse)
+{
+    uint node_levels = (params.depth + 1u) / 2u;
+    const float lower = 1.0;
+    float upper = lower + powerOfTwo(int(params.depth) - 2 * int(node_levels));
+    bvec3 mirrored = lessThan(inverse, vec3(0.0));
+    origin = mix(origin, lower + upper - origin, mirrored);
+    inverse = abs(inverse);
+    vec3 begin = (lower - origin) * inverse;
+    vec3 end = (upper - origin) * inverse;
+    Found found = noneFound();
+    if (greatest(begin) <= least(end) && least(end) > 0.0)
+    {
+        if (kPushChildren)
+            found = pushChildren(begin, end - begin, bitsFrom(mirrored));
+        else
+            found = descend(begin, end - begin, bitsFrom(mirrored));
+    }
+    return found;
+}
+
+void store(uint pixel, Found found)
+{
+    if (!found.hit)
+    {
+        storeMiss(params.hits, pixel);
+        return;
+    }
+    float t = greatest(found.begin);
+    uint face = t <= 0.0 ? kFaceInside : (t == found.begin.x ? 0u : (t == found.begin.y ? 1u : 2u));
+    const uint mask = (1u << 30) - 1u;
+    uvec3 cell = mortonDecode(uint(found.code) & mask) | (mortonDecode(uint(found.code >> 30)) << 10);
+    storeHit(params.hits, pixel, max(t, kTraceTimeMin), found.voxel, cell, (params.depth + 1u) / 2u, face);
+}
+
+void main()
+{
+    CameraRays camera = params.camera;
+    uvec2 size = uvec2(params.width, params.height);
+    uint tiles_x = (size.x + kTileEdge - 1u) / kTileEdge;
+    uvec2 tile = uvec2(workgroupIndex() % tiles_x, workgroupIndex() / tiles_x);
+    uvec2 pixel = kTileEdge * tile + pixelInTile(gl_LocalInvocationIndex);
+    if (any(greaterThanEqual(pixel, size)))
+        return;
+    vec3 offset = rayOffset(pixelOffset(pixel, size), camera.half_pixel_x, camera.half_pixel_y);
+    precise vec3 direction = camera.forward + (kOrthographic ? vec3(0.0) : offset);
+    precise vec3 origin = camera.origin + (kOrthographic ? offset : vec3(0.0));
+    Found found = traverse(origin, inverseDirection(direction));
+    if (found.capped)
+        atomicAdd(params.status.data[0].capped_rays, 1u);
+    store(pixel.y * size.x + pixel.x, found);
+}
