@@ -13,7 +13,7 @@ SWEEPS = 24
 # Fill and frame by the first part of a room's name.
 COLORS = {"include": ("#f3e6fa", "#8e4fae"), "shaders": ("#fdf0d5", "#b7791f"), "vk": ("#e3e8ee", "#52606d"),
           "core": ("#dcebfb", "#2b6cb0"), "io": ("#ddf3e4", "#2f855a"), "runtime": ("#d8f1f1", "#2c7a7b"),
-          "api": ("#f3e6fa", "#8e4fae"), "apps": ("#fbe3e0", "#c0392b")}
+          "api": ("#f3e6fa", "#8e4fae"), "apps": ("#fbe3e0", "#c0392b"), "baseline": ("#e3e8ee", "#52606d")}
 
 
 def reduce_arrows(known):
