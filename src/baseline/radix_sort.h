@@ -34,7 +34,7 @@ struct RadixSortBuffers
 /// of a single sweep. Keys are written where they belong without being gathered in shared memory before.
 ///
 /// Cost: ceil(key_bits / kSortDigitBits) times five dispatches. Each moves every key and index once and reads the keys
-/// once more. Subgroups must have at least kSortSubgroupMin threads.
+/// once more. Subgroups must have ballots and shuffles, and at least kSortSubgroupMin threads.
 std::uint32_t radixSort(vk::FrameGraph& graph, RadixSortBuffers& buffers, std::uint64_t count, std::uint32_t key_bits);
 
 } // namespace zvo::baseline
