@@ -36,8 +36,10 @@ const uint kSlidesBlock = 512u; // elements that a workgroup takes there: kSlide
 const uint kSlidesTooMany = ~0u; // a total that does not fit 32 bits
 
 // A loop of an invocation ends silently after 65,535 iterations on lavapipe, all loops counted. So a triangle is
-// divided into pieces, a thread each: rectangles of rows and columns.
-const uint kSlidesPieceColumns = 1024u;    // of all rows of a piece, unless one row has more
+// divided into pieces, a thread each: rectangles of rows and columns. The threads of a subgroup go through their rows
+// together, each row as long as the longest: row r of pieces with several rows has at most kSlidesPieceColumns / r
+// columns, all rows of any number of threads less than 7 kSlidesPieceColumns, and a column at most four layers.
+const uint kSlidesPieceColumns = 512u;     // of all rows of a piece, unless one row has more
 const uint kSlidesPieceWidth = 4096u;      // columns of a row
 const uint kSlidesVoxelFragments = 50000u; // fragments of a voxel that are averaged
 

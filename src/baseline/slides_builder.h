@@ -69,8 +69,9 @@ struct SlidesResult
 ///   floating point. Its 6-separating set takes both layers where the plane meets a column's centre between two, and
 ///   takes all columns' voxels without a test of the other two projections where a triangle's box has one layer; the
 ///   thin set takes the upper layer, and always tests.
-/// - A thread walks a piece of a triangle: all of it if its box has up to 1,024 columns, which is the usual case. Loops
-///   of 65,536 iterations end without a word on lavapipe, and one thread for a whole wall is slow everywhere.
+/// - A thread walks a piece of a triangle: all of it if its box has up to 512 columns, which is the usual case. Loops
+/// of
+///   65,536 iterations end without a word on lavapipe, and one thread for a whole wall is slow everywhere.
 /// - Places of fragments come from a scan, not from an atomic counter; so they do not depend on the order of threads.
 ///   Scans are reduce-then-scan: the original's blocks wait for the block before, which Vulkan does not promise to end.
 /// - Fragments carry zvo's attributes, colour and normal of 16 bits a component in 12 bytes, so that means equal zvo's

@@ -129,6 +129,28 @@ TEST(Slides, RandomTrianglesHaveZvosVoxels)
     }
 }
 
+// Fragments come in another order then, and other candidates are the first in the table of equal nodes.
+TEST(Slides, TheOrderOfTrianglesDoesNotMatter)
+{
+    const Grid grid{.origin = glm::vec3(0.0F), .voxel_size = 1.0F, .depth = 6};
+    const Scene scene = test::randomTriangles(5, 200, 64.0F);
+    Scene reversed = scene;
+    std::ranges::reverse(reversed.primitives[0].triangles);
+    const GpuScene uploaded = uploadScene(slidesDevice(), scene, true);
+    const GpuScene uploaded_reversed = uploadScene(slidesDevice(), reversed, true);
+    for (const bool dag : {false, true})
+    {
+        const SlidesTree tree = test::buildSlides(uploaded, grid, {.dag = dag}).tree;
+        const SlidesTree other = test::buildSlides(uploaded_reversed, grid, {.dag = dag}).tree;
+        EXPECT_TRUE(slidesDevice().download(tree.nodes) == slidesDevice().download(other.nodes));
+        const auto attributes = slidesDevice().download(tree.attributes);
+        const auto others = slidesDevice().download(other.attributes);
+        EXPECT_TRUE(std::ranges::equal(attributes, others,
+                                       [](const gpu::Attribute& a, const gpu::Attribute& b)
+                                       { return a.color == b.color && a.normal == b.normal; }));
+    }
+}
+
 // Some triangles' vertices are far outside of the grid.
 TEST(Slides, ACutOutOfASceneHasZvosVoxels)
 {
