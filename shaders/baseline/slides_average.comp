@@ -4,7 +4,9 @@
 // out and noted.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+#include "lib/bound.glsl"
 #include "lib/dispatch.glsl"
+#define COLOR_BINDING 0
 #include "lib/resolve.glsl"
 
 layout(local_size_x = kSlidesGroup) in;

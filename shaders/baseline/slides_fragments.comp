@@ -4,6 +4,8 @@
 // attributes behind those of the pieces before.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+#include "lib/bound.glsl"
+#define COLOR_BINDING 15
 #include "lib/attribute.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/morton.glsl"

@@ -3,6 +3,8 @@
 // Divides triangles into pieces that a thread walks: counts them, then lists them.
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
+#include "lib/bound.glsl"
+#define COLOR_BINDING 15
 #include "lib/attribute.glsl"
 #include "lib/dispatch.glsl"
 

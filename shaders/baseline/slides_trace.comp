@@ -15,6 +15,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "baseline/slides.h"
 #include "trace/trace.h"
+#include "lib/bound.glsl"
 #include "lib/camera.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/hit.glsl"
@@ -136,10 +137,19 @@ uint leavingBit(vec3 end)
     return end.x < end.y ? (end.x < end.z ? 1u : 4u) : (end.y < end.z ? 2u : 4u);
 }
 
+#ifdef BOUND
+TEXELS_1(0, nodes);
+
+uint nodeWord(uint node, uint word)
+{
+    return texelFetch(texels1_nodes, int(node * kNodeWords + word)).x;
+}
+#else
 uint nodeWord(uint node, uint word)
 {
     return params.nodes.data[node * kNodeWords + word];
 }
+#endif
 
 uint voxelsBefore(State state, uint octant)
 {
