@@ -171,16 +171,12 @@ struct Found
     bool capped;
 };
 
-// The path to the current node: its Morton code at its level.
-struct Path
+// A path as the Morton code of its voxel, with another octant at a level of nodes. Octants of deeper levels are those of
+// an earlier path, until the ray goes down to them.
+uint64_t withOctant(uint64_t path, uint level, uint octant)
 {
-    uint64_t code;
-    uint level;
-};
-
-Path ancestorOf(Path path, uint level)
-{
-    return Path(path.code >> (3u * (path.level - level)), level);
+    uint shift = 3u * (params.depth - 1u - level);
+    return (path & ~(7ul << shift)) | (uint64_t(octant) << shift);
 }
 
 Found noneFound()
@@ -188,11 +184,11 @@ Found noneFound()
     return Found(false, vec3(0.0), 0ul, 0u, false);
 }
 
-void hitVoxel(State state, Planes planes, Path path, uint child, uint octant, inout Found found)
+void hitVoxel(State state, Planes planes, uint64_t path, uint child, uint octant, inout Found found)
 {
     found.hit = true;
     found.begin = beginOf(planes, child);
-    found.code = path.code << 3 | octant;
+    found.code = withOctant(path, state.level, octant);
     found.voxel = voxelsBefore(state, octant);
 }
 
@@ -201,7 +197,7 @@ Found descend(vec3 begin, vec3 span, uint ray_bits)
 {
     Found found = noneFound();
     State state = State(params.root, begin, 0u, kNotBegun, 0u);
-    Path path = Path(0ul, 0u);
+    uint64_t path = 0ul;
     g_size = 0u;
     uint iterations = 0u;
     bool go = true;
@@ -227,7 +223,7 @@ Found descend(vec3 begin, vec3 span, uint ray_bits)
             State below = childState(state, planes, child, octant);
             if (!last || !kStopAtFarSide)
                 push(state, state.child);
-            path = Path(path.code << 3 | octant, path.level + 1u);
+            path = withOctant(path, state.level, octant);
             state = below;
         }
         bool pops = !enters && (done || last);
@@ -237,7 +233,6 @@ Found descend(vec3 begin, vec3 span, uint ray_bits)
             uint resumed;
             state = pop(resumed);
             state.child = resumed;
-            path = ancestorOf(path, min(state.level, path.level));
         }
     }
     found.capped = !found.hit && iterations == kSlidesIterationsMax;
@@ -249,7 +244,7 @@ Found pushChildren(vec3 begin, vec3 span, uint ray_bits)
 {
     Found found = noneFound();
     State state = State(params.root, begin, 0u, kNotBegun, 0u);
-    Path path = Path(0ul, 0u);
+    uint64_t path = 0ul;
     g_size = 0u;
     uint iterations = 0u;
     bool go = true;
@@ -288,8 +283,7 @@ Found pushChildren(vec3 begin, vec3 span, uint ray_bits)
         go = !found.hit && g_size != 0u && iterations < kSlidesIterationsMax;
         uint octant;
         state = pop(octant);
-        Path parent = ancestorOf(path, min(state.level - 1u, path.level));
-        path = Path(parent.code << 3 | octant, state.level);
+        path = withOctant(path, max(state.level, 1u) - 1u, octant);
     }
     found.capped = !found.hit && iterations == kSlidesIterationsMax;
     return found;
