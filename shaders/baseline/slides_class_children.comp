@@ -1,0 +1,14 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Gives each candidate the number of the node that its class became.
+#extension GL_GOOGLE_include_directive : require
+#include "baseline/slides.h"
+#include "lib/dispatch.glsl"
+#include "baseline/slides_class.glsl"
+
+void main()
+{
+    uint candidate = threadIndex();
+    if (candidate < params.candidate_count)
+        params.parent_nodes.data[candidate] = params.numbers.data[params.table.data[params.slots.data[candidate]]];
+}

@@ -1,0 +1,13 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Counts classes by their first candidates.
+#extension GL_GOOGLE_include_directive : require
+#include "baseline/slides.h"
+#include "lib/dispatch.glsl"
+#include "baseline/slides_leaders.glsl"
+#include "baseline/slides_class.glsl"
+
+void main()
+{
+    countKept(firstsOf(threadIndex() * kSlidesItems), params.candidate_count, params.partials);
+}

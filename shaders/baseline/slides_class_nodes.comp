@@ -1,0 +1,27 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Makes a node of the first candidate of each class.
+#extension GL_GOOGLE_include_directive : require
+#include "baseline/slides.h"
+#include "lib/dispatch.glsl"
+#include "baseline/slides_leaders.glsl"
+#include "baseline/slides_class.glsl"
+
+layout(constant_id = 0) const uint kNodeWords = kSlidesSumNodeWords;
+
+void main()
+{
+    uint first = threadIndex() * kSlidesItems;
+    uint firsts = firstsOf(first);
+    uint number = placeOfKept(firsts, params.candidate_count, params.partials);
+    for (uint level = 0u; level < params.level; ++level)
+        number += params.counters.data[0].node_counts[level];
+    for (; firsts != 0u; firsts &= firsts - 1u)
+    {
+        uint candidate = first + uint(findLSB(firsts));
+        for (uint i = 0u; i < kNodeWords; ++i)
+            params.nodes.data[number * kNodeWords + i] = params.candidates.data[candidate * kNodeWords + i];
+        params.numbers.data[candidate] = number;
+        ++number;
+    }
+}
