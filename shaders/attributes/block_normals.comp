@@ -28,22 +28,25 @@ ivec3 vectorOf(uint code)
     return unfoldNormal(sign(p) * ((abs(p) * kOne + kNormalOne / 2) / kNormalOne), kOne);
 }
 
+uint loadCode(uint index)
+{
+    return params.attributes.data[min(index, params.count - 1u)].normal;
+}
+
 // Loads the normals of a block. For one that is missing stands in the last one before it, else the first one of all.
 // Returns how many are missing.
 uint loadNormals(uint first)
 {
-    uint codes[kBlockVoxels];
     uint code = kNoNormal;
+    for (uint i = 0u; i < kBlockVoxels && code == kNoNormal; ++i)
+        code = loadCode(first + i);
     uint missing = 0u;
     for (uint i = 0u; i < kBlockVoxels; ++i)
     {
-        codes[i] = params.attributes.data[min(first + i, params.count - 1u)].normal;
-        code = code == kNoNormal ? codes[i] : code;
-        missing += codes[i] == kNoNormal ? 1u : 0u;
-    }
-    for (uint i = 0u; i < kBlockVoxels; ++i)
-    {
-        code = codes[i] == kNoNormal ? code : codes[i];
+        uint own = loadCode(first + i);
+        bool is_missing = own == kNoNormal;
+        missing += is_missing ? 1u : 0u;
+        code = is_missing ? code : own;
         normals[i] = vectorOf(code);
     }
     return missing;
