@@ -2,6 +2,7 @@
 #include "bench/bench.h"
 
 #include "bench/bench_balance.h"
+#include "bench/bench_baselines.h"
 #include "bench/bench_denoise.h"
 #include "bench/bench_dynamic.h"
 #include "bench/bench_edit.h"
@@ -215,6 +216,11 @@ void bench(const BenchOptions& options)
     if (options.balance)
     {
         benchBalance(options);
+        return;
+    }
+    if (options.baselines)
+    {
+        benchBaselines(options);
         return;
     }
     const std::vector<fs::path> paths = benchScenes(options);

@@ -23,6 +23,7 @@ DAG; 3 N pictures of either are traced in turns, and "ratio" is the DAG's time o
 Embree, the same rays are also traced by Embree on all processors, through the same voxels and through the triangles.
 Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
 --balance: each row is voxelization and octree construction alone; ratios of them follow the table.
+--baselines: each row is one algorithm of a source beside zvo's own.
 --dynamic: the scenes are scene files (.scene.json), what they name lies beside them or in the folder of --scenes.
 --edit: N strokes for each radius and action, each undone and redone; then what a stroke takes after 10, 100 and 1000.
 
@@ -35,6 +36,7 @@ Examples:
   zvo bench scenes/knot.glb --resolutions 256 --runs 3
   zvo bench --scenes ../models --json bench.json --passes
   zvo bench --balance scenes/knot.glb scenes/atrium.glb
+  zvo bench --baselines --scenes ../models
   zvo bench --dynamic scenes/atrium_knot.scene.json
   zvo bench --edit scenes/atrium.glb --structure svdag
   zvo bench --denoise scenes/atrium.glb --reference 4096
@@ -54,6 +56,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
               "where the usual scenes are (default scenes), or what scene files name");
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
              "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048, "
+             "with --baselines on a CPU 128,256, "
              "with --dynamic, --edit and --path 512, with --tune 256, with --denoise 128)");
     addValue(
         *bench, "--runs", options.run_count,
@@ -72,9 +75,16 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--passes")
         ->excludes("--camera");
     bench
+        ->add_flag("--baselines", options.baselines,
+                   "measure instead the algorithms of zvo's sources beside zvo's own: the thesis's, Crassin and "
+                   "Green's, the slides'")
+        ->excludes("--balance")
+        ->excludes("--passes");
+    bench
         ->add_flag("--dynamic", options.dynamic,
                    "measure instead scenes in which something moves: update of the octree against a full rebuild")
         ->excludes("--balance")
+        ->excludes("--baselines")
         ->excludes("--up")
         ->excludes("--scale");
     addValue(*bench, "--structure", options.structure, parseStructure, "svo|svdag",
@@ -83,6 +93,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->add_flag("--edit", options.edit,
                    "measure instead strokes of a brush: dabs, undo and redo, by radius and by number of strokes")
         ->excludes("--balance")
+        ->excludes("--baselines")
         ->excludes("--dynamic")
         ->excludes("--passes")
         ->excludes("--camera");
@@ -90,6 +101,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->add_flag("--path", options.path,
                    "measure instead path tracing: what rays cost, and the variance by the way of finding light")
         ->excludes("--balance")
+        ->excludes("--baselines")
         ->excludes("--dynamic")
         ->excludes("--edit")
         ->excludes("--passes");
@@ -114,6 +126,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->add_flag("--denoise", options.denoise,
                    "measure instead how close denoised pictures of few paths come to one of many, by day and at night")
         ->excludes("--balance")
+        ->excludes("--baselines")
         ->excludes("--dynamic")
         ->excludes("--edit")
         ->excludes("--path")
@@ -130,6 +143,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
                    "measure instead each form and size of kernels that zvo chooses by device, with one scene at one "
                    "resolution, and print what is faster than its choice, for --tuning")
         ->excludes("--balance")
+        ->excludes("--baselines")
         ->excludes("--dynamic")
         ->excludes("--edit")
         ->excludes("--path")
@@ -142,7 +156,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
                          "measure nothing: tell in Markdown what these JSON reports have measured, pass by pass")
             ->type_name("FILE");
     for (const char* const other :
-         {"SCENE", "--balance", "--dynamic", "--edit", "--path", "--denoise", "--tune", "--passes"})
+         {"SCENE", "--balance", "--baselines", "--dynamic", "--edit", "--path", "--denoise", "--tune", "--passes"})
     {
         report->excludes(other);
     }

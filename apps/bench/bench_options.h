@@ -32,6 +32,7 @@ struct BenchOptions
     std::string camera; // as in RenderOptions
     bool passes = false;
     bool balance = false;                   // load balance on generated scenes, and on scenes if any were named
+    bool baselines = false;                 // the algorithms of zvo's sources beside zvo's
     bool dynamic = false;                   // updates against rebuilds of scenes with dynamic objects
     bool edit = false;                      // strokes of a brush
     bool path = false;                      // path tracing

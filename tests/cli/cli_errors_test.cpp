@@ -53,6 +53,7 @@ const std::vector<ErrorCase>& errorCases()
          {"--tuning row-columns=3", "16, 32"},
          {}},
         {"TuneAndTuning", 2, {"bench", "--tune", "--tuning", "row-columns=32"}, {"--tune", "--tuning"}, {}},
+        {"EditAndBaselines", 2, {"bench", "--edit", "--baselines"}, {"--edit", "--baselines"}, {}},
         {"EditAndBalance", 2, {"bench", "--edit", "--balance"}, {"--edit", "--balance"}, {}},
         {"BalanceOfPasses", 2, {"bench", "--balance", "--passes"}, {"--balance", "--passes"}, {}},
         {"FlagTwice",

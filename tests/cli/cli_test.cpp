@@ -357,7 +357,7 @@ TEST_F(CliRun, BenchTellsATableAndAReport)
     const std::string told = run({"bench", "--report", "bench.json"}).out;
     EXPECT_TRUE(contains(told, "\ncube at 16:\n"));
     EXPECT_TRUE(contains(told, "\ncube at 32:\n"));
-    EXPECT_TRUE(contains(told, "| voxelize/triangles"));
+    EXPECT_TRUE(contains(told, "| trace/primary"));
 }
 
 TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
@@ -484,6 +484,33 @@ TEST_F(CliRun, BenchOfEditTellsStrokesByRadiusActionAndNumber)
         EXPECT_EQ(history["compactions"] == 0, history["compaction_ms"] == 0.0);
     }
     EXPECT_GT(row["history"][2]["compactions"], 0);
+}
+
+TEST_F(CliRun, BenchOfBaselinesTellsEachSourceBesideZvo)
+{
+    const Outcome outcome =
+        run({"bench", "--baselines", "cube.glb", "--resolutions", "16", "--runs", "1", "--json", "baselines.json"});
+    EXPECT_TRUE(contains(outcome.out, "| published ms |"));
+    EXPECT_FALSE(contains(outcome.err, "warning"));
+    const json report = json::parse(file("baselines.json"));
+    EXPECT_EQ(report["schema"], "zvo.bench_baselines/1");
+    std::map<std::string, int> sources;
+    for (const json& row : report["rows"])
+    {
+        expectFields(row, {"scene string", "resolution number", "work string", "baseline_ms.median number",
+                           "zvo_ms.median number", "ratio.median number"});
+        EXPECT_TRUE(row["published_ms"].is_null()) << "no source has figures of a cube";
+        EXPECT_GT(row["baseline_ms"]["median"], 0);
+        EXPECT_GT(row["zvo_ms"]["median"], 0);
+        ++sources[row["source"]];
+    }
+    EXPECT_EQ(sources, (std::map<std::string, int>{{"Crassin, Green", 1}, {"slides", 6}, {"thesis", 3}}));
+    ASSERT_EQ(report["sizes"].size(), 4U);
+    for (const json& size : report["sizes"])
+    {
+        EXPECT_GT(size["bytes"], 0) << size["form"];
+        EXPECT_EQ(size["voxels"], report["sizes"][0]["voxels"]);
+    }
 }
 
 TEST_F(CliRun, CloseCameraHitsMore)
