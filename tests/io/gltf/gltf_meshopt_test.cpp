@@ -365,7 +365,7 @@ TEST(GltfMeshopt, ManyViewsOfTheSameBytesCannotUnpackToAnySize)
     addPacked(builder, packVertices(equal.data(), count, 256), count, 256, "ATTRIBUTES", "NONE", kFloat3);
     builder.document["bufferViews"][1].erase("byteStride");
     builder.document["accessors"][0]["count"] = 3;
-    for (int i = 0; i < 60; ++i)
+    for (int i = 0; i < 80; ++i) // of 16 MiB each, more than 1 GiB in all
     {
         json accessor = builder.document["accessors"][0];
         accessor["bufferView"] = builder.add("bufferViews", json(builder.document["bufferViews"][1]));

@@ -247,6 +247,10 @@ TEST(VoxFile, TreesComeBackWithTheirVoxelsAndColors)
 {
     for (const TreeSample& sample : treeSamples())
     {
+        if (sample.name.ends_with("_dag") && sample.name != "random_5_with_attributes_block_dag")
+        {
+            continue; // each file takes a table of 2^24 colours: one DAG is enough
+        }
         const VoxVoxels back = read(writtenVox(sample.tree));
         std::vector<std::uint64_t> codes;
         forEachVoxel(sample.tree, [&codes](std::uint64_t code) { codes.push_back(code); });
