@@ -22,7 +22,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -140,13 +139,6 @@ Json rowJson(const DynamicRow& row)
     return json;
 }
 
-// Whether a pass of an update belongs to the voxelization of dynamic objects.
-bool voxelizes(const std::string& pass)
-{
-    constexpr std::string_view kParts[] = {"voxelize/", "update/layer_", "mover/", "deform/"};
-    return std::ranges::any_of(kParts, [&](std::string_view part) { return pass.find(part) != std::string::npos; });
-}
-
 class DynamicBench
 {
 public:
@@ -211,7 +203,7 @@ private:
             update_ms.push_back(0);
             for (const vk::PassTime& pass : update.passes)
             {
-                (voxelizes(pass.name) ? voxelize_ms : update_ms).back() += pass.ms;
+                (voxelizesObjects(pass.name) ? voxelize_ms : update_ms).back() += pass.ms;
             }
             addPasses(row.passes, update.passes, row.frame_count);
         }

@@ -14,7 +14,6 @@
 #include <chrono>
 #include <limits>
 #include <memory>
-#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -25,7 +24,6 @@ namespace
 {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr std::size_t kBatchRays = 4096; // taken by a thread at a time
 
 template <typename Handle, auto release> struct Release
 {
@@ -168,26 +166,18 @@ std::uint64_t traceBatch(RTCScene scene, RTCIntersectContext& context, std::span
     return hit_count;
 }
 
-// Traces all rays on all processors, batch by batch. Returns the number of hits.
+// Traces all rays on all processors. Returns the number of hits.
 template <unsigned Width> std::uint64_t traceOnce(RTCScene scene, std::span<const PrimaryRay> rays)
 {
-    std::atomic<std::size_t> next = 0;
     std::atomic<std::uint64_t> hit_count = 0;
-    const auto work = [&]
-    {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        std::uint64_t hits = 0;
-        for (std::size_t first = next.fetch_add(kBatchRays); first < rays.size(); first = next.fetch_add(kBatchRays))
-        {
-            hits += traceBatch<Width>(scene, context, rays.subspan(first, std::min(kBatchRays, rays.size() - first)));
-        }
-        hit_count += hits;
-    };
-    std::vector<std::jthread> threads(std::max(1U, std::thread::hardware_concurrency()));
-    std::generate(threads.begin(), threads.end(), [&] { return std::jthread(work); });
-    threads.clear();
+    forEachBatch(rays,
+                 [&](std::size_t, std::span<const PrimaryRay> batch)
+                 {
+                     RTCIntersectContext context;
+                     rtcInitIntersectContext(&context);
+                     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+                     hit_count += traceBatch<Width>(scene, context, batch);
+                 });
     return hit_count;
 }
 
@@ -242,38 +232,7 @@ void addInstance(RTCDevice device, RTCScene scene, const Grid& grid, const Primi
     rtcAttachGeometry(scene, geometry.get());
 }
 
-PrimaryRay rayOf(const TraceCamera& camera, glm::ivec2 pixel, glm::ivec2 size)
-{
-    const glm::vec2 n(2 * pixel + 1 - size);
-    const gpu::CameraRays& rays = camera.rays;
-    const glm::vec3 offset = n.x * rays.half_pixel_x + n.y * rays.half_pixel_y;
-    return camera.orthographic ? PrimaryRay{rays.origin + offset, rays.forward}
-                               : PrimaryRay{rays.origin, rays.forward + offset};
-}
-
 } // namespace
-
-std::vector<PrimaryRay> primaryRays(const TraceCamera& camera, std::uint32_t width, std::uint32_t height)
-{
-    constexpr int kBlock = 4; // pixels per edge
-    const glm::ivec2 size(width, height);
-    std::vector<PrimaryRay> rays;
-    rays.reserve(std::size_t{width} * height);
-    for (int top = 0; top < size.y; top += kBlock)
-    {
-        for (int left = 0; left < size.x; left += kBlock)
-        {
-            for (int y = top; y < std::min(top + kBlock, size.y); ++y)
-            {
-                for (int x = left; x < std::min(left + kBlock, size.x); ++x)
-                {
-                    rays.push_back(rayOf(camera, {x, y}, size));
-                }
-            }
-        }
-    }
-    return rays;
-}
 
 EmbreeResult traceVoxelsByEmbree(const Grid& grid, std::span<const std::uint64_t> codes,
                                  std::span<const PrimaryRay> rays, std::uint32_t run_count)

@@ -3,28 +3,15 @@
 // comparison.
 #pragma once
 
+#include "bench/primary_rays.h"
 #include "core/base/grid.h"
-#include "core/scene/camera.h"
 #include "core/scene/scene.h"
 
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 namespace zvo::cli
 {
-
-/// A ray in the space where the octree's root cube is [1, 2)^3.
-struct PrimaryRay
-{
-    glm::vec3 origin{0.0F};
-    glm::vec3 direction{0.0F};
-    float t_min = 0.0F;
-};
-
-/// The rays of a picture, block by block; the 16 rays of a block of 4 x 4 pixels are neighbours.
-std::vector<PrimaryRay> primaryRays(const TraceCamera& camera, std::uint32_t width, std::uint32_t height);
 
 struct EmbreeResult
 {

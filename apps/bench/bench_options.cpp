@@ -23,7 +23,8 @@ DAG; 3 N pictures of either are traced in turns, and "ratio" is the DAG's time o
 Embree, the same rays are also traced by Embree on all processors, through the same voxels and through the triangles.
 Without scenes: bunny_low.glb, dragon.glb and sponza.glb in the folder of --scenes, or the project's own scenes.
 --balance: each row is voxelization and octree construction alone; ratios of them follow the table.
---baselines: each row is one algorithm of a source beside zvo's own.
+--baselines: each row is one algorithm of a source, or another program, beside zvo's own. Without scenes: also the two
+scenes of the thesis, in which something moves. bench/results-page makes a page of the JSON.
 --dynamic: the scenes are scene files (.scene.json), what they name lies beside them or in the folder of --scenes.
 --edit: N strokes for each radius and action, each undone and redone; then what a stroke takes after 10, 100 and 1000.
 
@@ -77,7 +78,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
     bench
         ->add_flag("--baselines", options.baselines,
                    "measure instead the algorithms of zvo's sources beside zvo's own: the thesis's, Crassin and "
-                   "Green's, the slides'")
+                   "Green's, the slides', Embree's, and others on the host")
         ->excludes("--balance")
         ->excludes("--passes");
     bench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_runs.h"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace zvo::cli
@@ -14,6 +16,12 @@ void addPasses(std::vector<vk::PassTime>& sums, std::vector<vk::PassTime> passes
         sums.push_back(std::move(pass));
     }
     sums = sumByName(sums);
+}
+
+bool voxelizesObjects(const std::string& pass)
+{
+    constexpr std::string_view kParts[] = {"voxelize/", "update/layer_", "mover/", "deform/"};
+    return std::ranges::any_of(kParts, [&](std::string_view part) { return pass.find(part) != std::string::npos; });
 }
 
 BuildRuns measureBuild(vk::HeadlessDevice& device, const GpuScene& scene, const Grid& grid, BuildOptions options,

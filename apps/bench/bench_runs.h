@@ -8,6 +8,7 @@
 #include "core/upload/gpu_scene.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace zvo::cli
@@ -15,6 +16,9 @@ namespace zvo::cli
 
 /// Adds passes, each divided by run_count, to the sums with the same names. Both stay in order of occurrence.
 void addPasses(std::vector<vk::PassTime>& sums, std::vector<vk::PassTime> passes, std::uint32_t run_count);
+
+/// Whether a pass of an update belongs to the voxelization of dynamic objects.
+bool voxelizesObjects(const std::string& pass);
 
 /// Times of voxelization and octree construction, by the device's timers.
 struct BuildRuns

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <span>
 #include <system_error>
 
 namespace zvo::cli
@@ -19,9 +20,11 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::array kUsualScenes = {"bunny_low.glb", "dragon.glb", "sponza.glb"};
+constexpr std::array kOwnScenes = {"cornell_box.glb", "knot.glb", "atrium.glb"};
+constexpr std::array kThesisScenes = {"buddha_dragon.scene.json", "sponza_bunny.scene.json"};
 
-// The project's own scenes, in the working directory or in the program's source tree.
-std::vector<fs::path> ownScenes()
+// The files of the project's own with these names, in the working directory or in the program's source tree.
+std::vector<fs::path> ownScenes(std::span<const char* const> names)
 {
     std::error_code ignored;
     std::vector<fs::path> folders = {"scenes"};
@@ -33,7 +36,7 @@ std::vector<fs::path> ownScenes()
     for (const fs::path& folder : folders)
     {
         std::vector<fs::path> scenes;
-        for (const char* name : {"cornell_box.glb", "knot.glb", "atrium.glb"})
+        for (const char* name : names)
         {
             if (fs::exists(folder / name, ignored))
             {
@@ -83,7 +86,7 @@ std::vector<fs::path> scenesOf(const BenchOptions& options)
         }
         return scenes;
     }
-    scenes = ownScenes();
+    scenes = ownScenes(kOwnScenes);
     if (scenes.empty())
     {
         throw Error(ErrorCode::Input, fmt::format("{} has none of {}; name scenes to measure, or their folder by "
@@ -96,17 +99,18 @@ std::vector<fs::path> scenesOf(const BenchOptions& options)
 }
 
 // Throws the loader's error if a file is missing, which would otherwise show only after an hour.
-void checkPresent(const std::vector<fs::path>& paths)
+void checkPresent(const std::vector<fs::path>& paths, bool allows_scene_files)
 {
     for (const fs::path& path : paths)
     {
-        if (isSceneFile(path))
+        if (isSceneFile(path) && !allows_scene_files)
         {
-            throw Error(ErrorCode::Usage,
-                        fmt::format("{} is a scene file, which bench measures with --dynamic", path.string()));
+            throw Error(
+                ErrorCode::Usage,
+                fmt::format("{} is a scene file, which bench measures with --dynamic and --baselines", path.string()));
         }
         std::error_code ignored;
-        if (!fs::exists(path, ignored))
+        if (!isSceneFile(path) && !fs::exists(path, ignored))
         {
             loadWithWarnings(std::span(&path, 1), {});
         }
@@ -118,8 +122,13 @@ void checkPresent(const std::vector<fs::path>& paths)
 std::vector<fs::path> benchScenes(const BenchOptions& options)
 {
     std::vector<fs::path> paths = scenesOf(options);
-    checkPresent(paths);
+    checkPresent(paths, options.baselines);
     return paths;
+}
+
+std::vector<fs::path> thesisScenes()
+{
+    return ownScenes(kThesisScenes);
 }
 
 } // namespace zvo::cli

@@ -9,7 +9,11 @@
 namespace zvo::cli
 {
 
-/// The files to measure: the named ones, or the usual ones. Throws Error{Input} if there are none, or one is missing.
+/// The files to measure: the named ones, or the usual ones. Throws Error{Input} if there are none, or one is missing;
+/// Error{Usage} for a scene file, unless baselines are measured.
 std::vector<std::filesystem::path> benchScenes(const BenchOptions& options);
+
+/// The scene files with the scenes of the thesis, as far as they are there. They name models that may be missing.
+std::vector<std::filesystem::path> thesisScenes();
 
 } // namespace zvo::cli

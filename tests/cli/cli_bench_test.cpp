@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Tables and reports of `zvo bench`.
+#include "cli/cli_run.h"
+#include "core/headless/compress.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
+
+namespace zvo::test
+{
+namespace
+{
+
+TEST_F(CliRun, BenchTellsATableAndAReport)
+{
+    const Outcome outcome =
+        run({"bench", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "bench.json", "--passes"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    EXPECT_TRUE(contains(outcome.out, "| voxelize/triangles "));
+    EXPECT_TRUE(contains(outcome.out, " trace DAG ms |"));
+    const json report = json::parse(file("bench.json"));
+    expectFields(report, {"schema string", "device.name string"});
+    ASSERT_EQ(report["rows"].size(), 2U);
+    for (const json& row : report["rows"])
+    {
+        expectFields(row, {"scene string", "resolution number", "coverage string", "triangles number", "voxels number",
+                           "nodes number", "geometry_bytes_per_voxel number", "attribute_bytes_per_voxel number",
+                           "voxelize_ms.median number", "voxelize_ms.min number", "voxelize_ms.max number",
+                           "build_ms.median number", "trace_ms.median number", "mvoxels_per_s number",
+                           "mrays_per_s number", "peak_device_bytes number", "compress_ms.median number",
+                           "trace_dag_ms.median number", "trace_dag_ratio.min number"});
+        EXPECT_GT(row["hits"], 0);
+        EXPECT_GT(row["compress_ratio"], 0);
+        EXPECT_GT(row["trace_dag_ms"]["median"], 0);
+        EXPECT_GE(row["trace_dag_ratio"]["min"],
+                  row["trace_dag_ms"]["min"].get<double>() / row["trace_ms"]["max"].get<double>());
+        EXPECT_LE(row["trace_dag_ratio"]["max"],
+                  row["trace_dag_ms"]["max"].get<double>() / row["trace_ms"]["min"].get<double>());
+        if (!row["embree_user_mrays_per_s"].is_null())
+        {
+            expectFields(row, {"embree_user_mrays_per_s number", "embree_triangle_mrays_per_s number"});
+            // Rays along edges may hit either side.
+            EXPECT_NEAR(row["embree_user_hits"].get<double>(), row["hits"].get<double>(), 16.0);
+        }
+    }
+    EXPECT_EQ(report["rows"][1]["resolution"], 32);
+    BuildResult built = build(m_grid);
+    const json& row = report["rows"][1];
+    EXPECT_EQ(row["voxels"], built.octree.voxel_count);
+    EXPECT_EQ(row["geometry_bytes"], built.octree.geometryBytes());
+    const DeviceTree dag = compress(device(), std::move(built.octree)).dag;
+    EXPECT_EQ(row["dag_nodes"], dag.node_count);
+    EXPECT_EQ(row["dag_geometry_bytes"], dag.geometryBytes());
+    EXPECT_EQ(row["dag_rank_bytes"], dag.lists.rankBytes());
+    EXPECT_DOUBLE_EQ(row["dag_geometry_ratio"].get<double>() * row["geometry_bytes"].get<double>(),
+                     static_cast<double>(dag.geometryBytes()));
+    EXPECT_TRUE(contains(outcome.out, "| svdag/insert (DAG) "));
+    EXPECT_TRUE(contains(outcome.out, "| trace/ranks (DAG) "));
+    const std::string told = run({"bench", "--report", "bench.json"}).out;
+    EXPECT_TRUE(contains(told, "\ncube at 16:\n"));
+    EXPECT_TRUE(contains(told, "\ncube at 32:\n"));
+    EXPECT_TRUE(contains(told, "| trace/primary"));
+}
+
+TEST_F(CliRun, BenchWithoutMemoryForTheDagTellsOfTheOctree)
+{
+    const std::vector<std::string> arguments = {"bench", "cube.glb", "--resolutions", "32", "--runs",
+                                                "1",     "--json",   "bench.json",    "-f", "--passes"};
+    run(arguments);
+    const json whole = json::parse(file("bench.json"))["rows"][0];
+    // A limit that suffices only for the octree: the DAG's beam grid takes 8 MiB beside it.
+    constexpr std::uint64_t kMiB = 1 << 20;
+    Outcome outcome;
+    for (std::uint64_t mib = whole["peak_device_bytes"].get<std::uint64_t>() / kMiB; outcome.err.empty(); mib -= 4)
+    {
+        std::vector<std::string> limited = arguments;
+        limited.insert(limited.end(), {"--memory-limit", std::to_string(mib) + "MiB"});
+        outcome = run(limited);
+    }
+    EXPECT_TRUE(contains(outcome.err, "zvo: warning: no DAG of cube at 32: ")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "raise --memory-limit")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, " - |")) << outcome.out;
+    EXPECT_FALSE(contains(outcome.out, " (DAG) ")) << outcome.out;
+    const json row = json::parse(file("bench.json"))["rows"][0];
+    for (const auto& [name, value] : whole.items())
+    {
+        const bool of_dag = name.starts_with("dag_") || name.starts_with("compress_") || name.starts_with("trace_dag_");
+        EXPECT_EQ(row[name].is_null(), of_dag || value.is_null()) << name;
+    }
+    EXPECT_EQ(row["voxels"], whole["voxels"]);
+    EXPECT_EQ(row["hits"], whole["hits"]);
+    EXPECT_GT(row["trace_ms"]["median"], 0);
+    EXPECT_GT(row["mrays_per_s"], 0);
+}
+
+TEST_F(CliRun, BenchOfBalanceTellsEverySceneAndItsRatios)
+{
+    const Outcome outcome =
+        run({"bench", "--balance", "cube.glb", "--resolutions", "16,32", "--runs", "1", "--json", "balance.json"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    EXPECT_TRUE(contains(outcome.out, "\n| triangle / patch "));
+    const json report = json::parse(file("balance.json"));
+    expectFields(report, {"schema string", "device.name string", "coverage string", "runs number"});
+    std::map<std::string, json> fine; // [scene] rows at a resolution of 32
+    for (const json& row : report["rows"])
+    {
+        expectFields(row, {"scene string", "generated boolean", "resolution number", "triangles number",
+                           "voxels number", "geometry_ms.median number", "geometry_ns_per_voxel number",
+                           "attributes_ms.median number", "attributes_ns_per_voxel number"});
+        EXPECT_GT(row["attributes_ms"]["median"], 0);
+        if (row["resolution"] == 32)
+        {
+            fine[row["scene"]] = row;
+        }
+    }
+    EXPECT_EQ(report["rows"].size(), 12U);
+    ASSERT_EQ(fine.size(), 6U);
+    EXPECT_EQ(fine["cube"]["voxels"], build(m_grid).octree.voxel_count);
+    EXPECT_EQ(fine["triangle"]["triangles"], 1);
+    EXPECT_GE(fine["triangle"]["voxels"], 16 * 16);
+    EXPECT_LE(fine["triangle"]["voxels"], 16 * 16 + 78) << "its area and its outline";
+    EXPECT_NEAR(fine["patch"]["voxels"].get<double>(), fine["triangle"]["voxels"].get<double>(), 32);
+    EXPECT_EQ(fine["slivers"]["triangles"], 400);
+    EXPECT_EQ(fine["crowded"]["voxels"], 1);
+    EXPECT_EQ(fine["crowded"]["triangles"], fine["spread"]["triangles"]);
+    EXPECT_EQ(fine["spread"]["voxels"], fine["spread"]["triangles"]);
+    std::map<std::string, int> ratio_counts;
+    for (const json& ratio : report["ratios"])
+    {
+        expectFields(ratio, {"scenes string", "resolution number", "geometry number", "attributes number"});
+        EXPECT_GT(ratio["geometry"], 0);
+        ++ratio_counts[ratio["name"]];
+    }
+    EXPECT_EQ(ratio_counts, (std::map<std::string, int>{{"triangle / patch", 2},
+                                                        {"sliver / patch", 2},
+                                                        {"crowded / spread", 2},
+                                                        {"doubling", 3},
+                                                        {"largest doubling", 1}}));
+}
+
+TEST_F(CliRun, BenchOfBalanceNeedsNoAttributesAndNoFiles)
+{
+    const json report = json::parse(
+        run({"bench", "--balance", "--resolutions", "16", "--runs", "1", "--attributes", "none", "--json", "-"}).out);
+    EXPECT_EQ(report["rows"].size(), 5U);
+    EXPECT_EQ(report["ratios"].size(), 3U);
+    EXPECT_TRUE(report["rows"][0]["attributes_ms"].is_null());
+    EXPECT_TRUE(report["ratios"][0]["attributes"].is_null());
+}
+
+TEST_F(CliRun, BenchOfEditTellsStrokesByRadiusActionAndNumber)
+{
+    const Outcome outcome = run({"bench", "--edit", "cube.glb", "--resolutions", "32", "--runs", "2", "--structure",
+                                 "svdag", "--json", "edit.json"});
+    EXPECT_TRUE(contains(outcome.out, "\n| cube "));
+    EXPECT_TRUE(contains(outcome.out, "| compactions |"));
+    const json report = json::parse(file("edit.json"));
+    expectFields(report,
+                 {"schema string", "device.name string", "coverage string", "attributes string", "runs number"});
+    EXPECT_EQ(report["schema"], "zvo.bench_edit/1");
+    EXPECT_EQ(report["structure"], "svdag");
+    ASSERT_EQ(report["rows"].size(), 1U);
+    const json& row = report["rows"][0];
+    EXPECT_EQ(row["resolution"], 32);
+    EXPECT_EQ(row["voxels"], build(m_grid).octree.voxel_count);
+    std::map<std::string, int> actions;
+    for (const json& stroke : row["strokes"])
+    {
+        expectFields(stroke, {"radius number", "dab_ms.median number", "dab_ms.p95 number", "undo_ms.median number",
+                              "redo_ms.median number", "bytes number"});
+        EXPECT_GE(stroke["dab_ms"]["p95"], stroke["dab_ms"]["median"]);
+        EXPECT_GT(stroke["undo_ms"]["median"], 0);
+        EXPECT_GT(stroke["redo_ms"]["median"], 0);
+        EXPECT_GT(stroke["bytes"], 0) << "a voxel of the cube is under each brush";
+        ++actions[stroke["action"]];
+    }
+    EXPECT_EQ(actions, (std::map<std::string, int>{{"carve", 4}, {"fill", 4}, {"paint", 4}}));
+    ASSERT_EQ(row["history"].size(), 3U);
+    EXPECT_EQ(row["history"][2]["strokes"], 1000);
+    for (const json& history : row["history"])
+    {
+        expectFields(history, {"strokes number", "dab_ms.median number", "dab_ms.p95 number", "undo_ms.p95 number",
+                               "redo_ms.p95 number", "held_bytes number"});
+        EXPECT_GT(history["held_bytes"], 0);
+        EXPECT_LE(history["held_bytes"], 256 << 20);
+        EXPECT_EQ(history["compactions"] == 0, history["compaction_ms"] == 0.0);
+    }
+    EXPECT_GT(row["history"][2]["compactions"], 0);
+}
+
+TEST_F(CliRun, BenchOfBaselinesTellsEachSourceBesideZvo)
+{
+    const Outcome outcome =
+        run({"bench", "--baselines", "cube.glb", "--resolutions", "16", "--runs", "1", "--json", "baselines.json"});
+    EXPECT_TRUE(contains(outcome.out, "| published ms |"));
+    EXPECT_FALSE(contains(outcome.err, "warning"));
+    const json report = json::parse(file("baselines.json"));
+    EXPECT_EQ(report["schema"], "zvo.bench_baselines/1");
+    std::map<std::string, int> sources;
+    for (const json& row : report["rows"])
+    {
+        expectFields(row, {"scene string", "resolution number", "work string", "baseline_ms.median number",
+                           "zvo_ms.median number", "ratio.median number"});
+        EXPECT_TRUE(row["published_ms"].is_null()) << "no source has figures of a cube";
+        EXPECT_GT(row["baseline_ms"]["median"], 0);
+        EXPECT_GT(row["zvo_ms"]["median"], 0);
+        ++sources[row["source"]];
+    }
+    EXPECT_EQ(sources["Embree"] % 4, 0) << "it may not be there";
+    sources.erase("Embree");
+    EXPECT_EQ(sources, (std::map<std::string, int>{
+                           {"Crassin, Green", 1}, {"DDA", 1}, {"hash table", 1}, {"slides", 7}, {"thesis", 5}}));
+    ASSERT_EQ(report["sizes"].size(), 6U);
+    for (const json& size : report["sizes"])
+    {
+        EXPECT_GT(size["bytes"], 0) << size["form"];
+        EXPECT_EQ(size["voxels"], report["sizes"][0]["voxels"]);
+    }
+    ASSERT_EQ(report["orders"].size(), 3U);
+    for (const json& order : report["orders"])
+    {
+        EXPECT_GT(order["rays_ms"]["median"], 0);
+        EXPECT_TRUE(order["update_ms"].is_null());
+    }
+}
+
+TEST_F(CliRun, BenchOfBaselinesUpdatesScenesThatMove)
+{
+    m_dir.write("moving.scene.json", std::string_view(R"({
+        "seconds": 1, "frames_per_second": 8,
+        "objects": [
+            {"name": "still", "file": "cube.glb", "static": true},
+            {"name": "moving", "file": "cube.glb", "place": {"scale": 0.4},
+             "motion": {"line": {"from": [-1, 0.8, 0], "to": [1, 0.8, 0]}}}]})"));
+    run({"bench", "--baselines", "moving.scene.json", "--resolutions", "32", "--runs", "2", "--json", "moving.json"});
+    const json report = json::parse(file("moving.json"));
+    std::set<std::string> updates;
+    for (const json& row : report["rows"])
+    {
+        EXPECT_EQ(row["scene"], "moving");
+        EXPECT_GT(row["baseline_ms"]["median"], 0) << row["work"];
+        EXPECT_GT(row["zvo_ms"]["median"], 0) << row["work"];
+        if (!row["moving_voxels"].is_null())
+        {
+            EXPECT_GT(row["moving_voxels"], 0);
+            updates.insert(row["work"]);
+        }
+    }
+    EXPECT_EQ(updates, (std::set<std::string>{"rays", "update", "update, range of codes", "update: merge",
+                                              "update: merge, range of codes", "update: voxelize",
+                                              "update: voxelize, range of codes"}));
+    ASSERT_EQ(report["orders"].size(), 3U);
+    EXPECT_GT(report["orders"][1]["update_ms"]["median"], 0);
+}
+
+TEST_F(CliRun, CloseCameraHitsMore)
+{
+    run({"bench", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "auto", "--json", "auto.json"});
+    run({"bench", "cube.glb", "--resolutions", "16", "--runs", "1", "--camera", "close", "--json", "close.json"});
+    const double rays = 1920.0 * 1080.0;
+    const double far_hits = json::parse(file("auto.json"))["rows"][0]["hits"].get<double>() / rays;
+    const double close_hits = json::parse(file("close.json"))["rows"][0]["hits"].get<double>() / rays;
+    EXPECT_LT(far_hits, 0.5);
+    EXPECT_GT(close_hits, 0.6);
+}
+
+} // namespace
+} // namespace zvo::test
