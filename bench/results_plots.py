@@ -290,10 +290,8 @@ def plot_rays(report, caption):
     for scene in report.first_scenes:
         rows = [row for row in report.ray_rows(scene, report.resolution) if median(row, "baseline_ms")]
         bars = {}
-        for name, of_zvo in (("zvo", [row for row in rows if not is_wall(row)]),
-                             ("zvo, wall clock", [row for row in rows if is_wall(row)])):
-            if zvo_ms(of_zvo):
-                bars[name] = (report.mrays(zvo_ms(of_zvo)), color_number("zvo"))
+        if zvo_ms(rows):
+            bars["zvo"] = (report.mrays(zvo_ms(rows)), color_number("zvo"))
         for row in rows:
             name = bar_name(row) + (", wall clock" if is_wall(row) else "")
             bars.setdefault(name, (report.mrays(median(row, "baseline_ms")), color_number(row["source"])))

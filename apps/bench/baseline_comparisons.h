@@ -6,8 +6,13 @@
 #include "bench/baseline_rows.h"
 #include "bench/bench_options.h"
 #include "bench/bench_trace.h"
+#include "core/base/grid.h"
 #include "core/headless/pipeline.h"
+#include "core/scene/camera.h"
+#include "core/scene/scene.h"
 #include "core/trace/tree_tracer.h"
+#include "core/tree/device_tree.h"
+#include "core/tree/tree_data.h"
 #include "core/upload/gpu_scene.h"
 #include "io/scene/animated_scene.h"
 #include "vk/headless.h"
@@ -39,6 +44,9 @@ public:
     /// The same for voxelization, construction and compression to a DAG.
     double dagMs();
 
+    /// The same for the construction of an octree without attributes.
+    double geometryBuildMs();
+
     /// What traces a picture by zvo's beam and primary passes. The grid of the beam is made once for an octree, before.
     std::function<double()> rays();
 
@@ -66,12 +74,16 @@ private:
     const Scene& m_scene;
     const GpuScene& m_uploaded;
     BuildOptions m_build;
+    BuildOptions m_geometry_build;
     TraceCamera m_camera;
     DeviceTree m_octree;
     BaselineCase m_case;
     std::optional<TreeTracer> m_tracer;
     std::optional<PrimaryRays> m_rays;
 };
+
+/// The octree of the subject's scene without attributes.
+TreeData geometryOf(const BaselineSubject& subject);
 
 /// The thesis: voxelization, construction, rays; with and without its bounds by Morton codes.
 void compareThesis(BaselineSubject& subject, BaselineRows& rows);

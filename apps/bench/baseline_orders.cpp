@@ -3,9 +3,13 @@
 #include "bench/baseline_comparisons.h"
 #include "common/report.h"
 #include "core/dynamic/dynamic_octree.h"
-#include "core/headless/tree_download.h"
+#include "core/tree/tree_data.h"
+#include "io/scene/animated_scene.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,7 +54,7 @@ public:
             m_octree.setPose(m_objects[i], poseAt(m_animated->objects[i], seconds));
         }
         std::vector<vk::PassTime> passes;
-        do
+        do // where room is missing, the update begins anew
         {
             const std::uint64_t frame = m_octree.beginFrame();
             passes = m_device.run([&](vk::FrameGraph& graph) { m_octree.update(graph); });
@@ -77,16 +81,6 @@ private:
     TreeTracer m_tracer;
     std::unique_ptr<PrimaryRays> m_rays;
 };
-
-// The octree of a scene without attributes.
-TreeData geometryOf(BaselineSubject& subject)
-{
-    BuildOptions options;
-    options.coverage = subject.options().coverage;
-    options.attributes = false;
-    return downloadTree(subject.device(),
-                        buildOctree(subject.device(), subject.uploaded(), subject.grid(), options).octree);
-}
 
 } // namespace
 

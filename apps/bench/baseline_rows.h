@@ -29,7 +29,7 @@ struct BaselineWork
     std::string name;
     std::function<double()> baseline; // runs it once and returns milliseconds
     std::function<double()> zvo;
-    bool on_host = false; // the baseline's milliseconds are the host's, all processors together
+    bool on_host = false; // the baseline's milliseconds are those of the host's clock
 };
 
 struct WorkRow

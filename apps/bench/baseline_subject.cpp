@@ -2,6 +2,7 @@
 #include "bench/baseline_comparisons.h"
 #include "common/report.h"
 #include "core/headless/compress.h"
+#include "core/headless/tree_download.h"
 
 #include <utility>
 
@@ -33,6 +34,13 @@ double BaselineSubject::dagMs()
     return ms + compress(m_device, std::move(result.octree)).ms();
 }
 
+double BaselineSubject::geometryBuildMs()
+{
+    const BuildResult result = buildOctree(m_device, m_uploaded, grid(), m_geometry_build);
+    m_geometry_build.capacities = result.capacities;
+    return result.operationMs("octree");
+}
+
 std::function<double()> BaselineSubject::rays()
 {
     if (!m_tracer)
@@ -42,6 +50,15 @@ std::function<double()> BaselineSubject::rays()
         m_rays.emplace(m_device, m_octree, m_camera, *m_tracer);
     }
     return [this] { return sumMs(m_rays->trace()); };
+}
+
+TreeData geometryOf(const BaselineSubject& subject)
+{
+    BuildOptions options;
+    options.coverage = subject.options().coverage;
+    options.attributes = false;
+    return downloadTree(subject.device(),
+                        buildOctree(subject.device(), subject.uploaded(), subject.grid(), options).octree);
 }
 
 } // namespace zvo::cli

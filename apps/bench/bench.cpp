@@ -164,9 +164,10 @@ private:
     void measureEmbree(const Scene& scene, const DeviceTree& octree, const TraceCamera& camera, BenchRow& row)
     {
         const std::vector<PrimaryRay> rays = primaryRays(camera, kWidth, kHeight);
-        const EmbreeResult voxels =
-            traceVoxelsByEmbree(octree.grid, voxelCodes(m_device, octree), rays, m_options.run_count);
-        const EmbreeResult triangles = traceTrianglesByEmbree(octree.grid, scene, rays, m_options.run_count);
+        const EmbreeResult voxels = zvo::cli::measureEmbree(
+            EmbreeScene::ofVoxels(octree.grid, voxelCodes(m_device, octree)), rays, m_options.run_count);
+        const EmbreeResult triangles =
+            zvo::cli::measureEmbree(EmbreeScene::ofTriangles(octree.grid, scene), rays, m_options.run_count);
         row.embree_user_mrays_per_s = voxels.mrays_per_s;
         row.embree_user_single_mrays_per_s = voxels.single_mrays_per_s;
         row.embree_user_hits = voxels.hit_count;

@@ -10,12 +10,18 @@
 #include "common/report.h"
 #include "common/session.h"
 #include "common/view.h"
+#include "core/upload/gpu_scene.h"
+#include "io/scene/animated_scene.h"
 #include "runtime/live_scene.h"
+#include "vk/headless.h"
 #include "zvo/error.h"
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,7 +88,8 @@ std::vector<BaselineScene> loadBaselineScenes(const BenchOptions& options)
 }
 
 // Runs a comparison, or tells why it cannot be made.
-template <typename Function> void attempt(const BaselineCase& what, const char* compared, const Function& function)
+template <typename Function>
+void attempt(const std::string& scene, std::uint32_t depth, const char* compared, const Function& function)
 {
     try
     {
@@ -94,7 +101,7 @@ template <typename Function> void attempt(const BaselineCase& what, const char* 
         {
             throw;
         }
-        talk(fmt::format("warning: {} at {} without {}: {}", what.scene, what.resolution, compared, error.what()));
+        talk(fmt::format("warning: {} at {} without {}: {}", scene, 1U << depth, compared, error.what()));
     }
 }
 
@@ -112,19 +119,18 @@ void compareScene(const BenchOptions& options, vk::HeadlessDevice& device, const
                                     : chooseCamera(options.camera, animated.fixed, subject_bounds, aspect);
     BaselineSubject subject(options, device, scene.name, animated.fixed, uploaded, grid, camera);
     subject.addSize(rows, "zvo octree", subject.octree().node_count, subject.octree().geometryBytes());
-    const BaselineCase& what = subject.what();
-    attempt(what, "the thesis's algorithms", [&] { compareThesis(subject, rows); });
-    attempt(what, "Crassin and Green's construction", [&] { compareCrassinGreen(subject, rows); });
+    attempt(scene.name, depth, "the thesis's algorithms", [&] { compareThesis(subject, rows); });
+    attempt(scene.name, depth, "Crassin and Green's construction", [&] { compareCrassinGreen(subject, rows); });
     if (moves)
     {
-        attempt(what, "the thesis's update", [&] { compareThesisUpdate(subject, animated, rows); });
+        attempt(scene.name, depth, "the thesis's update", [&] { compareThesisUpdate(subject, animated, rows); });
     }
     else
     {
-        attempt(what, "the slides' algorithms", [&] { compareSlides(subject, rows); });
-        attempt(what, "the host's algorithms", [&] { compareHost(subject, rows); });
+        attempt(scene.name, depth, "the slides' algorithms", [&] { compareSlides(subject, rows); });
+        attempt(scene.name, depth, "the host's algorithms", [&] { compareHost(subject, rows); });
     }
-    attempt(what, "orders of nodes", [&] { compareOrders(subject, moves ? &animated : nullptr, rows); });
+    attempt(scene.name, depth, "orders of nodes", [&] { compareOrders(subject, moves ? &animated : nullptr, rows); });
 }
 
 } // namespace
@@ -146,7 +152,8 @@ void benchBaselines(const BenchOptions& options)
         for (const std::uint32_t depth : depths)
         {
             progress.begin(fmt::format("{} at {}", scene.name, 1U << depth));
-            compareScene(options, device, scene, uploaded, depth, rows);
+            attempt(scene.name, depth, "an octree",
+                    [&] { compareScene(options, device, scene, uploaded, depth, rows); });
         }
     }
     clearProgressBar();

@@ -12,9 +12,13 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <limits>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace zvo::cli
@@ -87,10 +91,21 @@ template <typename Field> auto& at(Field& field, unsigned i)
     }
 }
 
+// Functions that are compiled for each set of vector instructions, as Embree's own are.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define ZVO_FOR_EACH_VECTOR_SET [[gnu::target_clones("avx512f", "avx2", "default")]]
+#else
+#define ZVO_FOR_EACH_VECTOR_SET
+#endif
+
 // A slab test without branches. The compiler makes one vector operation of each line.
-template <unsigned Width> void intersectPacket(const RTCIntersectFunctionNArguments& arguments)
+template <unsigned Width>
+[[gnu::always_inline]] inline void intersectPacket(const RTCIntersectFunctionNArguments& arguments)
 {
     const Voxels& voxels = *static_cast<const Voxels*>(arguments.geometryUserPtr);
+    const unsigned primitive = arguments.primID; // loaded here, as conditional loads would prevent vectors
+    const unsigned geometry = arguments.geomID;
+    const int* const valid = arguments.valid;
     const glm::vec3 low = lowCorner(voxels, arguments.primID);
     const glm::vec3 high = low + voxels.size;
     auto& [ray, hit] = *reinterpret_cast<typename Packet<Width>::RayHits*>(arguments.rayhit);
@@ -109,11 +124,21 @@ template <unsigned Width> void intersectPacket(const RTCIntersectFunctionNArgume
             std::max(std::max(std::min(x0, x1), std::min(y0, y1)), std::max(std::min(z0, z1), at(ray.tnear, i)));
         const float t_leave =
             std::min(std::min(std::max(x0, x1), std::max(y0, y1)), std::min(std::max(z0, z1), at(ray.tfar, i)));
-        const bool is_hit = (arguments.valid[i] != 0) & (t_enter <= t_leave);
+        const bool is_hit = (valid[i] != 0) & (t_enter <= t_leave);
         at(ray.tfar, i) = is_hit ? t_enter : at(ray.tfar, i);
-        at(hit.primID, i) = is_hit ? arguments.primID : at(hit.primID, i);
-        at(hit.geomID, i) = is_hit ? arguments.geomID : at(hit.geomID, i);
+        at(hit.primID, i) = is_hit ? primitive : at(hit.primID, i);
+        at(hit.geomID, i) = is_hit ? geometry : at(hit.geomID, i);
     }
+}
+
+ZVO_FOR_EACH_VECTOR_SET void intersectPacket8(const RTCIntersectFunctionNArguments& arguments)
+{
+    intersectPacket<8>(arguments);
+}
+
+ZVO_FOR_EACH_VECTOR_SET void intersectPacket16(const RTCIntersectFunctionNArguments& arguments)
+{
+    intersectPacket<16>(arguments);
 }
 
 void intersectVoxel(const RTCIntersectFunctionNArguments* arguments)
@@ -123,9 +148,9 @@ void intersectVoxel(const RTCIntersectFunctionNArguments* arguments)
     case 1: // Embree passes the last rays of a packet one by one
         return intersectPacket<1>(*arguments);
     case 8:
-        return intersectPacket<8>(*arguments);
+        return intersectPacket8(*arguments);
     case 16:
-        return intersectPacket<16>(*arguments);
+        return intersectPacket16(*arguments);
     default:
         assert(false);
     }
@@ -181,27 +206,6 @@ template <unsigned Width> std::uint64_t traceOnce(RTCScene scene, std::span<cons
     return hit_count;
 }
 
-// Million rays a second, as the median of the runs after a warm-up.
-template <unsigned Width> double measureRate(RTCScene scene, std::span<const PrimaryRay> rays, std::uint32_t run_count)
-{
-    traceOnce<Width>(scene, rays);
-    std::vector<double> seconds;
-    for (std::uint32_t run = 0; run < run_count; ++run)
-    {
-        const auto start = std::chrono::steady_clock::now();
-        traceOnce<Width>(scene, rays);
-        seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    }
-    return static_cast<double>(rays.size()) / Spread::of(seconds).median / 1e6;
-}
-
-EmbreeResult measure(RTCScene scene, std::span<const PrimaryRay> rays, std::uint32_t run_count)
-{
-    return {.mrays_per_s = std::max(measureRate<8>(scene, rays, run_count), measureRate<16>(scene, rays, run_count)),
-            .single_mrays_per_s = measureRate<1>(scene, rays, 1),
-            .hit_count = traceOnce<8>(scene, rays)};
-}
-
 void commit(RTCDevice device, RTCScene scene)
 {
     rtcCommitScene(scene);
@@ -234,41 +238,82 @@ void addInstance(RTCDevice device, RTCScene scene, const Grid& grid, const Primi
 
 } // namespace
 
-EmbreeResult traceVoxelsByEmbree(const Grid& grid, std::span<const std::uint64_t> codes,
-                                 std::span<const PrimaryRay> rays, std::uint32_t run_count)
+struct EmbreeScene::Tree
 {
-    Voxels voxels;
-    voxels.size = 1.0F / static_cast<float>(grid.rootResolution());
-    voxels.cells.reserve(codes.size());
+    Voxels voxels; // that the geometry reads
+    DeviceHandle device{rtcNewDevice(nullptr)};
+    SceneHandle scene{rtcNewScene(device.get())};
+};
+
+EmbreeScene::EmbreeScene(std::unique_ptr<Tree> tree) : m_tree(std::move(tree)) {}
+EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
+EmbreeScene::~EmbreeScene() = default;
+
+EmbreeScene EmbreeScene::ofVoxels(const Grid& grid, std::span<const std::uint64_t> codes)
+{
+    auto tree = std::make_unique<Tree>();
+    tree->voxels.size = 1.0F / static_cast<float>(grid.rootResolution());
+    tree->voxels.cells.reserve(codes.size());
     for (const std::uint64_t code : codes)
     {
-        voxels.cells.emplace_back(cellOfCode(code));
+        tree->voxels.cells.emplace_back(cellOfCode(code));
     }
-    const DeviceHandle device(rtcNewDevice(nullptr));
-    const SceneHandle scene(rtcNewScene(device.get()));
-    const GeometryHandle geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(voxels.cells.size()));
-    rtcSetGeometryUserData(geometry.get(), &voxels);
+    const GeometryHandle geometry(rtcNewGeometry(tree->device.get(), RTC_GEOMETRY_TYPE_USER));
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(tree->voxels.cells.size()));
+    rtcSetGeometryUserData(geometry.get(), &tree->voxels);
     rtcSetGeometryBoundsFunction(geometry.get(), boundVoxel, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), intersectVoxel);
     rtcCommitGeometry(geometry.get());
-    rtcAttachGeometry(scene.get(), geometry.get());
-    commit(device.get(), scene.get());
-    return measure(scene.get(), rays, run_count);
+    rtcAttachGeometry(tree->scene.get(), geometry.get());
+    commit(tree->device.get(), tree->scene.get());
+    return EmbreeScene(std::move(tree));
 }
 
-EmbreeResult traceTrianglesByEmbree(const Grid& grid, const Scene& scene, std::span<const PrimaryRay> rays,
-                                    std::uint32_t run_count)
+EmbreeScene EmbreeScene::ofTriangles(const Grid& grid, const Scene& scene)
 {
-    const DeviceHandle device(rtcNewDevice(nullptr));
-    const SceneHandle embree_scene(rtcNewScene(device.get()));
-    rtcSetSceneBuildQuality(embree_scene.get(), RTC_BUILD_QUALITY_HIGH);
+    auto tree = std::make_unique<Tree>();
+    rtcSetSceneBuildQuality(tree->scene.get(), RTC_BUILD_QUALITY_HIGH);
     for (const Instance& instance : scene.instances)
     {
-        addInstance(device.get(), embree_scene.get(), grid, scene.primitives[instance.primitive], instance.transform);
+        addInstance(tree->device.get(), tree->scene.get(), grid, scene.primitives[instance.primitive],
+                    instance.transform);
     }
-    commit(device.get(), embree_scene.get());
-    return measure(embree_scene.get(), rays, run_count);
+    commit(tree->device.get(), tree->scene.get());
+    return EmbreeScene(std::move(tree));
+}
+
+EmbreeRun EmbreeScene::trace(std::span<const PrimaryRay> rays, unsigned width) const
+{
+    const RTCScene scene = m_tree->scene.get();
+    const auto start = std::chrono::steady_clock::now();
+    const std::uint64_t hit_count = width == 1   ? traceOnce<1>(scene, rays)
+                                    : width == 8 ? traceOnce<8>(scene, rays)
+                                                 : traceOnce<16>(scene, rays);
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), hit_count};
+}
+
+unsigned EmbreeScene::fasterWidth(std::span<const PrimaryRay> rays) const
+{
+    trace(rays, 8);
+    trace(rays, 16);
+    return trace(rays, 8).seconds <= trace(rays, 16).seconds ? 8 : 16;
+}
+
+EmbreeResult measureEmbree(const EmbreeScene& scene, std::span<const PrimaryRay> rays, std::uint32_t run_count)
+{
+    const unsigned width = scene.fasterWidth(rays);
+    std::vector<double> seconds;
+    EmbreeResult result;
+    for (std::uint32_t run = 0; run < run_count; ++run)
+    {
+        const EmbreeRun traced = scene.trace(rays, width);
+        seconds.push_back(traced.seconds);
+        result.hit_count = traced.hit_count;
+    }
+    const auto rate = [&](double time) { return static_cast<double>(rays.size()) / time / 1e6; };
+    result.mrays_per_s = rate(Spread::of(seconds).median);
+    result.single_mrays_per_s = rate(scene.trace(rays, 1).seconds);
+    return result;
 }
 
 } // namespace zvo::cli

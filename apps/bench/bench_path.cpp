@@ -304,7 +304,9 @@ private:
                 rays.push_back({traced[i].origin, 1.0F / traced[i].inverse_direction, t_min});
             }
         }
-        return traceVoxelsByEmbree(m_grid, voxelCodes(m_device, m_tree), rays, 1).single_mrays_per_s;
+        const EmbreeScene voxels = EmbreeScene::ofVoxels(m_grid, voxelCodes(m_device, m_tree));
+        voxels.trace(rays, 1);
+        return static_cast<double>(rays.size()) / voxels.trace(rays, 1).seconds / 1e6;
     }
 #endif
 

@@ -6,6 +6,7 @@
 #include "core/base/grid.h"
 #include "core/headless/pipeline.h"
 #include "core/upload/gpu_scene.h"
+#include "vk/timer.h"
 
 #include <cstdint>
 #include <string>

@@ -4,6 +4,7 @@
 #include "core/base/morton.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -22,9 +23,10 @@ struct Axis
     float inverse = 0.0F;
     bool mirrored = false;
 
-    [[nodiscard]] float timeOf(std::uint32_t plane, float root_resolution) const
+    // cell_size: a power of two, so that the place of the plane is exact.
+    [[nodiscard]] float timeOf(std::uint32_t plane, float cell_size) const
     {
-        return (1.0F + static_cast<float>(plane) / root_resolution - origin) * inverse;
+        return (1.0F + static_cast<float>(plane) * cell_size - origin) * inverse;
     }
 };
 
@@ -38,20 +40,20 @@ Axis axisOf(float origin, float direction)
 } // namespace
 
 BitGrid::BitGrid(const Grid& grid, std::span<const std::uint64_t> codes)
-    : m_depth(grid.depth), m_root_resolution(static_cast<float>(grid.rootResolution())),
+    : m_depth(grid.depth), m_root_resolution(grid.rootResolution()),
       m_bits(std::max<std::uint64_t>((std::uint64_t{1} << 3 * grid.depth) / 64, 1))
 {
+    assert(grid.depth <= kDepthMax);
     for (const std::uint64_t code : codes)
     {
-        const glm::uvec3 cell = cellOfCode(code);
-        const std::uint64_t bit = ((std::uint64_t{cell.z} << m_depth | cell.y) << m_depth) | cell.x;
+        const std::uint64_t bit = bitOf(cellOfCode(code));
         m_bits[bit / 64] |= std::uint64_t{1} << bit % 64;
     }
 }
 
 std::optional<GridHit> BitGrid::firstHit(const glm::vec3& origin, const glm::vec3& direction, float t_min) const
 {
-    const auto root = static_cast<std::uint32_t>(m_root_resolution);
+    const float cell_size = 1.0F / static_cast<float>(m_root_resolution);
     const std::uint32_t size = 1U << m_depth;
     const Axis axes[3] = {axisOf(origin.x, direction.x), axisOf(origin.y, direction.y), axisOf(origin.z, direction.z)};
     // The grid is the lower corner of the root cube, for a mirrored axis the upper one.
@@ -59,8 +61,8 @@ std::optional<GridHit> BitGrid::firstHit(const glm::vec3& origin, const glm::vec
     float t = t_min;
     for (int i = 0; i < 3; ++i)
     {
-        first[i] = axes[i].mirrored ? root - size : 0U;
-        t = std::max(t, axes[i].timeOf(first[i], m_root_resolution));
+        first[i] = axes[i].mirrored ? m_root_resolution - size : 0U;
+        t = std::max(t, axes[i].timeOf(first[i], cell_size));
     }
     // The last plane of each axis that is crossed up to the event that enters the grid: a plane that is crossed at the
     // same time comes before it if its axis is not the later one.
@@ -69,50 +71,50 @@ std::optional<GridHit> BitGrid::firstHit(const glm::vec3& origin, const glm::vec
     {
         for (int i = 0; i < 3; ++i)
         {
-            entered = axes[i].timeOf(first[i], m_root_resolution) == t ? i : entered;
+            entered = axes[i].timeOf(first[i], cell_size) == t ? i : entered;
         }
     }
-    glm::uvec3 cell = first;
-    glm::vec3 next(0.0F);
+    glm::uvec3 cell(0U);  // counted from first
+    glm::uvec3 place(0U); // the same cell in the grid
+    glm::vec3 next(0.0F); // when the ray leaves the cell along each axis
+    std::int64_t step[3]; // between the bits of neighbours
     for (int i = 0; i < 3; ++i)
     {
         const auto isCrossed = [&](std::uint32_t plane)
         {
-            const float time = axes[i].timeOf(plane, m_root_resolution);
+            const float time = axes[i].timeOf(first[i] + plane, cell_size);
             return time < t || (time == t && i <= entered);
         };
-        // By bisection: planes are crossed in order.
-        std::uint32_t low = first[i];
-        std::uint32_t high = first[i] + size;
-        if (!isCrossed(low) || isCrossed(high))
+        if (!isCrossed(0) || isCrossed(size))
         {
             return std::nullopt;
         }
+        std::uint32_t low = 0; // by bisection: planes are crossed in order
+        std::uint32_t high = size;
         while (high - low > 1)
         {
             const std::uint32_t middle = low + (high - low) / 2;
             (isCrossed(middle) ? low : high) = middle;
         }
         cell[i] = low;
-        next[i] = axes[i].timeOf(low + 1, m_root_resolution);
+        place[i] = axes[i].mirrored ? size - 1 - low : low;
+        next[i] = axes[i].timeOf(first[i] + low + 1, cell_size);
+        step[i] = (axes[i].mirrored ? -1 : 1) * (std::int64_t{1} << (static_cast<std::uint32_t>(i) * m_depth));
     }
-    for (;;)
+    std::uint64_t bit = bitOf(place);
+    while ((m_bits[bit / 64] >> bit % 64 & 1U) == 0)
     {
-        const glm::uvec3 place(axes[0].mirrored ? root - 1 - cell.x : cell.x,
-                               axes[1].mirrored ? root - 1 - cell.y : cell.y,
-                               axes[2].mirrored ? root - 1 - cell.z : cell.z);
-        if (isOccupied(place))
-        {
-            return GridHit{t, place};
-        }
         const int axis = next.z < std::min(next.x, next.y) ? 2 : next.y < next.x ? 1 : 0;
         t = next[axis];
-        if (++cell[axis] == first[axis] + size || t == std::numeric_limits<float>::infinity())
+        if (++cell[axis] == size || t == std::numeric_limits<float>::infinity())
         {
             return std::nullopt;
         }
-        next[axis] = axes[axis].timeOf(cell[axis] + 1, m_root_resolution);
+        bit += static_cast<std::uint64_t>(step[axis]);
+        next[axis] = axes[axis].timeOf(first[axis] + cell[axis] + 1, cell_size);
     }
+    const std::uint64_t mask = size - 1;
+    return GridHit{t, glm::uvec3(bit & mask, bit >> m_depth & mask, bit >> 2 * m_depth)};
 }
 
 } // namespace zvo::baseline

@@ -27,7 +27,9 @@ struct GridHit
 class BitGrid
 {
 public:
-    /// codes: Morton codes of the voxels, in any order. Takes 8^depth bits; grid.depth must be at most 11.
+    static constexpr std::uint32_t kDepthMax = 11;
+
+    /// codes: Morton codes of the voxels, in any order. Takes 8^depth bits; grid.depth must be at most kDepthMax.
     BitGrid(const Grid& grid, std::span<const std::uint64_t> codes);
 
     /// The first voxel that a ray enters from t_min on, in the space in which the octree's root cube is [1, 2)^3.
@@ -38,14 +40,13 @@ public:
                                                   float t_min) const;
 
 private:
-    [[nodiscard]] bool isOccupied(const glm::uvec3& cell) const
+    [[nodiscard]] std::uint64_t bitOf(const glm::uvec3& cell) const
     {
-        const std::uint64_t bit = ((std::uint64_t{cell.z} << m_depth | cell.y) << m_depth) | cell.x;
-        return (m_bits[bit / 64] >> bit % 64 & 1U) != 0;
+        return ((std::uint64_t{cell.z} << m_depth | cell.y) << m_depth) | cell.x;
     }
 
     std::uint32_t m_depth;
-    float m_root_resolution; // cells of the root cube's edge
+    std::uint32_t m_root_resolution;
     std::vector<std::uint64_t> m_bits;
 };
 

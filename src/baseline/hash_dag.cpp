@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstddef>
+#include <iterator>
 #include <unordered_set>
 
 namespace zvo::baseline
@@ -59,7 +61,7 @@ struct Cell
 };
 
 // The nodes of a level from the cells inside of them, which are emptied.
-std::vector<Cell> joinEights(std::vector<Cell>& cells, bool is_lowest, HashDag& dag)
+std::vector<Cell> makeParents(std::vector<Cell>& cells, bool is_lowest, HashDag& dag)
 {
     NodeTable table(cells.size() / 4 + 1, NodeHash{&dag.words, is_lowest}, NodeEqual{&dag.words, is_lowest});
     std::vector<Cell> nodes;
@@ -117,7 +119,7 @@ HashDag hashDag(std::span<const std::uint64_t> codes, std::uint32_t depth)
     std::ranges::transform(codes, std::back_inserter(cells), [](std::uint64_t code) { return Cell{code, 0}; });
     for (std::uint32_t level = depth; level-- != 0;)
     {
-        cells = joinEights(cells, level + 1 == depth, dag);
+        cells = makeParents(cells, level + 1 == depth, dag);
     }
     dag.root = cells.empty() ? 0 : cells.front().node;
     return dag;

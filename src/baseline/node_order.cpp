@@ -98,7 +98,7 @@ TreeData inOrder(TreeData tree, NodeOrder order)
         {
             for (const bool is_upper : {false, true})
             {
-                // A half has 2x2x1 octants. It stands where the first of them stands on the curve.
+                // A half has 2x2x1 octants. It stands where the lowest of them stands on the curve.
                 const glm::uvec3 half = 2U * cellOfCode(codes[i]) + glm::uvec3(0U, 0U, is_upper ? 1U : 0U);
                 const std::uint64_t place = order == NodeOrder::Hilbert ? hilbertCode(half, 2 * level + 1) : random();
                 all.push_back({place, i, is_upper});

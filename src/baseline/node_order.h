@@ -20,7 +20,7 @@ enum class NodeOrder
     Shuffled ///< those halves are shuffled, always in the same way
 };
 
-/// The place of a cell on Hilbert's curve through a grid of (1 << depth)^3 cells, depth at most 21 (J. Skilling,
+/// The place of a cell on Hilbert's curve through a grid of (1 << depth)^3 cells, depth 1 to 21 (J. Skilling,
 /// Programming the Hilbert Curve, 2004).
 std::uint64_t hilbertCode(const glm::uvec3& cell, std::uint32_t depth);
 

@@ -4,20 +4,25 @@
 #include "baseline/bit_grid.h"
 #include "baseline/hash_dag.h"
 #include "baseline/node_order.h"
+#include "core/base/grid.h"
 #include "core/base/morton.h"
 #include "core/file/tree_stats.h"
+#include "core/headless/pipeline.h"
 #include "core/headless/tree_download.h"
 #include "core/trace/trace.h"
+#include "core/tree/tree_data.h"
 #include "oracle/trace.h"
 #include "support/errors.h"
-#include "support/pictures.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace zvo::baseline
@@ -41,8 +46,15 @@ std::vector<std::uint64_t> randomCodes(std::uint32_t depth, unsigned every, std:
     return codes;
 }
 
-// From around and inside of the root cube; some along axes, some on planes.
-oracle::Ray randomRay(std::mt19937& random)
+struct RandomRay
+{
+    glm::vec3 origin;
+    glm::vec3 direction;
+    float t_min;
+};
+
+// From around and inside of the root cube; some in a plane across an axis, some from planes of cells.
+RandomRay randomRay(std::mt19937& random)
 {
     std::uniform_real_distribution<float> place(0.5F, 2.5F);
     std::uniform_real_distribution<float> side(-1.0F, 1.0F);
@@ -56,7 +68,7 @@ oracle::Ray randomRay(std::mt19937& random)
     {
         origin = glm::round(origin * 16.0F) / 16.0F;
     }
-    return oracle::makeRay(origin, direction, random() % 4 == 0 ? 0.3F : 0.0F);
+    return {origin, direction, random() % 4 == 0 ? 0.3F : 0.0F};
 }
 
 TEST(BitGridRays, HitWhatTheOracleHits)
@@ -71,9 +83,9 @@ TEST(BitGridRays, HitWhatTheOracleHits)
         int hit_count = 0;
         for (int i = 0; i < 20000; ++i)
         {
-            const oracle::Ray ray = randomRay(random);
+            const RandomRay ray = randomRay(random);
             const auto hit = bits.firstHit(ray.origin, ray.direction, ray.t_min);
-            const auto oracle_hit = expected.trace(ray);
+            const auto oracle_hit = expected.trace(oracle::makeRay(ray.origin, ray.direction, ray.t_min));
             ASSERT_EQ(hit.has_value(), oracle_hit.has_value()) << "depth " << depth << ", ray " << i;
             if (hit)
             {
@@ -149,9 +161,13 @@ TEST(NodeOrders, HaveTheSameHits)
         buildOctree(baselineDevice(), uploadScene(baselineDevice(), scene, false), grid, {Coverage::Thin, false, {}})
             .octree;
     const TreeData morton = downloadTree(baselineDevice(), tree);
+    std::set<std::vector<std::uint32_t>> bases; // of each order
     for (const NodeOrder order : {NodeOrder::Morton, NodeOrder::Hilbert, NodeOrder::Shuffled})
     {
         const TreeData ordered = inOrder(morton, order);
+        std::vector<std::uint32_t> lower;
+        std::ranges::transform(ordered.nodes, std::back_inserter(lower), &gpu::Node::base_lo);
+        EXPECT_TRUE(bases.insert(lower).second) << "two orders are the same";
         ASSERT_EQ(ordered.nodes.size(), morton.nodes.size());
         const bool is_same =
             std::memcmp(ordered.nodes.data(), morton.nodes.data(), morton.nodes.size() * sizeof(gpu::Node)) == 0;

@@ -3,12 +3,16 @@
 
 #include "cli/cli_scene.h"
 #include "cli/run_zvo.h"
+#include "core/base/grid.h"
 #include "core/base/kernels.h"
 #include "core/headless/pipeline.h"
+#include "core/scene/scene.h"
 #include "core/tree/device_tree.h"
+#include "core/upload/gpu_scene.h"
 #include "io/gltf/gltf_loader.h"
 #include "support/device.h"
 #include "support/temp_dir.h"
+#include "vk/headless.h"
 
 #include <gtest/gtest.h>
 
