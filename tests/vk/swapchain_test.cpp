@@ -57,8 +57,9 @@ protected:
     {
         while (m_flights.size() >= kFramesInFlight)
         {
-            swapchain->frameDone(m_flights.front().frame);
+            const std::uint64_t frame = m_flights.front().frame;
             m_flights.pop_front(); // waits
+            swapchain->frameDone(frame);
         }
         const std::optional<vk::SwapchainImage> image = swapchain->acquire(framebuffer, m_frame);
         if (image)
