@@ -49,11 +49,7 @@ AnimatedScene loadForBaselines(const BenchOptions& options, const fs::path& path
         still.fixed = loadWithWarnings(std::span(&path, 1), options.load);
         return still;
     }
-    VoxelOptions voxels;
-    voxels.scenes = {path};
-    voxels.load = options.load;
-    voxels.scenes_folder = options.scene_folder;
-    return loadAnimatedSceneWithWarnings(voxels, true);
+    return loadSceneFile(options, path);
 }
 
 // The named scenes, or the usual ones and the thesis's, as far as their models are there.
@@ -111,8 +107,7 @@ void compareScene(const BenchOptions& options, vk::HeadlessDevice& device, const
     const AnimatedScene& animated = scene.animated;
     const bool moves = !animated.objects.empty();
     const Bounds bounds = boundsOverTime(animated);
-    const Grid grid =
-        animated.grid_bounds ? Grid::withCorner(*animated.grid_bounds, depth) : Grid::around(bounds, depth);
+    const Grid grid = gridOf(animated, bounds, depth);
     const double aspect = double{kBaselineWidth} / kBaselineHeight;
     const Bounds subject_bounds = subjectOf(bounds, grid);
     const ViewCamera camera = moves ? chooseCamera(options.camera, animated, subject_bounds, aspect)

@@ -2,6 +2,7 @@
 #include "bench/bench_dynamic.h"
 
 #include "bench/bench_runs.h"
+#include "bench/bench_scenes.h"
 #include "bench/bench_table.h"
 #include "bench/table.h"
 #include "common/output.h"
@@ -151,8 +152,7 @@ public:
     DynamicRow measure(const std::string& name, const AnimatedScene& animated, std::uint32_t depth, Progress& progress)
     {
         const Bounds bounds = boundsOverTime(animated);
-        const Grid grid =
-            animated.grid_bounds ? Grid::withCorner(*animated.grid_bounds, depth) : Grid::around(bounds, depth);
+        const Grid grid = gridOf(animated, bounds, depth);
         const ViewCamera view =
             chooseCamera(m_options.camera, animated, subjectOf(bounds, grid), double{kWidth} / kHeight);
         const TraceCamera camera = traceCamera(view, grid, kHeight);
@@ -324,11 +324,7 @@ void benchDynamic(const BenchOptions& options)
     std::size_t operation_count = 0;
     for (const std::filesystem::path& path : options.scenes)
     {
-        VoxelOptions voxels;
-        voxels.scenes = {path};
-        voxels.load = options.load;
-        voxels.scenes_folder = options.scene_folder;
-        scenes.push_back(loadAnimatedSceneWithWarnings(voxels, true));
+        scenes.push_back(loadSceneFile(options, path));
         operation_count +=
             static_cast<std::size_t>(scenes.back().seconds * scenes.back().frames_per_second) + 2 * options.run_count;
     }

@@ -127,6 +127,21 @@ std::vector<fs::path> benchScenes(const BenchOptions& options)
     return paths;
 }
 
+AnimatedScene loadSceneFile(const BenchOptions& options, const fs::path& path)
+{
+    VoxelOptions voxels;
+    voxels.scenes = {path};
+    voxels.load = options.load;
+    voxels.scenes_folder = options.scene_folder;
+    return loadAnimatedSceneWithWarnings(voxels, true);
+}
+
+Grid gridOf(const AnimatedScene& animated, const Bounds& bounds_over_time, std::uint32_t depth)
+{
+    return animated.grid_bounds ? Grid::withCorner(*animated.grid_bounds, depth)
+                                : Grid::around(bounds_over_time, depth);
+}
+
 std::vector<fs::path> thesisScenes()
 {
     return ownScenes(kThesisScenes);
