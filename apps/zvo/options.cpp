@@ -94,11 +94,14 @@ Examples:
 void addPathOptions(CLI::App& render, RenderOptions& options)
 {
     addValue(
-        render, "--integrator", options.path_traced,
-        [](std::string_view option, std::string_view text) {
-            return oneOf(option, text, {"primary", "path"}) == "path";
+        render, "--integrator", options.integrator,
+        [](std::string_view option, std::string_view text)
+        {
+            const std::string name = oneOf(option, text, {"primary", "path", "cached"});
+            return name == "path" ? Integrator::Path : name == "cached" ? Integrator::Cached : Integrator::Primary;
         },
-        "primary|path", "light by a ray to the sun and a simple sky, or by path tracing (default primary)");
+        "primary|path|cached",
+        "light by a ray to the sun and a simple sky, by path tracing, or kept on the voxels (default primary)");
     const auto integer = [](std::uint32_t low, std::uint32_t high)
     {
         return [low, high](std::string_view option, std::string_view text)
@@ -106,11 +109,18 @@ void addPathOptions(CLI::App& render, RenderOptions& options)
     };
     PathRenderOptions& paths = options.paths;
     addValue(render, "--spp", paths.samples, integer(1, 1U << 24), "N",
-             fmt::format("paths a pixel, 1 to {} (default 64)", 1U << 24));
+             fmt::format("paths a pixel, or frames of --integrator cached, 1 to {} (default 64, or 16)", 1U << 24));
     addValue(render, "--bounces", paths.path.bounces, integer(0, kBouncesMax), "N",
              fmt::format("diffuse reflections of a path, 0 to {} (default 8)", kBouncesMax));
     addValue(render, "--seed", paths.path.seed, integer(0, UINT32_MAX), "N",
              fmt::format("of the paths' random numbers, 0 to {} (default 0)", UINT32_MAX));
+    KeptRenderOptions& kept = options.kept;
+    addValue(render, "--settle", kept.settle, integer(0, 1U << 24), "N",
+             fmt::format("frames of --integrator cached before the first picture, 0 to {} (default 64)", 1U << 24));
+    addValue(render, "--rays", kept.radiance.faces, integer(1, kRadianceFacesMax), "N",
+             fmt::format("faces that a frame of --integrator cached samples at most, 1 to {} (default 32768): each "
+                         "takes a ray and a shadow ray",
+                         kRadianceFacesMax));
     addValue(render, "--aperture", paths.path.lens_radius, parsePositive, "RADIUS",
              "radius of the lens of the camera, in world units (default: a pinhole)");
     addValue(render, "--focus", paths.path.focus_distance, parsePositive, "DISTANCE",

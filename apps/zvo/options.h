@@ -4,16 +4,20 @@
 #include "bench/bench_options.h"
 #include "common/scene_options.h"
 #include "core/path/path_tracer.h"
+#include "core/radiance/radiance_cache.h"
 #include "core/scene/scene.h"
 #include "core/trace/trace.h"
 #include "core/tree/tree_data.h"
 #include "io/scene/load_scene.h"
 #include "zvo/types.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,18 +25,40 @@
 namespace zvo::cli
 {
 
-/// How a picture is path traced.
+/// How the light of a picture is computed.
+enum class Integrator
+{
+    Primary, ///< primary rays, with rays to the sun and over the hemisphere (core/trace/trace.h)
+    Path,    ///< path tracing (core/path/path_tracer.h)
+    Cached,  ///< light that is kept on voxels (core/radiance/radiance_tracer.h)
+};
+
+inline constexpr std::array<std::string_view, 3> kIntegratorNames = {"primary", "path", "cached"};
+
+constexpr std::string_view nameOf(Integrator integrator)
+{
+    return kIntegratorNames.at(static_cast<std::size_t>(integrator));
+}
+
+/// How a picture is path traced. Environment, samples and time limit count for Integrator::Cached, too.
 struct PathRenderOptions
 {
     PathOptions path;
     std::optional<PathForm> form;                     // not given: by the device
-    std::uint32_t samples = 64;                       // a pixel
+    std::optional<std::uint32_t> samples;             // a pixel
     std::optional<double> time_limit;                 // seconds, after which no sample begins
     std::optional<std::filesystem::path> environment; // a map, or "none": no light; not given: the simple sky
     double environment_turn = 0.0;                    // degrees, counterclockwise from above
     float environment_strength = 1.0F;
     bool denoise = false;
     bool aovs = false; // writes what the picture shows beside its light, too
+};
+
+/// How a picture is made of light that is kept on voxels.
+struct KeptRenderOptions
+{
+    RadianceOptions radiance;
+    std::uint32_t settle = 64; // frames before the first picture
 };
 
 struct RenderOptions
@@ -45,15 +71,25 @@ struct RenderOptions
     std::string camera; // as given; empty: the scene's first one, or a fitting one
     std::optional<std::filesystem::path> camera_path;
     View view = TraceOptions().view;
-    std::uint32_t occlusion_rays = TraceOptions().occlusion_rays;  // a pixel
-    std::optional<glm::dvec3> to_sun;                              // direction, any length
-    std::optional<float> exposure;                                 // none: 1, or for paths by the picture's brightness
-    float detail_pixels = TraceOptions().detail_pixels;            // rays stop at octree nodes up to this wide
-    bool path_traced = false;                                      // by paths, else by primary rays
-    PathRenderOptions paths;                                       // where they are
+    std::uint32_t occlusion_rays = TraceOptions().occlusion_rays; // a pixel
+    std::optional<glm::dvec3> to_sun;                             // direction, any length
+    std::optional<float> exposure;                                // none: 1, or for paths by the picture's brightness
+    float detail_pixels = TraceOptions().detail_pixels;           // rays stop at octree nodes up to this wide
+    Integrator integrator = Integrator::Primary;
+    PathRenderOptions paths;                                       // Integrator::Path and Cached
+    KeptRenderOptions kept;                                        // Integrator::Cached
     std::optional<std::pair<std::uint32_t, std::uint32_t>> frames; // first and last
     std::optional<TreeStructure> structure; // of the static part; not given: an octree, or the file's
     bool rebuild = false;                   // voxelizes everything for each picture, instead of merging dynamic objects
+
+    /// Whether pictures are sums of samples.
+    [[nodiscard]] bool hasSamples() const { return integrator != Integrator::Primary; }
+
+    /// The samples of a pixel: paths, or frames.
+    [[nodiscard]] std::uint32_t sampleCount() const
+    {
+        return paths.samples.value_or(integrator == Integrator::Cached ? 16 : 64);
+    }
 };
 
 struct VoxelizeOptions

@@ -20,9 +20,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -151,7 +154,7 @@ public:
     {
         if (file)
         {
-            writeReport(*file, m_report.json(m_renderer.cappedRays()));
+            writeReport(*file, m_report.json(m_renderer.cappedRays(), m_renderer.kept()));
         }
         m_report.tell(m_pictures.count(), m_renderer.cappedRays());
     }
@@ -268,47 +271,57 @@ void checkTreeOptions(const RenderOptions& options)
     }
 }
 
-// Refuses options that have no effect without paths, or with them.
-void checkPathOptions(const RenderOptions& options)
+// Refuses options that have no effect with the integrator.
+void checkIntegratorOptions(const RenderOptions& options)
 {
-    const PathRenderOptions plain;
+    using Integrators = std::initializer_list<Integrator>;
+    const Integrators of_paths = {Integrator::Path};
+    const Integrators of_kept = {Integrator::Cached};
+    const Integrators of_samples = {Integrator::Path, Integrator::Cached};
+    const Integrators of_primary = {Integrator::Primary};
+    const RenderOptions plain;
     const PathRenderOptions& paths = options.paths;
-    const std::pair<const char*, bool> of_paths[] = {
-        {"--spp", paths.samples != plain.samples},
-        {"--bounces", paths.path.bounces != plain.path.bounces},
-        {"--seed", paths.path.seed != plain.path.seed},
-        {"--aperture", paths.path.lens_radius != plain.path.lens_radius},
-        {"--focus", paths.path.focus_distance != plain.path.focus_distance},
-        {"--environment", paths.environment.has_value()},
-        {"--environment-turn", paths.environment_turn != plain.environment_turn},
-        {"--environment-strength", paths.environment_strength != plain.environment_strength},
-        {"--denoise", paths.denoise},
-        {"--aov", paths.aovs},
-        {"--path-form", paths.form.has_value()},
-        {"--time-limit", paths.time_limit.has_value()},
+    const std::tuple<const char*, bool, Integrators> given[] = {
+        {"--spp", paths.samples.has_value(), of_samples},
+        {"--bounces", paths.path.bounces != plain.paths.path.bounces, of_paths},
+        {"--seed", paths.path.seed != plain.paths.path.seed, of_samples},
+        {"--settle", options.kept.settle != plain.kept.settle, of_kept},
+        {"--rays", options.kept.radiance != plain.kept.radiance, of_kept},
+        {"--aperture", paths.path.lens_radius != plain.paths.path.lens_radius, of_paths},
+        {"--focus", paths.path.focus_distance != plain.paths.path.focus_distance, of_paths},
+        {"--environment", paths.environment.has_value(), of_samples},
+        {"--environment-turn", paths.environment_turn != plain.paths.environment_turn, of_samples},
+        {"--environment-strength", paths.environment_strength != plain.paths.environment_strength, of_samples},
+        {"--denoise", paths.denoise, of_paths},
+        {"--aov", paths.aovs, of_paths},
+        {"--path-form", paths.form.has_value(), of_paths},
+        {"--time-limit", paths.time_limit.has_value(), of_samples},
+        {"--view", options.view != plain.view, of_primary},
+        {"--occlusion", options.occlusion_rays != plain.occlusion_rays, of_primary},
+        {"--detail", options.detail_pixels != plain.detail_pixels, of_primary},
     };
-    const std::pair<const char*, bool> of_primary[] = {
-        {"--view", options.view != RenderOptions().view},
-        {"--occlusion", options.occlusion_rays != RenderOptions().occlusion_rays},
-        {"--detail", options.detail_pixels != RenderOptions().detail_pixels},
-    };
-    for (const auto& [name, is_given] : of_paths)
+    for (const auto& [name, is_given, integrators] : given)
     {
-        if (is_given && !options.path_traced)
+        if (is_given && std::find(integrators.begin(), integrators.end(), options.integrator) == integrators.end())
         {
-            throw Error(ErrorCode::Usage, fmt::format("{} needs --integrator path", name));
+            const std::string_view first = nameOf(*integrators.begin());
+            throw Error(ErrorCode::Usage,
+                        integrators.size() == 1 && first == "primary"
+                            ? fmt::format("{} does not go with --integrator {}", name, nameOf(options.integrator))
+                            : fmt::format("{} needs --integrator {}", name, first));
         }
     }
     const bool has_map = paths.environment && *paths.environment != "none";
-    if (paths.environment_turn != plain.environment_turn && !has_map)
+    if (paths.environment_turn != plain.paths.environment_turn && !has_map)
     {
         throw Error(ErrorCode::Usage, "--environment-turn needs a map: --environment FILE");
     }
-    if (paths.environment_strength != plain.environment_strength && !has_map)
+    if (paths.environment_strength != plain.paths.environment_strength && !has_map)
     {
         throw Error(ErrorCode::Usage, "--environment-strength needs a map: --environment FILE");
     }
-    if (paths.path.focus_distance != plain.path.focus_distance && paths.path.lens_radius == plain.path.lens_radius)
+    if (paths.path.focus_distance != plain.paths.path.focus_distance &&
+        paths.path.lens_radius == plain.paths.path.lens_radius)
     {
         throw Error(ErrorCode::Usage, "--focus needs --aperture: all is sharp without a lens");
     }
@@ -316,13 +329,6 @@ void checkPathOptions(const RenderOptions& options)
     {
         throw Error(ErrorCode::Usage,
                     fmt::format("--aov needs an output that ends in .exr, not {}", options.output.path));
-    }
-    for (const auto& [name, is_given] : of_primary)
-    {
-        if (is_given && options.path_traced)
-        {
-            throw Error(ErrorCode::Usage, fmt::format("{} does not go with --integrator path", name));
-        }
     }
 }
 
@@ -349,7 +355,7 @@ void renderTree(const RenderOptions& options, const CameraWork& camera_work, Pic
 
 void render(const RenderOptions& options)
 {
-    checkPathOptions(options);
+    checkIntegratorOptions(options);
     std::vector<std::filesystem::path> inputs = options.voxels.scenes;
     if (options.camera_path)
     {

@@ -111,7 +111,7 @@ Json RenderReport::rebuiltFrame(std::uint32_t number, double seconds, const Buil
             {"build_ms", result.operationMs("octree")}};
 }
 
-Json RenderReport::json(std::uint64_t capped_rays) const
+Json RenderReport::json(std::uint64_t capped_rays, const RadianceCache* kept) const
 {
     Json json = m_json;
     double trace_ms = 0;
@@ -123,7 +123,7 @@ Json RenderReport::json(std::uint64_t capped_rays) const
     }
     // Of many samples, kernels are summed up.
     const std::vector<vk::PassTime> picture =
-        m_times.front().path_samples != 0 ? sumByName(m_times.front().passes) : m_times.front().passes;
+        m_times.front().samples != 0 ? sumByName(m_times.front().passes) : m_times.front().passes;
     for (const std::vector<vk::PassTime>* passes : {&m_beam_passes, &picture})
     {
         const Json more = passesJson(*passes);
@@ -135,7 +135,11 @@ Json RenderReport::json(std::uint64_t capped_rays) const
     json["beam_grid_ms"] = sumMs(m_beam_passes);
     json["capped_rays"] = capped_rays;
     json["picture"] = {{"width", m_options.width}, {"height", m_options.height}, {"count", m_times.size()}};
-    if (m_times.front().path_samples != 0)
+    if (kept != nullptr)
+    {
+        json["cached"] = keptJson(*kept);
+    }
+    else if (m_times.front().samples != 0)
     {
         json["paths"] = pathsJson();
     }
@@ -146,10 +150,10 @@ Json RenderReport::json(std::uint64_t capped_rays) const
     return json;
 }
 
-Json RenderReport::pathsJson() const
+// What both kinds of pictures with samples have in common.
+Json RenderReport::samplesJson() const
 {
     const PathRenderOptions& paths = m_options.paths;
-    const PathForm form = paths.form.value_or(pathFormOn(m_device.device()));
     Json pictures = Json::array();
     bool stopped = m_options.frames && m_times.size() <= m_options.frames->second - m_options.frames->first;
     for (const PictureTimes& times : m_times)
@@ -159,25 +163,45 @@ Json RenderReport::pathsJson() const
         {
             picture["frame"] = m_options.frames->first + pictures.size();
         }
-        picture["samples"] = times.path_samples;
+        picture["samples"] = times.samples;
         picture["exposure"] = times.exposure ? Json(*times.exposure) : Json(nullptr);
         pictures.push_back(std::move(picture));
-        stopped = stopped || times.path_samples < paths.samples;
+        stopped = stopped || times.samples < m_options.sampleCount();
     }
-    return {{"samples", m_times.front().path_samples},
-            {"samples_asked", paths.samples},
+    return {{"samples", m_times.front().samples},
+            {"samples_asked", m_options.sampleCount()},
             {"stopped", stopped},
-            {"bounces", paths.path.bounces},
             {"seed", paths.path.seed},
-            {"form", form == PathForm::Stages ? "stages" : "kernel"},
             {"environment", paths.environment ? Json(paths.environment->string()) : Json(nullptr)},
             {"environment_turn", paths.environment_turn},
             {"environment_strength", paths.environment_strength},
-            {"aperture", paths.path.lens_radius},
-            {"focus", paths.path.focus_distance},
-            {"denoise", paths.denoise},
             {"time_limit", paths.time_limit ? Json(*paths.time_limit) : Json(nullptr)},
             {"pictures", pictures}};
+}
+
+Json RenderReport::pathsJson() const
+{
+    const PathRenderOptions& paths = m_options.paths;
+    const PathForm form = paths.form.value_or(pathFormOn(m_device.device()));
+    Json json = samplesJson();
+    json["bounces"] = paths.path.bounces;
+    json["form"] = form == PathForm::Stages ? "stages" : "kernel";
+    json["aperture"] = paths.path.lens_radius;
+    json["focus"] = paths.path.focus_distance;
+    json["denoise"] = paths.denoise;
+    return json;
+}
+
+Json RenderReport::keptJson(const RadianceCache& kept) const
+{
+    const gpu::RadianceCounters counters = m_device.download(kept.counters()).front();
+    Json json = samplesJson();
+    json["settle"] = m_options.kept.settle;
+    json["rays"] = m_options.kept.radiance.faces;
+    json["faces"] = counters.face_count;
+    json["faces_refused"] = counters.refused;
+    json["bytes"] = kept.bytes();
+    return json;
 }
 
 void RenderReport::tell(std::uint32_t picture_count, std::uint64_t capped_rays) const
@@ -190,9 +214,10 @@ void RenderReport::tell(std::uint32_t picture_count, std::uint64_t capped_rays) 
     {
         talk(fmt::format("warning: {} rays took too many steps and were given up", capped_rays));
     }
-    if (m_times.front().path_samples != 0)
+    if (m_times.front().samples != 0)
     {
-        talk(fmt::format("{}; {} paths a pixel in {:.1f} ms on {}", m_built, m_times.front().path_samples,
+        talk(fmt::format("{}; {} {} in {:.1f} ms on {}", m_built, m_times.front().samples,
+                         m_options.integrator == Integrator::Path ? "paths a pixel" : "frames",
                          m_times.front().trace_ms, m_device.device().report().name));
         return;
     }

@@ -53,14 +53,16 @@ public:
     [[nodiscard]] Json rebuiltFrame(std::uint32_t number, double seconds, const BuildResult& result,
                                     std::uint64_t triangle_count) const;
 
-    /// The whole report, after all pictures.
-    [[nodiscard]] Json json(std::uint64_t capped_rays) const;
+    /// The whole report, after all pictures. kept: null without light on voxels.
+    [[nodiscard]] Json json(std::uint64_t capped_rays, const RadianceCache* kept) const;
 
     /// Tells of the run on standard error, after all pictures. picture_count: how many were asked for.
     void tell(std::uint32_t picture_count, std::uint64_t capped_rays) const;
 
 private:
     [[nodiscard]] Json pathsJson() const;
+    [[nodiscard]] Json keptJson(const RadianceCache& kept) const;
+    [[nodiscard]] Json samplesJson() const;
 
     const RenderOptions& m_options;
     vk::HeadlessDevice& m_device;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer.h"
 
+#include "common/output.h"
 #include "common/report.h"
 #include "io/image/image_io.h"
 #include "zvo/error.h"
@@ -57,16 +58,16 @@ Renderer::Renderer(vk::HeadlessDevice& device, const RenderOptions& options)
     m_trace.occlusion_rays = options.occlusion_rays;
     m_trace.exposure = options.exposure.value_or(m_trace.exposure);
     m_trace.to_sun = options.to_sun.value_or(m_trace.to_sun);
-    if (options.path_traced)
+    if (options.hasSamples())
     {
-        m_paths.emplace(device, options);
+        m_light.emplace(device, options);
     }
 }
 
 std::vector<vk::PassTime> Renderer::show(const DeviceTree& tree)
 {
     m_tree = &tree;
-    if (m_paths)
+    if (m_light)
     {
         return {};
     }
@@ -74,16 +75,42 @@ std::vector<vk::PassTime> Renderer::show(const DeviceTree& tree)
     return m_device.run([&](vk::FrameGraph& graph) { m_tracer.prepare(graph, tree); });
 }
 
+// The picture whose light is computed by samples; nothing, with a warning, if there is no room to keep light on voxels.
+std::optional<std::vector<std::uint8_t>> Renderer::renderLight(const ViewCamera& view, Progress& progress,
+                                                               PictureTimes& times)
+{
+    try
+    {
+        std::vector<std::uint8_t> picture = m_light->render(*m_tree, view, progress, times.passes);
+        times.trace_ms = sumMs(times.passes);
+        times.samples = m_light->sampleCount();
+        times.exposure = m_light->exposure();
+        m_capped_rays = (m_light->kept() == nullptr ? m_capped_rays : 0) + m_light->cappedRays();
+        return picture;
+    }
+    catch (const Error& error)
+    {
+        if (error.code() != ErrorCode::Memory || m_options.integrator != Integrator::Cached ||
+            extensionOf(m_options.output.path) != ".png")
+        {
+            throw;
+        }
+        talk(fmt::format("warning: no light is kept on voxels, and pictures are by --integrator primary: {}",
+                         error.what()));
+        return std::nullopt;
+    }
+}
+
 std::vector<std::uint8_t> Renderer::render(const ViewCamera& view, Progress& progress, PictureTimes& times)
 {
-    if (m_paths)
+    if (m_light)
     {
-        std::vector<std::uint8_t> picture = m_paths->render(*m_tree, view, progress, times.passes);
-        times.trace_ms = sumMs(times.passes);
-        times.path_samples = m_paths->sampleCount();
-        times.exposure = m_paths->exposure();
-        m_capped_rays += m_paths->cappedRays();
-        return picture;
+        if (std::optional<std::vector<std::uint8_t>> picture = renderLight(view, progress, times))
+        {
+            return std::move(*picture);
+        }
+        m_light.reset();
+        show(*m_tree);
     }
     const TraceBuffers& buffers = m_tracer.buffers();
     const TraceCamera camera = traceCamera(view, m_tree->grid, buffers.height);

@@ -7,6 +7,8 @@
 #include "lib/hit.glsl"
 #include "path/reach.glsl"
 
+layout(constant_id = 0) const bool kNotes = false;
+
 layout(local_size_x = kPathGroup) in;
 layout(push_constant, scalar) uniform Push
 {
@@ -24,4 +26,6 @@ void main()
     Hit hit = loadHit(params.hits, i);
     if (reachesLight(hit, state.target))
         params.radiance.data[state.slot] += state.light;
+    if (kNotes && !isMiss(hit) && hit.index >= params.first_noted)
+        params.numbers.data[state.slot] |= 1u << 31;
 }

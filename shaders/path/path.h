@@ -179,9 +179,13 @@ struct PathConnectParams // push constants of path/connect: a thread a shadow ra
     GPU_CONST_PTR(ShadowState) shadow_states;
     GPU_PTR(vec3) radiance;
     GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(uint) numbers; // kNotes only, like the next: bit 31 of the number at a slot is set whose ray has hit one of
+    uint first_noted;      // the voxels from this index of attributes on
     uint bounce;
 };
-GPU_KERNEL(path, connect, Connect, PathConnectParams)
+GPU_KERNEL_BEGIN(path, connect, Connect, PathConnectParams)
+    GPU_CONSTANT(bool, notes, false)
+GPU_KERNEL_END
 
 /// The sums of all samples of a pixel.
 struct PixelSum

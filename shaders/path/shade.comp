@@ -35,6 +35,8 @@ layout(push_constant, scalar) uniform Push
 #include "light/importance.glsl"
 #include "path/lists.glsl"
 #include "trace/surface.glsl"
+#include "path/hit_voxel.glsl"
+#include "path/leave.glsl"
 #include "path/next_ray.glsl"
 
 void main()

@@ -63,9 +63,12 @@ layout(push_constant, scalar) uniform Push
 #include "path/chosen.glsl"
 #include "path/emitter.glsl"
 #include "path/feature_sum.glsl"
+#include "path/hit_voxel.glsl"
+#include "path/leave.glsl"
 #include "path/map_light.glsl"
 #include "path/miss.glsl"
 #include "path/next_ray.glsl"
+#include "path/point_of_face.glsl"
 #include "path/voxel_light.glsl"
 
 const bool kRanked = kEntriesPerWord != 0u && kNodeLevels > 1u && kFormat != kFormatNone; // hits have indices by ranks

@@ -30,6 +30,7 @@ layout(push_constant, scalar) uniform Push
 #include "path/state.glsl"
 #include "path/weights.glsl"
 #include "path/chosen.glsl"
+#include "path/point_of_face.glsl"
 #include "path/voxel_light.glsl"
 #include "path/shadow.glsl"
 

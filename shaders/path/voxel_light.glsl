@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Choosing light of voxels. The includer includes path/path.h, lib/hit.glsl, lib/sobol.glsl, light/choose.glsl,
-// path/emission.glsl, path/face.glsl, path/numbers.glsl and path/chosen.glsl before and declares params.
-
-// A point of a face of a voxel with this edge, by two numbers in [0, 1).
-vec3 pointOfFace(uvec3 cell, uint normal, float edge, vec2 u)
-{
-    vec3 across = normal % 3u == 0u ? vec3(0.0, u) : normal % 3u == 1u ? vec3(u.x, 0.0, u.y) : vec3(u, 0.0);
-    return 1.0 + edge * (vec3(cell) + max(normalAxis(normal), 0.0) + across);
-}
+// path/emission.glsl, path/face.glsl, path/numbers.glsl, path/point_of_face.glsl and path/chosen.glsl before and declares
+// params.
 
 // A point of a face of an emissive voxel, for a path that leaves a face at origin.
 ChosenDirection chooseVoxelLight(PathState state, vec3 origin, uint bounce)

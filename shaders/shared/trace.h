@@ -23,7 +23,7 @@ GPU_BUFFER(Ray, 8);
 /// Rays of a picture's pixels in unit space. With n = (2 x + 1 - width, 2 y + 1 - height) for pixel (x, y) from the top
 /// left, offset = n.x * half_pixel_x + n.y * half_pixel_y: perspective rays start at origin along forward + offset,
 /// orthographic ones at origin + offset along forward. forward has length 1 and is orthogonal to both half pixels, so t
-/// is the depth.
+/// is the depth; where it is shifted by a part of a pixel (core/scene/camera.h), t is the depth still.
 struct CameraRays
 {
     vec3 origin;

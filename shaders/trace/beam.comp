@@ -46,10 +46,12 @@ float endWithin(float edge)
                          : max(room, 0.0) / max(widest + params.detail.x, kTraceTimeMin);
 }
 
-// Depth of the octree's farthest corner.
+// Depth of the octree's farthest corner. The depth of a point is a ray's time there, also where the camera's direction
+// is not orthogonal to its pixels.
 float lastDepth()
 {
-    vec3 forward = params.camera.forward;
+    vec3 forward = cross(params.camera.half_pixel_x, params.camera.half_pixel_y);
+    forward /= dot(forward, params.camera.forward);
     return dot(1.5 - params.camera.origin, forward) + 0.501 * (abs(forward.x) + abs(forward.y) + abs(forward.z));
 }
 

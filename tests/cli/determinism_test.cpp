@@ -125,5 +125,28 @@ TEST(PathBytes, DoNotDependOnThreadsSubgroupsAndForm)
     EXPECT_EQ(pictures.size(), 1U);
 }
 
+// More faces are wanted than a frame takes.
+TEST(CachedBytes, DoNotDependOnThreadsSubgroupsAndLoads)
+{
+    const TempDir dir;
+    std::set<std::string> pictures;
+    for (const Machine& machine : machines())
+    {
+        for (const char* loads : {"addresses", "descriptors"})
+        {
+            const Outcome outcome =
+                runZvo(dir.path(),
+                       {"render", ownScene("cornell_box.glb").string(), "-o", "x.exr", "-f", "--resolution", "64",
+                        "--size", "51x40", "--integrator", "cached", "--settle", "10", "--spp", "3", "--rays", "300",
+                        "--tuning", std::string("loads=") + loads},
+                       {"LP_NUM_THREADS=" + std::to_string(machine.threads),
+                        "LP_NATIVE_VECTOR_WIDTH=" + std::to_string(machine.vector_bits)});
+            ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+            pictures.insert(contentOf(dir.path() / "x.exr"));
+        }
+    }
+    EXPECT_EQ(pictures.size(), 1U);
+}
+
 } // namespace
 } // namespace zvo::test

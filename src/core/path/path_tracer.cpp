@@ -4,7 +4,6 @@
 #include "core/base/divide_up.h"
 #include "core/base/tuning.h"
 #include "core/trace/trace_passes.h"
-#include "core/tree/tree_table.h"
 #include "vk/device.h"
 
 #include <algorithm>
@@ -24,21 +23,11 @@ constexpr std::uint64_t kBatchMax = std::uint64_t{1} << 19;
 constexpr std::uint64_t kDispatchRaysMax = std::uint64_t{1} << 24;
 constexpr std::uint64_t kDispatchPixelsMin = std::uint64_t{1} << 17;
 
+/// Lists of paths: of a bounce and of the next one.
+constexpr std::size_t kPathLists = 2;
+
 /// Threads of a dispatch of path/trace on a GPU, if it has so many pixels: enough for the largest ones.
 constexpr std::uint64_t kDispatchThreads = std::uint64_t{1} << 16;
-
-// The element of PathTracer::Pixels::lists with the workgroups for a list.
-std::uint64_t argsOf(std::uint32_t bounce, std::uint32_t list)
-{
-    return std::uint64_t{bounce} * gpu::kListElements + list;
-}
-
-// The length of a list.
-RayListLength lengthOf(const vk::BufferOf<gpu::DispatchArgs>& lists, std::uint32_t bounce, std::uint32_t list)
-{
-    constexpr std::uint64_t kWords = sizeof(gpu::DispatchArgs) / sizeof(gpu::uint);
-    return {lists, argsOf(bounce, list), kWords * argsOf(bounce, gpu::kListLengths) + list};
-}
 
 // Elements of the lists of a batch: of all bounces, and of the one that no path reaches.
 std::uint64_t batchElements(const PathOptions& options)
@@ -58,13 +47,6 @@ gpu::PathView viewOf(const Grid& grid, const TraceCamera& camera, const PathOpti
 {
     const float unit = 1.0F / (grid.voxel_size * static_cast<float>(grid.rootResolution()));
     return {camera.rays, width, height, options.seed, options.lens_radius * unit, options.focus_distance * unit};
-}
-
-// Declares that pass reads the attributes of voxels, in whatever format they are, and returns where they are.
-gpu::ConstPtr<gpu::Attribute> readVoxelAttributes(vk::AnyPass& pass, const DeviceTree& tree)
-{
-    return isPacked(tree.attributeFormat()) ? gpu::ConstPtr<gpu::Attribute>{pass.read(tree.packed.voxels).address}
-                                            : pass.read(tree.voxel_attributes);
 }
 
 // Declares that pass reads the ranks of a DAG with attributes.
@@ -101,44 +83,28 @@ std::uint64_t rayCountOf(std::span<const gpu::DispatchArgs> lists)
 
 PathTracer::Pixels::Pixels(vk::Device& device, std::uint32_t picture_width, std::uint32_t picture_height,
                            PathForm path_form)
-    : width(picture_width), height(picture_height), form(path_form), status(device, "path/status", 1),
-      table(device, "path/tree", 1)
+    : width(picture_width), height(picture_height), form(path_form), status(device, "path/status", 1)
 {
     const std::uint64_t pixel_count = std::uint64_t{width} * height;
-    const std::uint64_t batch = form == PathForm::Stages ? std::min(pixel_count, kBatchMax) : 0;
-    device.memory().require(pixel_count * sizeof(gpu::PixelSum) +
-                                batch * (3 * sizeof(gpu::Ray) + 2 * sizeof(gpu::PathState) + sizeof(gpu::Hit) +
-                                         sizeof(gpu::ShadowState) + sizeof(gpu::vec3) +
-                                         gpu::kListCount * sizeof(gpu::uint)),
+    const bool in_stages = form == PathForm::Stages;
+    const std::uint64_t batch_pixels = in_stages ? std::min(pixel_count, kBatchMax) : 0;
+    device.memory().require(pixel_count * sizeof(gpu::PixelSum) + PathBatch::bytesFor(batch_pixels, kPathLists),
                             "path tracing");
     sums = {device, "path/sums", pixel_count};
-    if (form == PathForm::OneKernel)
+    batch = {device, batch_pixels, kPathLists, in_stages ? kBouncesMax + 2 : 1};
+    if (!in_stages)
     {
-        lists = {device, "path/lists", gpu::kListElements};
         view = {device, "path/view", 1};
-        return;
     }
-    for (std::size_t i = 0; i < rays.size(); ++i)
-    {
-        rays.at(i) = {device, "path/rays", batch};
-        states.at(i) = {device, "path/states", batch};
-    }
-    hits = {device, "path/hits", batch};
-    shadow_rays = {device, "path/shadow_rays", batch};
-    shadow_states = {device, "path/shadow_states", batch};
-    radiance = {device, "path/radiance", batch};
-    numbers = {device, "path/numbers", gpu::kListCount * batch};
-    rounds = {device, "path/rounds", gpu::kTraceRoundsMax};
-    lists = {device, "path/lists", std::uint64_t{kBouncesMax + 2} * gpu::kListElements};
 }
 
 void PathTracer::Pixels::addFeatures(vk::Device& device)
 {
-    const std::uint64_t batch = radiance.count(); // 0 in one kernel
-    device.memory().require(sums.count() * sizeof(gpu::PixelFeatures) + batch * sizeof(float), "path tracing");
-    if (batch != 0)
+    const std::uint64_t batch_pixels = batch.capacity(); // 0 in one kernel
+    device.memory().require(sums.count() * sizeof(gpu::PixelFeatures) + batch_pixels * sizeof(float), "path tracing");
+    if (batch_pixels != 0)
     {
-        direct = {device, "path/direct", batch};
+        direct = {device, "path/direct", batch_pixels};
     }
     features = {device, "path/features", sums.count()};
 }
@@ -168,28 +134,19 @@ void PathTracer::resize(std::uint32_t width, std::uint32_t height, std::optional
 void PathTracer::forget()
 {
     m_subject = {};
-    m_lights_version = 0;
+    m_lights.forget();
 }
 
 std::uint64_t PathTracer::Pixels::bytes() const
 {
     // Every member has a name here, or this does not compile: none is forgotten.
-    const auto& [own_width, own_height, own_form, sums_, features_, rays_, states_, hits_, shadow_rays_, shadow_states_,
-                 radiance_, direct_, numbers_, rounds_, lists_, status_, table_, view_, is_clear] = *this;
-    return sums_.bytes() + features_.bytes() + rays_[0].bytes() + rays_[1].bytes() + states_[0].bytes() +
-           states_[1].bytes() + hits_.bytes() + shadow_rays_.bytes() + shadow_states_.bytes() + radiance_.bytes() +
-           direct_.bytes() + numbers_.bytes() + rounds_.bytes() + lists_.bytes() + status_.bytes() + table_.bytes() +
-           view_.bytes();
+    const auto& [own_width, own_height, own_form, sums_, features_, batch_, direct_, status_, view_, is_clear] = *this;
+    return sums_.bytes() + features_.bytes() + batch_.bytes() + direct_.bytes() + status_.bytes() + view_.bytes();
 }
 
 std::uint64_t PathTracer::bytes() const
 {
-    const auto ofLights = [](const LightTree& lights)
-    {
-        return lights.nodes.bytes() + lights.bricks.bytes() + lights.items.bytes() + lights.levels.bytes() +
-               lights.args.bytes();
-    };
-    return (m_pixels == nullptr ? 0 : m_pixels->bytes()) + (m_lights == nullptr ? 0 : ofLights(*m_lights));
+    return (m_pixels == nullptr ? 0 : m_pixels->bytes()) + m_lights.bytes();
 }
 
 // Records what is needed before the first sample of a subject.
@@ -206,8 +163,7 @@ void PathTracer::begin(vk::FrameGraph& graph, const DeviceTree& tree, const Devi
         graph.fill(m_pixels->status, 0);
         m_pixels->is_status_clear = true;
     }
-    graph.update(m_pixels->table, 0, std::array{treeTable(tree)});
-    makeLights(graph, tree);
+    m_lights.prepare(graph, tree);
 
     ++m_subject_number;
     m_camera = camera;
@@ -228,21 +184,6 @@ void PathTracer::begin(vk::FrameGraph& graph, const DeviceTree& tree, const Devi
         m_lighting = lighting;
         ++m_lighting_number;
     }
-}
-
-void PathTracer::makeLights(vk::FrameGraph& graph, const DeviceTree& tree)
-{
-    if (m_lights_version == tree.version || !hasEmission(tree))
-    {
-        return;
-    }
-    if (m_lights == nullptr || !m_lights->suffices(tree))
-    {
-        vk::replace(m_deletion_queue, m_lights, std::make_unique<LightTree>(m_device, tree));
-    }
-    m_lights_version = 0; // should the next line throw
-    buildLightTree(graph, tree, m_pixels->table, *m_lights);
-    m_lights_version = tree.version;
 }
 
 std::uint64_t PathTracer::listElements(const PathOptions& options) const
@@ -273,7 +214,7 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Device
     }
     if (m_pixels->form == PathForm::OneKernel)
     {
-        graph.fill(m_pixels->lists, 0);
+        graph.fill(m_pixels->batch.lists, 0);
     }
     const std::uint64_t pixel_count = m_pixels->sums.count();
     const std::uint64_t batch = batchPixels(options.bounces);
@@ -297,7 +238,7 @@ void PathTracer::addSample(vk::FrameGraph& graph, const DeviceTree& tree, Device
     }
     if (m_pixels->form == PathForm::OneKernel && lists != nullptr)
     {
-        graph.copy(m_pixels->lists, 0, *lists, 0, m_pixels->lists.bytes());
+        graph.copy(m_pixels->batch.lists, 0, *lists, 0, m_pixels->batch.lists.bytes());
     }
     ++m_sample_count;
     m_subject = subject;
@@ -328,15 +269,13 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
                                   .features = options.features};
     vk::Pass pass = graph.addPass(traversing(kernel, graph.device(), tree, trace));
     gpu::PathTraceParams params{};
-    params.tree = pass.read(pixels.table);
+    params.tree = pass.read(m_lights.table());
     params.nodes = pass.read(tree.nodes);
     params.attributes = readVoxelAttributes(pass, tree);
+    m_lights.read(pass, tree, params);
     if (emits)
     {
         params.emission_words = pass.read(tree.emission_words);
-        pass.read(tree.emission);
-        params.light_nodes = pass.read(m_lights->nodes);
-        params.light_bricks = pass.read(m_lights->bricks);
     }
     readRanks(pass, tree);
     params.environment = batch.environment.read(pass);
@@ -347,7 +286,7 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
     {
         params.features = pass.readWrite(pixels.features);
     }
-    params.lists = pass.readWrite(pixels.lists);
+    params.lists = pass.readWrite(pixels.batch.lists);
     params.status = pass.readWrite(pixels.status);
     params.first_pixel = batch.first_pixel;
     params.end_pixel = batch.first_pixel + batch.pixel_count;
@@ -361,66 +300,45 @@ void PathTracer::traceInOneKernel(vk::FrameGraph& graph, const Batch& batch)
 
 void PathTracer::traceInStages(vk::FrameGraph& graph, const Batch& batch)
 {
-    Pixels& pixels = *m_pixels;
-    const std::uint32_t bounces = std::min(batch.options.bounces, kBouncesMax);
-    const std::uint64_t list_bytes = batchElements(batch.options) * sizeof(gpu::DispatchArgs);
-    graph.fill(pixels.lists, 0, 0, list_bytes / sizeof(gpu::uint));
+    PathBatch& paths = m_pixels->batch;
+    const PathOptions& options = batch.options;
+    const std::uint32_t bounces = std::min(options.bounces, kBouncesMax);
+    const std::uint64_t list_bytes = batchElements(options) * sizeof(gpu::DispatchArgs);
+    graph.fill(paths.lists, 0, 0, list_bytes / sizeof(gpu::uint));
     {
         vk::Pass pass = graph.addPass(gpu::path::Begin{.orthographic = batch.camera.orthographic});
         gpu::PathBeginParams params{};
-        params.rays = pass.write(pixels.rays[0]);
-        params.states = pass.write(pixels.states[0]);
-        params.radiance = pass.write(pixels.radiance);
-        params.lists = pass.readWrite(pixels.lists);
+        params.rays = pass.write(paths.rays[0]);
+        params.states = pass.write(paths.states[0]);
+        params.radiance = pass.write(paths.radiance);
+        params.lists = pass.readWrite(paths.lists);
         params.view = m_view;
         params.first_pixel = batch.first_pixel;
         params.pixel_count = batch.pixel_count;
         params.sample_index = m_sample_count;
         pass.dispatch(batch.pixel_count, params);
     }
-    TraceOptions trace;
-    trace.stack = batch.options.stack;
+    const PathLight light = {batch.tree,       batch.environment, m_lights,
+                             m_pixels->status, options.sampling,  options.lights_by_power,
+                             options.stack,    m_sample_count,    batch.pixel_count};
     for (std::uint32_t bounce = 0; bounce <= bounces; ++bounce)
     {
-        const RayListLength paths = lengthOf(pixels.lists, bounce, gpu::kListPaths);
-        traceRays(graph, batch.tree, pixels.rays.at(bounce % 2), pixels.hits, pixels.rounds, pixels.status, trace,
-                  &paths);
+        tracePaths(graph, light, paths, bounce % kPathLists, bounce);
         shade(graph, batch, bounce);
-        const LightSampling sampling = batch.options.sampling;
-        const bool by_power = batch.options.lights_by_power;
-        const std::uint32_t levels = batch.tree.grid.nodeLevels();
-        const bool emits = hasEmission(batch.tree);
-        takeList(graph, gpu::path::Miss{.sampling = sampling}, gpu::kListMisses, batch, bounce);
-        if (emits)
-        {
-            takeList(graph, gpu::path::Emitter{.sampling = sampling, .node_levels = levels, .by_power = by_power},
-                     gpu::kListEmitters, batch, bounce);
-        }
-        if (bounce == 0 && batch.options.features)
+        addMetLight(graph, light, paths, bounce % kPathLists, bounce);
+        if (bounce == 0 && options.features)
         {
             addFeatures(graph, batch);
         }
-        if (bounce == bounces || sampling == LightSampling::Chance)
+        if (bounce < bounces && options.sampling != LightSampling::Chance)
         {
-            continue;
+            addChosenLight(graph, light, paths, (bounce + 1) % kPathLists, bounce);
         }
-        takeList(graph, gpu::path::MapLight{.sampling = sampling}, gpu::kListMapLights, batch, bounce);
-        if (emits)
-        {
-            takeList(graph, gpu::path::VoxelLight{.sampling = sampling, .node_levels = levels, .by_power = by_power},
-                     gpu::kListVoxelLights, batch, bounce);
-        }
-        const RayListLength shadows = lengthOf(pixels.lists, bounce, gpu::kListShadows);
-        traceRays(graph, batch.tree, pixels.shadow_rays, pixels.hits, pixels.rounds, pixels.status, trace, &shadows);
-        vk::Pass pass = graph.addPass(gpu::path::Connect{});
-        const gpu::PathConnectParams params = {pass.read(pixels.hits), pass.read(pixels.shadow_states),
-                                               pass.readWrite(pixels.radiance), pass.readWrite(pixels.lists), bounce};
-        pass.dispatchIndirect(pixels.lists, shadows.args, params, divideUp(batch.pixel_count, gpu::kPathGroup));
     }
     finish(graph, batch);
     if (batch.lists != nullptr)
     {
-        graph.copy(pixels.lists, 0, *batch.lists, batch.first_pixel / kBatchMax * list_bytes, list_bytes);
+        graph.copy(paths.lists, 0, *batch.lists, batch.first_pixel / kBatchMax * list_bytes, list_bytes);
     }
 }
 
@@ -433,9 +351,9 @@ void PathTracer::addFeatures(vk::FrameGraph& graph, const Batch& batch)
         graph.addPass(gpu::path::Features{.node_levels = tree.grid.nodeLevels(), .format = tree.attributeFormat()});
     gpu::PathFeaturesParams params{};
     params.attributes = readVoxelAttributes(pass, tree);
-    params.rays = pass.read(pixels.rays[0]);
-    params.hits = pass.read(pixels.hits);
-    params.radiance = pass.read(pixels.radiance);
+    params.rays = pass.read(pixels.batch.rays[0]);
+    params.hits = pass.read(pixels.batch.hits);
+    params.radiance = pass.read(pixels.batch.radiance);
     params.direct = pass.write(pixels.direct);
     params.features = pass.readWrite(pixels.features);
     params.origin = batch.camera.rays.origin;
@@ -449,7 +367,7 @@ void PathTracer::finish(vk::FrameGraph& graph, const Batch& batch)
 {
     vk::Pass pass = graph.addPass(gpu::path::Finish{.features = batch.options.features});
     gpu::PathFinishParams params{};
-    params.radiance = pass.read(m_pixels->radiance);
+    params.radiance = pass.read(m_pixels->batch.radiance);
     if (batch.options.features)
     {
         params.direct = pass.read(m_pixels->direct);
@@ -463,7 +381,7 @@ void PathTracer::finish(vk::FrameGraph& graph, const Batch& batch)
 
 void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce)
 {
-    Pixels& pixels = *m_pixels;
+    PathBatch& paths = m_pixels->batch;
     const DeviceTree& tree = batch.tree;
     const bool emits = hasEmission(tree);
     vk::Pass pass = graph.addPass(gpu::path::Shade{.node_levels = tree.grid.nodeLevels(),
@@ -474,56 +392,24 @@ void PathTracer::shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t 
                                                    .roulette = batch.options.roulette});
     gpu::PathShadeParams params{};
     params.attributes = readVoxelAttributes(pass, tree);
-    params.hits = pass.read(pixels.hits);
+    params.hits = pass.read(paths.hits);
     params.gives = pass.read(batch.environment.gives());
     if (emits)
     {
         params.emission_words = pass.read(tree.emission_words);
-        params.light_nodes = pass.read(m_lights->nodes);
+        params.light_nodes = pass.read(m_lights.nodes());
     }
-    params.rays = pass.read(pixels.rays.at(bounce % 2));
-    params.states = pass.read(pixels.states.at(bounce % 2));
-    params.next_rays = pass.readWrite(pixels.rays.at((bounce + 1) % 2));
-    params.next_states = pass.readWrite(pixels.states.at((bounce + 1) % 2));
-    params.lists = pass.readWrite(pixels.lists);
-    params.numbers = pass.readWrite(pixels.numbers);
+    params.rays = pass.read(paths.rays.at(bounce % kPathLists));
+    params.states = pass.read(paths.states.at(bounce % kPathLists));
+    params.next_rays = pass.readWrite(paths.rays.at((bounce + 1) % kPathLists));
+    params.next_states = pass.readWrite(paths.states.at((bounce + 1) % kPathLists));
+    params.lists = pass.readWrite(paths.lists);
+    params.numbers = pass.readWrite(paths.numbers);
     params.bounce = bounce;
     params.sample_index = m_sample_count;
-    params.batch = static_cast<std::uint32_t>(pixels.radiance.count());
-    pass.dispatchIndirect(pixels.lists, argsOf(bounce, gpu::kListPaths), params,
+    params.batch = static_cast<std::uint32_t>(paths.capacity());
+    pass.dispatchIndirect(paths.lists, listArgs(bounce, gpu::kListPaths), params,
                           divideUp(batch.pixel_count, gpu::kPathGroup));
-}
-
-template <typename Kernel>
-void PathTracer::takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
-                          std::uint32_t bounce)
-{
-    Pixels& pixels = *m_pixels;
-    const bool looks_for_light = list == gpu::kListMapLights || list == gpu::kListVoxelLights;
-    const std::uint32_t paths = (bounce + (looks_for_light ? 1 : 0)) % 2; // which of both lists they are in
-    vk::Pass pass = graph.addPass(kernel);
-    gpu::PathLightParams params{};
-    params.environment = batch.environment.read(pass);
-    if (hasEmission(batch.tree))
-    {
-        params.tree = pass.read(pixels.table);
-        pass.read(batch.tree.emission_words);
-        pass.read(batch.tree.emission);
-        params.light_nodes = pass.read(m_lights->nodes);
-        params.light_bricks = pass.read(m_lights->bricks);
-    }
-    params.rays = pass.read(pixels.rays.at(paths));
-    params.states = pass.read(pixels.states.at(paths));
-    params.hits = pass.read(pixels.hits);
-    params.shadow_rays = pass.readWrite(pixels.shadow_rays);
-    params.shadow_states = pass.readWrite(pixels.shadow_states);
-    params.radiance = pass.readWrite(pixels.radiance);
-    params.lists = pass.readWrite(pixels.lists);
-    params.numbers = pass.read(pixels.numbers);
-    params.bounce = bounce;
-    params.sample_index = m_sample_count;
-    params.batch = static_cast<std::uint32_t>(pixels.radiance.count());
-    pass.dispatchIndirect(pixels.lists, argsOf(bounce, list), params, divideUp(batch.pixel_count, gpu::kPathGroup));
 }
 
 } // namespace zvo

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "core/light/environment.h"
-#include "core/light/light_tree.h"
+#include "core/light/tree_lights.h"
 #include "core/path/develop.h"
+#include "core/path/path_batch.h"
 #include "core/scene/camera.h"
 #include "core/trace/trace.h"
 #include "core/tree/device_tree.h"
@@ -20,14 +21,6 @@
 
 namespace zvo
 {
-
-/// How paths find light. All ways have the same mean; they differ in their variance.
-enum class LightSampling : std::uint32_t
-{
-    Both = gpu::kSampleBoth,     ///< both of the following, weighted by the balance heuristic
-    Chance = gpu::kSampleChance, ///< only where rays happen to meet it
-    Lights = gpu::kSampleLights, ///< only by shadow rays to chosen lights
-};
 
 /// How paths advance. In both forms a path does the same, and its light is summed up in the same order.
 enum class PathForm : std::uint8_t
@@ -83,7 +76,7 @@ class PathTracer
 public:
     /// deletion_queue: as in TreeTracer.
     explicit PathTracer(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr)
-        : m_device(device), m_deletion_queue(deletion_queue)
+        : m_device(device), m_deletion_queue(deletion_queue), m_lights(device, deletion_queue)
     {
     }
 
@@ -129,12 +122,12 @@ public:
     /// as the lists tell. Only of the last two bounces, and of the last bounce but one, they are still there.
     [[nodiscard]] const vk::BufferOf<gpu::Ray>& rays(std::uint32_t bounce) const
     {
-        return m_pixels->rays.at(bounce % 2);
+        return m_pixels->batch.rays.at(bounce % 2);
     }
-    [[nodiscard]] const vk::BufferOf<gpu::Ray>& shadowRays() const { return m_pixels->shadow_rays; }
+    [[nodiscard]] const vk::BufferOf<gpu::Ray>& shadowRays() const { return m_pixels->batch.shadow_rays; }
 
     /// With PathForm::Stages: the lists of the last batch (shaders/path/path.h). Lengths count its rays.
-    [[nodiscard]] const vk::BufferOf<gpu::DispatchArgs>& lists() const { return m_pixels->lists; }
+    [[nodiscard]] const vk::BufferOf<gpu::DispatchArgs>& lists() const { return m_pixels->batch.lists; }
 
 private:
     struct Pixels;
@@ -142,16 +135,12 @@ private:
 
     void begin(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
                const TraceCamera& camera, const PathOptions& options);
-    void makeLights(vk::FrameGraph& graph, const DeviceTree& tree);
     [[nodiscard]] std::uint64_t batchPixels(std::uint32_t bounces) const;
     void traceInOneKernel(vk::FrameGraph& graph, const Batch& batch);
     void traceInStages(vk::FrameGraph& graph, const Batch& batch);
     void shade(vk::FrameGraph& graph, const Batch& batch, std::uint32_t bounce);
     void addFeatures(vk::FrameGraph& graph, const Batch& batch);
     void finish(vk::FrameGraph& graph, const Batch& batch);
-    template <typename Kernel>
-    void takeList(vk::FrameGraph& graph, const Kernel& kernel, std::uint32_t list, const Batch& batch,
-                  std::uint32_t bounce);
 
     vk::Device& m_device;
     vk::DeletionQueue* m_deletion_queue;
@@ -185,7 +174,6 @@ private:
         bool operator==(const Lighting&) const = default;
     };
     Lighting m_lighting;
-    std::uint64_t m_lights_version = 0; // of the tree of which m_lights were made; 0: none
     struct Pixels
     {
         Pixels(vk::Device& device, std::uint32_t width, std::uint32_t height, PathForm form);
@@ -198,24 +186,14 @@ private:
         PathForm form;
         vk::BufferOf<gpu::PixelSum> sums;          // [width * height]
         vk::BufferOf<gpu::PixelFeatures> features; // [width * height], empty until they are asked for
-        // PathForm::Stages only, up to the rounds.
-        std::array<vk::BufferOf<gpu::Ray>, 2> rays;         // [batch] of a bounce and the next one
-        std::array<vk::BufferOf<gpu::PathState>, 2> states; // [batch] likewise
-        vk::BufferOf<gpu::Hit> hits;                        // [batch]
-        vk::BufferOf<gpu::Ray> shadow_rays;                 // [batch]
-        vk::BufferOf<gpu::ShadowState> shadow_states;       // [batch]
-        vk::BufferOf<gpu::vec3> radiance;                   // [batch]
-        vk::BufferOf<float> direct;                         // [batch], empty without features
-        vk::BufferOf<gpu::uint> numbers;                    // [kListCount][batch]
-        vk::BufferOf<gpu::DispatchArgs> rounds;             // [kTraceRoundsMax]
-        vk::BufferOf<gpu::DispatchArgs> lists;              // [kBouncesMax + 2][kListElements]; OneKernel: the first
-        vk::BufferOf<gpu::TraceStatus> status;              // [1]
-        vk::BufferOf<gpu::TreeTable> table;                 // [1] of the tree
-        vk::BufferOf<gpu::PathView> view;                   // [1] PathForm::OneKernel only
+        PathBatch batch;                           // PathForm::OneKernel: of no paths
+        vk::BufferOf<float> direct;                // [PathBatch::capacity()], empty without features
+        vk::BufferOf<gpu::TraceStatus> status;     // [1]
+        vk::BufferOf<gpu::PathView> view;          // [1] PathForm::OneKernel only
         bool is_status_clear = false;
     };
     std::unique_ptr<Pixels> m_pixels;
-    std::unique_ptr<LightTree> m_lights;
+    TreeLights m_lights;
 };
 
 } // namespace zvo

@@ -179,4 +179,12 @@ TraceCamera traceCamera(const ViewCamera& camera, const Grid& grid, std::uint32_
     return result;
 }
 
+TraceCamera shifted(const TraceCamera& camera, const glm::vec2& pixels)
+{
+    TraceCamera result = camera;
+    const glm::vec3 shift = 2.0F * (pixels.x * camera.rays.half_pixel_x + pixels.y * camera.rays.half_pixel_y);
+    (camera.orthographic ? result.rays.origin : result.rays.forward) += shift;
+    return result;
+}
+
 } // namespace zvo

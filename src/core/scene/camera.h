@@ -51,4 +51,8 @@ struct TraceCamera
 /// precision. Pixels are square, so the width does not matter.
 TraceCamera traceCamera(const ViewCamera& camera, const Grid& grid, std::uint32_t height);
 
+/// The camera whose rays go through other points of the pixels: so many pixels to the right and down from the middle.
+/// The forward direction of a perspective one is not orthogonal to its pixels, but a ray's time is still the depth.
+TraceCamera shifted(const TraceCamera& camera, const glm::vec2& pixels);
+
 } // namespace zvo

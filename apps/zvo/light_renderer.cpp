@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "path_renderer.h"
+#include "light_renderer.h"
 
 #include "common/output.h"
 #include "core/base/read_file.h"
@@ -79,29 +79,60 @@ DeviceEnvironment makeEnvironment(vk::HeadlessDevice& device, const RenderOption
 
 } // namespace
 
-PathRenderer::PathRenderer(vk::HeadlessDevice& device, const RenderOptions& options)
+LightRenderer::LightRenderer(vk::HeadlessDevice& device, const RenderOptions& options)
     : m_device(device), m_options(options), m_tracer(device.device()), m_environment(makeEnvironment(device, options))
 {
+    if (options.integrator == Integrator::Cached)
+    {
+        m_kept.emplace(device.device());
+    }
     if (options.paths.denoise)
     {
         m_denoiser.emplace(device.device());
     }
 }
 
-std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const ViewCamera& view, Progress& progress,
-                                               std::vector<vk::PassTime>& passes)
+// Records a sample of the picture.
+void LightRenderer::addSample(vk::FrameGraph& graph, const DeviceTree& tree)
+{
+    if (m_kept)
+    {
+        RadianceOptions kept = m_options.kept.radiance;
+        kept.seed = m_options.paths.path.seed;
+        m_kept->addFrame(graph, tree, m_environment, *m_camera, kept);
+        return;
+    }
+    PathOptions path = m_options.paths.path;
+    path.features = m_options.paths.denoise || m_options.paths.aovs;
+    path.reseeds = m_options.paths.denoise; // earlier pictures help if they have other noise
+    m_tracer.addSample(graph, tree, m_environment, *m_camera, path);
+}
+
+// Brings the light that is kept on voxels up to date before the first picture.
+void LightRenderer::settle(const DeviceTree& tree, Progress& progress, std::vector<vk::PassTime>& passes)
+{
+    const std::uint32_t count = m_options.kept.settle;
+    for (std::uint32_t frame = 0; frame < count && !interrupted(); ++frame)
+    {
+        const std::vector<vk::PassTime> times = m_device.run([&](vk::FrameGraph& graph) { addSample(graph, tree); });
+        passes.insert(passes.end(), times.begin(), times.end());
+        progress.within(static_cast<double>(frame + 1) / (count + m_options.sampleCount()),
+                        fmt::format("light settles, {}/{} frames", frame + 1, count));
+    }
+}
+
+std::vector<std::uint8_t> LightRenderer::render(const DeviceTree& tree, const ViewCamera& view, Progress& progress,
+                                                std::vector<vk::PassTime>& passes)
 {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     const PathRenderOptions& paths = m_options.paths;
-    const TraceCamera camera = traceCamera(view, tree.grid, m_options.height);
-    m_camera_before = std::exchange(m_camera, camera);
+    const std::uint32_t asked = m_options.sampleCount();
+    m_camera_before = std::exchange(m_camera, traceCamera(view, tree.grid, m_options.height));
     setSize();
     m_tracer.forget();
-    PathOptions path = paths.path;
-    path.features = paths.denoise || paths.aovs;
-    path.reseeds = paths.denoise; // earlier pictures help if they have other noise
-    if (!m_watch)
+    const bool is_first = !m_watch;
+    if (is_first)
     {
         m_watch.emplace();
         if (paths.environment == "none" && !m_options.to_sun && !hasEmission(tree))
@@ -110,34 +141,45 @@ std::vector<std::uint8_t> PathRenderer::render(const DeviceTree& tree, const Vie
                  "is no --sun");
         }
     }
+    if (m_kept)
+    {
+        if (is_first)
+        {
+            settle(tree, progress, passes);
+        }
+        m_kept->beginPicture();
+    }
     std::uint32_t samples = 0;
     const auto goesOn = [&]
     {
         const std::chrono::duration<double> seconds = Clock::now() - begin;
-        return samples == 0 || (samples < paths.samples && !interrupted() &&
-                                (!paths.time_limit || seconds.count() < *paths.time_limit));
+        return samples == 0 ||
+               (samples < asked && !interrupted() && (!paths.time_limit || seconds.count() < *paths.time_limit));
     };
     while (goesOn())
     {
-        const std::vector<vk::PassTime> sample =
-            m_device.run([&](vk::FrameGraph& graph) { m_tracer.addSample(graph, tree, m_environment, camera, path); });
+        const std::vector<vk::PassTime> sample = m_device.run([&](vk::FrameGraph& graph) { addSample(graph, tree); });
         passes.insert(passes.end(), sample.begin(), sample.end());
         ++samples;
-        progress.within(static_cast<double>(samples) / paths.samples,
-                        fmt::format("{}/{} samples", samples, paths.samples));
+        progress.within(static_cast<double>(samples) / asked, fmt::format("{}/{} samples", samples, asked));
     }
-    if (m_tracer.sampleCount() < paths.samples)
+    if (sampleCount() < asked)
     {
-        talk(fmt::format("stopped after {} of {} samples a pixel", m_tracer.sampleCount(), paths.samples));
+        talk(fmt::format("stopped after {} of {} samples a pixel", sampleCount(), asked));
     }
-    return encode(paths.denoise ? denoise(passes) : m_tracer.picture(), tree.grid);
+    return encode(paths.denoise ? denoise(passes) : picture(), tree.grid);
 }
 
-void PathRenderer::setSize()
+void LightRenderer::setSize()
 {
     const std::optional<PathForm>& form = m_options.paths.form;
     try
     {
+        if (m_kept)
+        {
+            m_kept->resize(m_options.width, m_options.height);
+            return;
+        }
         m_tracer.resize(m_options.width, m_options.height, form);
     }
     catch (const Error& error)
@@ -145,6 +187,12 @@ void PathRenderer::setSize()
         if (error.code() != ErrorCode::Memory)
         {
             throw;
+        }
+        if (m_kept)
+        {
+            throw Error(ErrorCode::Memory, fmt::format("a picture of {} x {} pixels (--size) is too large: {}, or make "
+                                                       "a smaller picture",
+                                                       m_options.width, m_options.height, error.what()));
         }
         const bool in_stages = form.value_or(pathFormOn(m_device.device())) == PathForm::Stages;
         throw Error(ErrorCode::Memory,
@@ -155,7 +203,7 @@ void PathRenderer::setSize()
     }
 }
 
-SampledPicture PathRenderer::denoise(std::vector<vk::PassTime>& passes)
+SampledPicture LightRenderer::denoise(std::vector<vk::PassTime>& passes)
 {
     constexpr std::uint32_t kHistory = 8; // earlier pictures that count
     m_denoiser->resize(m_options.width, m_options.height);
@@ -166,7 +214,7 @@ SampledPicture PathRenderer::denoise(std::vector<vk::PassTime>& passes)
     return m_denoiser->picture();
 }
 
-std::vector<std::uint8_t> PathRenderer::encode(const SampledPicture& picture, const Grid& grid)
+std::vector<std::uint8_t> LightRenderer::encode(const SampledPicture& picture, const Grid& grid)
 {
     const std::string extension = extensionOf(m_options.output.path);
     if (extension == ".exr" || extension == ".hdr")
@@ -188,7 +236,7 @@ std::vector<std::uint8_t> PathRenderer::encode(const SampledPicture& picture, co
                      {reinterpret_cast<const std::uint8_t*>(texels.data()), texels.size() * sizeof(gpu::uint)});
 }
 
-std::vector<std::uint8_t> PathRenderer::encodeWithAovs(const HdrImage& image, const Grid& grid)
+std::vector<std::uint8_t> LightRenderer::encodeWithAovs(const HdrImage& image, const Grid& grid)
 {
     const GuidedPicture guided = m_tracer.guided();
     const AovImages aovs =
@@ -208,9 +256,9 @@ std::vector<std::uint8_t> PathRenderer::encodeWithAovs(const HdrImage& image, co
     return encodeExr(image, channels);
 }
 
-std::uint64_t PathRenderer::cappedRays()
+std::uint64_t LightRenderer::cappedRays()
 {
-    return m_device.download(m_tracer.status()).front().capped_rays;
+    return m_device.download(m_kept ? m_kept->cache().status() : m_tracer.status()).front().capped_rays;
 }
 
 } // namespace zvo::cli

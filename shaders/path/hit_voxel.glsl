@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Voxels that rays have hit. The includer includes lib/attribute_formats.glsl, lib/color.glsl and trace/surface.glsl
+// before and declares kFormat and params.
+
+// The attribute of a voxel that was hit.
+Attribute attributeAt(bool hits, Hit hit)
+{
+    Attribute stored = Attribute(0u, 0u);
+    if (kFormat != kFormatNone && hits)
+        stored = readAttribute(kFormat, true, params.attributes, params.attributes, hit.index);
+    return stored;
+}
+
+bool isEmitter(uint voxel)
+{
+    return ((params.emission_words.data[voxel >> 5].x >> (voxel & 31u)) & 1u) != 0u;
+}
+
+vec3 albedoOf(Attribute stored)
+{
+    return kFormat == kFormatNone ? kPlainAlbedo : decodeSrgb(unpackUnorm4x8(stored.color).rgb);
+}

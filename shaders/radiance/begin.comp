@@ -1,0 +1,81 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Starts a path from a random point of each listed face that the frame takes, and takes the others off the list.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/bound.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/frame.glsl"
+#include "lib/hit.glsl"
+#include "lib/morton.glsl"
+#include "lib/node.glsl"
+#include "lib/ray.glsl"
+#include "lib/sobol.glsl"
+#include "path/face.glsl"
+#include "path/numbers.glsl"
+#include "path/state.glsl"
+
+layout(constant_id = 0) const uint kNodeLevels = 5u;
+layout(constant_id = 1) const bool kEmission = false; // there are emissive voxels
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceBeginParams params;
+};
+
+#define FACES_BINDING 0
+#define STATES_BINDING 1
+#define LIGHT_NODES params.light_nodes
+#include "light/importance.glsl"
+#include "path/leave.glsl"
+#include "path/lists.glsl"
+#include "path/point_of_face.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/kept_light.glsl"
+#include "radiance/rank.glsl"
+
+void main()
+{
+    uint i = threadIndex();
+    uint length = listLength(kWantedEven + (params.frame & 1u), kListPaths);
+    bool taken = i < length;
+    uint slot = params.wanted.data[min(i, length - 1u)];
+    KeptFace face = loadFace(slot);
+    uvec2 key = face.key;
+    uint mark = loadFaceState(slot).mark;
+    taken = taken && rankOfFace(face, mark, params.frame) < params.counters.data[0].rank_limit;
+    uint path = appendTo(0u, kListPaths, taken);
+
+    NextRay next;
+    next.exists = taken;
+    uint seed = hashPair(hashPair(key.x, key.y), params.seed);
+    next.state = PathState(vec3(1.0), path, seed, normalOfFace(key), 0.0, vec3(0.0));
+    next.choice = samplePair(params.sample_index, seed, kPairOther).x;
+    uvec3 cell = cellOfFace(key);
+    vec3 normal = normalAxis(next.state.normal);
+    float edge = exp2(-2.0 * float(kNodeLevels));
+    vec3 point = pointOfFace(cell, next.state.normal, edge, samplePair(params.sample_index, seed, kPairPixel));
+    leaveFace(pointOnFace(point, cell, normal), 0u, next);
+    if (taken)
+    {
+        storeRay(params.rays, path, next.ray);
+        storeState(params.path_states, path, next.state);
+        params.radiance.data[path] = vec3(0.0);
+        params.numbers.data[path] = slot;
+    }
+
+    bool in_map = seeksMapLight(next);
+    uint map_light = appendTo(0u, kListMapLights, in_map);
+    if (in_map)
+        params.numbers.data[kListMapLights * params.batch + map_light] = path;
+    if (kEmission)
+    {
+        bool in_voxels = seeksVoxelLight(next);
+        uint voxel_light = appendTo(0u, kListVoxelLights, in_voxels);
+        if (in_voxels)
+            params.numbers.data[kListVoxelLights * params.batch + voxel_light] = path;
+    }
+    if (i < length)
+        params.states.data[slot].mark = (mark & (kMarkFrames << kMarkMovedShift)) | (params.frame & kMarkFrames);
+}

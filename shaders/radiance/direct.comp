@@ -1,0 +1,52 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Adds the light of lamps, or from outside of the grid, to the pixels that see it directly.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/bound.glsl"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "light/environment.glsl"
+#include "path/strip.glsl"
+#include "radiance/seen_sum.glsl"
+
+layout(constant_id = 0) const bool kOrthographic = false;
+layout(constant_id = 1) const bool kEmission = false; // there are emissive voxels
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceDirectParams params;
+};
+
+#define HITS_BINDING 0
+#include "path/emission.glsl"
+#include "path/lists.glsl"
+#include "radiance/hit_loads.glsl"
+#include "radiance/seen_hit.glsl"
+
+// Light from outside of the grid, from a direction (length 1).
+vec3 outside(vec3 direction)
+{
+    vec3 sun = meetsSun(params.environment, direction) ? params.environment.data[0].sun : vec3(0.0);
+    return mapRadiance(params.environment, direction) + sun;
+}
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= listLength(0u, kListMisses))
+        return;
+    uvec2 size = uvec2(params.width, params.height);
+    uint number = params.direct.data[i];
+    uvec2 pixel = pixelOfNumber(number, size);
+    Hit hit = seenHit(pixel);
+    vec3 direction = params.forward;
+    if (!kOrthographic)
+        direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
+    vec3 light = outside(normalize(direction));
+    if (kEmission && !isMiss(hit))
+        light = emissionOf(hit.index);
+    addRadiance(params.sums, number, light);
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Kept faces and their keys (radiance.h). The includer includes radiance/radiance.h and lib/bound.glsl before, declares
+// params.faces, and defines
+//   FACES_BINDING     optional: the binding for params.faces
+//   STATES_BINDING    where params has states: the binding for them
+
+// normal: its number as in LightBrick::exposed.
+uvec2 faceKey(uvec3 cell, uint normal)
+{
+    return uvec2(cell.x | (cell.y << 18), (cell.y >> 13) | (cell.z << 5) | (normal << 23)) | kFaceKeyTag;
+}
+
+uvec3 cellOfFace(uvec2 key)
+{
+    return uvec3(key.x & 0x3FFFFu, bitfieldExtract(key.x, 18, 13) | ((key.y & 31u) << 13),
+                 bitfieldExtract(key.y, 5, 18));
+}
+
+uint normalOfFace(uvec2 key)
+{
+    return bitfieldExtract(key.y, 23, 3);
+}
+
+// Bound forms (lib/bound.glsl) read both from texels.
+#if defined(BOUND) && defined(FACES_BINDING)
+
+TEXELS_4(FACES_BINDING, faces);
+
+KeptFace loadFace(uint slot)
+{
+    uvec4 words = texelFetch(texels4_faces, int(slot));
+    return KeptFace(words.xy, words.zw);
+}
+
+#else
+
+KeptFace loadFace(uint slot)
+{
+    uint64_t_ConstPtr words = uint64_t_ConstPtr(uint64_t(params.faces));
+    return KeptFace(unpackUint2x32(words.data[2u * slot]), unpackUint2x32(words.data[2u * slot + 1u]));
+}
+
+#endif
+
+#if defined(BOUND) && defined(STATES_BINDING)
+
+TEXELS_2(STATES_BINDING, states);
+
+FaceState loadFaceState(uint slot)
+{
+    uvec2 words = texelFetch(texels2_states, int(slot)).xy;
+    return FaceState(words.x, words.y);
+}
+
+#elif defined(STATES_BINDING)
+
+FaceState loadFaceState(uint slot)
+{
+    uvec2 words = unpackUint2x32(uint64_t_ConstPtr(uint64_t(params.states)).data[slot]);
+    return FaceState(words.x, words.y);
+}
+
+#endif

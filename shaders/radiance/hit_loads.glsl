@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Loads of params.hits. The includer includes lib/hit.glsl and lib/bound.glsl before, declares params, and defines
+//   HITS_BINDING    the binding for them in the kernel's bound form
+
+#ifdef BOUND
+
+TEXELS_4(HITS_BINDING, hits);
+
+Hit hitAt(uint i)
+{
+    uvec4 words = texelFetch(texels4_hits, int(i));
+    return Hit(uintBitsToFloat(words.x), words.y, words.zw);
+}
+
+#else
+
+Hit hitAt(uint i)
+{
+    return loadHit(params.hits, i);
+}
+
+#endif

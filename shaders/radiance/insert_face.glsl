@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Inserts faces into the table. The includer includes radiance/face_table.glsl before; params has counters, too.
+
+#define FACE_WORD(SLOT, WORD) uint_Ptr(uint64_t(params.faces) + uint64_t(SLOT) * kKeptFaceBytes).data[WORD]
+
+// The slot of a face, which is taken if it has none; kNoFace if there is no place. Of both words of a key, which are
+// set one after the other, each is written at most once: lib/bricks.glsl says why that suffices.
+uint insertFace(uvec3 cell, uint normal)
+{
+    uvec2 key = faceKey(cell, normal);
+    uint slot = faceHome(cell, normal);
+    bool searching = true;
+    bool claimed = false;
+    for (uint probe = 0u; searching && probe < kFaceProbesMax; ++probe)
+    {
+        uvec2 found = loadFace(slot).key;
+        if (found.x == 0u)
+        {
+            found.x = atomicCompSwap(FACE_WORD(slot, 0u), 0u, key.x);
+            found.x = found.x == 0u ? key.x : found.x;
+        }
+        if (found.x == key.x && found.y == 0u)
+        {
+            found.y = atomicCompSwap(FACE_WORD(slot, 1u), 0u, key.y);
+            claimed = found.y == 0u;
+            found.y = claimed ? key.y : found.y;
+        }
+        searching = found != key;
+        slot = searching ? slotAfter(slot) : slot;
+    }
+    if (claimed)
+        atomicAdd(params.counters.data[0].face_count, 1u);
+    if (searching)
+        atomicAdd(params.counters.data[0].refused, 1u);
+    return searching ? kNoFace : slot;
+}

@@ -1,0 +1,35 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Copies the faces that rays have hit lately into another table. What was listed is not.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/bound.glsl"
+#include "lib/dispatch.glsl"
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadiancePurgeParams params;
+};
+
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/insert_face.glsl"
+
+void main()
+{
+    uint i = threadIndex();
+    if (i >= kFaceRun * params.run_count)
+        return;
+    KeptFace face = params.old_faces.data[i];
+    FaceState state = params.old_states.data[i];
+    uint age = (params.frame - state.mark) & kMarkFrames;
+    if (face.key.x == 0u || age > params.age_max)
+        return;
+    uint slot = insertFace(cellOfFace(face.key), normalOfFace(face.key));
+    if (slot != kNoFace)
+    {
+        params.faces.data[slot].light = face.light;
+        params.states.data[slot] = FaceState(state.mark & ~(kFaceListed | kFaceSeen), state.recent);
+    }
+}

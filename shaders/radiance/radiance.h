@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Light that is kept on the faces of voxels: what its kernels share with the host.
+//
+// A face keeps the light that arrives at it, irradiance over pi, as two means over samples: what it reflects is its
+// albedo times that. Pictures show a mean of all samples. Other faces receive one of the last samples: what they have
+// comes back from them, so that a mean of all would reach the sum of all bounces only slowly (docs/radiance.md).
+//
+// Faces stand in a hash table by position, whatever tree has the voxel: so an octree, a DAG and overlays share their
+// light, a voxel keeps it while something else stands around it, and whoever knows a position and a normal finds it
+// without a ray. A face enters the table when a ray from the camera, or from another face, hits it.
+//
+// While something moves, a face one of whose rays has hit a voxel of an overlay lately has means of few samples. So
+// shadows of what moves come and go within some frames, and other light stays smooth.
+//
+// A frame takes so many faces as its budget has rays, of those that were hit since the frame before. A sample of a face
+// is a path of one bounce from a random point of it: a ray in a random direction, which brings emission, light from
+// outside of the grid, or what the face that it hits reflects of the light that is kept there; and a light that is
+// chosen, with a shadow ray to it (path/path.h). So light of one more bounce arrives with each frame.
+//
+//   radiance/want      faces that the camera sees: into the table, and into the frame's list
+//   radiance/tally     counts the faces of the list by their rank; its last threads find the rank that the budget ends
+//   radiance/begin     a path from each face of a lower rank
+//     trace/rays, radiance/gather            what the paths hit, and the light that is kept there
+//     path/miss, path/emitter                light that they have met
+//     path/map_light, path/voxel_light, trace/rays, path/connect      light that was chosen
+//   radiance/apply     adds the samples to the means
+//   radiance/purge     into another table, without faces that no ray has hit for long; only while something moves
+//   radiance/view, radiance/direct         what the camera sees of it, and of lamps and the sky
+//
+// Kernels read what the frame before has kept, and only radiance/apply writes: what comes out does not depend on the
+// order of threads, though the places of faces in the table, and in lists, do.
+#ifndef ZVO_SHADERS_RADIANCE_RADIANCE_H
+#define ZVO_SHADERS_RADIANCE_RADIANCE_H
+
+#include "path/path.h"
+
+GPU_NAMESPACE_BEGIN
+
+const uint kRadianceGroup = 64u; // threads of a workgroup
+
+/// A face with the light that arrives at it.
+///
+///     key    x 18 bits | y 13 of 18, kFaceKeyTag
+///            y 5 of 18 | z 18 | number of the normal 3 (LightBrick::exposed), kFaceKeyTag
+///     light  red 16 | green 16
+///            blue 16 | exponent 6 | weight 10 (radiance/kept_light.glsl)
+///
+/// A first word of 0 means that the slot is free; the words of the key are set one after the other (lib/bricks.glsl).
+struct KeptFace
+{
+    uvec2 key;
+    uvec2 light;
+};
+GPU_BUFFER(KeptFace, 16);
+
+/// What else is known of the face in a slot.
+///
+///     mark    the last frame in which a ray has hit the face, modulo 2^15, 15 | the last one in which a ray of the
+///             face has hit what moves, modulo 2^15 - 1, plus 1, or 0: none, 15 | kFaceSeen | kFaceListed
+///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_light.glsl): a mean of the last samples
+struct FaceState
+{
+    uint mark;
+    uint recent;
+};
+GPU_BUFFER(FaceState, 8);
+
+const uint kKeptFaceBytes = 16u;
+const uint kFaceKeyTag = 1u << 31; // in both words of a key
+const uint kFaceRun = 8u;          // slots that faces of 2x2x2 cells with the same normal share as their first ones
+const uint kFaceProbesMax = 128u;  // slots looked at before the table counts as full
+const uint kKeptWeightMax = 1023u;
+const uint kRecentSamples = 16u; // that FaceState::recent counts
+const uint kMovedSamples = 12u;  // that both means count of a face which has met what moves
+const uint kMovedFrames = 64u;   // for so long
+
+const uint kMarkFrames = (1u << 15) - 1u; // of a mark
+const uint kMarkMovedShift = 15u;
+
+// In PathBatch::numbers, of kListPaths: a ray of the path has hit what moves.
+const uint kPathMoved = 1u << 31;
+
+const uint kFaceListed = 1u << 31; // in the frame's list, or the next frame's
+const uint kFaceSeen = 1u << 30;   // by the camera, since it was listed
+
+// Elements of PathBatch::lists, as bounces: of paths, then of the faces of even and odd frames, in kListPaths.
+const uint kWantedEven = 1u;
+const uint kWantedOdd = 2u;
+
+// Faces are ranked by a random number, less for those with few samples and those that the camera sees, in steps of a
+// 32nd of it. A frame takes all ranks below a limit.
+const uint kFaceRanks = 1024u;
+const uint kRankShift = 18u; // of the bits of a float
+const uint kRankFirst = (127u - kFaceRanks / 32u) << (23u - kRankShift);
+
+/// Counters of the table, of all frames or of one.
+struct RadianceCounters
+{
+    uint face_count;   // in the table
+    uint refused;      // inserts that found no slot
+    uint rank_limit;   // of the frame, like what follows
+    uint arrived;      // threads that have counted (lib/arrivals.glsl)
+    uint ranks[1024];  // [kFaceRanks] faces of each
+};
+GPU_BUFFER(RadianceCounters, 4);
+
+const uint kCountersOfFrame = 2u; // words before those that a frame clears
+
+struct RadianceWantParams // push constants of radiance/want: a workgroup for each live tile
+{
+    GPU_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_PTR(RadianceCounters) counters;
+    GPU_PTR(uint) wanted; // [batch of faces] slots
+    GPU_PTR(DispatchArgs) lists;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(uvec2) live;
+    vec3 forward; // of the camera
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    uint width;
+    uint height;
+    uint run_count;
+    uint frame; // one pixel of each 2x2 takes part, in turns
+};
+GPU_KERNEL_BEGIN(radiance, want, Want, RadianceWantParams)
+    GPU_CONSTANT(bool, orthographic, false)
+GPU_KERNEL_END
+
+struct RadianceTallyParams // push constants of radiance/tally: a thread a listed face
+{
+    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(FaceState) states;
+    GPU_CONST_PTR(uint) wanted;
+    GPU_PTR(RadianceCounters) counters;
+    GPU_PTR(DispatchArgs) lists;
+    uint frame;
+    uint budget; // the most faces that a frame takes
+};
+GPU_KERNEL(radiance, tally, Tally, RadianceTallyParams)
+
+struct RadianceBeginParams // push constants of radiance/begin: a thread a listed face
+{
+    GPU_CONST_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_CONST_PTR(uint) wanted;
+    GPU_CONST_PTR(RadianceCounters) counters;
+    GPU_CONST_PTR(vec2) gives;            // [kNormals] as Environment::gives
+    GPU_CONST_PTR(LightNode) light_nodes; // kEmission only
+    GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(uint) numbers; // [kListCount][batch] as in PathShadeParams; of kListPaths, the first list: slots
+    GPU_PTR(Ray) rays;
+    GPU_PTR(PathState) path_states;
+    GPU_PTR(vec3) radiance; // [batch]
+    uint batch;
+    uint frame;
+    uint sample_index;
+    uint seed;
+};
+GPU_KERNEL_BEGIN(radiance, begin, Begin, RadianceBeginParams)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, emission, false)
+GPU_KERNEL_END
+
+struct RadianceGatherParams // push constants of radiance/gather: a thread a path
+{
+    GPU_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_PTR(RadianceCounters) counters;
+    GPU_PTR(uint) wanted; // of the next frame
+    GPU_PTR(DispatchArgs) lists;
+    GPU_PTR(uint) numbers;
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
+    GPU_CONST_PTR(uvec2) emission_words; // kEmission only
+    GPU_CONST_PTR(Ray) rays;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_PTR(vec3) radiance;
+    uint batch;
+    uint run_count;
+    uint frame;
+    uint first_moving; // index of attributes from which on voxels are those that move; kHitMiss: none
+};
+GPU_KERNEL_BEGIN(radiance, gather, Gather, RadianceGatherParams)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, emission, false)
+GPU_KERNEL_END
+
+struct RadianceApplyParams // push constants of radiance/apply: a thread a path
+{
+    GPU_PTR(KeptFace) faces;
+    GPU_PTR(FaceState) states;
+    GPU_CONST_PTR(uint) numbers;
+    GPU_CONST_PTR(vec3) radiance;
+    GPU_PTR(DispatchArgs) lists;
+    uint frame;
+    uint window; // the most samples that the mean's weight counts, at least 1 and at most kKeptWeightMax
+};
+GPU_KERNEL(radiance, apply, Apply, RadianceApplyParams)
+
+struct RadiancePurgeParams // push constants of radiance/purge: a thread a slot of the old table
+{
+    GPU_PTR(KeptFace) faces; // of the new table, empty, like the next two
+    GPU_PTR(FaceState) states;
+    GPU_PTR(RadianceCounters) counters; // cleared
+    GPU_CONST_PTR(KeptFace) old_faces;
+    GPU_CONST_PTR(FaceState) old_states;
+    uint run_count; // of both tables
+    uint frame;
+    uint age_max; // frames; faces that no ray has hit for longer are left out
+};
+GPU_KERNEL(radiance, purge, Purge, RadiancePurgeParams)
+
+struct RadianceViewParams // push constants of radiance/view: a thread a pixel, in the order of path/path.h
+{
+    GPU_CONST_PTR(KeptFace) faces;
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(float) starts;         // of tiles
+    GPU_CONST_PTR(Attribute) attributes; // of voxels, in the format of kFormat
+    GPU_CONST_PTR(uvec2) emission_words; // kEmission only
+    GPU_PTR(PixelSum) sums;
+    GPU_PTR(DispatchArgs) lists; // [kListElements] cleared; of kListMisses: pixels that see light directly
+    GPU_PTR(uint) direct;        // [pixels] their numbers
+    CameraRays camera;
+    uint width;
+    uint height;
+    uint run_count;
+};
+GPU_KERNEL_BEGIN(radiance, view, View, RadianceViewParams)
+    GPU_CONSTANT(uint, node_levels, 5u)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(AttributeFormat, format, kFormat8)
+    GPU_CONSTANT(bool, emission, false)
+GPU_KERNEL_END
+
+struct RadianceDirectParams // push constants of radiance/direct: a thread a pixel that sees light directly
+{
+    GPU_CONST_PTR(Hit) hits;
+    GPU_CONST_PTR(float) starts;
+    GPU_CONST_PTR(TreeTable) tree; // kEmission only
+    GPU_CONST_PTR(Environment) environment;
+    GPU_PTR(PixelSum) sums;
+    GPU_PTR(DispatchArgs) lists;
+    GPU_CONST_PTR(uint) direct;
+    vec3 forward; // of the camera
+    vec3 half_pixel_x;
+    vec3 half_pixel_y;
+    uint width;
+    uint height;
+};
+GPU_KERNEL_BEGIN(radiance, direct, Direct, RadianceDirectParams)
+    GPU_CONSTANT(bool, orthographic, false)
+    GPU_CONSTANT(bool, emission, false)
+GPU_KERNEL_END
+
+GPU_NAMESPACE_END
+
+#endif

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The ranks of faces (radiance.h). The includer includes radiance/radiance.h, lib/sobol.glsl and
+// radiance/kept_light.glsl before.
+
+const float kSeenShare = 4.0;   // a face that the camera sees is taken so much more often than others
+const float kFreshShare = 64.0; // one without samples, than one with as many or more
+
+// The rank of a face in a frame: it does not depend on the slot.
+uint rankOfFace(KeptFace face, uint mark, uint frame)
+{
+    uint random = hashPair(hashPair(face.key.x, face.key.y), frame) >> 9;
+    float share = max(kFreshShare / float(keptWeight(face.light) + 1u), 1.0) *
+                  ((mark & kFaceSeen) != 0u ? kSeenShare : 1.0);
+    precise float place = (float(random) + 0.5) / (8388608.0 * share);
+    return clamp(floatBitsToUint(place) >> kRankShift, kRankFirst, kRankFirst + kFaceRanks - 1u) - kRankFirst;
+}

@@ -1,0 +1,64 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Adds the light that the camera sees reflected to each pixel: what is kept at its hit, between four faces. Pixels that
+// see a lamp, or nothing, are listed.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/attribute_formats.glsl"
+#include "lib/bound.glsl"
+#include "lib/camera.glsl"
+#include "lib/color.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "lib/surface_normal.glsl"
+#include "path/face.glsl"
+#include "path/strip.glsl"
+#include "radiance/seen_sum.glsl"
+
+layout(constant_id = 0) const uint kNodeLevels = 5u;
+layout(constant_id = 1) const bool kOrthographic = false;
+layout(constant_id = 2) const uint kFormat = kFormat8; // of attributes
+layout(constant_id = 3) const bool kEmission = false;  // there are emissive voxels
+
+layout(local_size_x = kRadianceGroup) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceViewParams params;
+};
+
+#define FACES_BINDING 0
+#define HITS_BINDING 1
+#include "trace/surface.glsl"
+#include "path/hit_voxel.glsl"
+#include "path/lists.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/kept_light.glsl"
+#include "radiance/between_faces.glsl"
+#include "radiance/hit_loads.glsl"
+#include "radiance/seen_hit.glsl"
+
+void main()
+{
+    uvec2 size = uvec2(params.width, params.height);
+    uint number = threadIndex();
+    bool exists = number < size.x * size.y;
+    uvec2 pixel = pixelOfNumber(exists ? number : 0u, size);
+    Hit hit = seenHit(pixel);
+    bool hits = !isMiss(hit);
+    bool is_direct = exists && !hits;
+    if (kEmission)
+        is_direct = is_direct || (exists && isEmitter(hits ? hit.index : 0u));
+    uint place = appendTo(0u, kListMisses, is_direct);
+    if (is_direct)
+        params.direct.data[place] = number;
+    if (!exists || !hits || hitFace(hit) == kFaceInside)
+        return;
+
+    vec3 offset = rayOffset(pixelOffset(pixel, size), params.camera.half_pixel_x, params.camera.half_pixel_y);
+    vec3 origin = params.camera.origin + (kOrthographic ? offset : vec3(0.0));
+    vec3 direction = params.camera.forward + (kOrthographic ? vec3(0.0) : offset);
+    vec3 point = (origin + hit.t * direction - 1.0) * exp2(2.0 * float(kNodeLevels)) - vec3(hitCell(hit));
+    vec3 light = lightBetweenFaces(hitCell(hit), normalOfHit(hitFace(hit), direction), point);
+    addRadiance(params.sums, number, albedoOf(attributeAt(true, hit)) * light);
+}

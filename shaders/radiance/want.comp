@@ -1,0 +1,48 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Lists the faces that the camera sees, a workgroup for each live tile. Of each 2x2 pixels one takes part in a frame.
+#extension GL_GOOGLE_include_directive : require
+#include "radiance/radiance.h"
+#include "lib/bound.glsl"
+#include "lib/camera.glsl"
+#include "lib/dispatch.glsl"
+#include "lib/hit.glsl"
+#include "path/face.glsl"
+
+layout(constant_id = 0) const bool kOrthographic = false;
+
+layout(local_size_x = kTilePixels / 4u) in;
+layout(push_constant, scalar) uniform Push
+{
+    RadianceWantParams params;
+};
+
+#define FACES_BINDING 0
+#define HITS_BINDING 2
+#define STATES_BINDING 1
+#include "path/lists.glsl"
+#include "radiance/face_key.glsl"
+#include "radiance/face_table.glsl"
+#include "radiance/hit_loads.glsl"
+#include "radiance/insert_face.glsl"
+#include "radiance/want_face.glsl"
+
+void main()
+{
+    uvec2 size = uvec2(params.width, params.height);
+    uvec2 tile = params.live.data[workgroupIndex()];
+    bool exists = tile.x != kNoTile;
+    uvec2 pixel = kTileEdge * unpackTile(exists ? tile.x : 0u) + 2u * pixelInTile(gl_LocalInvocationIndex) +
+                  uvec2(params.frame & 1u, (params.frame >> 1) & 1u);
+    exists = exists && all(lessThan(pixel, size));
+    pixel = exists ? pixel : uvec2(0u);
+    Hit hit = hitAt(exists ? pixel.y * size.x + pixel.x : 0u);
+    exists = exists && !isMiss(hit) && hitFace(hit) != kFaceInside;
+    vec3 direction = params.forward;
+    if (!kOrthographic)
+        direction += rayOffset(pixelOffset(pixel, size), params.half_pixel_x, params.half_pixel_y);
+    uint slot = kNoFace;
+    if (exists)
+        slot = insertFace(hitCell(hit), normalOfHit(hitFace(hit), direction));
+    wantFace(slot, kFaceSeen, wantedList(params.frame));
+}

@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: MIT
+#include "core/radiance/radiance_cache.h"
+
+#include "core/base/divide_up.h"
+#include "vk/device.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+// While something moves, faces that no ray has hit in so many frames are left out every so many frames.
+constexpr std::uint32_t kPurgeFrames = 128;
+constexpr std::uint32_t kPurgeAge = 256;
+
+// The samples that means count after a change, and for how many frames.
+constexpr std::uint32_t kChangedSamples = 16;
+constexpr std::uint32_t kChangedFrames = 32;
+
+constexpr const char* kPurpose = "light on voxels";
+
+// Faces that rays find of a voxel, at most: most surfaces show one or two.
+constexpr double kFacesOfVoxel = 2.5;
+
+// Slots for a face, so that few are looked at.
+constexpr double kSlotsOfFace = 1.5;
+
+std::uint64_t runsFor(double face_count)
+{
+    return static_cast<std::uint64_t>(face_count * kSlotsOfFace) / gpu::kFaceRun + 1;
+}
+
+// The pixels that radiance/want takes in a frame, at most: one of each 2x2.
+std::uint64_t wantingPixels(std::uint32_t width, std::uint32_t height)
+{
+    return divideUp(width, 2U) * std::uint64_t{divideUp(height, 2U)};
+}
+
+// Whether a frame is one of the `count` ones from `since` on.
+bool isSince(const std::optional<std::uint32_t>& since, std::uint32_t frame, std::uint32_t count)
+{
+    return since && frame - *since < count;
+}
+
+// The list of the faces that a frame takes, as a bounce of PathBatch::lists.
+std::uint32_t wantedList(std::uint32_t frame)
+{
+    return gpu::kWantedEven + frame % 2;
+}
+
+} // namespace
+
+RadianceCache::Table::Table(vk::Device& device, std::uint64_t runs)
+    : run_count(static_cast<std::uint32_t>(runs)), counters(device, "radiance/counters", 1)
+{
+    const std::uint64_t slots = gpu::kFaceRun * runs;
+    device.memory().require(slots * (sizeof(gpu::KeptFace) + sizeof(gpu::FaceState)), kPurpose);
+    faces = {device, "radiance/faces", slots};
+    states = {device, "radiance/states", slots};
+}
+
+std::uint64_t RadianceCache::Table::bytes() const
+{
+    return faces.bytes() + states.bytes() + counters.bytes();
+}
+
+RadianceCache::Frame::Frame(vk::Device& device, std::uint32_t frame_faces, std::uint32_t picture_width,
+                            std::uint32_t picture_height)
+    : faces(frame_faces), width(picture_width), height(picture_height),
+      direct_lists(device, "radiance/direct_lists", gpu::kListElements)
+{
+    // The camera lists as many faces as pixels want one, and the paths of a frame as many as there are.
+    const std::uint64_t wanted_max = faces + wantingPixels(width, height);
+    const std::uint64_t pixels = std::uint64_t{width} * height;
+    device.memory().require(PathBatch::bytesFor(faces, 1) + (2 * wanted_max + pixels) * sizeof(gpu::uint), kPurpose);
+    for (vk::BufferOf<gpu::uint>& slots : wanted)
+    {
+        slots = {device, "radiance/wanted", wanted_max};
+    }
+    batch = {device, faces, 1, gpu::kWantedOdd + 1};
+    direct = {device, "radiance/direct", pixels};
+}
+
+std::uint64_t RadianceCache::Frame::bytes() const
+{
+    return wanted[0].bytes() + wanted[1].bytes() + batch.bytes() + direct.bytes() + direct_lists.bytes();
+}
+
+std::uint64_t RadianceCache::bytes() const
+{
+    return m_status.bytes() + m_lights.bytes() + (m_table == nullptr ? 0 : m_table->bytes()) +
+           (m_other_table == nullptr ? 0 : m_other_table->bytes()) + (m_buffers == nullptr ? 0 : m_buffers->bytes());
+}
+
+void RadianceCache::reserve(std::uint64_t face_count)
+{
+    const std::uint64_t runs = runsFor(static_cast<double>(face_count));
+    if (m_table == nullptr || m_table->run_count < runs)
+    {
+        vk::replace(m_deletion_queue, m_table, std::make_unique<Table>(m_device, runs));
+        m_frame = 0;
+    }
+}
+
+void RadianceCache::forget()
+{
+    m_frame = 0;
+    m_lights.forget();
+}
+
+void RadianceCache::makeBuffers(const DeviceTree& tree, const TraceBuffers& seen, const RadianceOptions& options)
+{
+    if (m_table == nullptr)
+    {
+        reserve(static_cast<std::uint64_t>(kFacesOfVoxel * tree.voxel_count));
+    }
+    const std::uint32_t faces = std::clamp(options.faces, 1U, kRadianceFacesMax);
+    if (m_buffers == nullptr || m_buffers->faces != faces || m_buffers->width != seen.width ||
+        m_buffers->height != seen.height)
+    {
+        vk::replace(m_deletion_queue, m_buffers, std::make_unique<Frame>(m_device, faces, seen.width, seen.height));
+        m_frame = 0; // the lists are gone, and marks of what they held with them
+    }
+}
+
+// Records what a frame needs cleared.
+void RadianceCache::clear(vk::FrameGraph& graph, std::uint32_t frame)
+{
+    constexpr std::uint64_t kWords = gpu::kListElements * sizeof(gpu::DispatchArgs) / sizeof(gpu::uint);
+    PathBatch& batch = m_buffers->batch;
+    if (frame == 0)
+    {
+        graph.fill(m_table->faces, 0);
+        graph.fill(m_table->states, 0);
+        graph.fill(m_table->counters, 0);
+        graph.fill(m_status, 0);
+        graph.fill(batch.lists, 0);
+        return;
+    }
+    graph.fill(batch.lists, 0, 0, kWords);
+    graph.fill(batch.lists, 0, wantedList(frame + 1) * kWords, kWords);
+    graph.fill(m_table->counters, 0, gpu::kCountersOfFrame,
+               sizeof(gpu::RadianceCounters) / sizeof(gpu::uint) - gpu::kCountersOfFrame);
+}
+
+/// What a frame is made of.
+struct RadianceCache::Work
+{
+    const DeviceTree& tree;
+    const DeviceEnvironment& environment;
+    const TraceCamera& camera;
+    const TraceBuffers& seen;
+    const RadianceOptions& options;
+    std::uint32_t frame;
+    std::optional<std::uint32_t> first_moving; // index of attributes from which on voxels are those that move
+    std::uint32_t window;                      // of means
+};
+
+// Notes what has changed since the frame before.
+void RadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment)
+{
+    if (m_frame == 0)
+    {
+        m_move_frame.reset();
+        m_change_frame.reset();
+        m_purge_frame = 0;
+    }
+    else
+    {
+        if (m_environment_version != environment.version())
+        {
+            noteChange();
+        }
+        if (m_tree_version != tree.version)
+        {
+            m_move_frame = m_frame;
+        }
+    }
+    m_environment_version = environment.version();
+    m_tree_version = tree.version;
+    if (m_move_frame && *m_move_frame >= m_purge_frame && m_frame - m_purge_frame >= kPurgeFrames)
+    {
+        purge(graph);
+        m_purge_frame = m_frame;
+    }
+}
+
+// Records the pass that leaves out faces which no ray has hit for long, such as those that moving objects have left.
+void RadianceCache::purge(vk::FrameGraph& graph)
+{
+    if (m_other_table == nullptr || m_other_table->run_count != m_table->run_count)
+    {
+        vk::replace(m_deletion_queue, m_other_table, std::make_unique<Table>(m_device, m_table->run_count));
+    }
+    std::swap(m_table, m_other_table);
+    graph.fill(m_table->faces, 0);
+    graph.fill(m_table->states, 0);
+    graph.fill(m_table->counters, 0);
+    graph.fill(m_buffers->batch.lists, 0);
+    vk::Pass pass = graph.addPass(gpu::radiance::Purge{});
+    gpu::RadiancePurgeParams params{};
+    params.faces = pass.readWrite(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.counters = pass.readWrite(m_table->counters);
+    params.old_faces = pass.read(m_other_table->faces);
+    params.old_states = pass.read(m_other_table->states);
+    params.run_count = m_table->run_count;
+    params.frame = m_frame;
+    params.age_max = kPurgeAge;
+    pass.dispatch(m_table->faces.count(), params);
+}
+
+void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                           const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options)
+{
+    makeBuffers(tree, seen, options);
+    environment.prepare(graph);
+    m_lights.prepare(graph, tree);
+    follow(graph, tree, environment);
+    const std::uint32_t frame = std::exchange(m_frame, 0); // should anything below throw
+    const bool moves = isSince(m_move_frame, frame, gpu::kMovedFrames);
+    const Work work = {.tree = tree,
+                       .environment = environment,
+                       .camera = camera,
+                       .seen = seen,
+                       .options = options,
+                       .frame = frame,
+                       .first_moving = moves ? std::optional(tree.voxel_count) : std::nullopt,
+                       .window = isSince(m_change_frame, frame, kChangedFrames)
+                                     ? std::min(options.window, kChangedSamples)
+                                     : options.window};
+    clear(graph, work.frame);
+    want(graph, work);
+    tally(graph, work);
+    begin(graph, work);
+    const PathLight light = {.tree = tree,
+                             .environment = environment,
+                             .lights = m_lights,
+                             .status = m_status,
+                             .stack = options.stack,
+                             .sample_index = work.frame,
+                             .path_count = m_buffers->faces,
+                             .first_noted = work.first_moving};
+    tracePaths(graph, light, m_buffers->batch, 0, 0);
+    gather(graph, work);
+    addMetLight(graph, light, m_buffers->batch, 0, 0);
+    addChosenLight(graph, light, m_buffers->batch, 0, 0);
+    apply(graph, work);
+    m_frame = work.frame + 1;
+}
+
+void RadianceCache::want(vk::FrameGraph& graph, const Work& work)
+{
+    vk::Pass pass = graph.addPass(gpu::radiance::Want{.orthographic = work.camera.orthographic});
+    gpu::RadianceWantParams params{};
+    params.faces = pass.readWrite(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.counters = pass.readWrite(m_table->counters);
+    params.wanted = pass.readWrite(m_buffers->wanted.at(work.frame % 2));
+    params.lists = pass.readWrite(m_buffers->batch.lists);
+    params.hits = pass.read(work.seen.hits);
+    params.live = pass.read(work.seen.live);
+    params.forward = work.camera.rays.forward;
+    params.half_pixel_x = work.camera.rays.half_pixel_x;
+    params.half_pixel_y = work.camera.rays.half_pixel_y;
+    params.width = work.seen.width;
+    params.height = work.seen.height;
+    params.run_count = m_table->run_count;
+    params.frame = work.frame;
+    pass.dispatchIndirect(work.seen.args, 0, params, work.seen.live.count());
+}
+
+void RadianceCache::tally(vk::FrameGraph& graph, const Work& work)
+{
+    PathBatch& batch = m_buffers->batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Tally{});
+    gpu::RadianceTallyParams params{};
+    params.faces = pass.read(m_table->faces);
+    params.states = pass.read(m_table->states);
+    params.wanted = pass.read(m_buffers->wanted.at(work.frame % 2));
+    params.counters = pass.readWrite(m_table->counters);
+    params.lists = pass.readWrite(batch.lists);
+    params.frame = work.frame;
+    params.budget = m_buffers->faces;
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(work.frame), gpu::kListPaths), params,
+                          divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
+}
+
+void RadianceCache::begin(vk::FrameGraph& graph, const Work& work)
+{
+    PathBatch& batch = m_buffers->batch;
+    const bool emits = hasEmission(work.tree);
+    vk::Pass pass = graph.addPass(gpu::radiance::Begin{.node_levels = work.tree.grid.nodeLevels(), .emission = emits});
+    gpu::RadianceBeginParams params{};
+    params.faces = pass.read(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.wanted = pass.read(m_buffers->wanted.at(work.frame % 2));
+    params.counters = pass.read(m_table->counters);
+    params.gives = pass.read(work.environment.gives());
+    if (emits)
+    {
+        params.light_nodes = pass.read(m_lights.nodes());
+    }
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.rays = pass.readWrite(batch.rays[0]);
+    params.path_states = pass.readWrite(batch.states[0]);
+    params.radiance = pass.readWrite(batch.radiance);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.frame = work.frame;
+    params.sample_index = work.frame;
+    params.seed = work.options.seed;
+    pass.dispatchIndirect(batch.lists, listArgs(wantedList(work.frame), gpu::kListPaths), params,
+                          divideUp(m_buffers->wanted[0].count(), gpu::kPathGroup));
+}
+
+void RadianceCache::gather(vk::FrameGraph& graph, const Work& work)
+{
+    PathBatch& batch = m_buffers->batch;
+    const bool emits = hasEmission(work.tree);
+    vk::Pass pass = graph.addPass(gpu::radiance::Gather{.format = work.tree.attributeFormat(), .emission = emits});
+    gpu::RadianceGatherParams params{};
+    params.faces = pass.readWrite(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.counters = pass.readWrite(m_table->counters);
+    params.wanted = pass.readWrite(m_buffers->wanted.at((work.frame + 1) % 2));
+    params.lists = pass.readWrite(batch.lists);
+    params.numbers = pass.readWrite(batch.numbers);
+    params.attributes = readVoxelAttributes(pass, work.tree);
+    if (emits)
+    {
+        params.emission_words = pass.read(work.tree.emission_words);
+    }
+    params.rays = pass.read(batch.rays[0]);
+    params.hits = pass.read(batch.hits);
+    params.radiance = pass.readWrite(batch.radiance);
+    params.batch = static_cast<std::uint32_t>(batch.capacity());
+    params.run_count = m_table->run_count;
+    params.frame = work.frame;
+    params.first_moving = work.first_moving.value_or(gpu::kHitMiss);
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+                          divideUp(m_buffers->faces, gpu::kPathGroup));
+}
+
+void RadianceCache::apply(vk::FrameGraph& graph, const Work& work)
+{
+    PathBatch& batch = m_buffers->batch;
+    vk::Pass pass = graph.addPass(gpu::radiance::Apply{});
+    gpu::RadianceApplyParams params{};
+    params.faces = pass.readWrite(m_table->faces);
+    params.states = pass.readWrite(m_table->states);
+    params.numbers = pass.read(batch.numbers);
+    params.radiance = pass.read(batch.radiance);
+    params.lists = pass.readWrite(batch.lists);
+    params.frame = work.frame;
+    params.window = std::clamp(work.window, 1U, gpu::kKeptWeightMax);
+    pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
+                          divideUp(m_buffers->faces, gpu::kPathGroup));
+}
+
+void RadianceCache::view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
+                         const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums)
+{
+    const bool emits = hasEmission(tree);
+    Frame& buffers = *m_buffers;
+    const std::uint64_t pixels = std::uint64_t{seen.width} * seen.height;
+    graph.fill(buffers.direct_lists, 0);
+    {
+        vk::Pass pass = graph.addPass(gpu::radiance::View{.node_levels = tree.grid.nodeLevels(),
+                                                          .orthographic = camera.orthographic,
+                                                          .format = tree.attributeFormat(),
+                                                          .emission = emits});
+        gpu::RadianceViewParams params{};
+        params.faces = pass.read(m_table->faces);
+        params.hits = pass.read(seen.hits);
+        params.starts = pass.read(seen.starts);
+        params.attributes = readVoxelAttributes(pass, tree);
+        if (emits)
+        {
+            params.emission_words = pass.read(tree.emission_words);
+        }
+        params.sums = pass.readWrite(sums);
+        params.lists = pass.readWrite(buffers.direct_lists);
+        params.direct = pass.readWrite(buffers.direct);
+        params.camera = camera.rays;
+        params.width = seen.width;
+        params.height = seen.height;
+        params.run_count = m_table->run_count;
+        pass.dispatch(pixels, params);
+    }
+    vk::Pass pass = graph.addPass(gpu::radiance::Direct{.orthographic = camera.orthographic, .emission = emits});
+    gpu::RadianceDirectParams params{};
+    params.hits = pass.read(seen.hits);
+    params.starts = pass.read(seen.starts);
+    if (emits)
+    {
+        params.tree = pass.read(m_lights.table());
+        pass.read(tree.emission_words);
+        pass.read(tree.emission);
+    }
+    params.environment = environment.read(pass);
+    params.sums = pass.readWrite(sums);
+    params.lists = pass.readWrite(buffers.direct_lists);
+    params.direct = pass.read(buffers.direct);
+    params.forward = camera.rays.forward;
+    params.half_pixel_x = camera.rays.half_pixel_x;
+    params.half_pixel_y = camera.rays.half_pixel_y;
+    params.width = seen.width;
+    params.height = seen.height;
+    pass.dispatchIndirect(buffers.direct_lists, listArgs(0, gpu::kListMisses), params,
+                          divideUp(pixels, gpu::kPathGroup));
+}
+
+} // namespace zvo

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/light/environment.h"
+#include "core/light/tree_lights.h"
+#include "core/path/path_batch.h"
+#include "core/scene/camera.h"
+#include "core/trace/trace.h"
+#include "core/tree/device_tree.h"
+#include "radiance/radiance.h"
+#include "vk/deletion_queue.h"
+#include "vk/frame_graph.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace zvo
+{
+
+/// Options of the light that is kept on voxels.
+struct RadianceOptions
+{
+    std::uint32_t faces = 1U << 15;             // the most that a frame takes: each takes a ray and a shadow ray
+    std::uint32_t window = gpu::kKeptWeightMax; // the most samples that a mean counts
+    std::uint32_t seed = 0;
+    std::optional<TraceStack> stack = std::nullopt; // as in TraceOptions
+
+    bool operator==(const RadianceOptions&) const = default;
+};
+
+/// The most faces that RadianceOptions::faces asks for.
+inline constexpr std::uint32_t kRadianceFacesMax = 1U << 22;
+
+/// Keeps the light that arrives at the faces of voxels (shaders/radiance/radiance.h), and brings it up to date by a
+/// bounded number of rays a frame. Owns all buffers.
+class RadianceCache
+{
+public:
+    /// deletion_queue: as in TreeTracer.
+    explicit RadianceCache(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr)
+        : m_device(device), m_deletion_queue(deletion_queue), m_status(device, "radiance/status", 1),
+          m_lights(device, deletion_queue)
+    {
+    }
+
+    /// Makes the table for as many faces, unless it is larger, and empties it if it is made anew. update() makes one
+    /// that is usual for its tree. Throws Error{Memory}; then nothing changes.
+    void reserve(std::uint64_t face_count);
+
+    /// Records the passes of a frame: they sample faces that the camera sees, and those that rays of the frame before
+    /// have hit. seen: filled by tracePrimary() of the same tree and camera without a level of detail. Light arrives by
+    /// one bounce more in each frame. Throws Error{Memory}. Cost: the pixels of seen, and the rays of options.faces.
+    void update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options);
+
+    /// Records the passes that add what the camera sees, of the light that is kept and directly, to the radiance of
+    /// sums, [pixels] in the order of shaders/path/path.h. seen: as in update(), of the last one. Cost: pixels.
+    void view(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment,
+              const TraceCamera& camera, const TraceBuffers& seen, vk::BufferOf<gpu::PixelSum>& sums);
+
+    /// Has means count few samples for some frames: because voxels have changed in another way than by what moves.
+    /// Where the environment changes, update() sees that.
+    void noteChange() { m_change_frame = m_frame; }
+
+    /// Forgets all light: because the last frame was lost, or kernels may have changed.
+    void forget();
+
+    /// Device memory of all buffers.
+    [[nodiscard]] std::uint64_t bytes() const;
+
+    /// [1] counts of faces.
+    [[nodiscard]] const vk::BufferOf<gpu::RadianceCounters>& counters() const { return m_table->counters; }
+
+    /// [slots] the table, in which free slots have a key of 0.
+    [[nodiscard]] const vk::BufferOf<gpu::KeptFace>& faces() const { return m_table->faces; }
+
+    /// Rays that were given up (TraceStatus::capped_rays), since all light was forgotten.
+    [[nodiscard]] const vk::BufferOf<gpu::TraceStatus>& status() const { return m_status; }
+
+    /// Frames since all light was forgotten.
+    [[nodiscard]] std::uint32_t frameCount() const { return m_frame; }
+
+private:
+    /// What is kept from frame to frame.
+    struct Table
+    {
+        Table(vk::Device& device, std::uint64_t run_count);
+        [[nodiscard]] std::uint64_t bytes() const;
+
+        std::uint32_t run_count;
+        vk::BufferOf<gpu::KeptFace> faces;            // [kFaceRun * run_count]
+        vk::BufferOf<gpu::FaceState> states;          // likewise
+        vk::BufferOf<gpu::RadianceCounters> counters; // [1]
+    };
+
+    /// What frames use in turns.
+    struct Frame
+    {
+        Frame(vk::Device& device, std::uint32_t faces, std::uint32_t width, std::uint32_t height);
+        [[nodiscard]] std::uint64_t bytes() const;
+
+        std::uint32_t faces;
+        std::uint32_t width;
+        std::uint32_t height;
+        std::array<vk::BufferOf<gpu::uint>, 2> wanted; // slots of even and odd frames
+        PathBatch batch;
+        vk::BufferOf<gpu::uint> direct;               // [pixels] numbers of those that see light directly
+        vk::BufferOf<gpu::DispatchArgs> direct_lists; // [kListElements]
+    };
+
+    struct Work;
+
+    void follow(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment);
+    void purge(vk::FrameGraph& graph);
+    void makeBuffers(const DeviceTree& tree, const TraceBuffers& seen, const RadianceOptions& options);
+    void clear(vk::FrameGraph& graph, std::uint32_t frame);
+    void want(vk::FrameGraph& graph, const Work& work);
+    void tally(vk::FrameGraph& graph, const Work& work);
+    void begin(vk::FrameGraph& graph, const Work& work);
+    void gather(vk::FrameGraph& graph, const Work& work);
+    void apply(vk::FrameGraph& graph, const Work& work);
+
+    vk::Device& m_device;
+    vk::DeletionQueue* m_deletion_queue;
+    vk::BufferOf<gpu::TraceStatus> m_status; // [1]
+    TreeLights m_lights;
+    std::unique_ptr<Table> m_table;
+    std::unique_ptr<Frame> m_buffers;
+    std::unique_ptr<Table> m_other_table; // of the same size, where faces are moved to; null until something moves
+    std::uint32_t m_frame = 0;            // 0: the table is to be cleared
+
+    std::uint64_t m_tree_version = 0; // of the last frame, like the next
+    std::uint64_t m_environment_version = 0;
+    std::uint32_t m_purge_frame = 0;             // of the last purge, or of the first movement since then
+    std::optional<std::uint32_t> m_move_frame;   // when the tree was another one than in the frame before
+    std::optional<std::uint32_t> m_change_frame; // when other things changed
+};
+
+} // namespace zvo

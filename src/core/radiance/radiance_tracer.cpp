@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "core/radiance/radiance_tracer.h"
+
+#include <cmath>
+#include <utility>
+
+namespace zvo
+{
+
+namespace
+{
+
+// Where the rays of a picture's frame go through its pixels, from their middles: evenly over them in any number of
+// frames, and in the middle in the first (M. Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018).
+glm::vec2 pointOfPixel(std::uint32_t frame)
+{
+    constexpr glm::dvec2 kSteps = {0.7548776662466927, 0.5698402909980532};
+    const glm::dvec2 point = glm::fract(0.5 + static_cast<double>(frame) * kSteps) - 0.5;
+    return point;
+}
+
+} // namespace
+
+void RadianceTracer::resize(std::uint32_t width, std::uint32_t height)
+{
+    if (m_sums != nullptr && m_tracer.buffers().width == width && m_tracer.buffers().height == height)
+    {
+        return;
+    }
+    auto sums = std::make_unique<vk::BufferOf<gpu::PixelSum>>(m_device, "radiance/sums", std::uint64_t{width} * height);
+    m_tracer.resize(width, height);
+    vk::replace(m_deletion_queue, m_sums, std::move(sums));
+    beginPicture();
+}
+
+void RadianceTracer::forget()
+{
+    m_tracer.forget();
+    m_cache.forget();
+    beginPicture();
+}
+
+void RadianceTracer::addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                              const TraceCamera& camera, const RadianceOptions& options)
+{
+    const std::uint32_t frame = std::exchange(m_frame_count, 0); // should anything below throw
+    if (frame == 0)
+    {
+        graph.fill(*m_sums, 0);
+    }
+    const TraceCamera through = shifted(camera, pointOfPixel(frame));
+    TraceOptions trace;
+    trace.stack = options.stack;
+    m_tracer.tracePrimary(graph, tree, through, trace);
+    m_cache.update(graph, tree, environment, through, m_tracer.buffers(), options);
+    m_cache.view(graph, tree, environment, through, m_tracer.buffers(), *m_sums);
+    m_frame_count = frame + 1;
+}
+
+} // namespace zvo

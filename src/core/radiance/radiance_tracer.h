@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/path/develop.h"
+#include "core/radiance/radiance_cache.h"
+#include "core/trace/tree_tracer.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace zvo
+{
+
+/// Pictures of the light that is kept on voxels: a frame traces the camera's rays and brings the light up to date. Owns
+/// all buffers.
+class RadianceTracer
+{
+public:
+    /// deletion_queue: as in TreeTracer.
+    explicit RadianceTracer(vk::Device& device, vk::DeletionQueue* deletion_queue = nullptr)
+        : m_device(device), m_deletion_queue(deletion_queue), m_tracer(device, deletion_queue),
+          m_cache(device, deletion_queue)
+    {
+    }
+
+    /// Sets the size of the pictures, and begins a new one if it is another size. Must be called before the first
+    /// frame. Throws Error{Memory}; then all stays as it was.
+    void resize(std::uint32_t width, std::uint32_t height);
+
+    /// Begins a new picture with the next frame. The light stays.
+    void beginPicture() { m_frame_count = 0; }
+
+    /// Records the passes of a frame, and adds what the camera sees to the picture: through the middle of the pixels in
+    /// its first frame, and through other points of them, the same of each pixel, in the following ones. Throws
+    /// Error{Memory}. Cost: pixels, and the rays of options.faces.
+    void addFrame(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
+                  const TraceCamera& camera, const RadianceOptions& options);
+
+    /// Forgets picture and light: because the last frame was lost, or kernels may have changed.
+    void forget();
+
+    /// The frames so far.
+    [[nodiscard]] SampledPicture picture() const
+    {
+        return {*m_sums, m_tracer.buffers().width, m_tracer.buffers().height, m_frame_count};
+    }
+
+    [[nodiscard]] RadianceCache& cache() { return m_cache; }
+    [[nodiscard]] const RadianceCache& cache() const { return m_cache; }
+    [[nodiscard]] const TraceBuffers& buffers() const { return m_tracer.buffers(); }
+
+    /// Device memory of all buffers but the beam grid's.
+    [[nodiscard]] std::uint64_t bytes() const { return m_tracer.buffers().bytes() + m_cache.bytes() + m_sums->bytes(); }
+
+private:
+    vk::Device& m_device;
+    vk::DeletionQueue* m_deletion_queue;
+    TreeTracer m_tracer;
+    RadianceCache m_cache;
+    std::unique_ptr<vk::BufferOf<gpu::PixelSum>> m_sums; // [width * height] in the order of shaders/path/path.h
+    std::uint32_t m_frame_count = 0;                     // of the picture
+};
+
+} // namespace zvo

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// Light that is kept on voxels against known answers, and against path tracing.
+#include "core/radiance/radiance_cache.h"
+
+#include "core/scene/camera.h"
+#include "support/engine_device.h"
+#include "support/kept_light.h"
+#include "support/lit_voxels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace zvo
+{
+namespace
+{
+
+using test::constantSky;
+using test::device;
+using test::FaceLight;
+using test::FaceName;
+using test::facesOf;
+using test::LitVoxel;
+using test::PathPicture;
+using test::pictureOf;
+using test::runFrames;
+
+LitVoxel white()
+{
+    return {{}, glm::uvec3(255), glm::vec3(0.0F)};
+}
+
+LitVoxel grey()
+{
+    return {{}, glm::uvec3(188), glm::vec3(0.0F)};
+}
+
+LitVoxel lamp()
+{
+    return {{}, glm::uvec3(0), glm::vec3(1.5F, 1.0F, 0.5F)};
+}
+
+ViewCamera outside()
+{
+    return ViewCamera::lookAt({19.0, 15.0, 23.0}, {4.0, 4.0, 4.0}, 0.4);
+}
+
+// The picture after so many frames, of the last ones.
+PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment,
+                           const ViewCamera& view, std::uint32_t edge, std::uint32_t settle, std::uint32_t frames,
+                           const RadianceOptions& options = {})
+{
+    tracer.resize(edge, edge);
+    runFrames(tracer, tree, environment, view, settle, options);
+    tracer.beginPicture();
+    runFrames(tracer, tree, environment, view, frames, options);
+    return pictureOf(tracer);
+}
+
+// A closed room of edge * edge * edge voxels.
+std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, glm::uvec3(0), glm::uvec3(edge), wall);
+    std::erase_if(voxels,
+                  [&](const LitVoxel& v) {
+                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
+                             glm::all(glm::lessThan(v.cell, glm::uvec3(edge - 1)));
+                  });
+    return voxels;
+}
+
+// A convex body of albedo 1 in a constant sky looks like the sky.
+TEST(RadianceFurnace, AWhiteCubeCannotBeSeen)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {2, 2, 2}, {6, 6, 6}, white());
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
+    RadianceTracer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 1024, 8);
+    const auto faces = facesOf(tracer.cache());
+    ASSERT_EQ(faces.size(), 3U * 16U);
+    glm::dvec3 mean(0.0);
+    for (const auto& [name, face] : faces)
+    {
+        mean += face.radiance / static_cast<double>(faces.size());
+        EXPECT_NEAR(face.radiance.g, 1.0, 0.01);
+    }
+    EXPECT_NEAR(mean.r, 0.5, 0.0005);
+    EXPECT_NEAR(mean.g, 1.0, 0.001);
+    EXPECT_NEAR(mean.b, 2.0, 0.002);
+    for (const glm::dvec3& pixel : picture.pixels)
+    {
+        EXPECT_NEAR(pixel.g, 1.0, 0.01);
+    }
+}
+
+// So does a body with holes, by many bounces.
+TEST(RadianceFurnace, AWhiteBowlCannotBeSeen)
+{
+    std::vector<LitVoxel> voxels;
+    test::addBox(voxels, {0, 0, 0}, {8, 1, 8}, white());
+    test::addBox(voxels, {0, 1, 0}, {1, 6, 8}, white());
+    test::addBox(voxels, {1, 1, 0}, {8, 4, 1}, white());
+    test::addBox(voxels, {3, 1, 3}, {5, 3, 5}, white());
+    const DeviceTree tree = test::litTree(device(), voxels, 3);
+    DeviceEnvironment sky = constantSky(glm::vec3(1.0F));
+    RadianceTracer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, tree, sky, outside(), 64, 512, 8);
+    EXPECT_NEAR(picture.luminance, 1.0, 0.005);
+    for (const glm::dvec3& pixel : picture.pixels)
+    {
+        EXPECT_NEAR(pixel.g, 1.0, 0.05);
+    }
+}
+
+// In a closed room whose walls glow, all bounces add up to the sum of a geometric series.
+TEST(RadianceFurnace, AGlowingRoomHasTheLightOfAllBounces)
+{
+    LitVoxel wall = grey();
+    wall.emission = glm::vec3(0.5F);
+    const DeviceTree tree = test::litTree(device(), roomOf(wall, 8), 3);
+    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+    const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
+    RadianceTracer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, tree, dark, inside, 64, 256, 8);
+    const double expected = 0.5 / (1.0 - test::albedoOf(wall).r);
+    EXPECT_NEAR(picture.luminance, expected, 0.005 * expected);
+}
+
+// A wall of one voxel keeps all light of a lamp behind it, on its faces and in the picture.
+TEST(RadianceWalls, NoLightComesThrough)
+{
+    std::vector<LitVoxel> voxels = roomOf(white(), 8);
+    test::addBox(voxels, {3, 3, 3}, {5, 5, 5}, lamp());
+    // Faces outside of the room that see its walls and each other.
+    test::addBox(voxels, {10, 0, 0}, {11, 8, 8}, white());
+    const DeviceTree tree = test::litTree(device(), voxels, 4);
+    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+    const ViewCamera beside = ViewCamera::lookAt({9.5, 14.0, 25.0}, {9.0, 4.0, 4.0}, 0.8);
+    RadianceTracer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, tree, dark, beside, 64, 64, 4);
+    EXPECT_EQ(picture.mean, glm::dvec3(0.0));
+    const auto faces = facesOf(tracer.cache());
+    EXPECT_GT(faces.size(), 200U);
+    for (const auto& [name, face] : faces)
+    {
+        EXPECT_EQ(face.radiance, glm::dvec3(0.0));
+    }
+}
+
+// A hall with a lamp and walls of two colours, from inside.
+struct Hall
+{
+    Hall()
+    {
+        std::vector<LitVoxel> voxels = roomOf(grey(), 32);
+        for (LitVoxel& voxel : voxels)
+        {
+            voxel.color = voxel.cell.x == 0 ? glm::uvec3(200, 60, 60) : voxel.color;
+        }
+        std::erase_if(voxels,
+                      [](const LitVoxel& v) {
+                          return v.cell.y == 31 &&
+                                 glm::all(glm::lessThan(glm::abs(glm::ivec2(v.cell.x, v.cell.z) - 16), glm::ivec2(4)));
+                      });
+        test::addBox(voxels, {13, 31, 13}, {20, 32, 20}, lamp());
+        test::addBox(voxels, {6, 1, 8}, {14, 16, 16}, grey());
+        tree = test::litTree(device(), voxels, 5);
+    }
+
+    DeviceTree tree;
+    DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
+    ViewCamera view = ViewCamera::lookAt({27.0, 20.0, 27.0}, {10.0, 8.0, 10.0}, 1.1);
+};
+
+// Mean of the pixels' relative errors, of luminance.
+double relativeError(const PathPicture& picture, const PathPicture& truth)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+    {
+        const double expected = test::luminanceOf(truth.pixels[i]);
+        sum += std::abs(test::luminanceOf(picture.pixels[i]) - expected) / std::max(expected, 0.001);
+    }
+    return sum / static_cast<double>(truth.pixels.size());
+}
+
+TEST(RadiancePictures, AreThoseOfPathTracing)
+{
+    Hall hall;
+    const PathPicture truth = pictureOf(hall.tree, hall.dark, hall.view, 40, 512, {.bounces = 10});
+    RadianceTracer tracer(device().device());
+    const PathPicture picture = settledPicture(tracer, hall.tree, hall.dark, hall.view, 40, 256, 64);
+    EXPECT_NEAR(picture.luminance, truth.luminance, 0.01 * truth.luminance);
+    EXPECT_LT(relativeError(picture, truth), 0.02);
+}
+
+// The light is a mean over frames: it does not depend on the order of threads.
+TEST(RadianceBytes, AreTheSameInEveryRun)
+{
+    Hall hall;
+    std::vector<std::map<FaceName, FaceLight>> runs;
+    for (std::uint32_t run = 0; run < 2; ++run)
+    {
+        RadianceTracer tracer(device().device());
+        tracer.resize(48, 40);
+        // Tables of other sizes have their faces elsewhere.
+        tracer.cache().reserve(run == 0 ? 20000 : 45678);
+        runFrames(tracer, hall.tree, hall.dark, hall.view, 12, {.faces = 500});
+        runs.push_back(facesOf(tracer.cache()));
+    }
+    ASSERT_EQ(runs[0].size(), runs[1].size());
+    ASSERT_GT(runs[0].size(), 500U);
+    for (const auto& [name, face] : runs[0])
+    {
+        EXPECT_EQ(runs[1].at(name).words, face.words);
+    }
+}
+
+// A frame takes as many faces as it may, or all, and each gets its turn.
+TEST(RadianceBudget, BoundsTheFacesOfAFrame)
+{
+    Hall hall;
+    for (const std::uint32_t budget : {1U, 100U, 700U, 100000U})
+    {
+        RadianceTracer tracer(device().device());
+        tracer.resize(32, 32);
+        std::uint64_t samples_before = 0;
+        for (std::uint32_t frame = 0; frame < 8; ++frame)
+        {
+            runFrames(tracer, hall.tree, hall.dark, hall.view, 1, {.faces = budget});
+            std::uint64_t samples = 0;
+            for (const auto& [name, face] : facesOf(tracer.cache()))
+            {
+                samples += face.samples;
+            }
+            const std::uint64_t taken = samples - samples_before;
+            samples_before = samples;
+            EXPECT_LE(taken, budget);
+            if (budget == 100)
+            {
+                EXPECT_GE(taken, 85U) << "in frame " << frame;
+            }
+            if (budget == 100000)
+            {
+                EXPECT_GT(taken, 200U);
+            }
+        }
+    }
+}
+
+TEST(RadianceBudget, GivesEachFaceATurn)
+{
+    Hall hall;
+    RadianceTracer tracer(device().device());
+    tracer.resize(64, 64);
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 160, {.faces = 400});
+    std::uint64_t without = 0;
+    std::uint64_t sampled = 0;
+    for (const auto& [name, face] : facesOf(tracer.cache()))
+    {
+        ++(face.samples == 0 ? without : sampled);
+    }
+    EXPECT_GT(sampled, 1000U);
+    // Faces that a ray has just met may wait.
+    EXPECT_LT(without, 20U);
+}
+
+// Without room for all faces, those that found none are counted, and the picture is darker but stands.
+TEST(RadianceTable, CountsFacesWithoutAPlace)
+{
+    Hall hall;
+    RadianceTracer tracer(device().device());
+    tracer.resize(64, 64);
+    tracer.cache().reserve(100);
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 8, {});
+    const gpu::RadianceCounters counters = device().download(tracer.cache().counters()).front();
+    EXPECT_GT(counters.refused, 0U);
+    EXPECT_EQ(counters.face_count, facesOf(tracer.cache()).size());
+    EXPECT_LE(counters.face_count, 152U);
+}
+
+} // namespace
+} // namespace zvo

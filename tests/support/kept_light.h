@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Light that is kept on voxels, and pictures of it, on the device that the tests of a binary share.
+#pragma once
+
+#include "core/radiance/radiance_tracer.h"
+#include "support/path_pictures.h"
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace zvo::test
+{
+
+/// A face: its voxel's cell, and the number of its normal as in LightBrick::exposed.
+struct FaceName
+{
+    glm::uvec3 cell{0U};
+    std::uint32_t normal = 0;
+
+    bool operator<(const FaceName& other) const
+    {
+        return std::tie(cell.z, cell.y, cell.x, normal) <
+               std::tie(other.cell.z, other.cell.y, other.cell.x, other.normal);
+    }
+};
+
+/// The light of a face.
+struct FaceLight
+{
+    glm::dvec3 radiance{0.0}; // of a white face
+    std::uint32_t samples = 0;
+    glm::uvec2 words{0U}; // as the device has it
+};
+
+/// All faces of a table, read without the code of the kernels.
+std::map<FaceName, FaceLight> facesOf(RadianceCache& cache);
+
+/// Runs frames of a tracer, which has a size.
+void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
+               std::uint32_t count, const RadianceOptions& options);
+
+/// The mean of a tracer's picture. Expects that no ray was given up.
+PathPicture pictureOf(RadianceTracer& tracer);
+
+} // namespace zvo::test
