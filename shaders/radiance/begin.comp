@@ -77,5 +77,5 @@ void main()
             params.numbers.data[kListVoxelLights * params.batch + voxel_light] = path;
     }
     if (i < length)
-        params.states.data[slot].mark = (mark & (kMarkFrames << kMarkMovedShift)) | (params.frame & kMarkFrames);
+        params.states.data[slot].mark = (mark & ((kMarkMovedFrames << kMarkMovedShift) | kFaceMoved)) | (params.frame & kMarkFrames);
 }

@@ -57,7 +57,7 @@ void main()
     }
 
     if (hits && hit.index >= params.first_moving)
-        params.numbers.data[i] |= kPathMoved; // of kListPaths, the first list
+        params.numbers.data[i] |= kPathTouched; // of kListPaths, the first list
 
     uint slot = kNoFace;
     if (hits && hitFace(hit) != kFaceInside)

@@ -9,8 +9,9 @@
 // light, a voxel keeps it while something else stands around it, and whoever knows a position and a normal finds it
 // without a ray. A face enters the table when a ray from the camera, or from another face, hits it.
 //
-// While something moves, a face one of whose rays has hit a voxel of an overlay lately has means of few samples. So
-// shadows of what moves come and go within some frames, and other light stays smooth.
+// A face notes when one of its rays hits a voxel of an overlay. While something moves, means of faces that have done so
+// lately count fewer samples: few where the ray went to a light, or where it has happened twice within some frames, for
+// then what moves matters there. So its shadows come and go within some frames, and other light stays smooth.
 //
 // A frame takes so many faces as its budget has rays, of those that were hit since the frame before. A sample of a face
 // is a path of one bounce from a random point of it: a ray in a random direction, which brings emission, light from
@@ -56,7 +57,7 @@ GPU_BUFFER(KeptFace, 16);
 /// What else is known of the face in a slot.
 ///
 ///     mark    the last frame in which a ray has hit the face, modulo 2^15, 15 | the last one in which a ray of the
-///             face has hit what moves, modulo 2^15 - 1, plus 1, or 0: none, 15 | kFaceSeen | kFaceListed
+///             face has hit what moves, modulo 2^14 - 1, plus 1, or 0: none, 14 | kFaceMoved | kFaceSeen | kFaceListed
 ///     recent  red 8 | green 8 | blue 8 | exponent 8 (radiance/kept_light.glsl): a mean of the last samples
 struct FaceState
 {
@@ -71,17 +72,25 @@ const uint kFaceRun = 8u;          // slots that faces of 2x2x2 cells with the s
 const uint kFaceProbesMax = 128u;  // slots looked at before the table counts as full
 const uint kKeptWeightMax = 1023u;
 const uint kRecentSamples = 16u; // that FaceState::recent counts
-const uint kMovedSamples = 12u;  // that both means count of a face which has met what moves
-const uint kMovedFrames = 64u;   // for so long
+
+// How many samples both means count of a face whose rays have hit what moves, for so many frames: once, or often.
+const uint kTouchedSamples = 64u;
+const uint kMovedSamples = 12u;
+const uint kMovedFrames = 128u;
+const uint kMovedAgain = 6u; // frames between two hits that are often, at most
+const uint kMovedRare = 32u; // between two that are not, at least
 
 const uint kMarkFrames = (1u << 15) - 1u; // of a mark
 const uint kMarkMovedShift = 15u;
+const uint kMarkMovedFrames = (1u << 14) - 1u;
 
-// In PathBatch::numbers, of kListPaths: a ray of the path has hit what moves.
+// In PathBatch::numbers, of kListPaths: the path's ray has hit what moves; its ray to a light has.
+const uint kPathTouched = 1u << 30;
 const uint kPathMoved = 1u << 31;
 
 const uint kFaceListed = 1u << 31; // in the frame's list, or the next frame's
 const uint kFaceSeen = 1u << 30;   // by the camera, since it was listed
+const uint kFaceMoved = 1u << 29;  // what moves matters for its light
 
 // Elements of PathBatch::lists, as bounces: of paths, then of the faces of even and odd frames, in kListPaths.
 const uint kWantedEven = 1u;
@@ -178,7 +187,7 @@ struct RadianceGatherParams // push constants of radiance/gather: a thread a pat
     uint batch;
     uint run_count;
     uint frame;
-    uint first_moving; // index of attributes from which on voxels are those that move; kHitMiss: none
+    uint first_moving; // index of attributes from which on voxels are those of overlays; kHitMiss: none
 };
 GPU_KERNEL_BEGIN(radiance, gather, Gather, RadianceGatherParams)
     GPU_CONSTANT(AttributeFormat, format, kFormat8)
@@ -194,6 +203,8 @@ struct RadianceApplyParams // push constants of radiance/apply: a thread a path
     GPU_PTR(DispatchArgs) lists;
     uint frame;
     uint window; // the most samples that the mean's weight counts, at least 1 and at most kKeptWeightMax
+    uint touched_window; // likewise, of a face one of whose rays has hit what moves
+    uint moved_window;   // likewise, where what moves matters
 };
 GPU_KERNEL(radiance, apply, Apply, RadianceApplyParams)
 

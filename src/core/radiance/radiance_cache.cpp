@@ -156,8 +156,14 @@ struct RadianceCache::Work
     const TraceBuffers& seen;
     const RadianceOptions& options;
     std::uint32_t frame;
-    std::optional<std::uint32_t> first_moving; // index of attributes from which on voxels are those that move
-    std::uint32_t window;                      // of means
+    bool moves;           // something has moved lately
+    std::uint32_t window; // of means
+
+    /// The index of attributes from which on voxels are those of overlays, if there may be any.
+    [[nodiscard]] std::optional<std::uint32_t> firstMoving() const
+    {
+        return tree.hasOverlays() ? std::optional(tree.voxel_count) : std::nullopt;
+    }
 };
 
 // Notes what has changed since the frame before.
@@ -222,14 +228,13 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
     m_lights.prepare(graph, tree);
     follow(graph, tree, environment);
     const std::uint32_t frame = std::exchange(m_frame, 0); // should anything below throw
-    const bool moves = isSince(m_move_frame, frame, gpu::kMovedFrames);
     const Work work = {.tree = tree,
                        .environment = environment,
                        .camera = camera,
                        .seen = seen,
                        .options = options,
                        .frame = frame,
-                       .first_moving = moves ? std::optional(tree.voxel_count) : std::nullopt,
+                       .moves = isSince(m_move_frame, frame, gpu::kMovedFrames),
                        .window = isSince(m_change_frame, frame, kChangedFrames)
                                      ? std::min(options.window, kChangedSamples)
                                      : options.window};
@@ -244,7 +249,7 @@ void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, Device
                              .stack = options.stack,
                              .sample_index = work.frame,
                              .path_count = m_buffers->faces,
-                             .first_noted = work.first_moving};
+                             .first_noted = work.firstMoving()};
     tracePaths(graph, light, m_buffers->batch, 0, 0);
     gather(graph, work);
     addMetLight(graph, light, m_buffers->batch, 0, 0);
@@ -341,7 +346,7 @@ void RadianceCache::gather(vk::FrameGraph& graph, const Work& work)
     params.batch = static_cast<std::uint32_t>(batch.capacity());
     params.run_count = m_table->run_count;
     params.frame = work.frame;
-    params.first_moving = work.first_moving.value_or(gpu::kHitMiss);
+    params.first_moving = work.firstMoving().value_or(gpu::kHitMiss);
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
                           divideUp(m_buffers->faces, gpu::kPathGroup));
 }
@@ -358,6 +363,8 @@ void RadianceCache::apply(vk::FrameGraph& graph, const Work& work)
     params.lists = pass.readWrite(batch.lists);
     params.frame = work.frame;
     params.window = std::clamp(work.window, 1U, gpu::kKeptWeightMax);
+    params.touched_window = work.moves ? std::min(params.window, gpu::kTouchedSamples) : params.window;
+    params.moved_window = work.moves ? std::min(params.window, gpu::kMovedSamples) : params.window;
     pass.dispatchIndirect(batch.lists, listArgs(0, gpu::kListPaths), params,
                           divideUp(m_buffers->faces, gpu::kPathGroup));
 }
