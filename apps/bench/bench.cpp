@@ -6,6 +6,7 @@
 #include "bench/bench_denoise.h"
 #include "bench/bench_dynamic.h"
 #include "bench/bench_edit.h"
+#include "bench/bench_kept.h"
 #include "bench/bench_path.h"
 #include "bench/bench_report.h"
 #include "bench/bench_runs.h"
@@ -202,6 +203,11 @@ void bench(const BenchOptions& options)
     if (options.denoise)
     {
         benchDenoise(options);
+        return;
+    }
+    if (options.kept)
+    {
+        benchKept(options);
         return;
     }
     if (options.tune)

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "bench/bench_denoise.h"
 
-#include "bench/bench_scenes.h"
+#include "bench/lit_scenes.h"
 #include "bench/picture_quality.h"
 #include "bench/table.h"
 #include "common/output.h"
 #include "common/progress.h"
 #include "common/report.h"
 #include "common/session.h"
-#include "common/view.h"
 #include "core/base/kernels.h"
 #include "core/denoise/denoiser.h"
-#include "core/headless/pipeline.h"
-#include "core/path/daylight.h"
 #include "core/path/path_tracer.h"
-#include "core/upload/gpu_scene.h"
 #include "zvo/version.h"
 
 #include <fmt/format.h>
@@ -70,9 +66,9 @@ const Columns<DenoiseRow>& denoiseColumns()
 class DenoiseBench
 {
 public:
-    DenoiseBench(vk::HeadlessDevice& device, const DeviceTree& tree, const ViewCamera& view, DeviceEnvironment light)
-        : m_device(device), m_tree(tree), m_camera(traceCamera(view, tree.grid, kDenoiseHeight)),
-          m_light(std::move(light)), m_tracer(device.device()), m_denoiser(device.device())
+    DenoiseBench(vk::HeadlessDevice& device, const LitScene& scene)
+        : m_device(device), m_tree(scene.tree), m_camera(traceCamera(scene.view, scene.tree.grid, kDenoiseHeight)),
+          m_light(scene.light), m_tracer(device.device()), m_denoiser(device.device())
     {
         m_tracer.resize(kDenoiseWidth, kDenoiseHeight);
         m_denoiser.resize(kDenoiseWidth, kDenoiseHeight);
@@ -130,7 +126,7 @@ private:
     vk::HeadlessDevice& m_device;
     const DeviceTree& m_tree;
     TraceCamera m_camera;
-    DeviceEnvironment m_light;
+    DeviceEnvironment& m_light;
     PathTracer m_tracer;
     Denoiser m_denoiser;
 };
@@ -177,52 +173,27 @@ std::string denoiseTable(const vk::DeviceReport& device, const BenchOptions& opt
 void benchDenoise(const BenchOptions& options)
 {
     constexpr std::array<std::uint32_t, 4> kCounts = {1, 4, 16, 64};
-    const std::vector<std::filesystem::path> paths = benchScenes(options);
-    const std::vector<std::uint32_t> depths = options.depths.value_or(std::vector{kDenoiseDepth});
+    const std::vector<std::uint32_t> depths = {kDenoiseDepth};
     std::optional<Output> report = openReport(options.output);
     vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
     std::vector<DenoiseRow> rows;
-    Progress progress(2 * paths.size() * depths.size());
-    for (const std::filesystem::path& path : paths)
-    {
-        const std::string name = path.stem().string();
-        const Scene scene = loadWithWarnings(std::span(&path, 1), options.load);
-        const GpuScene gpu_scene = uploadScene(device, scene, options.attributes, brightestEmission(scene));
-        for (const std::uint32_t depth : depths)
-        {
-            const Grid grid = Grid::around(scene.bounds(), depth);
-            const DeviceTree tree =
-                buildOctree(device, gpu_scene, grid, {options.coverage, options.attributes, {}}).octree;
-            const ViewCamera view = chooseCamera(options.camera, scene, subjectOf(scene.bounds(), grid),
-                                                 double{kDenoiseWidth} / kDenoiseHeight);
-            for (const bool by_day : {true, false})
-            {
-                if (!by_day && !hasEmission(tree))
-                {
-                    continue;
-                }
-                progress.begin(fmt::format("{} {}", name, by_day ? "by day" : "at night"));
-                DeviceEnvironment light =
-                    by_day ? DeviceEnvironment(device.device())
-                           : DeviceEnvironment(device.device(), HdrImage{1, 1, {glm::vec3(0.0F)}}, 0.0, 1.0);
-                if (by_day)
-                {
-                    light.setSun(daylight());
-                }
-                DenoiseBench bench(device, tree, view, std::move(light));
-                const HdrImage reference = bench.traceReference(
-                    options.reference_samples, [&](std::uint32_t samples)
-                    { progress.within(static_cast<double>(samples) / options.reference_samples); });
-                for (DenoiseRow& row : bench.measure(reference, kCounts))
-                {
-                    row.scene = name;
-                    row.resolution = grid.resolution();
-                    row.light = by_day ? "day" : "night";
-                    rows.push_back(std::move(row));
-                }
-            }
-        }
-    }
+    Progress progress(litSceneCount(options, depths));
+    forEachLitScene(device, options, depths, double{kDenoiseWidth} / kDenoiseHeight,
+                    [&](LitScene& scene)
+                    {
+                        progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
+                        DenoiseBench bench(device, scene);
+                        const HdrImage reference = bench.traceReference(
+                            options.reference_samples, [&](std::uint32_t samples)
+                            { progress.within(static_cast<double>(samples) / options.reference_samples); });
+                        for (DenoiseRow& row : bench.measure(reference, kCounts))
+                        {
+                            row.scene = scene.name;
+                            row.resolution = scene.tree.grid.resolution();
+                            row.light = scene.light_name;
+                            rows.push_back(std::move(row));
+                        }
+                    });
     clearProgressBar();
     if (options.output.json != "-")
     {

@@ -29,6 +29,7 @@ scenes of the thesis, in which something moves. bench/results-page makes a page 
 --edit: N strokes for each radius and action, each undone and redone; then what a stroke takes after 10, 100 and 1000.
 
 --denoise: pictures of 1 to 64 paths a pixel, with and without denoising, beside one of very many.
+--kept: pictures of light that is kept on voxels, beside one of very many paths; primary rays and paths for comparison.
 --path: the rays of paths beside primary rays and Embree's; each way of finding light beside chance.
 --tune: choices one after the other, their values in turns.
 --report: the passes that take longest, with their time for each triangle, voxel, node and ray.
@@ -58,7 +59,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
     addValue(*bench, "--resolutions,--resolution", options.depths, parseResolutions, "N,...",
              "powers of two from 2 to 131072 (default 256,512,1024; with --balance 512,1024,2048, "
              "with --baselines on a CPU 128,256, "
-             "with --dynamic, --edit and --path 512, with --tune 256, with --denoise 128)");
+             "with --dynamic, --edit and --path 512, with --tune and --kept 256, with --denoise 128)");
     addValue(
         *bench, "--runs", options.run_count,
         [](std::string_view option, std::string_view text)
@@ -113,14 +114,23 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         "--size",
         [&options](const std::string& text)
         { std::tie(options.path_width, options.path_height) = parseSize("--size", text); },
-        "with --path and --tune, pixels of the picture whose rays are measured (default 640x360)");
+        "with --path, --tune and --kept, pixels of the picture (default 640x360)");
     size->type_name("WxH");
+    CLI::Option* const reference = addValue(
+        *bench, "--reference", options.reference_samples,
+        [](std::string_view option, std::string_view text)
+        { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1U << 20)); },
+        "N", "with --denoise and --kept, paths a pixel of the picture of many (default 1024)");
     bench->final_callback(
-        [size, &options]
+        [size, reference, &options]
         {
-            if (size->count() != 0 && !options.path && !options.tune)
+            if (size->count() != 0 && !options.path && !options.tune && !options.kept)
             {
-                throw Error(ErrorCode::Usage, "--size goes with --path or --tune");
+                throw Error(ErrorCode::Usage, "--size goes with --path, --tune or --kept");
+            }
+            if (reference->count() != 0 && !options.denoise && !options.kept)
+            {
+                throw Error(ErrorCode::Usage, "--reference goes with --denoise or --kept");
             }
         });
     bench
@@ -132,12 +142,17 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--edit")
         ->excludes("--path")
         ->excludes("--passes");
-    addValue(
-        *bench, "--reference", options.reference_samples,
-        [](std::string_view option, std::string_view text)
-        { return static_cast<std::uint32_t>(parseInteger(option, text, 1, 1U << 20)); },
-        "N", "with --denoise, paths a pixel of the picture of many (default 1024)")
-        ->needs("--denoise");
+    bench
+        ->add_flag("--kept", options.kept,
+                   "measure instead how close pictures of light that is kept on voxels come to many paths, by day and "
+                   "at night, and what they take")
+        ->excludes("--balance")
+        ->excludes("--baselines")
+        ->excludes("--dynamic")
+        ->excludes("--edit")
+        ->excludes("--path")
+        ->excludes("--denoise")
+        ->excludes("--passes");
     addDeviceOptions(*bench, options.device);
     bench
         ->add_flag("--tune", options.tune,
@@ -149,6 +164,7 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
         ->excludes("--edit")
         ->excludes("--path")
         ->excludes("--denoise")
+        ->excludes("--kept")
         ->excludes("--passes")
         ->excludes("--tuning");
     CLI::Option* const report =
@@ -156,8 +172,8 @@ CLI::App* addBench(CLI::App& app, BenchOptions& options)
             ->add_option("--report", options.reports,
                          "measure nothing: tell in Markdown what these JSON reports have measured, pass by pass")
             ->type_name("FILE");
-    for (const char* const other :
-         {"SCENE", "--balance", "--baselines", "--dynamic", "--edit", "--path", "--denoise", "--tune", "--passes"})
+    for (const char* const other : {"SCENE", "--balance", "--baselines", "--dynamic", "--edit", "--path", "--denoise",
+                                    "--kept", "--tune", "--passes"})
     {
         report->excludes(other);
     }

@@ -37,10 +37,11 @@ struct BenchOptions
     bool edit = false;                      // strokes of a brush
     bool path = false;                      // path tracing
     bool denoise = false;                   // pictures of few paths
+    bool kept = false;                      // light that is kept on voxels
     bool tune = false;                      // what zvo chooses by device
-    std::uint32_t reference_samples = 1024; // a pixel of the picture that they are compared with; with denoise
+    std::uint32_t reference_samples = 1024; // a pixel of the picture that they are compared with; with denoise, kept
     std::vector<std::filesystem::path> environments; // maps; with path
-    std::uint32_t path_width = 640;                  // of the pictures whose rays path and tune measure
+    std::uint32_t path_width = 640;                  // of the pictures whose rays path and tune measure, and of kept
     std::uint32_t path_height = 360;
     TreeStructure structure = TreeStructure::Svo; // of the static part; with dynamic or edit
     std::vector<std::filesystem::path> reports;   // earlier runs' JSON, to be told; empty: measure

@@ -9,8 +9,9 @@ namespace zvo::cli
 /// How close a picture is to another one of the same size.
 struct PictureQuality
 {
-    double psnr_db = 0; // of the sRGB codes
-    double ssim = 0;    // of their luma, mean over the picture
+    double psnr_db = 0;  // of the sRGB codes
+    double ssim = 0;     // of their luma, mean over the picture
+    double relative = 0; // mean error of linear luminance over the reference's, plus a hundredth of its mean
 };
 
 /// Compares what is seen of pictures of linear radiance: both are tone-mapped, with the exposure that the reference

@@ -105,11 +105,11 @@ const uint kRankFirst = (127u - kFaceRanks / 32u) << (23u - kRankShift);
 /// Counters of the table, of all frames or of one.
 struct RadianceCounters
 {
-    uint face_count;   // in the table
-    uint refused;      // inserts that found no slot
-    uint rank_limit;   // of the frame, like what follows
-    uint arrived;      // threads that have counted (lib/arrivals.glsl)
-    uint ranks[1024];  // [kFaceRanks] faces of each
+    uint face_count;  // in the table
+    uint refused;     // inserts that found no slot
+    uint rank_limit;  // of the frame, like what follows
+    uint arrived;     // threads that have counted (lib/arrivals.glsl)
+    uint ranks[1024]; // [kFaceRanks] faces of each
 };
 GPU_BUFFER(RadianceCounters, 4);
 
@@ -202,7 +202,7 @@ struct RadianceApplyParams // push constants of radiance/apply: a thread a path
     GPU_CONST_PTR(vec3) radiance;
     GPU_PTR(DispatchArgs) lists;
     uint frame;
-    uint window; // the most samples that the mean's weight counts, at least 1 and at most kKeptWeightMax
+    uint window;         // the most samples that the mean's weight counts, at least 1 and at most kKeptWeightMax
     uint touched_window; // likewise, of a face one of whose rays has hit what moves
     uint moved_window;   // likewise, where what moves matters
 };

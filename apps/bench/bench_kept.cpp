@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT
+#include "bench/bench_kept.h"
+
+#include "bench/lit_scenes.h"
+#include "bench/picture_quality.h"
+#include "bench/table.h"
+#include "common/output.h"
+#include "common/progress.h"
+#include "common/report.h"
+#include "common/session.h"
+#include "core/base/kernels.h"
+#include "core/path/path_tracer.h"
+#include "core/radiance/radiance_tracer.h"
+#include "core/trace/tree_tracer.h"
+#include "zvo/version.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace zvo::cli
+{
+
+namespace
+{
+
+constexpr std::uint32_t kKeptDepth = 8;
+constexpr std::uint32_t kPictureFrames = 16; // of a picture of light that is kept
+
+/// A picture beside the reference.
+struct KeptRow
+{
+    std::string scene;
+    std::uint32_t resolution = 0;
+    std::string light;
+    std::string integrator;
+    std::uint32_t count = 0; // paths a pixel, or frames before the picture
+    std::optional<PictureQuality> quality;
+    double frame_ms = 0;                  // median of a sample or frame
+    double total_ms = 0;                  // of all before the picture
+    std::optional<double> paths_of_error; // a pixel that path tracing needs for the same error
+    std::optional<double> bytes_of_voxel; // that are kept
+};
+
+std::string optionalText(const std::optional<double>& value, int digits)
+{
+    return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+const Columns<KeptRow>& keptColumns()
+{
+    using Row = KeptRow;
+    static const Columns<Row> all = {
+        {"scene", 12, [](const Row& row) { return row.scene; }},
+        {"resolution", 10, [](const Row& row) { return fmt::format("{}", row.resolution); }},
+        {"light", 5, [](const Row& row) { return row.light; }},
+        {"integrator", 10, [](const Row& row) { return row.integrator; }},
+        {"samples", 7, [](const Row& row) { return fmt::format("{}", row.count); }},
+        {"error %", 7,
+         [](const Row& row) { return row.quality ? fmt::format("{:.2f}", 100.0 * row.quality->relative) : "-"; }},
+        {"PSNR dB", 7, [](const Row& row) { return row.quality ? fmt::format("{:.2f}", row.quality->psnr_db) : "-"; }},
+        {"SSIM", 6, [](const Row& row) { return row.quality ? fmt::format("{:.4f}", row.quality->ssim) : "-"; }},
+        {"frame ms", 8, [](const Row& row) { return fmt::format("{:.1f}", row.frame_ms); }},
+        {"total ms", 8, [](const Row& row) { return fmt::format("{:.0f}", row.total_ms); }},
+        {"as paths", 8, [](const Row& row) { return optionalText(row.paths_of_error, 0); }},
+        {"bytes a voxel", 13, [](const Row& row) { return optionalText(row.bytes_of_voxel, 1); }},
+    };
+    return all;
+}
+
+double medianOf(std::vector<double> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return values.empty() ? 0.0 : *middle;
+}
+
+/// Makes pictures of one scene by one light.
+class KeptBench
+{
+public:
+    KeptBench(vk::HeadlessDevice& device, const LitScene& scene, std::uint32_t width, std::uint32_t height)
+        : m_device(device), m_scene(scene), m_width(width), m_height(height),
+          m_camera(traceCamera(scene.view, scene.tree.grid, height))
+    {
+    }
+
+    template <typename Told> HdrImage reference(std::uint32_t samples, const Told& told)
+    {
+        PathTracer tracer(m_device.device());
+        tracer.resize(m_width, m_height);
+        for (std::uint32_t i = 0; i < samples; ++i)
+        {
+            addPath(tracer, {.bounces = kReferenceBounces, .seed = 1});
+            told(i + 1);
+        }
+        return imageOf(tracer.picture());
+    }
+
+    /// Primary rays with a ray to the sun.
+    KeptRow primary()
+    {
+        TreeTracer tracer(m_device.device());
+        tracer.resize(m_width, m_height);
+        std::vector<double> ms;
+        for (std::uint32_t run = 0; run < 8; ++run)
+        {
+            const std::vector<vk::PassTime> passes = m_device.run(
+                [&](vk::FrameGraph& graph) { tracer.trace(graph, m_scene.tree, m_camera, TraceOptions()); });
+            if (run != 0) // which makes the beam grid
+            {
+                ms.push_back(sumMs(passes));
+            }
+        }
+        KeptRow row = rowOf("primary", 1);
+        row.frame_ms = medianOf(ms);
+        row.total_ms = row.frame_ms;
+        return row;
+    }
+
+    std::vector<KeptRow> paths(const HdrImage& reference, std::span<const std::uint32_t> counts)
+    {
+        PathTracer tracer(m_device.device());
+        tracer.resize(m_width, m_height);
+        std::vector<KeptRow> rows;
+        std::vector<double> ms;
+        for (const std::uint32_t count : counts)
+        {
+            while (ms.size() < count)
+            {
+                ms.push_back(addPath(tracer, {.bounces = kReferenceBounces}));
+            }
+            KeptRow row = rowOf("path", count);
+            row.quality = compareTo(reference, imageOf(tracer.picture()));
+            setTimes(row, ms);
+            rows.push_back(row);
+        }
+        return rows;
+    }
+
+    std::vector<KeptRow> kept(const HdrImage& reference, std::span<const std::uint32_t> counts, const KeptRow& path)
+    {
+        RadianceTracer tracer(m_device.device());
+        tracer.resize(m_width, m_height);
+        std::vector<KeptRow> rows;
+        std::vector<double> ms;
+        const auto addFrame = [&]
+        {
+            return sumMs(m_device.run([&](vk::FrameGraph& graph)
+                                      { tracer.addFrame(graph, m_scene.tree, m_scene.light, m_camera, {}); }));
+        };
+        for (const std::uint32_t count : counts)
+        {
+            while (ms.size() < count)
+            {
+                ms.push_back(addFrame());
+            }
+            tracer.beginPicture();
+            for (std::uint32_t frame = 0; frame < kPictureFrames; ++frame)
+            {
+                ms.push_back(addFrame());
+            }
+            KeptRow row = rowOf("cached", count);
+            row.quality = compareTo(reference, imageOf(tracer.picture()));
+            setTimes(row, ms);
+            // The error of paths falls with the square root of their number.
+            row.paths_of_error = path.count * std::pow(path.quality->relative / row.quality->relative, 2.0);
+            row.bytes_of_voxel =
+                static_cast<double>(tracer.cache().bytes()) / static_cast<double>(m_scene.tree.voxel_count);
+            rows.push_back(row);
+        }
+        return rows;
+    }
+
+private:
+    static constexpr std::uint32_t kReferenceBounces = 32;
+
+    [[nodiscard]] KeptRow rowOf(std::string_view integrator, std::uint32_t count) const
+    {
+        KeptRow row;
+        row.scene = m_scene.name;
+        row.resolution = m_scene.tree.grid.resolution();
+        row.light = m_scene.light_name;
+        row.integrator = integrator;
+        row.count = count;
+        return row;
+    }
+
+    static void setTimes(KeptRow& row, const std::vector<double>& ms)
+    {
+        row.frame_ms = medianOf(ms);
+        for (const double frame : ms)
+        {
+            row.total_ms += frame;
+        }
+    }
+
+    double addPath(PathTracer& tracer, const PathOptions& options)
+    {
+        return sumMs(m_device.run([&](vk::FrameGraph& graph)
+                                  { tracer.addSample(graph, m_scene.tree, m_scene.light, m_camera, options); }));
+    }
+
+    HdrImage imageOf(const SampledPicture& picture)
+    {
+        return pictureOf(m_device.download(picture.sums), picture.width, picture.height, picture.sample_count);
+    }
+
+    vk::HeadlessDevice& m_device;
+    const LitScene& m_scene;
+    std::uint32_t m_width;
+    std::uint32_t m_height;
+    TraceCamera m_camera;
+};
+
+Json keptReportJson(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows)
+{
+    Json json = headJson("zvo.bench_kept/1", device);
+    json["width"] = options.path_width;
+    json["height"] = options.path_height;
+    json["reference_samples"] = options.reference_samples;
+    json["faces_of_frame"] = RadianceOptions().faces;
+    json["picture_frames"] = kPictureFrames;
+    json["rows"] = Json::array();
+    for (const KeptRow& row : rows)
+    {
+        Json entry = {{"scene", row.scene},           {"resolution", row.resolution}, {"light", row.light},
+                      {"integrator", row.integrator}, {"samples", row.count},         {"frame_ms", row.frame_ms},
+                      {"total_ms", row.total_ms}};
+        if (row.quality)
+        {
+            entry["relative_error"] = row.quality->relative;
+            entry["psnr_db"] = row.quality->psnr_db;
+            entry["ssim"] = row.quality->ssim;
+        }
+        if (row.paths_of_error)
+        {
+            entry["paths_of_error"] = *row.paths_of_error;
+            entry["bytes_of_voxel"] = *row.bytes_of_voxel;
+        }
+        json["rows"].push_back(std::move(entry));
+    }
+    return json;
+}
+
+std::string keptTable(const vk::DeviceReport& device, const BenchOptions& options, const std::vector<KeptRow>& rows)
+{
+    std::string text =
+        fmt::format("zvo {} on {} ({}, {}). Pictures of {} x {} pixels beside one of {} paths a pixel with another "
+                    "seed. Light that "
+                    "is kept is sampled on {} faces a frame; a picture is {} frames behind those that are named. GPU "
+                    "milliseconds.\n\n{}",
+                    ZVO_VERSION_TEXT, device.name, device.type, device.driver, options.path_width, options.path_height,
+                    options.reference_samples, RadianceOptions().faces, kPictureFrames, columnNames(keptColumns()));
+    for (const KeptRow& row : rows)
+    {
+        text += columnValues(keptColumns(), row);
+    }
+    return text;
+}
+
+} // namespace
+
+void benchKept(const BenchOptions& options)
+{
+    constexpr std::array<std::uint32_t, 3> kPathCounts = {1, 4, 16};
+    constexpr std::array<std::uint32_t, 3> kFrameCounts = {16, 64, 256};
+    const std::vector<std::uint32_t> depths = {kKeptDepth};
+    std::optional<Output> report = openReport(options.output);
+    vk::HeadlessDevice device(headlessOptions(options.device), zvoKernels());
+    std::vector<KeptRow> rows;
+    Progress progress(litSceneCount(options, depths));
+    forEachLitScene(device, options, depths, static_cast<double>(options.path_width) / options.path_height,
+                    [&](LitScene& scene)
+                    {
+                        progress.begin(fmt::format("{} by {}", scene.name, scene.light_name));
+                        KeptBench bench(device, scene, options.path_width, options.path_height);
+                        const HdrImage reference = bench.reference(
+                            options.reference_samples, [&](std::uint32_t samples)
+                            { progress.within(static_cast<double>(samples) / options.reference_samples); });
+                        rows.push_back(bench.primary());
+                        const std::vector<KeptRow> paths = bench.paths(reference, kPathCounts);
+                        rows.insert(rows.end(), paths.begin(), paths.end());
+                        const std::vector<KeptRow> kept = bench.kept(reference, kFrameCounts, paths.back());
+                        rows.insert(rows.end(), kept.begin(), kept.end());
+                    });
+    clearProgressBar();
+    if (options.output.json != "-")
+    {
+        Output("-", true).write(keptTable(device.device().report(), options, rows));
+    }
+    checkValidation(device);
+    if (report)
+    {
+        writeReport(*report, keptReportJson(device.device().report(), options, rows));
+    }
+}
+
+} // namespace zvo::cli
