@@ -19,6 +19,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <utility>
 
 namespace zvo
 {
@@ -45,6 +46,8 @@ static_assert(std::atomic<int>::is_always_lock_free); // so that a signal handle
 // Files written at the same time. Further ones are written, but not removed on a signal.
 constexpr int kPendingFileCapacity = 16;
 std::array<PendingFile, kPendingFileCapacity> g_pending_files;
+
+constexpr int kTriesMax = 1000; // names of a temporary file
 
 /// Returns the slot taken, or -1 if there is none or the path is too long.
 int addPendingFile(const std::string& path)
@@ -93,8 +96,17 @@ std::filesystem::path temporaryBeside(const std::filesystem::path& target)
     return target.parent_path() / fmt::format(".zvo-{}-{}.tmp", ::getpid(), next++);
 }
 
-/// Removes a temporary file of an AtomicFile unless it may still be written: its process has ended, and nobody holds
-/// the lock on it, as a process of another machine or container would.
+/// Whether path still names the open file.
+bool isNamed(int descriptor, const std::filesystem::path& path)
+{
+    struct stat open = {};
+    struct stat named = {};
+    return ::fstat(descriptor, &open) == 0 && ::lstat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+           open.st_ino == named.st_ino;
+}
+
+/// Removes a temporary file of an AtomicFile unless it may still be written: its process has ended or is this one, and
+/// nobody holds the lock on it, as a process of another machine or container with the same number would.
 void removeIfAbandoned(const std::filesystem::path& path)
 {
     pid_t process = 0;
@@ -103,14 +115,18 @@ void removeIfAbandoned(const std::filesystem::path& path)
     const std::string name = path.filename().string();
     const bool is_temporary = std::sscanf(name.c_str(), ".zvo-%d-%u.tmp%n", &process, &number, &length) == 2 &&
                               static_cast<std::size_t>(length) == name.size();
-    if (!is_temporary || process <= 0 || ::kill(process, 0) == 0 || errno != ESRCH)
+    if (!is_temporary || process <= 0)
+    {
+        return;
+    }
+    if (process != ::getpid() && (::kill(process, 0) == 0 || errno != ESRCH))
     {
         return;
     }
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor >= 0)
     {
-        if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+        if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && isNamed(descriptor, path))
         {
             ::unlink(path.c_str());
         }
@@ -193,21 +209,46 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, Overwrite overwrite)
         throw existsError(m_target);
     }
     removeAbandoned(m_target.parent_path());
-    m_temporary = temporaryBeside(m_target);
-    m_pending_slot = addPendingFile(m_temporary.string());
-    constexpr mode_t kReadWriteForAll = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH; // less the umask
-    m_descriptor = ::open(m_temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kReadWriteForAll);
-    if (m_descriptor < 0)
+    int code = createTemporary();
+    for (int tries = 1; code == EAGAIN && tries < kTriesMax; ++tries)
     {
-        const int code = errno;
-        dropPendingFile(m_pending_slot);
+        code = createTemporary();
+    }
+    if (code != 0)
+    {
         throw writeError(m_target, code);
     }
-    static_cast<void>(::flock(m_descriptor, LOCK_EX | LOCK_NB)); // so that no process takes it for abandoned
     if (exists)
     {
         static_cast<void>(::fchmod(m_descriptor, existing.st_mode & ~static_cast<mode_t>(S_IFMT)));
     }
+}
+
+int AtomicFile::createTemporary()
+{
+    std::filesystem::path temporary = temporaryBeside(m_target);
+    const int slot = addPendingFile(temporary.string());
+    constexpr mode_t kReadWriteForAll = S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH; // less the umask
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kReadWriteForAll);
+    if (descriptor < 0)
+    {
+        const int code = errno;
+        dropPendingFile(slot);
+        return code == EEXIST ? EAGAIN : code;
+    }
+    // Locked, so that no process takes it for abandoned. One that did so before holds the lock, or has removed it. File
+    // systems without locks fail otherwise: there nobody removes anything.
+    const bool is_taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (is_taken || !isNamed(descriptor, temporary))
+    {
+        ::close(descriptor);
+        dropPendingFile(slot);
+        return EAGAIN;
+    }
+    m_temporary = std::move(temporary);
+    m_descriptor = descriptor;
+    m_pending_slot = slot;
+    return 0;
 }
 
 AtomicFile::~AtomicFile()

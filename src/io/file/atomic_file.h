@@ -36,6 +36,8 @@ public:
     void commit();
 
 private:
+    /// Creates the temporary file and locks it. Returns 0, EAGAIN where another name should be tried, or another errno.
+    int createTemporary();
     void close();
 
     std::filesystem::path m_target;

@@ -18,6 +18,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <system_error>
 #include <tuple>
@@ -79,7 +80,7 @@ template <typename Item> void moveBehind(std::vector<Item>& into, std::vector<It
     from.clear();
 }
 
-/// The memory that the arrays of a scene take.
+/// The memory that the arrays of a scene take, but for its instances.
 SceneSize sizeOf(const Scene& scene)
 {
     SceneSize size;
@@ -108,28 +109,31 @@ SceneSize sizeOf(const Scene& scene)
     {
         take(image.rgba);
     }
-    take(scene.instances);
     return size;
 }
+
+/// The same parts of the same file: what objects share that agree in it.
+using PartsKey = std::tuple<fs::path, decltype(SceneFileObject::animation), decltype(SceneFileObject::is_dynamic)>;
 
 /// Loads the files of an animated scene's objects, once each.
 class ObjectLoader
 {
 public:
-    ObjectLoader(const fs::path& scene_file_path, const std::vector<fs::path>& paths, const LoadOptions& options)
+    /// keys: of the parts that load() is called for.
+    ObjectLoader(const fs::path& scene_file_path, const std::set<PartsKey>& keys, const LoadOptions& options)
         : m_scene_file_path(scene_file_path), m_options{.every_animation = true,
                                                         .keep_hulls = options.keep_hulls,
                                                         .strict = options.strict,
                                                         .images = options.images},
           m_skipped(options.skip_materials)
     {
-        for (const fs::path& path : paths)
+        for (const PartsKey& key : keys)
         {
-            ++m_files[path].use_count;
+            ++m_files[std::get<fs::path>(key)].use_count;
         }
     }
 
-    /// Returns the scene of a file, for one of its uses.
+    /// Returns the scene of a file, for some of its parts.
     Scene load(const fs::path& path)
     {
         File& file = m_files.at(path);
@@ -139,8 +143,6 @@ public:
             file.size = sizeOf(file.scene);
             file.is_loaded = true;
         }
-        m_size.instance_count += file.size.instance_count;
-        m_size.triangle_count += file.size.triangle_count;
         m_size.vertex_count = std::max(m_size.vertex_count, file.size.vertex_count);
         m_size.bytes += file.size.bytes;
         checkSceneSize(m_scene_file_path, m_size); // checked before the scene is copied
@@ -154,12 +156,22 @@ public:
         return copy;
     }
 
+    /// Counts an object that shows a file, which is loaded.
+    void show(const fs::path& path)
+    {
+        const SceneSize& size = m_files.at(path).size;
+        m_size.instance_count += size.instance_count;
+        m_size.triangle_count += size.triangle_count;
+        m_size.bytes += size.instance_count * static_cast<double>(sizeof(Instance));
+        checkSceneSize(m_scene_file_path, m_size);
+    }
+
     [[nodiscard]] const SkippedMaterials& skipped() const { return m_skipped; }
 
 private:
     struct File
     {
-        std::size_t use_count = 0; // uses still to come
+        std::size_t use_count = 0; // calls of load() still to come
         bool is_loaded = false;
         Scene scene;
         SceneSize size;
@@ -172,25 +184,14 @@ private:
     SceneSize m_size; // of all objects
 };
 
-void placeCamera(const glm::dmat4& to_world, Camera& camera)
+Camera placed(const glm::dmat4& to_world, Camera camera)
 {
     const glm::dvec3 up(camera.transform[1]);
     const double length = glm::length(up);
     const double scale = length > 0.0 ? glm::length(glm::dmat3(to_world) * up) / length : 1.0;
     camera.transform = placed(to_world, camera.transform);
     camera.half_height = static_cast<float>(scale * static_cast<double>(camera.half_height));
-}
-
-void checkTransform(const fs::path& scene_file_path, const SceneFileObject& object, const Scene& scene)
-{
-    for (const Instance& instance : scene.instances)
-    {
-        if (!isFinite(placed(object.transform, instance.transform)))
-        {
-            throw objectError(scene_file_path, object,
-                              "place makes the object larger than single precision holds; expected a smaller scale");
-        }
-    }
+    return camera;
 }
 
 /// The text that a message has about the animations of a file.
@@ -236,84 +237,103 @@ bool isDeformedAtAll(const Scene& scene)
                        { return isDeformed(scene.primitives[instance.primitive], instance); });
 }
 
-/// What objects share that are the same parts of the same file.
-struct SharedParts
+/// The parts of a file, in its own space.
+struct FileParts
 {
-    std::uint32_t first_fixed = kNone;   // primitive of AnimatedScene::fixed; kNone: not there yet
-    std::shared_ptr<const Scene> moving; // DynamicObject::scene; null: not there yet
+    Scene fixed;                           // what stands still, at rest; once it was added, empty
+    std::uint32_t first_fixed = kNone;     // where AnimatedScene::fixed has its primitives; kNone: not added yet
+    std::vector<Instance> fixed_instances; // of primitives of `fixed`
+    std::vector<Camera> cameras;
+    std::shared_ptr<const Scene> moving; // null: nothing moves
+    bool deforms = false;                // as DynamicObject::deforms
+    std::vector<std::string> warnings;
 };
 
-/// Adds the static part, cameras included.
-void addFixed(AnimatedScene& animated, Scene&& scene, const glm::dmat4& to_world, SharedParts& shared)
+void moveFixed(FileParts& parts, Scene&& scene)
 {
     if (isDeformedAtAll(scene))
     {
-        moveBehind(animated.warnings, scene.rest_warnings);
+        moveBehind(parts.warnings, scene.rest_warnings);
     }
-    scene = atRest(std::move(scene));
+    scene.warnings.clear();
     scene.rest_warnings.clear();
-    for (Instance& instance : scene.instances)
-    {
-        instance.transform = placed(to_world, instance.transform);
-    }
-    for (Camera& camera : scene.cameras)
-    {
-        placeCamera(to_world, camera);
-    }
-    Scene& fixed = animated.fixed;
-    if (shared.first_fixed == kNone)
-    {
-        shared.first_fixed = static_cast<std::uint32_t>(fixed.primitives.size());
-        fixed.append(std::move(scene));
-        return;
-    }
-    for (Instance& instance : scene.instances)
-    {
-        instance.primitive += shared.first_fixed;
-    }
-    fixed.instances.insert(fixed.instances.end(), scene.instances.begin(), scene.instances.end());
-    moveBehind(fixed.cameras, scene.cameras);
+    parts.fixed = atRest(std::move(scene));
+    moveBehind(parts.fixed_instances, parts.fixed.instances);
 }
 
-/// Adds a dynamic object, which has no scene yet, with the instances of scene that move; the others become static.
-void addParts(AnimatedScene& animated, DynamicObject moving, Scene&& scene, const std::vector<bool>& moves,
-              SharedParts& shared)
+/// Divides a scene into the instances that move and those that stand still.
+FileParts divide(Scene&& scene, const std::vector<bool>& moves)
 {
-    moveBehind(animated.warnings, scene.warnings);
-    if (!std::holds_alternative<std::monostate>(moving.motion))
-    {
-        scene.cameras.clear(); // moving cameras are not supported
-    }
+    FileParts parts;
+    moveBehind(parts.warnings, scene.warnings);
+    moveBehind(parts.cameras, scene.cameras);
     if (std::find(moves.begin(), moves.end(), true) == moves.end())
     {
-        addFixed(animated, std::move(scene), moving.transform, shared);
-        return;
+        moveFixed(parts, std::move(scene));
+        return parts;
     }
     std::vector<bool> stays = moves;
     stays.flip();
-    addFixed(animated, partOf(scene, stays), moving.transform, shared);
-    Scene part = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
-    part.cameras.clear();
-    part.rest_warnings.clear();
-    const std::vector<bool> is_animated = animatedInstances(part);
-    moving.deforms = std::find(is_animated.begin(), is_animated.end(), true) != is_animated.end();
-    if (shared.moving == nullptr)
-    {
-        shared.moving = std::make_shared<const Scene>(std::move(part));
-    }
-    moving.scene = shared.moving;
-    animated.objects.push_back(std::move(moving));
+    moveFixed(parts, partOf(scene, stays));
+    scene.rest_warnings.clear();
+    Scene moving = std::find(stays.begin(), stays.end(), true) == stays.end() ? std::move(scene) : partOf(scene, moves);
+    const std::vector<bool> is_animated = animatedInstances(moving);
+    parts.deforms = std::find(is_animated.begin(), is_animated.end(), true) != is_animated.end();
+    parts.moving = std::make_shared<const Scene>(std::move(moving));
+    return parts;
 }
 
-void addObject(AnimatedScene& animated, const SceneFileObject& object, Scene&& scene, SharedParts& shared)
+void checkTransforms(const fs::path& scene_file_path, const SceneFileObject& object, const FileParts& parts)
 {
+    const auto overflows = [&](const Instance& instance)
+    { return !isFinite(placed(object.transform, instance.transform)); };
+    if (std::any_of(parts.fixed_instances.begin(), parts.fixed_instances.end(), overflows) ||
+        (parts.moving != nullptr &&
+         std::any_of(parts.moving->instances.begin(), parts.moving->instances.end(), overflows)))
+    {
+        throw objectError(scene_file_path, object,
+                          "place makes the object larger than single precision holds; expected a smaller scale");
+    }
+}
+
+/// Adds an object, which has no scene yet, with the parts of its file.
+void addObject(AnimatedScene& animated, DynamicObject object, FileParts& parts)
+{
+    Scene& fixed = animated.fixed;
+    moveBehind(animated.warnings, parts.warnings);
+    if (parts.first_fixed == kNone)
+    {
+        parts.first_fixed = static_cast<std::uint32_t>(fixed.primitives.size());
+        fixed.append(std::exchange(parts.fixed, {}));
+    }
+    for (Instance instance : parts.fixed_instances)
+    {
+        instance.primitive += parts.first_fixed;
+        instance.transform = placed(object.transform, instance.transform);
+        fixed.instances.push_back(instance);
+    }
+    if (std::holds_alternative<std::monostate>(object.motion)) // moving cameras are not supported
+    {
+        std::transform(parts.cameras.begin(), parts.cameras.end(), std::back_inserter(fixed.cameras),
+                       [&](const Camera& camera) { return placed(object.transform, camera); });
+    }
+    if (parts.moving != nullptr)
+    {
+        object.scene = parts.moving;
+        object.deforms = parts.deforms;
+        animated.objects.push_back(std::move(object));
+    }
+}
+
+/// Loads the file of an object and divides it.
+FileParts loadParts(const fs::path& scene_file_path, const fs::path& path, const SceneFileObject& object,
+                    ObjectLoader& loader)
+{
+    Scene scene = loader.load(path);
+    chooseAnimation(scene_file_path, object, scene);
     const std::vector<bool> moves =
         object.is_dynamic ? std::vector<bool>(scene.instances.size(), *object.is_dynamic) : animatedInstances(scene);
-    DynamicObject moving;
-    moving.name = object.name;
-    moving.transform = object.transform;
-    moving.motion = object.motion;
-    addParts(animated, std::move(moving), std::move(scene), moves, shared);
+    return divide(std::move(scene), moves);
 }
 
 void checkCamera(const fs::path& scene_file_path, const AnimatedScene& animated)
@@ -361,10 +381,10 @@ AnimatedScene animatedSceneOf(Scene scene, const std::string& name)
     }
     animated.seconds = seconds > 0.0 ? seconds : animated.seconds;
     const std::vector<bool> moves = animatedInstances(scene);
-    DynamicObject moving;
-    moving.name = name;
-    SharedParts unshared;
-    addParts(animated, std::move(moving), std::move(scene), moves, unshared);
+    DynamicObject object;
+    object.name = name;
+    FileParts parts = divide(std::move(scene), moves);
+    addObject(animated, std::move(object), parts);
     return animated;
 }
 
@@ -393,16 +413,29 @@ AnimatedScene loadAnimatedScene(const fs::path& path, const AnimatedSceneOptions
     {
         animated.files.push_back(resolve(path, object, folders, options.scenes_folder_name));
     }
-    ObjectLoader loader(path, animated.files, options.load);
-    using Key = std::tuple<fs::path, decltype(SceneFileObject::animation), decltype(SceneFileObject::is_dynamic)>;
-    std::map<Key, SharedParts> parts;
+    std::vector<PartsKey> keys;
+    for (std::size_t i = 0; i < file.objects.size(); ++i)
+    {
+        keys.emplace_back(animated.files[i], file.objects[i].animation, file.objects[i].is_dynamic);
+    }
+    ObjectLoader loader(path, {keys.begin(), keys.end()}, options.load);
+    std::map<PartsKey, FileParts> all_parts;
     for (std::size_t i = 0; i < file.objects.size(); ++i)
     {
         const SceneFileObject& object = file.objects[i];
-        Scene scene = loader.load(animated.files[i]);
-        checkTransform(path, object, scene);
-        chooseAnimation(path, object, scene);
-        addObject(animated, object, std::move(scene), parts[{animated.files[i], object.animation, object.is_dynamic}]);
+        const auto [place, is_new] = all_parts.try_emplace(keys[i]);
+        FileParts& parts = place->second;
+        if (is_new)
+        {
+            parts = loadParts(path, animated.files[i], object, loader);
+        }
+        loader.show(animated.files[i]);
+        checkTransforms(path, object, parts);
+        DynamicObject dynamic_object;
+        dynamic_object.name = object.name;
+        dynamic_object.transform = object.transform;
+        dynamic_object.motion = object.motion;
+        addObject(animated, std::move(dynamic_object), parts);
     }
     for (std::string& warning : loader.skipped().warnings())
     {

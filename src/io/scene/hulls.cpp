@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/scene/hulls.h"
 
+#include "io/scene/probe_tree.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -24,8 +26,6 @@ constexpr std::size_t kProbesMax = 32;
 constexpr double kReach = 0.05;
 // The volume of a surface that is inside out, at least: in volumes of the cube that has its area.
 constexpr double kVolumeMin = 0.02;
-
-using Corners = std::array<glm::dvec3, 3>;
 
 Corners cornersOf(const Primitive& primitive, const glm::uvec3& triangle)
 {
@@ -131,115 +131,6 @@ struct Candidate
     std::size_t probe_count = 0;
     std::size_t facing_count = 0; // probes that meet the front of something
 };
-
-// A segment from a triangle of a candidate along its front normal.
-struct Probe
-{
-    glm::dvec3 from;
-    glm::dvec3 way;
-    std::uint32_t candidate = 0;
-    double nearest = 2.0; // where it meets something first, in lengths of way
-    bool faces = false;   // whether that is a front face
-
-    [[nodiscard]] glm::dvec3 low() const { return glm::min(from, from + way); }
-    [[nodiscard]] glm::dvec3 high() const { return glm::max(from, from + way); }
-};
-
-// A tree of boxes around probes.
-class ProbeTree
-{
-public:
-    explicit ProbeTree(std::vector<Probe>& probes) : m_probes(probes)
-    {
-        if (!m_probes.empty())
-        {
-            build(0, m_probes.size());
-        }
-    }
-
-    // Calls visit(probe) for each probe whose box touches that of the triangle.
-    template <typename Visit> void visitNear(const Corners& corners, const Visit& visit)
-    {
-        const glm::dvec3 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
-        const glm::dvec3 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
-        for (std::size_t i = 0; i < m_nodes.size();)
-        {
-            const Node& node = m_nodes[i];
-            const bool touches =
-                glm::all(glm::lessThanEqual(low, node.high)) && glm::all(glm::lessThanEqual(node.low, high));
-            if (touches && node.count != 0)
-            {
-                std::for_each(m_probes.begin() + node.first, m_probes.begin() + node.first + node.count, visit);
-            }
-            i = touches ? i + 1 : node.next;
-        }
-    }
-
-private:
-    static constexpr std::size_t kLeafProbes = 4;
-
-    struct Node
-    {
-        glm::dvec3 low{0.0};
-        glm::dvec3 high{0.0};
-        std::ptrdiff_t first = 0;
-        std::ptrdiff_t count = 0; // of a leaf
-        std::size_t next = 0;     // the node behind those below this one
-    };
-
-    void build(std::size_t first, std::size_t last)
-    {
-        const std::size_t number = m_nodes.size();
-        Node node;
-        node.low = m_probes[first].low();
-        node.high = m_probes[first].high();
-        for (std::size_t i = first + 1; i < last; ++i)
-        {
-            node.low = glm::min(node.low, m_probes[i].low());
-            node.high = glm::max(node.high, m_probes[i].high());
-        }
-        node.first = static_cast<std::ptrdiff_t>(first);
-        const bool is_leaf = last - first <= kLeafProbes;
-        node.count = is_leaf ? static_cast<std::ptrdiff_t>(last - first) : 0;
-        m_nodes.push_back(node);
-        if (!is_leaf)
-        {
-            const glm::dvec3 size = node.high - node.low;
-            const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-            const std::size_t middle = (first + last) / 2;
-            const auto at = [&](std::size_t i) { return m_probes.begin() + static_cast<std::ptrdiff_t>(i); };
-            std::nth_element(at(first), at(middle), at(last),
-                             [axis](const Probe& a, const Probe& b) { return a.from[axis] < b.from[axis]; });
-            build(first, middle);
-            build(middle, last);
-        }
-        m_nodes[number].next = m_nodes.size();
-    }
-
-    std::vector<Probe>& m_probes;
-    std::vector<Node> m_nodes; // depth first
-};
-
-// Where a segment meets a triangle, in lengths of the segment; beyond its end if it does not (T. Moeller, B. Trumbore,
-// Fast, Minimum Storage Ray-Triangle Intersection, 1997).
-double meets(const Probe& probe, const Corners& corners)
-{
-    constexpr double kMiss = 2.0;
-    const glm::dvec3 u = corners[1] - corners[0];
-    const glm::dvec3 v = corners[2] - corners[0];
-    const glm::dvec3 p = glm::cross(probe.way, v);
-    const double determinant = glm::dot(u, p);
-    if (determinant == 0.0)
-    {
-        return kMiss;
-    }
-    const glm::dvec3 s = probe.from - corners[0];
-    const double a = glm::dot(s, p) / determinant;
-    const glm::dvec3 q = glm::cross(s, u);
-    const double b = glm::dot(probe.way, q) / determinant;
-    const double t = glm::dot(v, q) / determinant;
-    return a >= 0.0 && b >= 0.0 && a + b <= 1.0 && t >= 0.0 && t <= 1.0 ? t : kMiss;
-}
 
 // Finds the inverted hulls of a scene.
 class HullFinder

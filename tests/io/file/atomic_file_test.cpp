@@ -6,16 +6,37 @@
 
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <fcntl.h>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <stdexcept>
 #include <string>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
+
+namespace
+{
+
+std::function<void()> g_before_lock; // called once, before the next flock()
+
+} // namespace
+
+// In place of the C library's.
+extern "C" int flock(int descriptor, int operation) noexcept
+{
+    if (const std::function<void()> call = std::exchange(g_before_lock, nullptr))
+    {
+        call();
+    }
+    return static_cast<int>(syscall(SYS_flock, descriptor, operation));
+}
 
 namespace zvo
 {
@@ -275,6 +296,81 @@ TEST(AtomicFile, WhatMayStillBeWrittenStays)
     EXPECT_TRUE(std::filesystem::exists(living));
     EXPECT_TRUE(std::filesystem::exists(locked));
     EXPECT_TRUE(std::filesystem::exists(other));
+    ::close(descriptor);
+}
+
+std::vector<std::filesystem::path> temporariesIn(const std::filesystem::path& folder)
+{
+    std::vector<std::filesystem::path> found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    {
+        if (entry.path().extension() == ".tmp")
+        {
+            found.push_back(entry.path());
+        }
+    }
+    return found;
+}
+
+TEST(AtomicFile, TemporaryThatWasRemovedBeforeItWasLockedIsMadeAgain)
+{
+    const test::TempDir dir;
+    int removed_count = 0;
+    g_before_lock = [&]
+    {
+        for (const auto& path : temporariesIn(dir.path()))
+        {
+            removed_count += std::filesystem::remove(path) ? 1 : 0;
+        }
+    };
+    writeFileAtomically(dir.path() / "out.bin", asBytes("whole"), Overwrite::Refuse);
+    EXPECT_EQ(removed_count, 1);
+    EXPECT_EQ(contentOf(dir.path() / "out.bin"), "whole");
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+}
+
+TEST(AtomicFile, TemporaryThatAnotherHasLockedIsMadeAgain)
+{
+    const test::TempDir dir;
+    std::filesystem::path taken;
+    int descriptor = -1;
+    g_before_lock = [&]
+    {
+        taken = temporariesIn(dir.path()).at(0);
+        descriptor = ::open(taken.c_str(), O_RDONLY);
+        ASSERT_EQ(syscall(SYS_flock, descriptor, LOCK_EX), 0);
+    };
+    AtomicFile file(dir.path() / "out.bin", Overwrite::Refuse);
+    EXPECT_TRUE(std::filesystem::remove(taken)); // as the holder of the lock does
+    ::close(descriptor);
+    file.write(asBytes("whole"));
+    file.commit();
+    EXPECT_EQ(contentOf(dir.path() / "out.bin"), "whole");
+    EXPECT_EQ(fileCount(dir.path()), 1U);
+}
+
+// As in a container, where each process may have the same number.
+TEST(AtomicFile, TemporariesOfAnEarlierProcessWithThisNumberAreNotInTheWay)
+{
+    const test::TempDir other;
+    const AtomicFile before(other.path() / "before.bin", Overwrite::Refuse);
+    pid_t process = 0;
+    unsigned number = 0;
+    ASSERT_EQ(std::sscanf(temporariesIn(other.path()).at(0).filename().c_str(), ".zvo-%d-%u.tmp", &process, &number),
+              2);
+    EXPECT_EQ(process, getpid());
+    const test::TempDir dir;
+    const auto temporary = [&](unsigned i)
+    { return dir.write(".zvo-" + std::to_string(process) + "-" + std::to_string(number + i) + ".tmp", "half"); };
+    const auto held = temporary(1); // by a process of another container
+    const int descriptor = ::open(held.c_str(), O_RDONLY);
+    ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
+    temporary(2);
+    temporary(3);
+    writeFileAtomically(dir.path() / "out.bin", asBytes("whole"), Overwrite::Refuse);
+    EXPECT_EQ(contentOf(dir.path() / "out.bin"), "whole");
+    EXPECT_EQ(contentOf(held), "half");
+    EXPECT_EQ(fileCount(dir.path()), 2U);
     ::close(descriptor);
 }
 

@@ -2,11 +2,13 @@
 #include "io/scene/animated_scene.h"
 
 #include "animated_scene_fixture.h"
+#include "core/scene/scene_size.h"
 #include "io/gltf/gltf_builder.h"
 #include "support/param_names.h"
 #include "support/scenes.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -273,6 +275,50 @@ TEST_F(AnimatedSceneTest, ManyObjectsOfOneFile)
     const AnimatedScene animated = load(text + "}]}");
     EXPECT_EQ(animated.objects.size(), 255U);
     EXPECT_EQ(sceneAt(animated, 1.0).triangleCount(), 256U);
+}
+
+TEST_F(AnimatedSceneTest, ObjectsOfOneFileShareItsMeshes)
+{
+    GltfBuilder builder = triangleDocument();
+    builder.document["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 5}}});
+    m_dir.write("scenes/two.glb", builder.glb());
+    const AnimatedScene animated = load(R"({"objects": [
+        {"file": "two.glb", "static": true}, {"file": "two.glb", "dynamic": true},
+        {"file": "two.glb", "static": true, "place": {"translation": [7, 0, 0]}},
+        {"file": "two.glb", "dynamic": true, "place": {"translation": [0, 7, 0]}}, {"file": "triangle.glb"}]})");
+    EXPECT_EQ(animated.fixed.primitives.size(), 2U);
+    ASSERT_EQ(animated.objects.size(), 2U);
+    EXPECT_EQ(animated.objects[0].scene, animated.objects[1].scene);
+    EXPECT_EQ(corners(sceneAt(animated, 0.0)),
+              (std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}, //
+                                      {7, 0, 0}, {8, 0, 0}, {7, 1, 0}, {7, 0, 5}, {8, 0, 5}, {7, 1, 5}, //
+                                      {0, 0, 0}, {1, 0, 0}, {0, 1, 0},                                  //
+                                      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}, //
+                                      {0, 7, 0}, {1, 7, 0}, {0, 8, 0}, {0, 7, 5}, {1, 7, 5}, {0, 8, 5}}));
+}
+
+TEST_F(AnimatedSceneTest, MeshesOfAFileCountOnceHoweverManyObjectsShowThem)
+{
+    // The objects' meshes would take more memory than a file's may, if each had its own.
+    constexpr int kObjects = 4096;
+    const std::uint64_t vertex_count = sceneBytesMax() / (sizeof(glm::vec3) * kObjects) + 1;
+    GltfBuilder builder = triangleDocument();
+    const json& attributes = builder.document["meshes"][0]["primitives"][0]["attributes"];
+    json& position = builder.document["accessors"][attributes["POSITION"].get<std::size_t>()];
+    position["count"] = vertex_count;
+    position.erase("bufferView"); // zeros
+    position["min"] = {0, 0, 0};
+    position["max"] = {0, 0, 0};
+    m_dir.write("scenes/large.glb", builder.glb());
+    std::string text;
+    for (int i = 0; i < kObjects; ++i)
+    {
+        text += fmt::format(R"({}{{"file": "large.glb"}})", i == 0 ? "" : ", ");
+    }
+    const AnimatedScene animated = load(R"({"objects": [)" + text + "]}");
+    ASSERT_EQ(animated.fixed.primitives.size(), 1U);
+    EXPECT_EQ(animated.fixed.primitives[0].positions.size(), vertex_count);
+    EXPECT_EQ(animated.fixed.instances.size(), static_cast<std::size_t>(kObjects));
 }
 
 class OwnAnimatedScene : public testing::TestWithParam<std::string>
