@@ -115,6 +115,7 @@ void LightRenderer::settle(const DeviceTree& tree, Progress& progress, std::vect
     for (std::uint32_t frame = 0; frame < count && !interrupted(); ++frame)
     {
         const std::vector<vk::PassTime> times = m_device.run([&](vk::FrameGraph& graph) { addSample(graph, tree); });
+        m_kept->beginPicture(); // as a window does in each frame
         passes.insert(passes.end(), times.begin(), times.end());
         progress.within(static_cast<double>(frame + 1) / (count + m_options.sampleCount()),
                         fmt::format("light settles, {}/{} frames", frame + 1, count));

@@ -93,15 +93,7 @@ Examples:
 // The options of pictures by path tracing.
 void addPathOptions(CLI::App& render, RenderOptions& options)
 {
-    addValue(
-        render, "--integrator", options.integrator,
-        [](std::string_view option, std::string_view text)
-        {
-            const std::string name = oneOf(option, text, {"primary", "path", "cached"});
-            return name == "path" ? Integrator::Path : name == "cached" ? Integrator::Cached : Integrator::Primary;
-        },
-        "primary|path|cached",
-        "light by a ray to the sun and a simple sky, by path tracing, or kept on the voxels (default primary)");
+    addValue(render, "--integrator", options.integrator, integratorOf, kIntegratorTypes, kIntegratorHelp);
     const auto integer = [](std::uint32_t low, std::uint32_t high)
     {
         return [low, high](std::string_view option, std::string_view text)

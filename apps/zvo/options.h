@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bench/bench_options.h"
+#include "common/integrator.h"
 #include "common/scene_options.h"
 #include "core/path/path_tracer.h"
 #include "core/radiance/radiance_cache.h"
@@ -11,34 +12,16 @@
 #include "io/scene/load_scene.h"
 #include "zvo/types.h"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace zvo::cli
 {
-
-/// How the light of a picture is computed.
-enum class Integrator
-{
-    Primary, ///< primary rays, with rays to the sun and over the hemisphere (core/trace/trace.h)
-    Path,    ///< path tracing (core/path/path_tracer.h)
-    Cached,  ///< light that is kept on voxels (core/radiance/radiance_tracer.h)
-};
-
-inline constexpr std::array<std::string_view, 3> kIntegratorNames = {"primary", "path", "cached"};
-
-constexpr std::string_view nameOf(Integrator integrator)
-{
-    return kIntegratorNames.at(static_cast<std::size_t>(integrator));
-}
 
 /// How a picture is path traced. Environment, samples and time limit count for Integrator::Cached, too.
 struct PathRenderOptions

@@ -127,6 +127,9 @@ public:
     [[nodiscard]] const AnimatedScene& animated() const { return m_animated; }
     [[nodiscard]] bool moves() const { return !m_objects.empty(); }
 
+    /// Whether the last update() has recorded dabs, undo or redo.
+    [[nodiscard]] bool isEdited() const { return !m_recorded.empty(); }
+
     /// Why the dynamic objects could not be shown as they should be; empty if nothing is wrong.
     [[nodiscard]] const std::string& trouble() const { return m_trouble; }
 

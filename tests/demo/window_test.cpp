@@ -86,6 +86,23 @@ TEST_F(DemoWindow, PathsAddUpWhileNothingChanges)
     EXPECT_EQ(file("shown.png"), file("frame_2.png"));
 }
 
+// Light that is kept on voxels settles from frame to frame, and stays where the picture's size changes.
+TEST_F(DemoWindow, KeptLightSettles)
+{
+    const std::vector<std::string> common =
+        kCube + kCamera + kSize + std::vector<std::string>{"--integrator", "cached"};
+    std::set<std::string> pictures;
+    for (const std::uint32_t frames : {1U, 5U})
+    {
+        show(common + kSteady +
+             std::vector<std::string>{"--frames", std::to_string(frames), "--screenshot", "shown.png", "-f"});
+        EXPECT_EQ(file("shown.png"),
+                  render(common + std::vector<std::string>{"--settle", std::to_string(frames - 1), "--spp", "1"}));
+        pictures.insert(file("shown.png"));
+    }
+    EXPECT_EQ(pictures.size(), 2U);
+}
+
 TEST_F(DemoWindow, ALowerResolutionShowsPixelsOfItsPicture)
 {
     show(kCube + kCamera + kSteady +

@@ -12,6 +12,7 @@
 #include "octree/octree.h"
 #include "path/path.h"
 #include "present/present.h"
+#include "radiance/radiance.h"
 #include "shared/tree_table.h"
 #include "support/spirv_structs.h"
 #include "svdag/svdag.h"

@@ -266,33 +266,33 @@ void App::buildPanels()
     {
         return;
     }
-    m_ui.build(
-        size, m_window.framebufferSize(), m_frame_seconds,
-        [this]
-        {
-            if (!m_panels.shows_panels)
-            {
-                return;
-            }
-            if (beginPanels("zvo", false))
-            {
-                scenePanel(*m_world, m_timeline);
-                buildPanel();
-                toolsPanel();
-                viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed(), m_renderer.sampleCount()});
-                ImGui::TextUnformatted("F1: keys");
-            }
-            ImGui::End();
-            if (beginPanels("measurements", true))
-            {
-                performancePanel(m_stats, memoryUse());
-                inspectorPanel(m_inspected, m_world->scene.tree().grid);
-            }
-            ImGui::End();
-            shadersPanel(m_shader_message);
-            keysPanel(m_panels.shows_keys);
-            noticesPanel(m_notices);
-        });
+    m_ui.build(size, m_window.framebufferSize(), m_frame_seconds,
+               [this]
+               {
+                   if (!m_panels.shows_panels)
+                   {
+                       return;
+                   }
+                   if (beginPanels("zvo", false))
+                   {
+                       scenePanel(*m_world, m_timeline);
+                       buildPanel();
+                       toolsPanel();
+                       viewPanel(m_view, {internalScale(), m_swapchain.mode(), m_camera.speed(),
+                                          m_renderer.sampleCount(), m_renderer.keptFrames(), RadianceOptions().faces});
+                       ImGui::TextUnformatted("F1: keys");
+                   }
+                   ImGui::End();
+                   if (beginPanels("measurements", true))
+                   {
+                       performancePanel(m_stats, memoryUse());
+                       inspectorPanel(m_inspected, m_world->scene.tree().grid);
+                   }
+                   ImGui::End();
+                   shadersPanel(m_shader_message);
+                   keysPanel(m_panels.shows_keys);
+                   noticesPanel(m_notices);
+               });
     m_swapchain.setMode(m_view.present_mode);
 }
 

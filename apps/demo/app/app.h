@@ -66,6 +66,7 @@ private:
         std::uint64_t world_frame = 0; // the world's number
         double internal_scale = 1;
         std::uint64_t primary_ray_count = 0;
+        Integrator integrator = Integrator::Primary;
         std::unique_ptr<vk::BufferOf<gpu::DispatchArgs>> ray_lists; // of path tracing
         std::unique_ptr<Screenshot> screenshot;
         bool is_last_picture = false;        // the screenshot is the one that the command line asks for
@@ -77,7 +78,7 @@ private:
         [[nodiscard]] RaysOfFrame rays() const
         {
             return ray_lists == nullptr
-                       ? RaysOfFrame{primary_ray_count, Integrator::Primary}
+                       ? RaysOfFrame{primary_ray_count, integrator}
                        : RaysOfFrame{rayCountOf({ray_lists->mappedData(), ray_lists->count()}), Integrator::Path};
         }
 

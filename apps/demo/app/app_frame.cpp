@@ -6,6 +6,8 @@
 #include "common/report.h"
 #include "zvo/error.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 #include <vector>
 
@@ -106,6 +108,12 @@ bool App::prepare(const Picture& picture)
     }
     catch (const Error& error)
     {
+        if (error.code() == ErrorCode::Memory && picture.view.shownIntegrator() == Integrator::Cached)
+        {
+            m_view.integrator = Integrator::Primary; // from the next frame on
+            cli::talk(fmt::format("warning: no light is kept on voxels: {}", error.what()));
+            return false;
+        }
         if (error.code() != ErrorCode::Memory || m_drawn_count == 0)
         {
             throw;
@@ -124,6 +132,7 @@ void App::submit(Picture& picture, FrameInFlight frame)
     frame.number = m_drawn_count;
     frame.internal_scale = internalScale();
     frame.primary_ray_count = m_renderer.rayCount();
+    frame.integrator = m_renderer.integrator();
     frame.world_frame = m_world->scene.beginFrame();
     vk::SubmitSync sync;
     if (picture.target != nullptr)
@@ -136,6 +145,7 @@ void App::submit(Picture& picture, FrameInFlight frame)
             [&](vk::FrameGraph& graph)
             {
                 m_world->scene.update(graph, worldSeconds());
+                picture.edited = m_world->scene.isEdited();
                 m_renderer.record(graph, m_world->scene.tree(), picture);
             },
             sync);

@@ -100,12 +100,8 @@ void addViewOptions(CLI::App& app, DemoOptions& options)
                   "fly along the cameras of a file, as zvo render does")
         ->group(kGroup);
     cli::addValue(app, "--view", options.view, cli::viewOf, "VIEW", cli::viewHelp())->group(kGroup);
-    cli::addValue(
-        app, "--integrator", options.integrator,
-        [](std::string_view option, std::string_view text) {
-            return cli::oneOf(option, text, {"primary", "path"}) == "path" ? Integrator::Path : Integrator::Primary;
-        },
-        "primary|path", "light by a ray to the sun and a simple sky, or by path tracing (default primary)")
+    cli::addValue(app, "--integrator", options.integrator, cli::integratorOf, cli::kIntegratorTypes,
+                  cli::kIntegratorHelp)
         ->group(kGroup);
     app.add_flag("--denoise", options.denoise, "smooth the noise of few paths, but not edges")->group(kGroup);
     cli::addValue(app, "--occlusion", options.occlusion_rays, parseCount<0, kOcclusionRaysMax>, "RAYS",

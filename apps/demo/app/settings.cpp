@@ -62,7 +62,7 @@ void readViewState(const JsonCursor& object, ViewState& view)
     with(object, "view", [&](const JsonCursor& value) { view.view = readView(value); });
     with(object, "integrator",
          [&](const JsonCursor& value) {
-             view.integrator = static_cast<Integrator>(value.oneOf({"primary", "path"}));
+             view.integrator = static_cast<Integrator>(value.oneOf({"primary", "path", "cached"}));
          });
     with(object, "denoise", [&](const JsonCursor& value) { view.denoise = value.flag(); });
     with(object, "shadows", [&](const JsonCursor& value) { view.shadows = value.flag(); });
@@ -128,7 +128,7 @@ std::string settingsText(const Settings& settings)
     json["keys"] = settings.shows_keys;
     Json& shown = json["view"];
     shown["view"] = std::ranges::find(views, view.view, &cli::NamedView::view)->name;
-    shown["integrator"] = view.integrator == Integrator::Path ? "path" : "primary";
+    shown["integrator"] = std::string(cli::nameOf(view.integrator));
     shown["denoise"] = view.denoise;
     shown["shadows"] = view.shadows;
     shown["occlusion"] = view.occlusion_rays;

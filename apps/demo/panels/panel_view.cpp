@@ -42,10 +42,10 @@ void integratorChoice(ViewState& view)
     int chosen = static_cast<int>(view.integrator);
     const auto name = [](void*, int index, const char** text)
     {
-        *text = kIntegratorNames[static_cast<std::size_t>(index)].data();
+        *text = kLightNames[static_cast<std::size_t>(index)].data();
         return true;
     };
-    if (ImGui::Combo("light", &chosen, name, nullptr, static_cast<int>(kIntegratorNames.size())))
+    if (ImGui::Combo("light", &chosen, name, nullptr, static_cast<int>(kLightNames.size())))
     {
         view.integrator = static_cast<Integrator>(chosen);
     }
@@ -130,7 +130,11 @@ void viewPanel(ViewState& view, const ViewInfo& info)
             tell(fmt::format("{} paths a pixel", *info.samples));
             ImGui::Checkbox("denoise", &view.denoise);
         }
-        ImGui::Checkbox(view.integrator == Integrator::Path ? "sun" : "shadows", &view.shadows);
+        if (info.kept_frames)
+        {
+            tell(fmt::format("light of {} frames, {} faces a frame at most", *info.kept_frames, info.kept_faces));
+        }
+        ImGui::Checkbox(view.integrator == Integrator::Primary ? "shadows" : "sun", &view.shadows);
         int rays = static_cast<int>(view.occlusion_rays);
         if (ImGui::SliderInt("occlusion rays", &rays, 0, static_cast<int>(kOcclusionRaysMax), "%d",
                              ImGuiSliderFlags_AlwaysClamp))

@@ -31,8 +31,10 @@ struct ViewInfo
 {
     double internal_scale = 1; // in use
     vk::PresentMode mode = vk::PresentMode::Fifo;
-    double camera_speed = 1;              // world units a second
-    std::optional<std::uint32_t> samples; // a pixel, where paths are traced
+    double camera_speed = 1;                  // world units a second
+    std::optional<std::uint32_t> samples;     // a pixel, where paths are traced
+    std::optional<std::uint32_t> kept_frames; // since light is kept on voxels, where it is
+    std::uint32_t kept_faces = 0;             // that a frame samples at most
 };
 
 /// Device memory by purpose, in bytes.

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "common/integrator.h"
+
 #include <array>
 #include <string_view>
 
 namespace zvo::demo
 {
 
-/// The way in which the light of a pixel is computed. This is the only place where it is chosen.
-enum class Integrator
-{
-    Primary, ///< primary rays, with rays to the sun and over the hemisphere (core/trace/trace.h)
-    Path,    ///< path tracing, a sample a frame for as long as nothing changes (core/path/path_tracer.h)
-};
+using cli::Integrator;
 
-inline constexpr std::array<std::string_view, 2> kIntegratorNames = {"primary rays", "paths"};
+/// What the view panel calls the values of Integrator.
+inline constexpr std::array<std::string_view, 3> kLightNames = {"primary rays", "paths", "kept on voxels"};
 
 } // namespace zvo::demo

@@ -26,7 +26,7 @@ void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture&
     m_deletion_queue.beginFrame(frame);
     m_tracer.resize(picture.internal.width, picture.internal.height);
     m_tracer.reserve(tree);
-    preparePaths(picture);
+    prepareLight(tree, picture);
     if (m_compose == nullptr || m_compose->size() != picture.window || m_compose->encodesSrgb() != encodes_srgb)
     {
         auto compose = std::make_unique<ComposeImage>(m_device.device(), m_pass, picture.window, encodes_srgb);
@@ -36,72 +36,104 @@ void Renderer::begin(std::uint64_t frame, const DeviceTree& tree, const Picture&
 
 std::uint64_t Renderer::pictureBytes() const
 {
-    const std::uint64_t path_bytes = m_paths == nullptr ? 0
-                                                        : m_paths->tracer.bytes() + m_paths->denoiser.bytes() +
-                                                              m_paths->developer.bytes() + m_paths->image.bytes();
-    return m_compose == nullptr ? 0 : m_tracer.buffers().bytes() + m_compose->bytes() + path_bytes;
+    if (m_compose == nullptr)
+    {
+        return 0;
+    }
+    std::uint64_t light_bytes = 0;
+    if (m_light != nullptr)
+    {
+        light_bytes = m_light->developer.bytes() + m_light->image.bytes() +
+                      (m_light->integrator == Integrator::Cached ? m_light->kept.bytes()
+                                                                 : m_light->tracer.bytes() + m_light->denoiser.bytes());
+    }
+    return m_tracer.buffers().bytes() + m_compose->bytes() + light_bytes;
 }
 
-// Makes or drops what path tracing needs.
-void Renderer::preparePaths(const Picture& picture)
+// Makes or drops what an integrator needs.
+void Renderer::prepareLight(const DeviceTree& tree, const Picture& picture)
 {
-    if (!picture.view.showsPaths())
+    const Integrator integrator = picture.view.shownIntegrator();
+    if (m_light != nullptr && m_light->integrator != integrator)
     {
-        if (m_paths != nullptr)
-        {
-            m_deletion_queue.keep(std::exchange(m_paths, nullptr));
-        }
+        m_deletion_queue.keep(std::exchange(m_light, nullptr));
+    }
+    if (integrator == Integrator::Primary)
+    {
         return;
     }
-    if (m_paths == nullptr)
+    if (m_light == nullptr)
     {
-        m_paths = std::make_unique<Paths>(m_device, &m_deletion_queue);
+        m_light = std::make_unique<Light>(m_device, &m_deletion_queue, integrator);
     }
     const std::uint64_t pixel_count = m_tracer.buffers().image.count();
-    if (m_paths->image.count() != pixel_count)
+    if (m_light->image.count() != pixel_count)
     {
         vk::BufferOf<gpu::uint> image(m_device.device(), "path picture", pixel_count);
-        m_deletion_queue.keep(std::exchange(m_paths->image, std::move(image)));
+        m_deletion_queue.keep(std::exchange(m_light->image, std::move(image)));
     }
-    m_paths->tracer.resize(picture.internal.width, picture.internal.height);
+    if (integrator == Integrator::Cached)
+    {
+        m_light->kept.resize(picture.internal.width, picture.internal.height);
+        m_light->kept.reserve(tree, {});
+        return;
+    }
+    m_light->tracer.resize(picture.internal.width, picture.internal.height);
     if (picture.view.denoise)
     {
-        m_paths->denoiser.resize(picture.internal.width, picture.internal.height);
+        m_light->denoiser.resize(picture.internal.width, picture.internal.height);
     }
 }
 
-void Renderer::tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
+void Renderer::traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera,
                           const Picture& picture)
 {
     const ViewState& view = picture.view;
     const double strength = view.shadows ? TraceOptions().sun : 0.0;
-    m_paths->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
-    m_paths->tracer.addSample(graph, tree, m_paths->sky, camera, pathOptionsOf(view), picture.ray_lists);
+    m_light->sky.setSun({.direction = view.to_sun, .irradiance = strength * kSunColor});
+    if (m_light->integrator == Integrator::Cached)
+    {
+        if (picture.edited)
+        {
+            m_light->kept.cache().noteChange();
+        }
+        m_light->kept.beginPicture();
+        m_light->kept.addFrame(graph, tree, m_light->sky, camera, {});
+        m_light->developer.develop(graph, m_light->kept.picture(), TexelFormat::Rgba8, {.factor = view.exposure},
+                                   m_light->image);
+        return;
+    }
+    m_light->tracer.addSample(graph, tree, m_light->sky, camera, pathOptionsOf(view), picture.ray_lists);
     if (view.denoise)
     {
-        m_paths->denoiser.denoise(graph, m_paths->tracer.guided(), kHistoryMax);
+        m_light->denoiser.denoise(graph, m_light->tracer.guided(), kHistoryMax);
     }
-    const SampledPicture shown = view.denoise ? m_paths->denoiser.picture() : m_paths->tracer.picture();
-    m_paths->developer.develop(graph, shown, TexelFormat::Rgba8, {.factor = view.exposure}, m_paths->image);
+    const SampledPicture shown = view.denoise ? m_light->denoiser.picture() : m_light->tracer.picture();
+    m_light->developer.develop(graph, shown, TexelFormat::Rgba8, {.factor = view.exposure}, m_light->image);
 }
 
 void Renderer::forget()
 {
     m_tracer.forget();
-    if (m_paths != nullptr)
+    if (m_light != nullptr)
     {
-        m_deletion_queue.keep(std::exchange(m_paths, nullptr)); // begin() makes new ones
+        m_deletion_queue.keep(std::exchange(m_light, nullptr)); // begin() makes new ones
     }
 }
 
 std::optional<std::uint32_t> Renderer::sampleCount() const
 {
-    return m_paths == nullptr ? std::nullopt : std::optional(m_paths->tracer.sampleCount());
+    return integrator() == Integrator::Path ? std::optional(m_light->tracer.sampleCount()) : std::nullopt;
+}
+
+std::optional<std::uint32_t> Renderer::keptFrames() const
+{
+    return integrator() == Integrator::Cached ? std::optional(m_light->kept.cache().frameCount()) : std::nullopt;
 }
 
 std::uint64_t Renderer::rayListElements(const ViewState& view) const
 {
-    return m_paths == nullptr ? 0 : m_paths->tracer.listElements(pathOptionsOf(view));
+    return integrator() == Integrator::Path ? m_light->tracer.listElements(pathOptionsOf(view)) : 0;
 }
 
 void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Picture& picture)
@@ -109,15 +141,15 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
     const TraceBuffers& buffers = m_tracer.buffers();
     const TraceCamera camera = traceCamera(picture.camera, tree.grid, buffers.height);
     const TraceOptions options = picture.view.traceOptions();
-    if (m_paths == nullptr)
+    if (m_light == nullptr)
     {
         m_tracer.trace(graph, tree, camera, options);
     }
     else
     {
-        tracePaths(graph, tree, camera, picture);
+        traceLight(graph, tree, camera, picture);
     }
-    if (picture.inspected && m_paths != nullptr)
+    if (picture.inspected && m_light != nullptr)
     {
         m_tracer.tracePrimary(graph, tree, camera, options); // for its hits
     }
@@ -130,7 +162,7 @@ void Renderer::record(vk::FrameGraph& graph, const DeviceTree& tree, const Pictu
                                   tracedPixel(picture.inspected->y, picture.window.height, buffers.height)};
         inspectPixel(graph, tree, camera, options, buffers, pixel, *picture.report);
     }
-    m_compose->fill(graph, m_paths == nullptr ? buffers.image : m_paths->image, {buffers.width, buffers.height});
+    m_compose->fill(graph, m_light == nullptr ? buffers.image : m_light->image, {buffers.width, buffers.height});
     if (picture.screenshot != nullptr && !picture.screenshot_has_panels)
     {
         m_compose->copyTo(graph, *picture.screenshot);

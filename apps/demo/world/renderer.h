@@ -4,6 +4,7 @@
 #include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
 #include "core/present/present.h"
+#include "core/radiance/radiance_tracer.h"
 #include "core/trace/tree_tracer.h"
 #include "demo/world/compose.h"
 #include "demo/world/view_state.h"
@@ -34,6 +35,7 @@ struct Picture
     vk::BufferOf<gpu::PixelReport>* report = nullptr; // gets the result for that pixel
     /// Gets what tells how many rays the paths have (rayCountOf()), [Renderer::rayListElements()]; may be null.
     vk::BufferOf<gpu::DispatchArgs>* ray_lists = nullptr;
+    bool edited = false; // brushes have changed voxels in this frame
 };
 
 /// Records frames, from the world's tree to the image of the swapchain. Its buffers are made for the requested sizes;
@@ -66,37 +68,48 @@ public:
     /// Samples of each pixel of the picture, where it is path traced.
     [[nodiscard]] std::optional<std::uint32_t> sampleCount() const;
 
+    /// Frames since light is kept on voxels, where it is.
+    [[nodiscard]] std::optional<std::uint32_t> keptFrames() const;
+
     /// Elements of the lists of a frame's rays; 0 where it is not path traced.
     [[nodiscard]] std::uint64_t rayListElements(const ViewState& view) const;
 
     /// Primary rays of a frame.
     [[nodiscard]] std::uint64_t rayCount() const { return primaryRayCount(m_tracer.buffers()); }
 
+    /// Of the last frame's picture.
+    [[nodiscard]] Integrator integrator() const
+    {
+        return m_light == nullptr ? Integrator::Primary : m_light->integrator;
+    }
+
 private:
     vk::HeadlessDevice& m_device;
     const ComposePass& m_pass;
     vk::DeletionQueue m_deletion_queue;
-    /// What path tracing needs.
-    struct Paths
+    /// What pictures need whose light comes from sky, sun and voxels.
+    struct Light
     {
-        Paths(vk::HeadlessDevice& device, vk::DeletionQueue* deletion_queue)
-            : tracer(device.device(), deletion_queue), denoiser(device.device(), deletion_queue),
-              developer(device.device()), sky(device.device())
+        Light(vk::HeadlessDevice& device, vk::DeletionQueue* deletion_queue, Integrator shown)
+            : integrator(shown), tracer(device.device(), deletion_queue), denoiser(device.device(), deletion_queue),
+              kept(device.device(), deletion_queue), developer(device.device()), sky(device.device())
         {
         }
 
-        PathTracer tracer;
+        Integrator integrator;
+        PathTracer tracer; // Integrator::Path only, like the next
         Denoiser denoiser;
+        RadianceTracer kept; // Integrator::Cached only
         Developer developer;
         DeviceEnvironment sky;
         vk::BufferOf<gpu::uint> image; // [width * height] of the internal size
     };
 
-    void preparePaths(const Picture& picture);
-    void tracePaths(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const Picture& picture);
+    void prepareLight(const DeviceTree& tree, const Picture& picture);
+    void traceLight(vk::FrameGraph& graph, const DeviceTree& tree, const TraceCamera& camera, const Picture& picture);
 
     TreeTracer m_tracer;
-    std::unique_ptr<Paths> m_paths; // null: primary rays
+    std::unique_ptr<Light> m_light; // null: primary rays
     std::unique_ptr<ComposeImage> m_compose;
 };
 

@@ -27,8 +27,8 @@ struct ViewState
 
     bool operator==(const ViewState&) const = default;
 
-    /// Whether the picture is path traced: other views than colour are not.
-    [[nodiscard]] bool showsPaths() const { return integrator == Integrator::Path && view == View::Color; }
+    /// The integrator of the picture: views other than colour have no light.
+    [[nodiscard]] Integrator shownIntegrator() const { return view == View::Color ? integrator : Integrator::Primary; }
 
     [[nodiscard]] TraceOptions traceOptions() const
     {

@@ -96,7 +96,7 @@ std::uint64_t RadianceCache::bytes() const
            (m_other_table == nullptr ? 0 : m_other_table->bytes()) + (m_buffers == nullptr ? 0 : m_buffers->bytes());
 }
 
-void RadianceCache::reserve(std::uint64_t face_count)
+void RadianceCache::reserveFaces(std::uint64_t face_count)
 {
     const std::uint64_t runs = runsFor(static_cast<double>(face_count));
     if (m_table == nullptr || m_table->run_count < runs)
@@ -112,18 +112,25 @@ void RadianceCache::forget()
     m_lights.forget();
 }
 
-void RadianceCache::makeBuffers(const DeviceTree& tree, const TraceBuffers& seen, const RadianceOptions& options)
+void RadianceCache::reserve(const DeviceTree& tree, std::uint32_t width, std::uint32_t height,
+                            const RadianceOptions& options)
 {
     if (m_table == nullptr)
     {
-        reserve(static_cast<std::uint64_t>(kFacesOfVoxel * tree.voxel_count));
+        reserveFaces(static_cast<std::uint64_t>(kFacesOfVoxel * tree.voxel_count));
     }
     const std::uint32_t faces = std::clamp(options.faces, 1U, kRadianceFacesMax);
-    if (m_buffers == nullptr || m_buffers->faces != faces || m_buffers->width != seen.width ||
-        m_buffers->height != seen.height)
+    const bool needs_lists =
+        m_buffers == nullptr || m_buffers->faces != faces || m_buffers->width != width || m_buffers->height != height;
+    if ((m_other_table == nullptr || m_other_table->run_count != m_table->run_count) &&
+        (tree.hasOverlays() || (m_frame != 0 && (needs_lists || m_tree_version != tree.version))))
     {
-        vk::replace(m_deletion_queue, m_buffers, std::make_unique<Frame>(m_device, faces, seen.width, seen.height));
-        m_frame = 0; // the lists are gone, and marks of what they held with them
+        vk::replace(m_deletion_queue, m_other_table, std::make_unique<Table>(m_device, m_table->run_count));
+    }
+    if (needs_lists)
+    {
+        vk::replace(m_deletion_queue, m_buffers, std::make_unique<Frame>(m_device, faces, width, height));
+        m_has_new_lists = true;
     }
 }
 
@@ -188,20 +195,21 @@ void RadianceCache::follow(vk::FrameGraph& graph, const DeviceTree& tree, const 
     }
     m_environment_version = environment.version();
     m_tree_version = tree.version;
-    if (m_move_frame && *m_move_frame >= m_purge_frame && m_frame - m_purge_frame >= kPurgeFrames)
+    const bool has_moved = m_move_frame && *m_move_frame >= m_purge_frame;
+    if (has_moved && m_frame - m_purge_frame >= kPurgeFrames)
     {
-        purge(graph);
-        m_purge_frame = m_frame;
+        purge(graph, kPurgeAge);
+    }
+    else if (std::exchange(m_has_new_lists, false) && m_frame != 0)
+    {
+        purge(graph, gpu::kMarkFrames); // of marks alone
     }
 }
 
-// Records the pass that leaves out faces which no ray has hit for long, such as those that moving objects have left.
-void RadianceCache::purge(vk::FrameGraph& graph)
+// Records the pass that makes the table anew without lists, and without faces which no ray has hit for long, such as
+// those that moving objects have left.
+void RadianceCache::purge(vk::FrameGraph& graph, std::uint32_t age_max)
 {
-    if (m_other_table == nullptr || m_other_table->run_count != m_table->run_count)
-    {
-        vk::replace(m_deletion_queue, m_other_table, std::make_unique<Table>(m_device, m_table->run_count));
-    }
     std::swap(m_table, m_other_table);
     graph.fill(m_table->faces, 0);
     graph.fill(m_table->states, 0);
@@ -216,14 +224,16 @@ void RadianceCache::purge(vk::FrameGraph& graph)
     params.old_states = pass.read(m_other_table->states);
     params.run_count = m_table->run_count;
     params.frame = m_frame;
-    params.age_max = kPurgeAge;
+    params.age_max = age_max;
     pass.dispatch(m_table->faces.count(), params);
+    m_purge_frame = m_frame;
+    m_has_new_lists = false;
 }
 
 void RadianceCache::update(vk::FrameGraph& graph, const DeviceTree& tree, DeviceEnvironment& environment,
                            const TraceCamera& camera, const TraceBuffers& seen, const RadianceOptions& options)
 {
-    makeBuffers(tree, seen, options);
+    reserve(tree, seen.width, seen.height, options);
     environment.prepare(graph);
     m_lights.prepare(graph, tree);
     follow(graph, tree, environment);

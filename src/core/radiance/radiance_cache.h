@@ -45,9 +45,13 @@ public:
     {
     }
 
-    /// Makes the table for as many faces, unless it is larger, and empties it if it is made anew. update() makes one
-    /// that is usual for its tree. Throws Error{Memory}; then nothing changes.
-    void reserve(std::uint64_t face_count);
+    /// Makes a table for as many faces, unless there is a larger one. It is empty, and takes the place of the last one.
+    /// Throws Error{Memory}; then nothing changes.
+    void reserveFaces(std::uint64_t face_count);
+
+    /// Makes what update() needs for a tree and pictures of a size, with a table of the usual size if there is none.
+    /// Throws Error{Memory}; then what was kept stays.
+    void reserve(const DeviceTree& tree, std::uint32_t width, std::uint32_t height, const RadianceOptions& options);
 
     /// Records the passes of a frame: they sample faces that the camera sees, and those that rays of the frame before
     /// have hit. seen: filled by tracePrimary() of the same tree and camera without a level of detail. Light arrives by
@@ -113,8 +117,7 @@ private:
     struct Work;
 
     void follow(vk::FrameGraph& graph, const DeviceTree& tree, const DeviceEnvironment& environment);
-    void purge(vk::FrameGraph& graph);
-    void makeBuffers(const DeviceTree& tree, const TraceBuffers& seen, const RadianceOptions& options);
+    void purge(vk::FrameGraph& graph, std::uint32_t age_max);
     void clear(vk::FrameGraph& graph, std::uint32_t frame);
     void want(vk::FrameGraph& graph, const Work& work);
     void tally(vk::FrameGraph& graph, const Work& work);
@@ -128,7 +131,8 @@ private:
     TreeLights m_lights;
     std::unique_ptr<Table> m_table;
     std::unique_ptr<Frame> m_buffers;
-    std::unique_ptr<Table> m_other_table; // of the same size, where faces are moved to; null until something moves
+    bool m_has_new_lists = false;         // since the last update: marks of what the last ones held stand in the table
+    std::unique_ptr<Table> m_other_table; // where faces are moved to; null until some may be
     std::uint32_t m_frame = 0;            // 0: the table is to be cleared
 
     std::uint64_t m_tree_version = 0; // of the last frame, like the next

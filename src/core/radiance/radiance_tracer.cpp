@@ -33,6 +33,12 @@ void RadianceTracer::resize(std::uint32_t width, std::uint32_t height)
     beginPicture();
 }
 
+void RadianceTracer::reserve(const DeviceTree& tree, const RadianceOptions& options)
+{
+    m_tracer.reserve(tree);
+    m_cache.reserve(tree, m_tracer.buffers().width, m_tracer.buffers().height, options);
+}
+
 void RadianceTracer::forget()
 {
     m_tracer.forget();

@@ -27,6 +27,9 @@ public:
     /// frame. Throws Error{Memory}; then all stays as it was.
     void resize(std::uint32_t width, std::uint32_t height);
 
+    /// Makes the buffers that addFrame() needs for a tree. Throws Error{Memory}; then all stays as it was.
+    void reserve(const DeviceTree& tree, const RadianceOptions& options);
+
     /// Begins a new picture with the next frame. The light stays.
     void beginPicture() { m_frame_count = 0; }
 

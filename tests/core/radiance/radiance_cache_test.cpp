@@ -210,7 +210,7 @@ TEST(RadianceBytes, AreTheSameInEveryRun)
         RadianceTracer tracer(device().device());
         tracer.resize(48, 40);
         // Tables of other sizes have their faces elsewhere.
-        tracer.cache().reserve(run == 0 ? 20000 : 45678);
+        tracer.cache().reserveFaces(run == 0 ? 20000 : 45678);
         runFrames(tracer, hall.tree, hall.dark, hall.view, 12, {.faces = 500});
         runs.push_back(facesOf(tracer.cache()));
     }
@@ -271,13 +271,41 @@ TEST(RadianceBudget, GivesEachFaceATurn)
     EXPECT_LT(without, 20U);
 }
 
+// Another size of the picture, or another budget, leaves the light as it is.
+TEST(RadianceTable, KeepsItsLightInPicturesOfOtherSizes)
+{
+    Hall hall;
+    RadianceTracer tracer(device().device());
+    tracer.resize(64, 64);
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 40, {});
+    const auto before = facesOf(tracer.cache());
+    tracer.resize(40, 30);
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 1, {.faces = 1});
+    const auto after = facesOf(tracer.cache());
+    ASSERT_GE(after.size(), before.size());
+    std::size_t others = 0;
+    for (const auto& [name, face] : before)
+    {
+        others += after.at(name).words == face.words ? 0 : 1;
+    }
+    EXPECT_LE(others, 1U);
+    // All are listed again.
+    runFrames(tracer, hall.tree, hall.dark, hall.view, 8, {});
+    std::size_t sampled = 0;
+    for (const auto& [name, face] : facesOf(tracer.cache()))
+    {
+        sampled += before.contains(name) && face.samples > before.at(name).samples ? 1 : 0;
+    }
+    EXPECT_GT(sampled, before.size() / 10);
+}
+
 // Without room for all faces, those that found none are counted, and the picture is darker but stands.
 TEST(RadianceTable, CountsFacesWithoutAPlace)
 {
     Hall hall;
     RadianceTracer tracer(device().device());
     tracer.resize(64, 64);
-    tracer.cache().reserve(100);
+    tracer.cache().reserveFaces(100);
     runFrames(tracer, hall.tree, hall.dark, hall.view, 8, {});
     const gpu::RadianceCounters counters = device().download(tracer.cache().counters()).front();
     EXPECT_GT(counters.refused, 0U);

@@ -156,7 +156,7 @@ TEST(RadianceMoves, OtherLightKeepsItsSamples)
 TEST(RadianceMoves, WhatHasMovedOnTakesNoRoom)
 {
     Stage stage(32);
-    stage.tracer().cache().reserve(8000);
+    stage.tracer().cache().reserveFaces(8000);
     std::size_t most = 0;
     std::size_t last = 0;
     for (std::uint32_t frame = 0; frame < 800; ++frame)

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "common/integrator.h"
+
+#include "common/option_groups.h"
+
+#include <algorithm>
+
+namespace zvo::cli
+{
+
+Integrator integratorOf(std::string_view option, std::string_view text)
+{
+    const std::string name = oneOf(option, text, {kIntegratorNames[0], kIntegratorNames[1], kIntegratorNames[2]});
+    return static_cast<Integrator>(std::ranges::find(kIntegratorNames, name) - kIntegratorNames.begin());
+}
+
+} // namespace zvo::cli
