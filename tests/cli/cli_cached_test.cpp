@@ -78,7 +78,7 @@ TEST_F(CliCached, ReportsWhatIsKept)
     EXPECT_EQ(cached["settle"], 20);
     EXPECT_EQ(cached["samples"], 3);
     EXPECT_EQ(cached["rays"], 1000);
-    EXPECT_GT(cached["faces"], 200);
+    EXPECT_GT(cached["faces"], 150);
     EXPECT_EQ(cached["faces_refused"], 0);
     EXPECT_GT(cached["bytes"], 24 * cached["faces"].get<int>());
     std::vector<std::string> warnings;

@@ -13,6 +13,7 @@
 #include "core/octree/octree_build.h"
 #include "core/path/path_tracer.h"
 #include "core/present/present.h"
+#include "core/radiance/radiance_tracer.h"
 #include "core/scene/animation.h"
 #include "core/trace/trace.h"
 #include "core/trace/trace_depth.h"
@@ -176,6 +177,26 @@ Names tracePaths(const DeviceTree& tree)
                                     }
                                     developer.develop(graph, tracer.picture(), TexelFormat::Rgba8, {}, picture);
                                 }));
+        }
+    }
+    return names;
+}
+
+// Keeps light on the voxels of a tree, in pictures of two sizes.
+Names keepLight(const DeviceTree& tree)
+{
+    DeviceEnvironment sky(device().device());
+    RadianceTracer tracer(device().device());
+    const ViewCamera view = ViewCamera::lookAt({25.0, 22.0, 31.0}, {8.0, 8.0, 8.0}, 0.7);
+    Names names;
+    for (const std::uint32_t height : {10U, 11U})
+    {
+        tracer.resize(9, height);
+        const TraceCamera camera = traceCamera(view, tree.grid, height);
+        for (std::uint32_t frame = 0; frame < 2; ++frame)
+        {
+            addNames(names, device().run([&](vk::FrameGraph& graph)
+                                         { tracer.addFrame(graph, tree, sky, camera, {.faces = 100}); }));
         }
     }
     return names;
@@ -562,6 +583,7 @@ TEST(EveryKernel, RunsOnASmallScene)
             names.merge(tracePictures(built.octree));
             names.merge(traceForHosts(built.octree));
             names.merge(tracePaths(built.octree));
+            names.merge(keepLight(built.octree));
             names.merge(tracePictures(test::svdagOf(device(), built.octree)));
             const Grid deep{.origin = grid.origin, .voxel_size = grid.voxel_size, .depth = kDepthOfRankSums};
             names.merge(mergeObjects(scene, deep, c.coverage, true));
