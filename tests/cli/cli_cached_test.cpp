@@ -115,6 +115,25 @@ TEST_F(CliCached, TracesWithoutLightIfThereIsNoRoom)
     EXPECT_EQ(radiance.exit_code, 6) << radiance.err;
 }
 
+// The benchmark compares with paths, and more frames are closer to them.
+TEST_F(CliCached, IsMeasuredBesidePaths)
+{
+    const Outcome outcome = runZvo(m_dir.path(), {"bench", "--kept", "cube.glb", "--resolution", "8", "--size", "24x18",
+                                                  "--reference", "64", "--json", "-"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["schema"], "zvo.bench_kept/1");
+    const nlohmann::json& rows = report["rows"];
+    ASSERT_EQ(rows.size(), 7U);
+    EXPECT_EQ(rows[0]["integrator"], "primary");
+    EXPECT_EQ(rows[3]["integrator"], "path");
+    EXPECT_EQ(rows[6]["integrator"], "cached");
+    EXPECT_LT(rows[6]["relative_error"], rows[1]["relative_error"]);
+    EXPECT_GT(rows[6]["paths_of_error"], 1.0);
+    expectErrorLine(runZvo(m_dir.path(), {"bench", "--kept", "--denoise", "cube.glb"}), 2, {"--kept"});
+    expectErrorLine(runZvo(m_dir.path(), {"bench", "--reference", "4", "cube.glb"}), 2, {"--reference", "--kept"});
+}
+
 TEST_F(CliCached, ErrorsNameTheOption)
 {
     expectErrorLine(render({"--bounces", "3", "-o", "x.png"}), 2, {"--bounces", "--integrator path"});
