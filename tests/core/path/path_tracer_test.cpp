@@ -44,19 +44,6 @@ ViewCamera outside()
     return ViewCamera::lookAt({19.0, 15.0, 23.0}, {4.0, 4.0, 4.0}, 0.4);
 }
 
-// A closed room of edge * edge * edge voxels.
-std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge)
-{
-    std::vector<LitVoxel> voxels;
-    test::addBox(voxels, glm::uvec3(0), glm::uvec3(edge), wall);
-    std::erase_if(voxels,
-                  [&](const LitVoxel& v) {
-                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
-                             glm::all(glm::lessThan(v.cell, glm::uvec3(edge - 1)));
-                  });
-    return voxels;
-}
-
 // A convex body of albedo 1 in a constant sky looks like the sky.
 TEST(PathFurnace, AWhiteCubeCannotBeSeen)
 {
@@ -104,12 +91,12 @@ TEST(PathFurnace, AWhiteBowlCannotBeSeen)
 TEST(PathFurnace, AWhiteRoomIsAsBrightAsItsLight)
 {
     LitVoxel wall = white();
-    std::vector<LitVoxel> voxels = roomOf(wall, 6);
+    std::vector<LitVoxel> voxels = test::roomOf(wall, 6);
     std::erase_if(voxels, [](const LitVoxel& v)
                   { return v.cell.x == 5 && v.cell.y > 0 && v.cell.y < 5 && v.cell.z > 0 && v.cell.z < 5; });
     const DeviceTree windowed = test::litTree(device(), voxels, 3);
     wall.emission = glm::vec3(0.5F);
-    const DeviceTree glowing = test::litTree(device(), roomOf(wall, 6), 3);
+    const DeviceTree glowing = test::litTree(device(), test::roomOf(wall, 6), 3);
     const ViewCamera inside = ViewCamera::lookAt({3.2, 3.1, 3.3}, {1.0, 2.0, 3.0}, 1.0);
     DeviceEnvironment sky = constantSky({0.5F, 1.0F, 2.0F});
     const double sky_light = luminanceOf({0.5, 1.0, 2.0});
@@ -134,7 +121,7 @@ TEST(PathEnergy, OfEachBounceIsThePowerOfTheAlbedo)
 {
     LitVoxel wall = grey();
     wall.emission = glm::vec3(0.5F);
-    const DeviceTree tree = test::litTree(device(), roomOf(wall, 8), 3);
+    const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 8), 3);
     DeviceEnvironment sky = constantSky(glm::vec3(0.0F));
     const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
     const double albedo = test::albedoOf(wall).r;

@@ -60,19 +60,6 @@ PathPicture settledPicture(RadianceTracer& tracer, const DeviceTree& tree, Devic
     return pictureOf(tracer);
 }
 
-// A closed room of edge * edge * edge voxels.
-std::vector<LitVoxel> roomOf(const LitVoxel& wall, std::uint32_t edge)
-{
-    std::vector<LitVoxel> voxels;
-    test::addBox(voxels, glm::uvec3(0), glm::uvec3(edge), wall);
-    std::erase_if(voxels,
-                  [&](const LitVoxel& v) {
-                      return glm::all(glm::greaterThan(v.cell, glm::uvec3(0))) &&
-                             glm::all(glm::lessThan(v.cell, glm::uvec3(edge - 1)));
-                  });
-    return voxels;
-}
-
 // A convex body of albedo 1 in a constant sky looks like the sky.
 TEST(RadianceFurnace, AWhiteCubeCannotBeSeen)
 {
@@ -123,7 +110,7 @@ TEST(RadianceFurnace, AGlowingRoomHasTheLightOfAllBounces)
 {
     LitVoxel wall = grey();
     wall.emission = glm::vec3(0.5F);
-    const DeviceTree tree = test::litTree(device(), roomOf(wall, 8), 3);
+    const DeviceTree tree = test::litTree(device(), test::roomOf(wall, 8), 3);
     DeviceEnvironment dark = constantSky(glm::vec3(0.0F));
     const ViewCamera inside = ViewCamera::lookAt({4.2, 4.1, 4.3}, {1.0, 2.0, 3.0}, 1.0);
     RadianceTracer tracer(device().device());
@@ -135,7 +122,7 @@ TEST(RadianceFurnace, AGlowingRoomHasTheLightOfAllBounces)
 // A wall of one voxel keeps all light of a lamp behind it, on its faces and in the picture.
 TEST(RadianceWalls, NoLightComesThrough)
 {
-    std::vector<LitVoxel> voxels = roomOf(white(), 8);
+    std::vector<LitVoxel> voxels = test::roomOf(white(), 8);
     test::addBox(voxels, {3, 3, 3}, {5, 5, 5}, lamp());
     // Faces outside of the room that see its walls and each other.
     test::addBox(voxels, {10, 0, 0}, {11, 8, 8}, white());
@@ -158,7 +145,7 @@ struct Hall
 {
     Hall()
     {
-        std::vector<LitVoxel> voxels = roomOf(grey(), 32);
+        std::vector<LitVoxel> voxels = test::roomOf(grey(), 32);
         for (LitVoxel& voxel : voxels)
         {
             voxel.color = voxel.cell.x == 0 ? glm::uvec3(200, 60, 60) : voxel.color;
