@@ -11,7 +11,7 @@
 namespace zvo::test
 {
 
-std::map<FaceName, FaceLight> facesOf(RadianceCache& cache)
+std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level)
 {
     std::map<FaceName, FaceLight> faces;
     for (const gpu::KeptFace& kept : device().download(cache.faces()))
@@ -23,6 +23,10 @@ std::map<FaceName, FaceLight> facesOf(RadianceCache& cache)
         const std::uint64_t key = (kept.key.x & 0x7FFFFFFFU) | (std::uint64_t{kept.key.y & 0x7FFFFFFFU} << 31);
         const auto bits = [](std::uint64_t word, std::uint32_t first, std::uint32_t count)
         { return static_cast<std::uint32_t>((word >> first) & ((std::uint64_t{1} << count) - 1)); };
+        if (bits(key, 57, 5) != level)
+        {
+            continue;
+        }
         const std::uint64_t light = kept.light.x | (std::uint64_t{kept.light.y} << 32);
         const double unit = std::ldexp(1.0, static_cast<int>(bits(light, 48, 6)) - 37);
         const FaceName name = {{bits(key, 0, 18), bits(key, 18, 18), bits(key, 36, 18)}, bits(key, 54, 3)};

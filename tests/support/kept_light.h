@@ -35,8 +35,8 @@ struct FaceLight
     glm::uvec2 words{0U}; // as the device has it
 };
 
-/// All faces of a table, read without the code of the kernels.
-std::map<FaceName, FaceLight> facesOf(RadianceCache& cache);
+/// All faces of a table, or all bricks of a level, read without the code of the kernels. Cells are those of the level.
+std::map<FaceName, FaceLight> facesOf(RadianceCache& cache, std::uint32_t level = 0);
 
 /// Runs frames of a tracer, which has a size.
 void runFrames(RadianceTracer& tracer, const DeviceTree& tree, DeviceEnvironment& environment, const ViewCamera& view,
