@@ -59,7 +59,8 @@ using Structs =
     testing::Types<ZvoOptionalFeatures, ZvoDeviceInfo, ZvoContextInfo, ZvoMemoryUse, ZvoPassTime, ZvoTextureInfo,
                    ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelStats, ZvoTreeInfo,
                    ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo,
-                   ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget>;
+                   ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
+                   ZvoKeptLightInfo, ZvoKeptFrameInfo, ZvoKeptLightStats>;
 TYPED_TEST_SUITE(CStruct, Structs);
 
 TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
@@ -320,6 +321,19 @@ void expectSame(const PathInfo& a, const PathInfo& b)
     EXPECT_EQ(a.history_max, b.history_max);
 }
 
+void expectSame(const KeptLightInfo& a, const KeptLightInfo& b)
+{
+    EXPECT_EQ(a.width, b.width);
+    EXPECT_EQ(a.height, b.height);
+    EXPECT_EQ(a.faces, b.faces);
+}
+
+void expectSame(const KeptFrameInfo& a, const KeptFrameInfo& b)
+{
+    EXPECT_EQ(a.rays, b.rays);
+    EXPECT_EQ(a.seed, b.seed);
+}
+
 void expectSame(const ImageTarget& a, const ImageTarget& b)
 {
     EXPECT_EQ(a.image, b.image);
@@ -374,6 +388,8 @@ TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
     expectSame(ofC(initial<ZvoTraceInfo>()), TraceInfo());
     expectSame(ofC(initial<ZvoPathInfo>()), PathInfo());
     expectSame(ofC(initial<ZvoImageTarget>()), ImageTarget());
+    expectSame(ofC(initial<ZvoKeptLightInfo>()), KeptLightInfo());
+    expectSame(ofC(initial<ZvoKeptFrameInfo>()), KeptFrameInfo());
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).pass_times, OptionalFeatures().pass_times);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).subgroup_sizes, OptionalFeatures().subgroup_sizes);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).int64_atomics, OptionalFeatures().int64_atomics);
