@@ -17,8 +17,8 @@ namespace zvo
 /// What light is kept for.
 struct KeptLightInfo
 {
-    // The rays of a camera that find which faces of voxels it sees, 1 to 16384 along each edge, in the proportion of the
-    // host's picture. They go through other points of their pixels in each frame: a quarter of the picture's edges
+    // The rays of a camera that find which faces of voxels it sees, 1 to 16384 along each edge, in the proportion of
+    // the host's picture. They go through other points of their pixels in each frame: a quarter of the picture's edges
     // suffices.
     std::uint32_t width = 160;
     std::uint32_t height = 90;
@@ -69,8 +69,8 @@ public:
     /// Recorder. Cost: the camera's rays, and two rays for each face that is sampled.
     ///
     /// Throws Error{Usage} for cameras that are not valid, for numbers out of range, and for an environment or a tree
-    /// that was lost; then nothing is recorded. Throws Error{Memory}, and what making a kernel throws; then shaders find
-    /// no light until the next call.
+    /// that was lost; then nothing is recorded. Throws Error{Memory}, and what making a kernel throws; then shaders
+    /// find no light until the next call.
     void update(Recorder& recorder, const Tree& tree, Environment& environment, const CameraInfo& camera,
                 const KeptFrameInfo& info = {});
     void update(Recorder& recorder, DynamicTree& tree, Environment& environment, const CameraInfo& camera,

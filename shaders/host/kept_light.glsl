@@ -22,7 +22,7 @@ FaceTable params;
 const uint kPointRaysMax = 1024u;
 const uint kSettledSamples = 8u;      // from which on a face's light counts in full where it is mixed with others'
 const float kFacingMin = 1.0 / 64.0;  // squared component of a normal below which faces of an axis do not count
-const float kPlaneShareMin = 1.0 / 16; // of a plane of faces, where a point is on the next one
+const float kPlaneShareMin = 1.0 / 16.0; // of a plane of faces, where a point is on the next one
 
 // Selects the kept light for what follows. Whether there is any.
 bool setKeptLight(KeptLightTable_ConstPtr light)
@@ -32,38 +32,52 @@ bool setKeptLight(KeptLightTable_ConstPtr light)
     return uint64_t(params.faces) != 0ul;
 }
 
-// Light and share of a kept face; without any if it is not in the table.
-vec4 lightOfFace(ivec3 cell, uint normal, float share)
+// Light of kept faces, by shares.
+struct FaceSum
+{
+    vec3 light;    // times weight
+    float weight;  // share times how settled the light is
+    float present; // share of faces that are kept
+};
+
+// Adds a face to a sum, if it is kept.
+void addFace(ivec3 cell, uint normal, float share, inout FaceSum sum)
 {
     KeptFace face;
     bool is_kept = findFace(uvec3(cell) & kHitCoordinateMask, normal, face) != kNoFace;
-    uint weight = is_kept ? min(keptWeight(face.light), kSettledSamples) : 0u;
-    share *= float(weight) / float(kSettledSamples);
-    return weight == 0u ? vec4(0.0) : share * vec4(keptRadiance(face.light), 1.0);
+    uint samples = is_kept ? min(keptWeight(face.light), kSettledSamples) : 0u;
+    float weight = share * float(samples) / float(kSettledSamples);
+    sum.light += samples == 0u ? vec3(0.0) : weight * keptRadiance(face.light);
+    sum.weight += weight;
+    sum.present += samples == 0u ? 0.0 : share;
 }
 
-// Light times share, and share, of the four faces with a normal in the plane of a cell's face whose middles are around a
-// place. offset: of the place, from the middle of the cell.
-vec4 lightOfPlane(ivec3 cell, uint normal, vec3 offset)
+// Adds the four faces with a normal, in the plane of a cell's face, whose middles are around a place. offset: of the
+// place, from the middle of the cell. towards: 1; -1: the cells on the other side.
+void addPlane(ivec3 cell, uint normal, vec3 offset, int towards, float share, inout FaceSum sum)
 {
     uint axis = normal % 3u;
     vec2 across = axis == 0u ? offset.yz : axis == 1u ? offset.xz : offset.xy;
-    ivec2 side = ivec2(across.x < 0.0 ? -1 : 1, across.y < 0.0 ? -1 : 1);
+    ivec2 side = towards * ivec2(across.x < 0.0 ? -1 : 1, across.y < 0.0 ? -1 : 1);
     across = abs(across);
-    vec4 sum = vec4(0.0);
     for (uint k = 0u; k < 4u; ++k)
     {
         bvec2 far = bvec2((k & 1u) != 0u, (k & 2u) != 0u);
         ivec2 shift = ivec2(far.x ? side.x : 0, far.y ? side.y : 0);
         ivec3 moved = axis == 0u ? ivec3(0, shift) : axis == 1u ? ivec3(shift.x, 0, shift.y) : ivec3(shift, 0);
-        sum += lightOfFace(cell + moved, normal,
-                           (far.x ? across.x : 1.0 - across.x) * (far.y ? across.y : 1.0 - across.y));
+        vec2 part = vec2(far.x ? across.x : 1.0 - across.x, far.y ? across.y : 1.0 - across.y);
+        addFace(cell + moved, normal, share * part.x * part.y, sum);
     }
-    return sum;
 }
 
-// Light of the faces with a normal around a point (in voxels of the grid), and 1: of the planes of faces before and
-// behind it, in between, or of those one voxel further. 0: nothing is kept there.
+// The light of a sum, and from 0 to 1 how settled it is.
+vec4 lightOfSum(FaceSum sum)
+{
+    return sum.weight > 0.0 ? vec4(sum.light / sum.weight, sum.weight / sum.present) : vec4(0.0);
+}
+
+// Light of the faces with a normal around a point (in voxels of the grid): of the planes of faces before and behind it,
+// in between; else of those one voxel further; else of cells beside.
 vec4 lightNearPoint(vec3 point, uint normal)
 {
     ivec3 along = ivec3(abs(normalAxis(normal)));
@@ -71,18 +85,21 @@ vec4 lightNearPoint(vec3 point, uint normal)
     vec3 offset = point - floor(point) - 0.5;
     float ahead = clamp(dot(offset, vec3(along)) + 0.5, kPlaneShareMin, 1.0 - kPlaneShareMin);
     cell -= normal < 3u ? along : ivec3(0); // whose face is in the plane at the cell's lower side
-    vec4 sum = vec4(0.0);
-    for (int ring = 0; ring < 2 && sum.w == 0.0; ++ring)
+    FaceSum sum = FaceSum(vec3(0.0), 0.0, 0.0);
+    for (int attempt = 0; attempt < 3 && sum.weight == 0.0; ++attempt)
     {
-        sum = (1.0 - ahead) * lightOfPlane(cell - ring * along, normal, offset);
-        sum += ahead * lightOfPlane(cell + (ring + 1) * along, normal, offset);
+        int ring = attempt == 1 ? 1 : 0;
+        int towards = attempt == 2 ? -1 : 1;
+        addPlane(cell - ring * along, normal, offset, towards, 1.0 - ahead, sum);
+        addPlane(cell + (ring + 1) * along, normal, offset, towards, ahead, sum);
     }
-    return sum.w > 0.0 ? vec4(sum.rgb / sum.w, 1.0) : vec4(0.0);
+    return lightOfSum(sum);
 }
 
 // The light that arrives at a point of a surface with this normal (length 1), irradiance over pi: the radiance that the
 // surface would have if it were white. It is that of kept faces within two voxels, which face as the normal does, by the
-// squares of its components. w: 1, less where faces of an axis are missing; 0: nothing is kept there, and rgb is 0.
+// squares of its components. w: how well it is known, from 0, where nothing is kept and rgb is 0, to 1: less than 1 where
+// faces of an axis are missing, or have few samples.
 vec4 zvo_irradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal)
 {
     bool has_light = setKeptLight(light);
@@ -93,7 +110,10 @@ vec4 zvo_irradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3
         float component = axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z;
         float share = component * component;
         if (share >= kFacingMin)
-            sum += share * lightNearPoint(point, axis + (component < 0.0 ? 3u : 0u));
+        {
+            vec4 found = lightNearPoint(point, axis + (component < 0.0 ? 3u : 0u));
+            sum += share * found.w * vec4(found.rgb, 1.0);
+        }
     }
     return sum.w > 0.0 ? vec4(sum.rgb / sum.w, min(sum.w, 1.0)) : vec4(0.0);
 }
@@ -120,8 +140,9 @@ vec4 zvo_keptRadiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, Hi
     else if (!surface.is_inside && setKeptLight(light))
     {
         vec3 offset = clamp((position - surface.middle) / surface.edge, -0.5, 0.5);
-        kept = lightOfPlane(ivec3(surface.cell), normalOfHit(hitFace(hit), direction), offset);
-        kept.rgb = kept.w > 0.0 ? kept.rgb / kept.w : vec3(0.0);
+        FaceSum sum = FaceSum(vec3(0.0), 0.0, 0.0);
+        addPlane(ivec3(surface.cell), normalOfHit(hitFace(hit), direction), offset, 1, 1.0, sum);
+        kept = lightOfSum(sum);
     }
     bool is_known = kept.w > 0.0 || surface.emission != vec3(0.0);
     return vec4(surface.emission + surface.base_color * kept.rgb, is_known ? 1.0 : 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What shaders need to know to find the light that is kept on a face (radiance/radiance.h). Those of hosts get it by its
-// address (host/kept_light.glsl).
+// What shaders need to know to find the light that is kept on a face (radiance/radiance.h). Those of hosts get it by
+// its address (host/kept_light.glsl).
 #ifndef ZVO_SHADERS_RADIANCE_KEPT_FACES_H
 #define ZVO_SHADERS_RADIANCE_KEPT_FACES_H
 

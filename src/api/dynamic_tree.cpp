@@ -204,14 +204,14 @@ void DynamicTree::endStroke()
 
 bool DynamicTree::undoEdit(Recorder& recorder)
 {
-    return usable(*this).changeEdits(recorder,
-                                     [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.undoEdit(graph); });
+    return usable(*this).changeEdits(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph)
+                                     { return octree.undoEdit(graph); });
 }
 
 bool DynamicTree::redoEdit(Recorder& recorder)
 {
-    return usable(*this).changeEdits(recorder,
-                                     [](DynamicOctree& octree, vk::FrameGraph& graph) { return octree.redoEdit(graph); });
+    return usable(*this).changeEdits(recorder, [](DynamicOctree& octree, vk::FrameGraph& graph)
+                                     { return octree.redoEdit(graph); });
 }
 
 std::vector<UpdateStats> DynamicTree::takeUpdates()

@@ -30,7 +30,7 @@ constexpr std::size_t kCounts = 2;
 // Which voxels the light is of.
 struct Shown
 {
-    const void* tree; // the host's
+    const void* tree;      // the host's
     std::uint64_t changes; // of it, but for what moves: that has voxels of its own
     Grid grid;
 };
@@ -177,8 +177,7 @@ struct ZVO_LOCAL KeptLight::Impl
     KeptLightStats newest = {};
 };
 
-KeptLight::KeptLight(Context& context, const KeptLightInfo& info)
-    : m_impl(std::make_unique<Impl>(context.impl(), info))
+KeptLight::KeptLight(Context& context, const KeptLightInfo& info) : m_impl(std::make_unique<Impl>(context.impl(), info))
 {
 }
 

@@ -8,8 +8,8 @@
 namespace zvo
 {
 
-/// What shaders of a host need to know of the light that the last update() has recorded (docs/host-glsl.md). Out of date
-/// with the next one, which may move all faces. Declares no access: as treeTable().
+/// What shaders of a host need to know of the light that the last update() has recorded (docs/host-glsl.md). Out of
+/// date with the next one, which may move all faces. Declares no access: as treeTable().
 gpu::KeptLightTable keptLightTable(const RadianceCache& cache, const DeviceEnvironment& environment);
 
 } // namespace zvo
