@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <map>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct FaceLight
 };
 
 /// All faces of a table, read without the code of the kernels.
+std::map<FaceName, FaceLight> facesOf(std::span<const gpu::KeptFace> table);
 std::map<FaceName, FaceLight> facesOf(RadianceCache& cache);
 
 /// Runs frames of a tracer, which has a size.
