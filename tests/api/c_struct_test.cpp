@@ -411,6 +411,22 @@ template <typename Type> Type handle(std::uintptr_t number)
     return reinterpret_cast<Type>(number);
 }
 
+TEST(CStructs, EveryMemberOfKeptLightIsPassedOn)
+{
+    ZvoKeptLightInfo info = ZVO_KEPT_LIGHT_INFO_INIT;
+    info.faces = std::uint64_t{1} << 30;
+    info.width = 7;
+    info.height = 9;
+    expectSame(ofC(info), {7, 9, std::uint64_t{1} << 30});
+    ZvoKeptFrameInfo frame = ZVO_KEPT_FRAME_INFO_INIT;
+    frame.rays = 5;
+    frame.seed = 6;
+    expectSame(ofC(frame), {5, 6});
+    const ZvoKeptLightStats stats = toC(KeptLightStats{3, 4});
+    EXPECT_EQ(stats.faces, 3U);
+    EXPECT_EQ(stats.refused, 4U);
+}
+
 TEST(CStructs, EveryMemberOfADeclarationIsPassedOn)
 {
     const char* const instance_extensions[] = {"a", "b"};
@@ -695,6 +711,12 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     const ZvoTraceInfo trace_info = ZVO_TRACE_INFO_INIT;
     const ZvoPathInfo path_info = ZVO_PATH_INFO_INIT;
     const ZvoSunInfo sun = ZVO_SUN_INFO_INIT;
+    const ZvoKeptLightInfo kept_info = ZVO_KEPT_LIGHT_INFO_INIT;
+    const ZvoKeptFrameInfo kept_frame = ZVO_KEPT_FRAME_INFO_INIT;
+    ZvoKeptLightStats kept_stats = ZVO_KEPT_LIGHT_STATS_INIT;
+    ZvoKeptLight* light = nullptr;
+    ZvoKeptLight* made_light = nullptr;
+    ASSERT_EQ(zvoKeptLightCreate(host.context, &kept_info, &light), ZVO_OK);
     const ZvoImageTarget color = host.target();
     REFUSES_NULLS(zvoQuery, host.info.get_instance_proc_addr, host.info.instance, host.info.physical_device,
                   &made_report);
@@ -735,6 +757,11 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     REFUSES_NULLS(zvoTracerSampleCount, tracer, &count);
     REFUSES_NULLS(zvoTracerForgetSamples, tracer);
     REFUSES_NULLS(zvoEnvironmentSetSun, environment, &sun);
+    REFUSES_NULLS(zvoKeptLightCreate, host.context, &kept_info, &made_light);
+    REFUSES_NULLS(zvoKeptLightAddress, light, &address);
+    REFUSES_NULLS(zvoKeptLightForget, light);
+    REFUSES_NULLS(zvoKeptLightStats, light, &kept_stats);
+    REFUSES_NULLS(zvoKeptLightBytes, light, &address);
     REFUSES_NULLS(zvoCameraLookAt, eye, eye, 0.5, &camera);
     REFUSES_NULLS(zvoCameraRays, &camera, &grid, 8, &rays);
     host.frame(
@@ -757,6 +784,8 @@ TEST(CStructs, PointersThatAreNullAreRefused)
             REFUSES_NULLS(zvoTracerTracePaths, tracer, recorder, tree, environment, &camera, &path_info, &color);
             REFUSES_NULLS(zvoTracerTracePathsDynamic, tracer, recorder, dynamic, environment, &camera, &path_info,
                           &color);
+            REFUSES_NULLS(zvoKeptLightUpdate, light, recorder, tree, environment, &camera, &kept_frame);
+            REFUSES_NULLS(zvoKeptLightUpdateDynamic, light, recorder, dynamic, environment, &camera, &kept_frame);
             EXPECT_EQ(zvoEnvironmentCreate(nullptr, nullptr, &environment), ZVO_ERROR_USAGE);
             EXPECT_EQ(zvoEnvironmentCreate(recorder, nullptr, nullptr), ZVO_ERROR_USAGE);
             for (int missing = 0; missing < 6; ++missing)
@@ -775,13 +804,15 @@ TEST(CStructs, PointersThatAreNullAreRefused)
                                    static_cast<const void*>(made_recorder), static_cast<const void*>(made_model),
                                    static_cast<const void*>(made_tree), static_cast<const void*>(made_build),
                                    static_cast<const void*>(made_compression), static_cast<const void*>(made_dynamic),
-                                   static_cast<const void*>(made_tracer)})
+                                   static_cast<const void*>(made_tracer), static_cast<const void*>(made_light)})
     {
         EXPECT_EQ(made, nullptr); // a failure leaves its results unchanged
     }
     zvoDeviceReportDestroy(nullptr);
     zvoContextDestroy(nullptr);
     zvoTracerDestroy(tracer);
+    zvoKeptLightDestroy(light);
+    zvoKeptLightDestroy(nullptr);
     zvoEnvironmentDestroy(environment);
     zvoDynamicTreeDestroy(dynamic);
     zvoTreeCompressionDestroy(compression);
