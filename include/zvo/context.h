@@ -127,16 +127,16 @@ class ZVO_API Recorder
 public:
     /// frame: a number of the host's, or the value that a timeline semaphore will get when the frame is done; never
     /// lower than that of the frame before. Several recordings may have the same frame. readers: stages in which the
-    /// host's own shaders read trees and kept light. Throws Error{Usage} for null, for a lower number, and while another Recorder
-    /// exists.
+    /// host's own shaders read trees and kept light. Throws Error{Usage} for null, for a lower number, and while
+    /// another Recorder exists.
     Recorder(Context& context, VkCommandBuffer commands, std::uint64_t frame, VkPipelineStageFlags2 readers = 0);
     ~Recorder();
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
     /// Records the barrier after which the host's own shaders, in these stages, see all trees and kept light as
-    /// they have been recorded so far, through their addresses. Access: VK_ACCESS_2_SHADER_STORAGE_READ_BIT. stages: 0 records
-    /// nothing. Throws Error{Usage} if none of the stages runs shaders.
+    /// they have been recorded so far, through their addresses. Access: VK_ACCESS_2_SHADER_STORAGE_READ_BIT. stages: 0
+    /// records nothing. Throws Error{Usage} if none of the stages runs shaders.
     void makeVisible(VkPipelineStageFlags2 stages);
 
     struct Impl;

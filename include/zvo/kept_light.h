@@ -63,7 +63,7 @@ public:
     /// or whose frame was lost. The environment must live for as long as shaders read.
     ///
     /// Memory, from the first call on: 36 bytes for each face that there is room for, twice that from when the tree
-    /// changes; about 250 bytes for each of the rays; and what Tracer::tracePaths() takes for lights of the tree. First
+    /// changes; about 200 bytes for each of the rays; and what Tracer::tracePaths() takes for lights of the tree. First
     /// stages: ALL_TRANSFER, COMPUTE_SHADER and DRAW_INDIRECT; last stages: COMPUTE_SHADER and ALL_TRANSFER; on
     /// resources of zvo. Before the host's shaders read: Recorder::makeVisible(); before the next call: readers of its
     /// Recorder. Cost: the camera's rays, and two rays for each face that is sampled.
@@ -89,8 +89,10 @@ public:
     /// Device memory of all buffers.
     [[nodiscard]] std::uint64_t bytes() const;
 
-private:
     struct Impl;
+    [[nodiscard]] Impl* impl() const { return m_impl.get(); } // only for the library; null after a move
+
+private:
     std::unique_ptr<Impl> m_impl;
 };
 

@@ -852,3 +852,24 @@ ZVO_C_API ZvoResult zvoKeptLightAddress(const ZvoKeptLight* light, uint64_t* add
 ZVO_C_API ZvoResult zvoKeptLightForget(ZvoKeptLight* light);
 ZVO_C_API ZvoResult zvoKeptLightStats(ZvoKeptLight* light, ZvoKeptLightStats* stats);
 ZVO_C_API ZvoResult zvoKeptLightBytes(const ZvoKeptLight* light, uint64_t* bytes);
+
+/// As zvo::KeptPictureInfo.
+typedef struct ZvoKeptPictureInfo
+{
+    size_t struct_size;
+    VkBool32 automatic_exposure;
+    float exposure;
+} ZvoKeptPictureInfo;
+
+#define ZVO_KEPT_PICTURE_INFO_INIT                                                                                     \
+    {                                                                                                                  \
+        sizeof(ZvoKeptPictureInfo), VK_TRUE, 1                                                                         \
+    }
+
+ZVO_C_API ZvoResult zvoTracerTraceKept(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree,
+                                       ZvoEnvironment* environment, ZvoKeptLight* light, const ZvoCameraInfo* camera,
+                                       const ZvoKeptPictureInfo* info, const ZvoImageTarget* color);
+ZVO_C_API ZvoResult zvoTracerTraceKeptDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                              ZvoEnvironment* environment, ZvoKeptLight* light,
+                                              const ZvoCameraInfo* camera, const ZvoKeptPictureInfo* info,
+                                              const ZvoImageTarget* color);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light that is kept on voxels, and what rays of a point find: a part of host/trace.glsl, which says how it is used. The
-// includer includes lib/hit.glsl before, and declares what else there is in that file.
+// Light that is kept on voxels, and what rays of a point find: a part of host/trace.glsl, which says how it is used and
+// includes this file behind all else.
 #include "lib/frame.glsl"
 #include "lib/sobol.glsl"
 #include "radiance/kept_faces.h"
@@ -97,9 +97,9 @@ vec4 lightNearPoint(vec3 point, uint normal)
 }
 
 // The light that arrives at a point of a surface with this normal (length 1), irradiance over pi: the radiance that the
-// surface would have if it were white. It is that of kept faces within two voxels, which face as the normal does, by the
-// squares of its components. w: how well it is known, from 0, where nothing is kept and rgb is 0, to 1: less than 1 where
-// faces of an axis are missing, or have few samples.
+// surface would have if it were white. It is that of kept faces within two voxels, which face along the axes as the
+// normal does, by the squares of its components. w: how well it is known, from 0, where nothing is kept and rgb is 0,
+// to 1: less where faces of an axis are missing, or have few samples.
 vec4 zvo_irradiance(KeptLightTable_ConstPtr light, TreeTable_ConstPtr tree, vec3 position, vec3 normal)
 {
     bool has_light = setKeptLight(light);

@@ -318,6 +318,11 @@ KeptFrameInfo ofC(const ZvoKeptFrameInfo& info)
     return {info.rays, info.seed};
 }
 
+KeptPictureInfo ofC(const ZvoKeptPictureInfo& info)
+{
+    return {info.automatic_exposure != VK_FALSE, info.exposure};
+}
+
 ZvoDeviceInfo toC(const DeviceReport& report)
 {
     auto result = initial<ZvoDeviceInfo>();

@@ -54,6 +54,7 @@ ImageTarget ofC(const ZvoImageTarget& target);
 DepthTarget ofC(const ZvoDepthTarget& target);
 KeptLightInfo ofC(const ZvoKeptLightInfo& info);
 KeptFrameInfo ofC(const ZvoKeptFrameInfo& info);
+KeptPictureInfo ofC(const ZvoKeptPictureInfo& info);
 
 ZvoDeviceInfo toC(const DeviceReport& report); // texts are the report's
 ZvoMemoryUse toC(const MemoryUse& use);

@@ -24,6 +24,22 @@ ZvoResult update(const char* function, ZvoKeptLight* light, ZvoRecorder* recorde
                    });
 }
 
+template <typename TreeHandle>
+ZvoResult traceKept(const char* function, ZvoTracer* tracer, ZvoRecorder* recorder, TreeHandle* tree,
+                    ZvoEnvironment* environment, ZvoKeptLight* light, const ZvoCameraInfo* camera,
+                    const ZvoKeptPictureInfo* info, const ZvoImageTarget* color)
+{
+    return guarded(function,
+                   [&]
+                   {
+                       at(tracer, "tracer")
+                           .object.traceKept(at(recorder, "recorder").object, at(tree, "tree").object,
+                                             at(environment, "environment").object, at(light, "light").object,
+                                             ofC(readStruct(camera, "camera")), ofC(readStruct(info, "info")),
+                                             ofC(readStruct(color, "color")));
+                   });
+}
+
 } // namespace
 
 } // namespace zvo
@@ -77,4 +93,18 @@ ZvoResult zvoKeptLightStats(ZvoKeptLight* light, ZvoKeptLightStats* stats)
 ZvoResult zvoKeptLightBytes(const ZvoKeptLight* light, uint64_t* bytes)
 {
     return guarded(__func__, [&] { at(bytes, "bytes") = at(light, "light").object.bytes(); });
+}
+
+ZvoResult zvoTracerTraceKept(ZvoTracer* tracer, ZvoRecorder* recorder, const ZvoTree* tree, ZvoEnvironment* environment,
+                             ZvoKeptLight* light, const ZvoCameraInfo* camera, const ZvoKeptPictureInfo* info,
+                             const ZvoImageTarget* color)
+{
+    return traceKept(__func__, tracer, recorder, tree, environment, light, camera, info, color);
+}
+
+ZvoResult zvoTracerTraceKeptDynamic(ZvoTracer* tracer, ZvoRecorder* recorder, ZvoDynamicTree* tree,
+                                    ZvoEnvironment* environment, ZvoKeptLight* light, const ZvoCameraInfo* camera,
+                                    const ZvoKeptPictureInfo* info, const ZvoImageTarget* color)
+{
+    return traceKept(__func__, tracer, recorder, tree, environment, light, camera, info, color);
 }

@@ -197,6 +197,12 @@ const PathInfo& checked(const PathInfo& info)
     return info;
 }
 
+const KeptPictureInfo& checked(const KeptPictureInfo& info)
+{
+    checkedAmount(info.exposure, "KeptPictureInfo::exposure");
+    return info;
+}
+
 const KeptLightInfo& checked(const KeptLightInfo& info)
 {
     checkedEdge(info.width);

@@ -48,6 +48,7 @@ const DynamicTreeInfo& checked(const DynamicTreeInfo& info);
 const BrushInfo& checked(const BrushInfo& info);
 const TraceInfo& checked(const TraceInfo& info);
 const PathInfo& checked(const PathInfo& info);
+const KeptPictureInfo& checked(const KeptPictureInfo& info);
 const SunInfo& checked(const SunInfo& info);
 const KeptLightInfo& checked(const KeptLightInfo& info);
 const KeptFrameInfo& checked(const KeptFrameInfo& info);

@@ -6,6 +6,7 @@
 #include "api/convert.h"
 #include "api/dynamic_tree_impl.h"
 #include "api/environment_impl.h"
+#include "api/kept_light_impl.h"
 #include "api/tree_impl.h"
 #include "core/denoise/denoiser.h"
 #include "core/path/path_tracer.h"
@@ -83,6 +84,18 @@ struct PathPicture
     std::uint32_t sample_count = 0;              // of the picture that it has recorded; 0: none
 };
 
+// What makes pictures of kept light.
+struct KeptPicture
+{
+    KeptPicture(Context::Impl& context, std::uint64_t pixel_count)
+        : sums(context.device, "kept picture", pixel_count), developer(context.device)
+    {
+    }
+
+    vk::BufferOf<gpu::PixelSum> sums;
+    Developer developer;
+};
+
 } // namespace
 
 struct ZVO_LOCAL Tracer::Impl
@@ -99,6 +112,7 @@ struct ZVO_LOCAL Tracer::Impl
         context.deleteLater(std::move(tracer));
         context.deleteLater(std::move(depths));
         context.deleteLater(std::move(paths));
+        context.deleteLater(std::move(kept));
     }
 
     Impl(const Impl&) = delete;
@@ -173,6 +187,37 @@ struct ZVO_LOCAL Tracer::Impl
                   });
     }
 
+    void traceKept(Recorder& recorder, const DeviceTree& tree, Environment::Impl& environment, KeptLight::Impl& light,
+                   const CameraInfo& camera_info, const KeptPictureInfo& info, const ImageTarget& color)
+    {
+        const TraceBuffers& buffers = tracer->buffers();
+        requireColor(color);
+        const TraceCamera camera = traceCamera(viewOf(camera_info), tree.grid, buffers.height);
+        const Exposure exposure = {checked(info).automatic_exposure, info.exposure};
+        light.requireShown(tree);
+        recording(recorder,
+                  [&](Recorder::Impl& impl)
+                  {
+                      if (kept == nullptr)
+                      {
+                          kept = std::make_unique<KeptPicture>(context, primaryRayCount(buffers));
+                      }
+                      if (frame && frame->is_lost)
+                      {
+                          tracer->forget();
+                      }
+                      frame = impl.frame;
+                      environment.enter(impl.frame);
+                      environment.light.prepare(impl.graph);
+                      tracer->tracePrimary(impl.graph, tree, camera, {});
+                      impl.graph.fill(kept->sums, 0);
+                      light.cache->view(impl.graph, tree, environment.light, camera, buffers, kept->sums);
+                      const SampledPicture shown = {kept->sums, buffers.width, buffers.height, 1};
+                      kept->developer.develop(impl.graph, shown, buffers.texels, exposure, tracer->image());
+                      copyToImage(impl.graph, buffers, color);
+                  });
+    }
+
     void makePaths()
     {
         if (paths == nullptr)
@@ -206,9 +251,10 @@ struct ZVO_LOCAL Tracer::Impl
 
     Context::Impl& context;
     std::unique_ptr<TreeTracer> tracer;
-    std::shared_ptr<FrameState> frame = nullptr;  // of the last picture of trace()
+    std::shared_ptr<FrameState> frame = nullptr;  // of the last picture of trace() or traceKept()
     vk::BufferOf<float> depths = {};              // empty until depth is requested
     std::unique_ptr<PathPicture> paths = nullptr; // null until paths are requested
+    std::unique_ptr<KeptPicture> kept = nullptr;  // likewise of kept light
 };
 
 Tracer::Tracer(Context& context, std::uint32_t width, std::uint32_t height, VkFormat format)
@@ -262,6 +308,34 @@ void Tracer::tracePaths(Recorder& recorder, DynamicTree& tree, Environment& envi
     requireSame(tracer.context, light.context);
     impl.enter(recorder.impl());
     tracer.tracePaths(recorder, impl.octree->tree(), light, camera, info, color);
+}
+
+void Tracer::traceKept(Recorder& recorder, const Tree& tree, Environment& environment, KeptLight& light,
+                       const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
+{
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    const Tree::Impl& impl = usable(tree);
+    Environment::Impl& outside = usable(environment);
+    KeptLight::Impl& kept = usable(light);
+    requireSame(tracer.context, impl.context);
+    requireSame(tracer.context, outside.context);
+    requireSame(tracer.context, kept.context);
+    requireSame(tracer.context, recorder.impl().context);
+    tracer.traceKept(recorder, impl.fixed, outside, kept, camera, info, color);
+}
+
+void Tracer::traceKept(Recorder& recorder, DynamicTree& tree, Environment& environment, KeptLight& light,
+                       const CameraInfo& camera, const KeptPictureInfo& info, const ImageTarget& color)
+{
+    Impl& tracer = contentOf(m_impl.get(), "tracer");
+    DynamicTree::Impl& impl = usable(tree);
+    Environment::Impl& outside = usable(environment);
+    KeptLight::Impl& kept = usable(light);
+    requireSame(tracer.context, impl.context);
+    requireSame(tracer.context, outside.context);
+    requireSame(tracer.context, kept.context);
+    impl.enter(recorder.impl());
+    tracer.traceKept(recorder, impl.octree->tree(), outside, kept, camera, info, color);
 }
 
 std::uint32_t Tracer::sampleCount() const

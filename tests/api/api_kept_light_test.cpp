@@ -100,6 +100,28 @@ public:
         return test::facesOf(m_cache);
     }
 
+    std::vector<std::uint32_t> picture(const DeviceTree& tree, const glm::dvec3& eye, std::uint32_t width,
+                                       std::uint32_t height, const Exposure& exposure)
+    {
+        const ViewCamera view = ViewCamera::lookAt(eye, {5, 5, 5}, 0.6);
+        const TraceCamera camera = traceCamera(view, tree.grid, height);
+        TreeTracer tracer(test::device().device());
+        Developer developer(test::device().device());
+        tracer.resize(width, height);
+        const std::uint64_t pixels = std::uint64_t{width} * height;
+        vk::BufferOf<gpu::PixelSum> sums(test::device().device(), "sums", pixels);
+        vk::BufferOf<gpu::uint> image(test::device().device(), "picture", pixels);
+        test::device().run(
+            [&](vk::FrameGraph& graph)
+            {
+                tracer.tracePrimary(graph, tree, camera, {});
+                graph.fill(sums, 0);
+                m_cache.view(graph, tree, m_sky, camera, tracer.buffers(), sums);
+                developer.develop(graph, {sums, width, height, 1}, TexelFormat::Rgba8, exposure, image);
+            });
+        return test::device().download(image);
+    }
+
 private:
     DeviceEnvironment m_sky{test::device().device()};
     TreeTracer m_tracer{test::device().device()};
@@ -220,6 +242,52 @@ TEST_F(ApiKeptLight, IsThatOfTheEngineOfOctreesAndDags)
         EXPECT_EQ(light.stats().refused, 0U);
         EXPECT_GT(light.bytes(), kGrid.faces * 36);
     }
+}
+
+TEST_F(ApiKeptLight, PicturesAreThoseOfTheEngine)
+{
+    constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;
+    const std::uint32_t width = m_host.kWidth; // larger than the light's own grid
+    const std::uint32_t height = m_host.kHeight;
+    const Tree tree = octree();
+    Environment environment = sky();
+    KeptLight light(m_host.context, kGrid);
+    Tracer tracer(m_host.context, width, height, kFormat);
+    test::TargetImage image(m_host.device, kFormat, width, height);
+    const auto trace = [&](const CameraInfo& camera, const KeptPictureInfo& info)
+    {
+        m_host.frame(
+            [&](Recorder& recorder, VkCommandBuffer commands)
+            {
+                image.beginCopies(commands);
+                tracer.traceKept(recorder, tree, environment, light, camera, info, image.target());
+                image.read(commands);
+            });
+        return image.words();
+    };
+    expectUsage([&] { trace(test::apiCamera(), {}); }, "KeptLight::update() comes first");
+    frames(light, tree, environment, 6);
+    KeptEngine engine;
+    const DeviceTree expected = test::engineOctree(test::device(), test::apiScene(), test::apiGrid(5));
+    engine.frames(expected, 6);
+    const auto first = trace(test::apiCamera(), {});
+    EXPECT_EQ(first, engine.picture(expected, {22, 17, 25}, width, height, {}));
+    const CameraInfo beside = CameraInfo::lookAt({21, 17.5, 25}, {5, 5, 5}, 0.6);
+    EXPECT_EQ(trace(beside, {.automatic_exposure = false, .exposure = 0.5F}),
+              engine.picture(expected, {21, 17.5, 25}, width, height, {false, 0.5F}));
+    expectUsage([&] { trace(test::apiCamera(), {.exposure = -1}); }, "KeptPictureInfo::exposure");
+    const Tree other = octree(4);
+    m_host.frame(
+        [&](Recorder& recorder, VkCommandBuffer commands)
+        {
+            image.beginCopies(commands);
+            const auto traceOther = [&]
+            { tracer.traceKept(recorder, other, environment, light, test::apiCamera(), {}, image.target()); };
+            expectUsage(traceOther, "KeptLight::update() comes first");
+        });
+    m_host.lostFrame([&](Recorder& recorder, VkCommandBuffer)
+                     { light.update(recorder, tree, environment, test::apiCamera()); });
+    expectUsage([&] { trace(test::apiCamera(), {}); }, "KeptLight::update() comes first");
 }
 
 TEST_F(ApiKeptLight, StaysAtItsAddressWhenItMoves)

@@ -450,6 +450,23 @@ TEST(CApi, KeptLightIsThatOfTheCppInterface)
             EXPECT_EQ(zvoKeptLightUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
         });
     EXPECT_EQ(faceCount(), still) << "the same faces of the same voxels";
+    ZvoTracer* tracer = nullptr;
+    const ZvoKeptPictureInfo picture = ZVO_KEPT_PICTURE_INFO_INIT;
+    const ZvoImageTarget color = host.target();
+    ASSERT_EQ(zvoTracerCreate(host.context, host.kWidth, host.kHeight, VK_FORMAT_R8G8B8A8_UNORM, &tracer), ZVO_OK);
+    host.frame(
+        [&](ZvoRecorder* recorder)
+        {
+            EXPECT_EQ(zvoKeptLightUpdateDynamic(light, recorder, dynamic, environment, &camera, &frame), ZVO_OK);
+            EXPECT_EQ(
+                zvoTracerTraceKeptDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
+                ZVO_OK);
+            EXPECT_EQ(zvoKeptLightForget(light), ZVO_OK);
+            EXPECT_EQ(
+                zvoTracerTraceKeptDynamic(tracer, recorder, dynamic, environment, light, &camera, &picture, &color),
+                ZVO_ERROR_USAGE);
+        });
+    zvoTracerDestroy(tracer);
     EXPECT_EQ(zvoKeptLightAddress(light, &same_address), ZVO_OK);
     EXPECT_EQ(same_address, address);
     zvoKeptLightDestroy(light);

@@ -60,7 +60,7 @@ using Structs =
                    ZvoMaterialInfo, ZvoMeshInfo, ZvoInstanceInfo, ZvoModelInfo, ZvoModelStats, ZvoTreeInfo,
                    ZvoTreeBuildInfo, ZvoDroppedTriangles, ZvoDynamicTreeInfo, ZvoBrushInfo, ZvoUpdateStats, ZvoSunInfo,
                    ZvoEnvironmentMapInfo, ZvoCameraInfo, ZvoTraceInfo, ZvoPathInfo, ZvoImageTarget, ZvoDepthTarget,
-                   ZvoKeptLightInfo, ZvoKeptFrameInfo, ZvoKeptLightStats>;
+                   ZvoKeptLightInfo, ZvoKeptFrameInfo, ZvoKeptLightStats, ZvoKeptPictureInfo>;
 TYPED_TEST_SUITE(CStruct, Structs);
 
 TYPED_TEST(CStruct, MembersThatAnOlderHostDoesNotKnowAreTheDefaults)
@@ -390,6 +390,8 @@ TEST(CStructs, DefaultsAreThoseOfTheCppInterface)
     expectSame(ofC(initial<ZvoImageTarget>()), ImageTarget());
     expectSame(ofC(initial<ZvoKeptLightInfo>()), KeptLightInfo());
     expectSame(ofC(initial<ZvoKeptFrameInfo>()), KeptFrameInfo());
+    EXPECT_EQ(ofC(initial<ZvoKeptPictureInfo>()).automatic_exposure, KeptPictureInfo().automatic_exposure);
+    EXPECT_EQ(ofC(initial<ZvoKeptPictureInfo>()).exposure, KeptPictureInfo().exposure);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).pass_times, OptionalFeatures().pass_times);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).subgroup_sizes, OptionalFeatures().subgroup_sizes);
     EXPECT_EQ(ofC(initial<ZvoOptionalFeatures>()).int64_atomics, OptionalFeatures().int64_atomics);
@@ -422,6 +424,11 @@ TEST(CStructs, EveryMemberOfKeptLightIsPassedOn)
     frame.rays = 5;
     frame.seed = 6;
     expectSame(ofC(frame), {5, 6});
+    ZvoKeptPictureInfo picture = ZVO_KEPT_PICTURE_INFO_INIT;
+    picture.automatic_exposure = VK_FALSE;
+    picture.exposure = 2;
+    EXPECT_FALSE(ofC(picture).automatic_exposure);
+    EXPECT_EQ(ofC(picture).exposure, 2.0F);
     const ZvoKeptLightStats stats = toC(KeptLightStats{3, 4});
     EXPECT_EQ(stats.faces, 3U);
     EXPECT_EQ(stats.refused, 4U);
@@ -713,6 +720,7 @@ TEST(CStructs, PointersThatAreNullAreRefused)
     const ZvoSunInfo sun = ZVO_SUN_INFO_INIT;
     const ZvoKeptLightInfo kept_info = ZVO_KEPT_LIGHT_INFO_INIT;
     const ZvoKeptFrameInfo kept_frame = ZVO_KEPT_FRAME_INFO_INIT;
+    const ZvoKeptPictureInfo kept_picture = ZVO_KEPT_PICTURE_INFO_INIT;
     ZvoKeptLightStats kept_stats = ZVO_KEPT_LIGHT_STATS_INIT;
     ZvoKeptLight* light = nullptr;
     ZvoKeptLight* made_light = nullptr;
@@ -786,6 +794,10 @@ TEST(CStructs, PointersThatAreNullAreRefused)
                           &color);
             REFUSES_NULLS(zvoKeptLightUpdate, light, recorder, tree, environment, &camera, &kept_frame);
             REFUSES_NULLS(zvoKeptLightUpdateDynamic, light, recorder, dynamic, environment, &camera, &kept_frame);
+            REFUSES_NULLS(zvoTracerTraceKept, tracer, recorder, tree, environment, light, &camera, &kept_picture,
+                          &color);
+            REFUSES_NULLS(zvoTracerTraceKeptDynamic, tracer, recorder, dynamic, environment, light, &camera,
+                          &kept_picture, &color);
             EXPECT_EQ(zvoEnvironmentCreate(nullptr, nullptr, &environment), ZVO_ERROR_USAGE);
             EXPECT_EQ(zvoEnvironmentCreate(recorder, nullptr, nullptr), ZVO_ERROR_USAGE);
             for (int missing = 0; missing < 6; ++missing)
